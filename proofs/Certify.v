@@ -4,8 +4,8 @@
     compares them. Nothing here is trusted: a tactic that goes wrong proves nothing. *)
 
 From Coq Require Export ZArith Reals Lia Lra.
-From ForceDiffusion Require Export Roots Model Sums FirstOrder Lattice Geometry Forces Existence Random Weights Variances
-  Cone.
+From ForceDiffusion Require Export Roots Model Sums FirstOrder Lattice Geometry Forces Existence Random Weights Exact
+  Variances Cone.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -13,7 +13,7 @@ Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
 (** What divisors are made of is positive. *)
 Ltac positive_things G :=
   pose proof (r_pos G); pose proof (n_x_pos G); pose proof (n_y_pos G);
-  pose proof (divisor_positive G).
+  pose proof (divisor_positive G); pose proof (phi_above G); pose proof (phi_below G).
 Ltac nonzero :=
   cbv beta; repeat split;
   first [lra|repeat first [apply Rmult_integral_contrapositive_currified|apply pow_nonzero]; lra].
@@ -47,12 +47,6 @@ Ltac of_packing P :=
 Ltac both_sides known :=
   unfold dot; components; eapply first_order_by; [expand_with known|expand_with known|..]; cbv beta.
 
-(** Sums of sums and multiples become single sums, so that equal ones can be told. *)
-Ltac single_sums :=
-  no_zero_sums;
-  repeat (rewrite Sum_plus || rewrite Sum_minus || rewrite Sum_scale || rewrite Sum_over);
-  no_zero_sums.
-
 Lemma by_parts u v : x_of u = x_of v -> y_of u = y_of v -> u = v.
 Proof. destruct u, v. cbn. intros -> ->. reflexivity. Qed.
 
@@ -72,22 +66,22 @@ Ltac prove_2 :=
 Ltac prove_3 :=
   intros G rho M X i j P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
-  try nonzero; single_sums; try solve [arithmetic G]; unfold along_plus, along_minus;
-  replace (j =? 0)%Z with false by lia; same_sums; same_values; arithmetic G.
+  try nonzero; elementary_sums; try solve [arithmetic G]; unfold along_plus, along_minus;
+  replace (j =? 0)%Z with false by lia; normal_form; arithmetic G.
 
 Ltac prove_4 :=
   intros G rho M X i j P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
-  try nonzero; single_sums; try solve [arithmetic G];
+  try nonzero; elementary_sums; try solve [arithmetic G];
   (replace (tilt_plus G rho i j) with (2 * r G * tilt_plus G rho i j / (2 * r G)) by (arithmetic G));
-  rewrite tilt_plus_is by lia; same_sums; same_values; arithmetic G.
+  rewrite tilt_plus_is by lia; normal_form; arithmetic G.
 
 Ltac prove_5 :=
   intros G rho M X i j P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
-  try nonzero; single_sums; try solve [arithmetic G];
+  try nonzero; elementary_sums; try solve [arithmetic G];
   (replace (tilt_minus G rho i j) with (2 * r G * tilt_minus G rho i j / (2 * r G)) by (arithmetic G));
-  rewrite tilt_minus_is by lia; same_sums; same_values; arithmetic G.
+  rewrite tilt_minus_is by lia; normal_form; arithmetic G.
 
 (** ** Forces *)
 
@@ -170,8 +164,17 @@ Ltac prove_11 :=
   match goal with C : carries _ _ _ _ |- _ =>
     both_sides ltac:(fun _ => of_forces P ltac:(of_surface P C))
   end;
-  try nonzero; unfold surface_plus, surface_minus; single_sums; same_sums; same_values;
+  try nonzero; unfold surface_plus, surface_minus; normal_form;
   arithmetic G.
+
+(** Outside of the cone of a load, and on the other leg. *)
+Ltac prove_nothing_else :=
+  intros G rho M X k l i j F f_load P; intros; positive_things G;
+  match goal with C : carries _ _ _ _ |- _ =>
+    assert (L : bead M k l) by site;
+    both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C))
+  end;
+  where_it_is; try nonzero; ring.
 
 (** ** Variances *)
 
@@ -184,27 +187,70 @@ Proof. intros H -> <-. exact H. Qed.
 
 Ltac by_arithmetic G := unfold unit_of; rewrite ?minus_IZR; arithmetic G.
 
-Ltac prove_13 :=
+(** The form to first order in one contact under a load of whole layers: what is known of its variance. *)
+Ltac with_variance theorem linear next :=
+  let G := fresh "G" in
   intros G sigma S M W L Xs Fs i j f_load P; intros; positive_things G;
   match goal with
   | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
-    C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
+    C : forall rho, carries M (Xs rho) _ (Fs rho) |- _ =>
       pose proof (height_positive M i j H);
-      destruct (surface_variance G M W sigma S L Xs Fs P i j H HW f_load Hf C) as (A & B & D);
-      exists (surface_linear G M i j f_load)
-  end;
-  split; [assumption|eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G]].
+      destruct (theorem G M W sigma S L Xs Fs P i j H HW f_load Hf C) as (A & E & V & B);
+      exists (linear G M i j f_load); split; [exact A|next G]
+  end.
+Ltac near_printed G :=
+  eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G].
+Ltac prove_13 := with_variance surface_variance surface_linear near_printed.
+Ltac prove_14 := with_variance bulk_variance bulk_linear near_printed.
 
-Ltac prove_14 :=
-  intros G sigma S M W L Xs Fs i j f_load P; intros; positive_things G;
+Lemma largest z : z < 1 -> (1 - z) ^ 2 * (4 * z + 1) <= (1 - 1 / 6) ^ 2 * (4 * (1 / 6) + 1) /\
+  ((1 - z) ^ 2 * (4 * z + 1) = (1 - 1 / 6) ^ 2 * (4 * (1 / 6) + 1) -> z = 1 / 6).
+Proof.
+  intros H. assert (E : (1 - 1 / 6) ^ 2 * (4 * (1 / 6) + 1) - (1 - z) ^ 2 * (4 * z + 1) =
+    (z - 1 / 6) ^ 2 * (17 / 3 - 4 * z)) by field.
+  assert (S : 0 <= (z - 1 / 6) ^ 2) by apply pow2_ge_0. split.
+  - assert (0 <= (z - 1 / 6) ^ 2 * (17 / 3 - 4 * z)) by (apply Rmult_le_pos; lra). lra.
+  - intros A. rewrite A, Rminus_diag_eq in E by reflexivity. symmetry in E.
+    apply Rmult_integral in E. destruct E as [E|E]; [|lra].
+    replace ((z - 1 / 6) ^ 2) with (Rsqr (z - 1 / 6)) in E by (unfold Rsqr; ring).
+    apply Rsqr_0_uniq in E. lra.
+Qed.
+
+Ltac prove_maximum :=
+  intros G sigma M j S Hj HM; positive_things G;
+  assert (Hp : 0 < IZR M) by (apply (IZR_lt 0); lia);
+  assert (Hz : IZR j / IZR M < 1)
+    by (apply (Rmult_lt_reg_r (IZR M)); [|unfold Rdiv; rewrite Rmult_assoc, Rinv_l, Rmult_1_r, Rmult_1_l;
+          [apply IZR_lt; lia|]]; lra);
+  destruct (largest _ Hz) as [A B]; set (z := IZR j / IZR M) in *;
+  let c := constr:(3 / 10 * IZR M ^ 3 / (1 - phi G ^ 2) ^ 2 * (sigma / r G) ^ 2) in
+  assert (D : 0 < 1 - phi G ^ 2) by (replace (phi G ^ 2) with (phi G * phi G) by ring; lra);
+  assert (C : 0 < c);
+  [repeat first [apply Rdiv_lt_0_compat|apply Rmult_lt_0_compat|apply pow_lt|lra]
+  |split; [apply (Rmult_le_compat_l c) in A; [|lra]; eapply Rle_trans;
+      [apply Req_le|eapply Rle_trans; [exact A|apply Req_le]]; by_arithmetic G
+    |intros E; assert (Ez : z = 1 / 6)
+       by (apply B, (Rmult_eq_reg_l c); [|lra]; eapply eq_trans; [|eapply eq_trans; [exact E|]];
+           by_arithmetic G);
+     apply eq_IZR; rewrite mult_IZR; unfold z in Ez; apply (Rmult_eq_compat_r (IZR M)) in Ez;
+     unfold Rdiv in Ez; rewrite Rmult_assoc, Rinv_l, Rmult_1_r in Ez; lra]].
+
+Ltac prove_second_difference :=
+  intros sigma M W L i j (A & B & C); exact (second_difference_variance sigma M W L i j A B C).
+
+(** Mean and variance in every layer, case by case. *)
+Ltac site_of_case :=
+  repeat match goal with E : ?x = _ :> Z |- _ => is_var x; subst x end; unfold contact in *.
+Ltac every_layer G :=
   match goal with
-  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
-    C : forall rho, carries M (Xs rho) (bulk f_load) (Fs rho) |- _ =>
-      pose proof (height_positive M i j H);
-      destruct (bulk_variance G M W sigma S L Xs Fs P i j H HW f_load Hf C) as (A & B & D);
-      exists (bulk_linear G M i j f_load)
-  end;
-  split; [assumption|eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G]].
+  | E : expect _ _ = _, V : relative_variance _ _ = _, H : contact ?M ?i ?j |- _ =>
+      split; [rewrite E; by_arithmetic G|];
+      assert (0 < IZR M - IZR j) by (rewrite <- minus_IZR; apply (IZR_lt 0); site);
+      rewrite V; unfold surface_squares, bulk_squares, below_squares, plain, beside, twice;
+      clear E V; repeat split; intros; site_of_case; decide_on; by_arithmetic G
+  end.
+Ltac prove_13_exact := with_variance surface_variance surface_linear every_layer.
+Ltac prove_14_exact := with_variance bulk_variance bulk_linear every_layer.
 
 Lemma braces_are j M m : (0 <= j < M)%Z -> (1 <= m <= M)%Z ->
   braces (IZR M - IZR j) (IZR M - IZR m) m j = braces_at j M m.
@@ -237,7 +283,7 @@ Ltac prove_12 :=
           lazymatch g with context [braces] =>
             replace (Sum c d g) with (Sum a b (fun m => braces_at j M m * f m))
               by (apply Sum_eq; [lia|lia|intros; cbv beta; rewrite braces_are by site;
-                                 same_values; ring])
+                                 sites_in_normal_form; ring])
           end
       end
   end; arithmetic G.
@@ -246,20 +292,21 @@ Lemma root_constant k : 0 < k -> constant (fun x => sqrt k / (1 - x * x)).
 Proof. intros H x Hx. apply constant_positive; assumption. Qed.
 
 (** Eq. 15 under one load, with the constant √k/(1 − φ²). *)
-Lemma averages_are (G : lattice) (M : Z) (sigma k s p : R) :
-  0 < sigma -> (1 <= M)%Z -> 1 / 5 <= k -> k <= 1 ->
-  Rabs (s - unit_of G sigma * (k * (IZR M * IZR M * IZR M))) <= 57 * (IZR M * IZR M) * unit_of G sigma ->
+Lemma averages_are (G : lattice) (M : Z) (sigma k b s p : R) :
+  0 < sigma -> (1 <= M)%Z -> 0 < k -> b = 10 * k \/ b = 4 * k ->
+  Rabs (s - unit_of G sigma * (k * (IZR M * IZR M * IZR M))) <= b * (IZR M * IZR M) * unit_of G sigma ->
   p = root 2 (IZR M) ^ 3 * sigma / r G ->
-  Rabs (sqrt s - sqrt k / (1 - phi G * phi G) * p) <= 285 / IZR M * (sqrt k / (1 - phi G * phi G) * p).
+  Rabs (sqrt s - sqrt k / (1 - phi G * phi G) * p) <= 10 / IZR M * (sqrt k / (1 - phi G * phi G) * p).
 Proof.
-  intros Hs HM Hk Hk1 H ->. pose proof (r_pos G). pose proof (divisor_positive G).
+  intros Hs HM Hk Hb H ->. pose proof (r_pos G). pose proof (divisor_positive G).
   assert (One : 1 <= IZR M) by (apply (IZR_le 1); exact HM).
-  eapply Rle_trans; [apply (root_of_average G M sigma k s); try assumption; lra|].
+  eapply Rle_trans; [apply (root_of_average G M sigma k b s); assumption|].
   apply Rmult_le_compat_r.
   - apply Rlt_le, Rmult_lt_0_compat; apply Rdiv_lt_0_compat; try lra; [apply sqrt_lt_R0; lra|].
     apply Rmult_lt_0_compat; [apply pow_lt, root_is; [lia|lra]|lra].
   - apply Rmult_le_compat_r; [apply Rlt_le, Rinv_0_lt_compat; lra|].
-    apply (Rmult_le_reg_r k); [lra|]. replace (57 / k * k) with 57 by (field; lra). lra.
+    destruct Hb as [-> | ->]; apply (Rmult_le_reg_r k); try lra; unfold Rdiv;
+      rewrite Rmult_assoc, Rinv_l; lra.
 Qed.
 
 Ltac prove_average k average :=
@@ -272,8 +319,8 @@ Ltac prove_average k average :=
       destruct (average G M W sigma S L Xs Fs P across A HM f_load Hf C) as [Lin B];
       eexists; split; [exact Lin|];
       unfold root_mean_square; cbv beta;
-      apply (averages_are G M sigma k); [assumption|assumption|lra|lra
-        |eapply bound_is; [exact B|field|reflexivity]|arithmetic G]
+      eapply (averages_are G M sigma k); [assumption|assumption|lra|
+        |eapply bound_is; [exact B|field|reflexivity]|arithmetic G]; lra
   end.
 
 Ltac prove_15_1 :=

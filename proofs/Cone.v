@@ -1,4 +1,5 @@
-(** The response to a load on one bead, inside of its cone: what Eq. 16 rests on. *)
+(** The response to a load on one bead, inside of its cone, as weights of single radii. Its variance, up to a
+    bound, is what Eq. 16 says. *)
 
 From Coq Require Import ZArith Reals Lia Lra List.
 From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces Random Weights Variances.
@@ -118,9 +119,9 @@ Section Cone.
       (fun m => rho (i + j - m - 2)%Z m)) by site.
     unfold Rminus at 1. f_equal.
     - rewrite Rmult_minus_distr_l, !tilt_minus_is by site. rewrite !(Sum_last 1 (j + p)) by site.
-      rewrite !Sum_plus, !Sum_minus, !Sum_scale. same_sums. same_values. ring.
+      normal_form. ring.
     - rewrite Rmult_minus_distr_l, !tilt_plus_is by site. rewrite !(Sum_last 1 (j + q)) by site.
-      rewrite !Sum_plus, !Sum_minus, !Sum_scale. same_sums. same_values. ring.
+      normal_form. ring.
   Qed.
 
   (** ** The sum of squared weights *)
@@ -146,7 +147,7 @@ Section Cone.
   Proof.
     intros Hm. pose proof (turn_square G s m Hm) as S. pose proof (turn_square G t m Hm) as T.
     destruct (turn_bounds G s m) as (Ba & Bb & Bc). destruct (turn_bounds G t m) as (Da & Db & Dc).
-    unfold cone_layers. cbn [overlap meet].
+    unfold cone_layers. cbn [overlap on_one_radius].
     set (a := turn_a G s m) in *. set (b := turn_b s m) in *. set (c := turn_c G s m) in *.
     set (d := turn_a G t m) in *. set (e := turn_b t m) in *. set (f := turn_c G t m) in *.
     set (A := (i - j + m - 2)%Z). set (C := (i - j + m + 2)%Z). set (B := (i - j + m)%Z).

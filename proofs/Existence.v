@@ -1,4 +1,5 @@
-(** Nothing is said of nothing: lattices, packings of any radii, and forces for any loads exist. *)
+(** Nothing is said of nothing: lattices, packings of any radii, and forces for any loads exist. So whatever a
+    generated statement supposes can be supposed, which [something] shows. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
 From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces.
@@ -25,19 +26,19 @@ Section Laid.
   Local Notation n_x := (n_x G).
   Local Notation n_y := (n_y G).
 
-  Definition pair (i j k l : Z) (e : R) : R := (r + delta_r rho i j e) + (r + delta_r rho k l e).
+  Definition radii_of_both (i j k l : Z) (e : R) : R := (r + delta_r rho i j e) + (r + delta_r rho k l e).
 
   Fixpoint laid (n : nat) (i : Z) (e : R) : vector :=
     match n with
     | O => Vector (2 * IZR i * r * n_x) 0
     | S k => meeting (laid k (i - 1) e) (laid k (i + 1) e)
-        (pair i (Z.of_nat (S k)) (i - 1) (Z.of_nat k) e)
-        (pair i (Z.of_nat (S k)) (i + 1) (Z.of_nat k) e)
+        (radii_of_both i (Z.of_nat (S k)) (i - 1) (Z.of_nat k) e)
+        (radii_of_both i (Z.of_nat (S k)) (i + 1) (Z.of_nat k) e)
     end.
 
-  Lemma pair_expands i j k l : expands (pair i j k l) (2 * r) (rho i j + rho k l).
+  Lemma radii_of_both_expand i j k l : expands (radii_of_both i j k l) (2 * r) (rho i j + rho k l).
   Proof.
-    unfold pair, delta_r. eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring].
+    unfold radii_of_both, delta_r. eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring].
   Qed.
 
   Lemma laid_expands n : forall i,
@@ -51,8 +52,8 @@ Section Laid.
       rewrite minus_IZR in HAx. rewrite plus_IZR in HBx.
       replace (2 * (IZR i + 1) * r * n_x) with (2 * (IZR i - 1) * r * n_x + 4 * r * n_x) in HBx by ring.
       destruct (meeting_expands G _ _ _ _ _ _ _ _ _ _ _ _ HAx HAy HBx HBy
-        (pair_expands i (Z.of_nat (S n)) (i - 1) (Z.of_nat n))
-        (pair_expands i (Z.of_nat (S n)) (i + 1) (Z.of_nat n))) as [[dx Ex] [[dy Ey] _]].
+        (radii_of_both_expand i (Z.of_nat (S n)) (i - 1) (Z.of_nat n))
+        (radii_of_both_expand i (Z.of_nat (S n)) (i + 1) (Z.of_nat n))) as [[dx Ex] [[dy Ey] _]].
       rewrite S_INR. cbn [laid]. split; eexists.
       + eapply expands_to; [exact Ex|ring|reflexivity].
       + eapply expands_to; [exact Ey|ring|reflexivity].
@@ -61,17 +62,17 @@ Section Laid.
   Lemma laid_touches n i :
     near (fun e =>
       dot (minus (laid (S n) i e) (laid n (i - 1) e)) (minus (laid (S n) i e) (laid n (i - 1) e))
-        = pair i (Z.of_nat (S n)) (i - 1) (Z.of_nat n) e ^ 2 /\
+        = radii_of_both i (Z.of_nat (S n)) (i - 1) (Z.of_nat n) e ^ 2 /\
       dot (minus (laid (S n) i e) (laid n (i + 1) e)) (minus (laid (S n) i e) (laid n (i + 1) e))
-        = pair i (Z.of_nat (S n)) (i + 1) (Z.of_nat n) e ^ 2).
+        = radii_of_both i (Z.of_nat (S n)) (i + 1) (Z.of_nat n) e ^ 2).
   Proof.
     destruct (laid_expands n (i - 1)%Z) as [[? HAx] [? HAy]].
     destruct (laid_expands n (i + 1)%Z) as [[? HBx] [? HBy]].
     rewrite minus_IZR in HAx. rewrite plus_IZR in HBx.
     replace (2 * (IZR i + 1) * r * n_x) with (2 * (IZR i - 1) * r * n_x + 4 * r * n_x) in HBx by ring.
     destruct (meeting_expands G _ _ _ _ _ _ _ _ _ _ _ _ HAx HAy HBx HBy
-      (pair_expands i (Z.of_nat (S n)) (i - 1) (Z.of_nat n))
-      (pair_expands i (Z.of_nat (S n)) (i + 1) (Z.of_nat n))) as [_ [_ N]].
+      (radii_of_both_expand i (Z.of_nat (S n)) (i - 1) (Z.of_nat n))
+      (radii_of_both_expand i (Z.of_nat (S n)) (i + 1) (Z.of_nat n))) as [_ [_ N]].
     eapply near_then; [exact N|]. cbv beta. intros e [H1 H2]. cbn [laid].
     apply meeting_touches; [exact H1|lra].
   Qed.
@@ -112,9 +113,9 @@ Section Solved.
   Variable load : Z -> Z -> vector.
 
   (** a and b in a u + b v = s. *)
-  Definition first (u v s : vector) : R :=
+  Definition first_component (u v s : vector) : R :=
     (x_of s * y_of v - y_of s * x_of v) / (x_of u * y_of v - y_of u * x_of v).
-  Definition second (u v s : vector) : R :=
+  Definition second_component (u v s : vector) : R :=
     (x_of u * y_of s - y_of u * x_of s) / (x_of u * y_of v - y_of u * x_of v).
 
   (** Forces of the contacts whose lower beads lie n + 1 layers below the surface, n = 0, 1, … *)
@@ -127,8 +128,8 @@ Section Solved.
       end in
     let carried i e := minus (above i e) (load i j) in
     fun i e =>
-      (first (N_plus X i (j - 1) e) (N_minus X (i + 2) (j - 1) e) (carried (i + 1)%Z e),
-       second (N_plus X (i - 2) (j - 1) e) (N_minus X i (j - 1) e) (carried (i - 1)%Z e)).
+      (first_component (N_plus X i (j - 1) e) (N_minus X (i + 2) (j - 1) e) (carried (i + 1)%Z e),
+       second_component (N_plus X (i - 2) (j - 1) e) (N_minus X i (j - 1) e) (carried (i - 1)%Z e)).
 
   Definition passed_down : forces :=
     let at_layer j := passed (Z.to_nat (M - 1 - j)) in
@@ -136,10 +137,10 @@ Section Solved.
            (fun i j e => if (j <? M)%Z then snd (at_layer j i e) else 0).
 
   Lemma solves u v s : x_of u * y_of v - y_of u * x_of v <> 0 ->
-    add (scale (first u v s) u) (scale (second u v s) v) = s.
+    add (scale (first_component u v s) u) (scale (second_component u v s) v) = s.
   Proof.
     intros H. destruct u as [ux uy], v as [vx vy], s as [sx sy].
-    unfold first, second, add, scale in *. cbn [x_of y_of] in *. f_equal; field; exact H.
+    unfold first_component, second_component, add, scale in *. cbn [x_of y_of] in *. f_equal; field; exact H.
   Qed.
 
   Theorem passed_down_carries : carries M X load passed_down.
@@ -163,8 +164,8 @@ Section Solved.
                                   (N_plus X i j e))
                            (scale (if (j <? M)%Z then snd (passed (Z.to_nat (M - 1 - j)) i e) else 0)
                                   (N_minus X i j e))) (load i j)).
-      assert (E1 : fst (passed (Z.to_nat (M - j)) (i - 1) e) = first u v c /\
-                   snd (passed (Z.to_nat (M - j)) (i + 1) e) = second u v c).
+      assert (E1 : fst (passed (Z.to_nat (M - j)) (i - 1) e) = first_component u v c /\
+                   snd (passed (Z.to_nat (M - j)) (i + 1) e) = second_component u v c).
       { destruct (Z.eq_dec j M) as [->|Hne].
         - assert (Hc : c = minus zero (load i M)).
           { unfold c. replace (M <? M)%Z with false by lia.

@@ -1,4 +1,5 @@
-(** Values and derivatives at ε = 0, and the tactic that finds those of an expression. *)
+(** Values and derivatives at ε = 0, by the rules of differentiation. A tactic finds those of an expression from
+    those of its parts. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
 From ForceDiffusion Require Import Model Sums.

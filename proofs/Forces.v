@@ -1,4 +1,5 @@
-(** Forces to first order: how a bead passes on what it carries, and what Eqs. 6-11 rest on. *)
+(** Forces to first order: how a bead passes on what it carries. By induction downwards that gives the forces of
+    every contact under the three loads, on which Eqs. 6-11 rest. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
 From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry.

@@ -1,4 +1,5 @@
-(** Packings with given fractions for radii: their values and slopes as fractions. *)
+(** Packings with given fractions for radii. Their values and slopes are those fractions that the exact packings of
+    [numeric/] have as Taylor coefficients. *)
 
 From Coq Require Export List.
 From Coq Require Import ZArith Reals Lia Lra.

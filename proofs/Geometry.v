@@ -1,4 +1,5 @@
-(** The geometry of a packing to first order: what Eqs. 1-5 rest on. *)
+(** The geometry of a packing to first order: displacements are sums of radii along diagonals. That centres and
+    contact directions are differentiable follows, and what Eqs. 1-5 rest on. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
 From ForceDiffusion Require Import Model Sums FirstOrder Lattice.
@@ -359,8 +360,8 @@ Lemma tilt_plus_is G rho i j : (0 <= j)%Z ->
 Proof.
   intros Hj. pose proof (r_pos G). unfold tilt_plus, along_minus.
   replace (j + 1 =? 0)%Z with false by lia. destruct (j =? 0)%Z eqn:E.
-  - assert (j = 0%Z) as -> by lia. rewrite !Sum_empty by lia. same_values. field. lra.
-  - rewrite (Sum_last 1 j (fun m => rho (i + j - m)%Z m)) by lia. same_sums. same_values. field. lra.
+  - assert (j = 0%Z) as -> by lia. rewrite !Sum_empty by lia. normal_form. field. lra.
+  - rewrite (Sum_last 1 j (fun m => rho (i + j - m)%Z m)) by lia. normal_form. field. lra.
 Qed.
 
 Lemma tilt_minus_is G rho i j : (0 <= j)%Z ->
@@ -370,6 +371,6 @@ Lemma tilt_minus_is G rho i j : (0 <= j)%Z ->
 Proof.
   intros Hj. pose proof (r_pos G). unfold tilt_minus, along_plus.
   replace (j + 1 =? 0)%Z with false by lia. destruct (j =? 0)%Z eqn:E.
-  - assert (j = 0%Z) as -> by lia. rewrite !Sum_empty by lia. same_values. field. lra.
-  - rewrite (Sum_last 1 j (fun m => rho (i - j + m)%Z m)) by lia. same_sums. same_values. field. lra.
+  - assert (j = 0%Z) as -> by lia. rewrite !Sum_empty by lia. normal_form. field. lra.
+  - rewrite (Sum_last 1 j (fun m => rho (i - j + m)%Z m)) by lia. normal_form. field. lra.
 Qed.

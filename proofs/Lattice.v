@@ -1,13 +1,12 @@
-(** The ordered lattice, and the point where a bead rests on two others. *)
+(** Bounds of φ, and the one point where a bead rests on two others. That point is differentiable where its
+    supports are. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
 From ForceDiffusion Require Import Model Sums FirstOrder.
 
 Open Scope R_scope.
 
-(** Whether a site is a bead of the packing: parity and bounds. *)
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
-Ltac site := unfold bead, contact in *; lia.
 Ltac same_sites := repeat (f_equal; try lia).
 
 Section Lattice.

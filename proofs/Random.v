@@ -1,4 +1,5 @@
-(** Random radii: second moments of linear forms, layer by layer; laws exist. *)
+(** Random radii: mean and variance of linear forms that are listed layer by layer. Laws exist, too: a coin for
+    each bead. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool List FunctionalExtensionality.
 From ForceDiffusion Require Import Model Sums.
@@ -26,15 +27,15 @@ Fixpoint weigh (l : layer) (m : Z) (rho : radii) : R :=
   end.
 
 (** The sum of products of weights that stand on one radius. *)
-Fixpoint meet (w : R) (a : Z) (l : layer) : R :=
+Fixpoint on_one_radius (w : R) (a : Z) (l : layer) : R :=
   match l with
   | nil => 0
-  | (v, b) :: rest => (if (a =? b)%Z then w * v else 0) + meet w a rest
+  | (v, b) :: rest => (if (a =? b)%Z then w * v else 0) + on_one_radius w a rest
   end.
 Fixpoint overlap (l k : layer) : R :=
   match l with
   | nil => 0
-  | (w, a) :: rest => meet w a k + overlap rest k
+  | (w, a) :: rest => on_one_radius w a k + overlap rest k
   end.
 
 Section Moments.
@@ -85,10 +86,10 @@ Section Moments.
       split; [apply radii_integrable; exact Ha|apply mean_radius; exact Ha].
   Qed.
 
-  Lemma known_meet w a l m n : within W M a m -> inside l n ->
-    known (fun rho => w * rho a m * weigh l n rho) (if (m =? n)%Z then sigma ^ 2 * meet w a l else 0).
+  Lemma known_on_one_radius w a l m n : within W M a m -> inside l n ->
+    known (fun rho => w * rho a m * weigh l n rho) (if (m =? n)%Z then sigma ^ 2 * on_one_radius w a l else 0).
   Proof.
-    intros Ha. induction l as [|[v b] l IH]; intros H; cbn [weigh meet].
+    intros Ha. induction l as [|[v b] l IH]; intros H; cbn [weigh on_one_radius].
     - apply (known_as (fun _ => 0)); [|intros; ring].
       destruct (m =? n)%Z; [rewrite Rmult_0_r|]; apply known_constant.
     - inversion H as [|x y Hb Hl]; subst. cbn [snd] in Hb.
@@ -98,9 +99,9 @@ Section Moments.
       pose proof (known_sum _ _ _ _ (known_multiple (w * v) _ _ (conj I E)) IH) as K.
       apply (known_as _ (fun rho => w * rho a m * (v * rho b n + weigh l n rho))) in K;
         [|intros; ring].
-      replace (if (m =? n)%Z then sigma ^ 2 * ((if (a =? b)%Z then w * v else 0) + meet w a l) else 0)
+      replace (if (m =? n)%Z then sigma ^ 2 * ((if (a =? b)%Z then w * v else 0) + on_one_radius w a l) else 0)
         with (w * v * (if ((a =? b) && (m =? n))%bool%Z then sigma ^ 2 else 0)
-              + (if (m =? n)%Z then sigma ^ 2 * meet w a l else 0)); [exact K|].
+              + (if (m =? n)%Z then sigma ^ 2 * on_one_radius w a l else 0)); [exact K|].
       destruct (a =? b)%Z, (m =? n)%Z; cbn [andb]; ring.
   Qed.
 
@@ -112,11 +113,11 @@ Section Moments.
     - apply (known_as (fun _ => 0)); [|intros; ring].
       destruct (m =? n)%Z; [rewrite Rmult_0_r|]; apply known_constant.
     - inversion H as [|x y Ha Hl]; subst. cbn [snd] in Ha.
-      pose proof (known_sum _ _ _ _ (known_meet w a k m n Ha K) (IH Hl K)) as E.
+      pose proof (known_sum _ _ _ _ (known_on_one_radius w a k m n Ha K) (IH Hl K)) as E.
       apply (known_as _ (fun rho => (w * rho a m + weigh l m rho) * weigh k n rho)) in E;
         [|intros; ring].
-      replace (if (m =? n)%Z then sigma ^ 2 * (meet w a k + overlap l k) else 0)
-        with ((if (m =? n)%Z then sigma ^ 2 * meet w a k else 0)
+      replace (if (m =? n)%Z then sigma ^ 2 * (on_one_radius w a k + overlap l k) else 0)
+        with ((if (m =? n)%Z then sigma ^ 2 * on_one_radius w a k else 0)
               + (if (m =? n)%Z then sigma ^ 2 * overlap l k else 0)); [exact E|].
       destruct (m =? n)%Z; ring.
   Qed.

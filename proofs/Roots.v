@@ -1,4 +1,4 @@
-(** Roots of positive numbers: for powers with rational exponents. *)
+(** Positive numbers have roots, for powers with rational exponents. [root] is the positive one. *)
 
 From Coq Require Import Reals Lra Lia.
 

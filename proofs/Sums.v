@@ -1,4 +1,5 @@
-(** Finite sums over whole numbers. *)
+(** Finite sums over whole numbers: split, shifted, swapped, bounded. Expressions with sums along diagonals have a
+    normal form, which takes as many steps as there are sums and sites. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
 From ForceDiffusion Require Import Model.
@@ -149,10 +150,13 @@ Proof.
     rewrite !plus_IZR, !minus_IZR. ring.
 Qed.
 
+(** Whether a site is a bead of the packing: parity and bounds. *)
+Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
+Ltac site := unfold bead, contact in *; lia.
+
 (** ** One name for one thing *)
 
-(** Values h(a, b) and h(c, d) at sites that are equal by [lia] get one name; so do sums that are
-    equal term by term. What is left is for [ring] and [field]. *)
+(** Values h(a, b) and h(c, d) at sites that are equal by what is supposed get one name. *)
 Ltac same_values :=
   repeat match goal with
   | |- context [?h ?a ?b] =>
@@ -165,19 +169,126 @@ Ltac same_values :=
       end
   end.
 
-Ltac same_sums :=
-  repeat match goal with
-  | |- context [Sum ?a ?b ?f] =>
-      match goal with
-      | |- context [Sum ?c ?d ?g] =>
-          first [constr_eq a c; constr_eq b d; constr_eq f g; fail 1
-                |replace (Sum a b f) with (Sum c d g)
-                   by (apply Sum_eq; [lia|lia|intros; cbv beta; same_values; ring])]
-      end
-  end.
+Lemma Sum_opp low high f : Sum low high (fun m => - f m) = - Sum low high f.
+Proof.
+  rewrite <- (Rmult_1_l (Sum low high f)), Ropp_mult_distr_l, <- Sum_scale. apply Sum_eq; auto. intros. ring.
+Qed.
 
 (** Sums of terms that are all 0. *)
 Ltac no_zero_sums :=
   repeat match goal with
   | |- context [Sum ?a ?b ?f] => rewrite (Sum_zero a b f) by (intros; cbv beta; ring)
   end.
+
+(** Sums of sums and multiples become sums of one value each. *)
+Ltac elementary_sums :=
+  no_zero_sums;
+  repeat (rewrite Sum_plus || rewrite Sum_minus || rewrite Sum_opp || rewrite Sum_scale
+    || rewrite Sum_times || rewrite Sum_over);
+  no_zero_sums.
+
+(** ** The normal form of an expression that has sums along diagonals *)
+
+(** The values of h along the diagonal a = c + u b, from layer 1 to n; below layer 1, taken away. *)
+Definition sum_along (h : Z -> Z -> R) (c u n : Z) : R :=
+  Sum 1 n (fun m => h (c + u * m)%Z m) - Sum (n + 1) 0 (fun m => h (c + u * m)%Z m).
+
+Lemma along_step h c u n : sum_along h c u n = sum_along h c u (n - 1) + h (c + u * n)%Z n.
+Proof.
+  unfold sum_along. replace (n - 1 + 1)%Z with n by lia. destruct (Z.le_gt_cases 1 n) as [H|H].
+  - rewrite (Sum_last 1 n), !(Sum_empty _ 0) by lia. ring.
+  - rewrite !(Sum_empty 1), (Sum_first n 0) by lia. ring.
+Qed.
+
+Lemma along_back h c u n : sum_along h c u n = sum_along h c u (n + 1) - h (c + u * (n + 1))%Z (n + 1)%Z.
+Proof. rewrite (along_step h c u (n + 1)). replace (n + 1 - 1)%Z with n by lia. ring. Qed.
+
+Lemma along_none h c u : sum_along h c u 0 = 0.
+Proof. unfold sum_along. rewrite !Sum_empty by lia. ring. Qed.
+
+Lemma Sum_along low high f h x y u : (low <= high + 1)%Z -> (forall m, f m = h (x + u * m)%Z (y + m)%Z) ->
+  Sum low high f = sum_along h (x - u * y) u (high + y) - sum_along h (x - u * y) u (low + y - 1).
+Proof.
+  intros H E.
+  assert (A : forall n, (low <= n + 1)%Z ->
+    Sum low n f = sum_along h (x - u * y) u (n + y) - sum_along h (x - u * y) u (low + y - 1)).
+  { intros n Hn. replace n with (n + 1 - 1)%Z by lia. revert Hn.
+    generalize (n + 1)%Z as k. intros k Hk. pattern k. apply (up_from _ low); [| |exact Hk].
+    - rewrite Sum_empty by lia. replace (low - 1 + y)%Z with (low + y - 1)%Z by lia. ring.
+    - intros m Hm IH. replace (m + 1 - 1)%Z with m by lia. rewrite Sum_last, IH, E by lia.
+      rewrite (along_step _ _ _ (m + y)). replace (m + y - 1)%Z with (m - 1 + y)%Z by lia.
+      replace (x - u * y + u * (m + y))%Z with (x + u * m)%Z by ring.
+      replace (m + y)%Z with (y + m)%Z by lia. ring. }
+  apply A, H.
+Qed.
+
+(** Whole numbers in one form: all of the context are named first, so that their order is the same. *)
+Ltac zeros so_far :=
+  match goal with
+  | n : Z |- _ => lazymatch so_far with context [n] => fail | _ => zeros (so_far + 0 * n)%Z end
+  | _ => so_far
+  end.
+Ltac in_normal_form e E :=
+  let o := zeros 0%Z in
+  eassert (E : e = _);
+  [transitivity (o + e)%Z; [ring|ring_simplify; reflexivity]|].
+
+(** Every sum as [sum_along], up to a layer without a number added; every site in normal form. *)
+Definition site_value (h : Z -> Z -> R) (a b : Z) : R := h a b.
+Definition sum_in_normal_form (h : Z -> Z -> R) (c u n : Z) : R := sum_along h c u n.
+
+Lemma along_as h u c c' n n' : c = c' -> n = n' -> sum_along h c u n = sum_along h c' u n'.
+Proof. intros -> ->. reflexivity. Qed.
+Lemma value_as (h : Z -> Z -> R) a a' b b' : a = a' -> b = b' -> h a b = site_value h a' b'.
+Proof. intros -> ->. reflexivity. Qed.
+
+Ltac slope_of f x y :=
+  match eval cbv beta in (f 1%Z) with
+  | _ ?x1 ?y1 =>
+      let _ := constr:(ltac:(lia) : (y1 = y + 1)%Z) in
+      match constr:(Set) with
+      | _ => let _ := constr:(ltac:(lia) : (x1 = x + 1)%Z) in constr:(1%Z)
+      | _ => let _ := constr:(ltac:(lia) : (x1 = x - 1)%Z) in constr:((-1)%Z)
+      | _ => let _ := constr:(ltac:(lia) : (x1 = x)%Z) in constr:(0%Z)
+      end
+  end.
+
+Ltac sums_along :=
+  repeat match goal with
+  | |- context [Sum ?a ?b ?f] =>
+      match eval cbv beta in (f 0%Z) with
+      | ?h ?x ?y =>
+          let u := slope_of f x y in
+          rewrite (Sum_along a b f h x y u) by (solve [site] || (intros; cbv beta; f_equal; lia))
+      end
+  end.
+
+Ltac other_side E := lazymatch type of E with _ = ?x => x end.
+Ltac bounds_in_normal_form :=
+  repeat match goal with
+  | |- context [sum_along ?h ?c ?u ?n] =>
+      let C := fresh in let N := fresh in
+      in_normal_form c C; in_normal_form n N;
+      let c' := other_side C in let n' := other_side N in
+      rewrite (along_as h u c c' n n' C N); clear C N;
+      lazymatch n' with
+      | 0%Z => rewrite (along_none h c' u)
+      | Z.pos _ => rewrite (along_step h c' u n')
+      | Z.neg _ => rewrite (along_back h c' u n')
+      | (_ + Z.pos _)%Z => rewrite (along_step h c' u n')
+      | (_ - Z.pos _)%Z => rewrite (along_back h c' u n')
+      | _ => change (sum_along h c' u n') with (sum_in_normal_form h c' u n')
+      end
+  end.
+Ltac sites_in_normal_form :=
+  repeat match goal with
+  | |- context [?h ?a ?b] =>
+      let T := type of (h a b) in unify T R;
+      let A := type of a in unify A Z; let B := type of b in unify B Z;
+      lazymatch h with site_value _ => fail | sum_in_normal_form _ _ => fail | _ => idtac end;
+      let H := fresh in let K := fresh in
+      in_normal_form a H; in_normal_form b K;
+      let a' := other_side H in let b' := other_side K in
+      rewrite (value_as h a a' b b' H K); clear H K
+  end.
+Ltac normal_form := elementary_sums; sums_along; bounds_in_normal_form; sites_in_normal_form.

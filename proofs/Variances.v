@@ -1,7 +1,8 @@
-(** Variances of the contact forces: what Eqs. 12-15 rest on, with explicit error bounds. *)
+(** Variances of the contact forces: what Eqs. 12-15 rest on, exactly in every layer, and how near that is to
+    what is printed. The averages over all layers, and the height at which they are 1, follow. *)
 
 From Coq Require Import ZArith Reals Lia Lra List.
-From ForceDiffusion Require Import Roots Model Sums FirstOrder Lattice Geometry Forces Random Weights.
+From ForceDiffusion Require Import Roots Model Sums FirstOrder Lattice Geometry Forces Random Weights Exact.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -17,6 +18,30 @@ Proof.
   replace (phi G ^ 2) with (phi G * phi G) by ring. lra.
 Qed.
 
+(** One Δ: a form in three radii of one layer. *)
+Lemma second_difference_variance (sigma : R) (M W : Z) (L : law W M sigma) (i j : Z) :
+  within W M (i - 2) j -> within W M i j -> within W M (i + 2) j ->
+  variance L (fun rho => second_difference rho i j 1) = 6 * sigma ^ 2.
+Proof.
+  intros A B C. assert (J : (0 <= j <= M)%Z) by (unfold within in B; site).
+  pose (form := fun m => if (m =? j)%Z then
+    cons (2, i) (cons (- 1, (i - 2)%Z) (cons (- 1, (i + 2)%Z) nil)) else nil : layer).
+  destruct (form_variance W M sigma L form) with (c := 0) (w := 1)
+    (f := fun rho => second_difference rho i j 1) as [_ V].
+  - intros m Hm. unfold form, inside. destruct (Z.eqb_spec m j) as [->|]; [|apply Forall_nil].
+    repeat (apply Forall_cons; [assumption|]). apply Forall_nil.
+  - intros rho. unfold whole, form.
+    rewrite (Sum_eq 0 M 0 M _ (fun m => on (m =? j)%Z (2 * rho i m - rho (i - 2)%Z m - rho (i + 2)%Z m))); auto.
+    + rewrite Sum_at by site. unfold second_difference, delta_r. ring.
+    + intros m Hm. destruct (m =? j)%Z; cbn [weigh on]; ring.
+  - rewrite V. unfold squares, form.
+    rewrite (Sum_eq 0 M 0 M _ (fun m => on (m =? j)%Z 6)); auto.
+    + rewrite (Sum_at 0 M j (fun _ => 6)) by site. ring.
+    + intros m Hm. destruct (m =? j)%Z; cbn [overlap on_one_radius on]; [|reflexivity]. rewrite !Z.eqb_refl.
+      replace (i =? i - 2)%Z with false by lia. replace (i =? i + 2)%Z with false by lia.
+      replace (i - 2 =? i)%Z with false by lia. replace (i - 2 =? i + 2)%Z with false by lia.
+      replace (i + 2 =? i)%Z with false by lia. replace (i + 2 =? i - 2)%Z with false by lia. ring.
+Qed.
 (** A force a (1 + change), the change being given by weights of radii. *)
 Definition linear_force (G : lattice) (M i j : Z) (a : R) (w : weights) (rho : radii) : R :=
   a * (1 + whole M (layers i j w) rho / (2 * r G * (1 - phi G * phi G))).
@@ -50,107 +75,69 @@ Section Variances.
       split; [exact E|]. unfold relative_variance. rewrite V, E. unfold unit_of. field. repeat split; try lra.
     Qed.
 
-    Lemma bound_in_units s p b : Rabs (s - p) <= b -> Rabs (unit / 4 * s - unit / 4 * p) <= unit / 4 * b.
-    Proof.
-      intros H. pose proof (unit_positive G sigma spread).
-      rewrite <- Rmult_minus_distr_l, Rabs_mult, (Rabs_right (unit / 4)) by lra.
-      apply Rmult_le_compat_l; [lra|exact H].
-    Qed.
-
     Local Notation height := (IZR M).
     Local Notation above := (IZR (M - j)).
 
-    Lemma size : 1 <= height /\ 1 <= above <= height /\ height = IZR j + above /\ 0 <= IZR j /\
-      height <= height * height.
+    (** A bound on sums of squares is one on the variances. *)
+    Lemma in_units v s p q b : v = unit / 4 * s -> Rabs (s - q) <= 4 * b -> 4 * p = q ->
+      Rabs (v - unit * p) <= b * unit.
     Proof.
-      assert (H1 : 1 <= IZR M) by (apply (IZR_le 1); site).
-      assert (1 * IZR M <= IZR M * IZR M) by (apply Rmult_le_compat_r; lra).
-      repeat split; try lra; try (apply (IZR_le 1); site); try (apply IZR_le; site);
-        try (apply (IZR_le 0); site). rewrite minus_IZR. ring.
+      intros -> H <-. pose proof (unit_positive G sigma spread).
+      replace (unit / 4 * s - unit * p) with (unit / 4 * (s - 4 * p)) by field.
+      rewrite Rabs_mult, (Rabs_right (unit / 4)) by lra.
+      apply (Rmult_le_compat_l (unit / 4)) in H; lra.
     Qed.
 
-    (** Eq. 13. *)
+    (** Eq. 13: exactly, and near the printed form. *)
     Definition surface_linear f := linear_force G M i j (f / (2 * n_y G)) (surface_weights G j M).
 
     Theorem surface_variance f : 0 < f ->
       (forall rho, carries M (X rho) (surface M f) (F rho)) ->
       let f1 := surface_linear f in
       linearised (fun rho => f_plus (F rho) i j) f1 /\ expect L f1 = f / (2 * n_y G) /\
+        relative_variance L f1 = unit / 4 * surface_squares G j M /\
         Rabs (relative_variance L f1 - unit * (2 * (above * above) * (2 * IZR j + height)))
-          <= 56 * (height * height) * unit.
+          <= (2 * height ^ 2 + height) * unit.
     Proof.
       intros Hf C. pose proof (n_y_pos G) as Hy. pose proof (r_pos G). pose proof (divisor_positive G).
       assert (Ha : f / (2 * n_y G) <> 0) by (apply Rgt_not_eq, Rdiv_lt_0_compat; lra).
-      intros f1. destruct (linear_force_variance _ (surface_weights G j M) Ha) as [E V]. split; [|split; [exact E|]].
+      intros f1. destruct (linear_force_variance _ (surface_weights G j M) Ha) as [E V].
+      rewrite (surface_squares_are G i j M) in V by site.
+      split; [|split; [exact E|split; [exact V|]]].
       - intros rho. destruct (surface_force G M rho (X rho) (P rho) (F rho) f (C rho) j ltac:(site) i
           at_contact) as [Ep _].
         exists (f / (2 * n_y G)), (f / (2 * n_y G) * surface_plus G rho M i j). split; [exact Ep|].
         unfold f1, surface_linear, linear_force, whole.
         rewrite <- (surface_in_layers G rho i j ltac:(site) M M) by site. field. lra.
-      - unfold f1, surface_linear. rewrite V. destruct size as (H1 & [H2 H3] & H4 & H5 & H6).
-        pose proof (squares_near M i j _ _ ltac:(site)
-          (surface_near_main G j M M ltac:(site) ltac:(lia))) as N.
-        rewrite braces_squares in N by site.
-        replace (unit * (2 * (above * above) * (2 * IZR j + height)))
-          with (unit / 4 * (8 * (above * above) * (2 * IZR j + height))) by field.
-        eapply Rle_trans; [apply (bound_in_units _ _ (222 * (height * height)))|].
-        + apply Rabs_def2' in N.
-          assert (above * above <= height * height) by (apply Rmult_le_compat; lra).
-          assert (0 <= above * above) by (apply Rle_0_sqr).
-          replace (8 * (above * above) * (2 * IZR j + height))
-            with (24 * IZR j * (above * above) + 8 * (above * above) * above) by (rewrite H4; ring).
-          apply Rabs_le. lra.
-        + pose proof (unit_positive G sigma spread).
-          assert (0 <= unit * (height * height)) by (apply Rmult_le_pos; [lra|apply Rle_0_sqr]). lra.
+      - eapply in_units; [exact V|exact (surface_near G j M ltac:(site) ltac:(site))|ring].
     Qed.
 
-    (** Eq. 14. *)
+    (** Eq. 14: the same. *)
     Definition bulk_linear g :=
       linear_force G M i j (above * (g / (2 * n_y G))) (averaged j M (surface_weights G j)).
 
     Theorem bulk_variance g : 0 < g ->
       (forall rho, carries M (X rho) (bulk g) (F rho)) ->
       let f1 := bulk_linear g in
-      linearised (fun rho => f_plus (F rho) i j) f1 /\
-        expect L f1 = above * (g / (2 * n_y G)) /\
+      linearised (fun rho => f_plus (F rho) i j) f1 /\ expect L f1 = above * (g / (2 * n_y G)) /\
+        relative_variance L f1 = unit / 4 * bulk_squares G j M /\
         Rabs (relative_variance L f1 - unit * (3 / 10 * (above * above) * (4 * IZR j + height)))
-          <= 56 * (height * height) * unit.
+          <= (3 / 8 * height ^ 2 + 5 / 4 * height) * unit.
     Proof.
       intros Hg C. pose proof (n_y_pos G) as Hy. pose proof (r_pos G). pose proof (divisor_positive G).
-      destruct size as (H1 & [H2 H3] & H4 & H5 & H6).
       assert (Hgy : 0 < g / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra).
-      assert (Ha : above * (g / (2 * n_y G)) <> 0).
-      { apply Rgt_not_eq. apply Rmult_lt_0_compat; lra. }
+      assert (Hk : 1 <= above) by (apply (IZR_le 1); site).
+      assert (Ha : above * (g / (2 * n_y G)) <> 0) by (apply Rgt_not_eq, Rmult_lt_0_compat; lra).
       intros f1. destruct (linear_force_variance _ (averaged j M (surface_weights G j)) Ha) as [E V].
-      split; [|split; [exact E|]].
+      rewrite (bulk_squares_are G i j M) in V by site.
+      split; [|split; [exact E|split; [exact V|]]].
       - intros rho. destruct (bulk_force G M rho (X rho) (P rho) (F rho) g (C rho) j ltac:(site) i
           at_contact) as [Ep _].
         exists (above * (g / (2 * n_y G))),
           (g / (2 * n_y G) * Sum (j + 1) M (fun l => surface_plus G rho l i j)). split; [exact Ep|].
         unfold f1, bulk_linear, linear_force, whole.
         rewrite <- (bulk_in_layers G rho i j M) by site. field. lra.
-      - unfold f1, bulk_linear. rewrite V.
-        pose proof (squares_near M i j _ _ ltac:(site) (bulk_near_main G j M ltac:(site))) as N.
-        rewrite mean_braces_squares in N by site.
-        replace (unit * (3 / 10 * (above * above) * (4 * IZR j + height)))
-          with (unit / 4 * (6 / 5 * (above * above) * (4 * IZR j + height))) by field.
-        eapply Rle_trans; [apply (bound_in_units _ _ (222 * (height * height)))|].
-        + apply Rabs_def2' in N.
-          replace (IZR j * ((above + 1) * (above + 1)) / 4 +
-            (above * above - 1) * (3 * (above * above) - 2) / (60 * above))
-            with (IZR j * (above * above) / 4 + (2 * (IZR j * above) + IZR j) / 4
-              + (3 * (above * above * above) - 5 * above) / 60 + / above / 30) in N by (field; lra).
-          assert (0 < / above) by (apply Rinv_0_lt_compat; lra).
-          assert (/ above <= 1) by (rewrite <- Rinv_1; apply Rinv_le_contravar; lra).
-          assert (0 <= (IZR j - above) * (IZR j - above)) by apply Rle_0_sqr.
-          assert (0 <= IZR j * above) by (apply Rmult_le_pos; lra).
-          assert (4 * (IZR j * above) <= height * height) by (rewrite H4; lra).
-          replace (6 / 5 * (above * above) * (4 * IZR j + height))
-            with (6 * IZR j * (above * above) + 6 / 5 * (above * above) * above)
-            by (rewrite H4; field).
-          apply Rabs_le. lra.
-        + pose proof (unit_positive G sigma spread).
-          assert (0 <= unit * (height * height)) by (apply Rmult_le_pos; [lra|apply Rle_0_sqr]). lra.
+      - eapply in_units; [exact V|exact (bulk_near G j M ltac:(site) ltac:(site))|field].
     Qed.
 
     (** Eq. 12: the force less the weights of Eq. 12, squared. *)
@@ -160,10 +147,9 @@ Section Variances.
 
     Theorem braces_miss :
       expect L (fun rho => (surface_plus G rho M i j - by_braces rho) ^ 2)
-        <= 53 * (height * height) * unit.
+        <= 29 * (height * height) * unit.
     Proof.
       pose proof (r_pos G). pose proof (divisor_positive G).
-      destruct size as (H1 & _ & _ & _ & _).
       set (w := less_main (surface_weights G j M) (braces_at j M)).
       destruct (form_variance W M sigma L (layers i j w)
         (layers_inside W M i j w at_contact no_boundary) 0 (1 / (2 * r G * (1 - phi G * phi G)))
@@ -182,15 +168,11 @@ Section Variances.
         with (fun rho => (surface_plus G rho M i j - by_braces rho) ^ 2) in V
         by (apply FunctionalExtensionality.functional_extensionality; intros; ring).
       rewrite V.
-      pose proof (squares_near M i j w (fun _ => 0) ltac:(site)
-        (less_main_near M _ _ ltac:(site) (surface_near_main G j M M ltac:(site) ltac:(lia)))) as N.
-      rewrite (Sum_zero 1 M) in N by (intros; ring).
-      apply Rabs_def2' in N. pose proof (unit_positive G sigma spread) as U.
       replace ((1 / (2 * r G * (1 - phi G * phi G))) ^ 2 * (sigma ^ 2 * squares M (layers i j w)))
         with (unit / 4 * squares M (layers i j w)) by (unfold unit_of; field; lra).
-      apply (Rle_trans _ (unit / 4 * (210 * (height * height)))).
-      - apply Rmult_le_compat_l; lra.
-      - assert (0 <= unit * (height * height)) by (apply Rmult_le_pos; [lra|apply Rle_0_sqr]). lra.
+      pose proof (unit_positive G sigma spread).
+      pose proof (left_out_squares G i j M ltac:(site)) as S. fold w in S.
+      apply (Rmult_le_compat_l (unit / 4)) in S; lra.
     Qed.
   End Contact.
 
@@ -203,10 +185,10 @@ Section Variances.
     Hypothesis high : (1 <= M)%Z.
     Local Notation height := (IZR M).
 
-    Lemma layers_counted (v profile : Z -> R) total :
-      (forall j, (0 <= j < M)%Z -> Rabs (v j - unit * profile j) <= 56 * (height * height) * unit) ->
-      Rabs (Sum 0 (M - 1) profile - height * total) <= height * (height * height) ->
-      Rabs (Sum 0 (M - 1) v / height - unit * total) <= 57 * (height * height) * unit.
+    Lemma layers_counted (v profile : Z -> R) total b c :
+      (forall j, (0 <= j < M)%Z -> Rabs (v j - unit * profile j) <= b * unit) ->
+      Rabs (Sum 0 (M - 1) profile - height * total) <= height * c ->
+      Rabs (Sum 0 (M - 1) v / height - unit * total) <= (b + c) * unit.
     Proof.
       intros H T. pose proof (unit_positive G sigma spread) as U.
       assert (One : 1 <= height) by (apply (IZR_le 1); exact high).
@@ -218,10 +200,9 @@ Section Variances.
       apply (Rmult_le_reg_r height); [lra|]. rewrite Rmult_assoc, Rinv_l, Rmult_1_r by lra.
       eapply Rle_trans; [apply Rabs_triang|].
       rewrite (Rabs_mult unit), (Rabs_right unit) by lra.
-      assert (A : Rabs (Sum 0 (M - 1) (fun j => v j - unit * profile j))
-        <= height * (56 * (height * height) * unit)).
+      assert (A : Rabs (Sum 0 (M - 1) (fun j => v j - unit * profile j)) <= height * (b * unit)).
       { eapply Rle_trans; [apply Sum_abs|].
-        eapply Rle_trans; [apply (Sum_le _ _ _ (fun _ => 56 * (height * height) * unit)); intros; apply H; lia|].
+        eapply Rle_trans; [apply (Sum_le _ _ _ (fun _ => b * unit)); intros; apply H; lia|].
         rewrite Sum_const by lia. replace (M - 1 - 0 + 1)%Z with M by lia. lra. }
       apply (Rmult_le_compat_l unit) in T; [|lra]. lra.
     Qed.
@@ -229,55 +210,53 @@ Section Variances.
     Definition mean_square (f : Z -> radii -> R) : R :=
       Sum 0 (M - 1) (fun j => relative_variance L (f j)) / height.
 
-    (** Sums over j of polynomials in j, as a certificate: differences and the empty sum. *)
-    Lemma Sum_by (f g : Z -> R) n : (0 <= n)%Z -> g 0%Z = 0 ->
-      (forall m, (0 <= m)%Z -> g (m + 1)%Z = g m + f m) -> Sum 0 (n - 1) f = g n.
+    Lemma height_powers : 1 <= height /\ height <= height * height /\
+      height * height <= height * (height * height).
     Proof.
-      intros H E S. pattern n. apply (up_from _ 0); [| |exact H].
-      - rewrite Sum_empty by lia. symmetry. exact E.
-      - intros m Hm IH. replace (m + 1 - 1)%Z with m by lia. rewrite Sum_last, IH, S by lia. reflexivity.
+      assert (One : 1 <= height) by (apply (IZR_le 1); exact high).
+      assert (Two : 1 * height <= height * height) by (apply Rmult_le_compat_r; lra).
+      assert (1 * (height * height) <= height * (height * height)) by (apply Rmult_le_compat_r; lra). lra.
     Qed.
 
     Theorem surface_average f : 0 < f ->
       (forall rho, carries M (X rho) (surface M f) (F rho)) ->
       let f1 j := surface_linear (across j) j f in
       (forall j, (0 <= j < M)%Z -> linearised (fun rho => f_plus (F rho) (across j) j) (f1 j)) /\
-      Rabs (mean_square f1 - unit * (height * height * height)) <= 57 * (height * height) * unit.
+      Rabs (mean_square f1 - unit * (height * height * height)) <= 4 * (height * height) * unit.
     Proof.
-      intros Hf C f1. assert (One : 1 <= height) by (apply (IZR_le 1); exact high).
+      intros Hf C f1. pose proof height_powers as (One & Two & Three).
       assert (V : forall j, (0 <= j < M)%Z -> _) by
         (intros j Hj; exact (surface_variance (across j) j (proj1 (contacts j Hj)) (proj2 (contacts j Hj)) f Hf C)).
       split; [intros j Hj; apply (V j Hj)|].
-      apply (layers_counted _ (fun j => 2 * (IZR (M - j) * IZR (M - j)) * (2 * IZR j + height))).
+      eapply Rle_trans; [apply (layers_counted _ (fun j => 2 * (IZR (M - j) * IZR (M - j)) * (2 * IZR j + height))
+        (height * height * height) (2 * height ^ 2 + height) (height * height))|].
       - intros j Hj. apply (V j Hj).
-      - rewrite (Sum_by _ (fun n => 2 * (height * height * height * IZR n
-          - height * IZR n * (IZR n - 1) * (2 * IZR n - 1) / 2
-          + IZR n * IZR n * ((IZR n - 1) * (IZR n - 1)) / 2)) M);
-          [|lia|field|intros m Hm; rewrite minus_IZR, plus_IZR; field].
-        apply Rabs_le. assert (0 <= height * height * height)
-          by (apply Rmult_le_pos; [apply Rle_0_sqr|lra]). lra.
+      - rewrite (Sum_telescope (fun m => let n := IZR m + 1 in 
+          2 * (height ^ 3 * n - height * n * (n - 1) * (2 * n - 1) / 2 + n ^ 2 * (n - 1) ^ 2 / 2)))
+          by (lia || (intros; cbv zeta; rewrite !minus_IZR; field)).
+        cbv zeta. rewrite !minus_IZR. apply Rabs_le. lra.
+      - pose proof (unit_positive G sigma spread). apply Rmult_le_compat_r; lra.
     Qed.
 
     Theorem bulk_average g : 0 < g ->
       (forall rho, carries M (X rho) (bulk g) (F rho)) ->
       let f1 j := bulk_linear (across j) j g in
       (forall j, (0 <= j < M)%Z -> linearised (fun rho => f_plus (F rho) (across j) j) (f1 j)) /\
-      Rabs (mean_square f1 - unit * (1 / 5 * (height * height * height))) <= 57 * (height * height) * unit.
+      Rabs (mean_square f1 - unit * (1 / 5 * (height * height * height))) <= 2 * (height * height) * unit.
     Proof.
-      intros Hg C f1. assert (One : 1 <= height) by (apply (IZR_le 1); exact high).
+      intros Hg C f1. pose proof height_powers as (One & Two & Three).
       assert (V : forall j, (0 <= j < M)%Z -> _) by
         (intros j Hj; exact (bulk_variance (across j) j (proj1 (contacts j Hj)) (proj2 (contacts j Hj)) g Hg C)).
       split; [intros j Hj; apply (V j Hj)|].
-      apply (layers_counted _ (fun j => 3 / 10 * (IZR (M - j) * IZR (M - j)) * (4 * IZR j + height))).
+      eapply Rle_trans; [apply (layers_counted _ (fun j => 3 / 10 * (IZR (M - j) * IZR (M - j)) * (4 * IZR j + height))
+        (1 / 5 * (height * height * height)) (3 / 8 * height ^ 2 + 5 / 4 * height) (3 / 20 * (height * height)))|].
       - intros j Hj. apply (V j Hj).
-      - rewrite (Sum_by _ (fun n => 3 / 10 * (height * height * height * IZR n
-          + height * height * IZR n * (IZR n - 1)
-          - 7 * height * IZR n * (IZR n - 1) * (2 * IZR n - 1) / 6
-          + IZR n * IZR n * ((IZR n - 1) * (IZR n - 1)))) M);
-          [|lia|field|intros m Hm; rewrite minus_IZR, plus_IZR; field].
-        assert (0 <= height * height) by apply Rle_0_sqr.
-        assert (1 * (height * height) <= height * (height * height)) by (apply Rmult_le_compat_r; lra).
-        apply Rabs_le. lra.
+      - rewrite (Sum_telescope (fun m => let n := IZR m + 1 in 
+          3 / 10 * (height ^ 3 * n + height ^ 2 * n * (n - 1) - 7 / 6 * height * n * (n - 1) * (2 * n - 1)
+            + n ^ 2 * (n - 1) ^ 2)))
+          by (lia || (intros; cbv zeta; rewrite !minus_IZR; field)).
+        cbv zeta. rewrite !minus_IZR. apply Rabs_le. lra.
+      - pose proof (unit_positive G sigma spread). apply Rmult_le_compat_r; lra.
     Qed.
   End Average.
 End Variances.
@@ -315,12 +294,12 @@ Proof.
 Qed.
 
 (** An average of the order M³ in the unit, as a root: its constant depends on φ alone. *)
-Theorem root_of_average G M sigma k s : 0 < sigma -> (1 <= M)%Z -> 0 < k -> k <= 1 ->
-  Rabs (s - unit_of G sigma * (k * (IZR M * IZR M * IZR M))) <= 57 * (IZR M * IZR M) * unit_of G sigma ->
+Theorem root_of_average G M sigma k b s : 0 < sigma -> (1 <= M)%Z -> 0 < k ->
+  Rabs (s - unit_of G sigma * (k * (IZR M * IZR M * IZR M))) <= b * (IZR M * IZR M) * unit_of G sigma ->
   Rabs (sqrt s - sqrt k / (1 - phi G * phi G) * (root 2 (IZR M) ^ 3 * sigma / r G))
-    <= 57 / k / IZR M * (sqrt k / (1 - phi G * phi G) * (root 2 (IZR M) ^ 3 * sigma / r G)).
+    <= b / k / IZR M * (sqrt k / (1 - phi G * phi G) * (root 2 (IZR M) ^ 3 * sigma / r G)).
 Proof.
-  intros Hs HM Hk Hk1 H. pose proof (r_pos G). pose proof (divisor_positive G).
+  intros Hs HM Hk H. pose proof (r_pos G). pose proof (divisor_positive G).
   assert (One : 1 <= IZR M) by (apply (IZR_le 1); exact HM).
   assert (Q : 0 < sqrt k) by (apply sqrt_lt_R0; exact Hk).
   assert (Pw : 0 < root 2 (IZR M) ^ 3) by (apply pow_lt, root_is; [lia|lra]).

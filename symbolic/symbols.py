@@ -29,6 +29,9 @@ z = Symbol("z", real=True)  # relative height j/M
 L_plus = Symbol("L_plus", "L^{+}", "L⁺", positive=True)
 L_minus = Symbol("L_minus", "L^{-}", "L⁻", positive=True)
 t = Symbol("t", positive=True)
+# in any dimension −Σ_a L^a n^a; sums of (L^a/L^1)ⁿ over the other vectors a ≠ 1, n = 1 and 2
+tau_1 = Symbol("tau_1", r"\tau_{1}", "τ₁", positive=True)
+tau_2 = Symbol("tau_2", r"\tau_{2}", "τ₂", positive=True)
 
 # indices: beads (i, j), (k, l), (r, s); height M; summation and path indices
 i, j, k, l, m, n, p, q = (Symbol(name, integer=True) for name in "ijklmnpq")  # noqa: E741
@@ -43,7 +46,9 @@ kappa = Symbol("kappa", r"\kappa", "κ", positive=True)  # squared length of a r
 INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M, N)
 """All index symbols, in the fixed order that normal forms use."""
 
-PARAMETERS = (phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z, L_plus, L_minus, t)
+PARAMETERS = (
+    phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z, L_plus, L_minus, t, tau_1, tau_2,
+)  # fmt: skip
 """All continuous symbols, in the fixed order that exact domains use."""
 
 SCALES = (r, spacing, f_load)
@@ -278,8 +283,8 @@ class LargestShare(Function):  # type: ignore[misc]
 class ForceOfLayer(Function):  # type: ignore[misc]
     """The force of a contact that leads up from a bead of layer j, over its ordered value.
 
-    In any dimension, under loads along the sum of the base vectors, by which all contacts of a
-    layer are alike.
+    In any dimension, along vector 1; under loads along the sum of the base vectors all contacts of
+    a layer are alike.
     """
 
     nargs = 1

@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from dataclasses import replace
+from enum import StrEnum
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -17,7 +18,7 @@ from force_diffusion.symbolic.search.mutants import mutants as made_mutants
 from ..coq.files import (
     Statement,
     files_of,
-    head_of,
+    proof_of,
     theory,
     theory_hash,
     words_of,
@@ -198,27 +199,39 @@ def tried(
         for part, printed in enumerate(derivation.printed)
         for mutant in made_mutants(printed)
     ]
+    controls = {-1 - part: one for part, one in enumerate(statements(derivation))}
     goals = {}
     for place, (part, mutant) in enumerate(made):
         if chosen(place):
             with suppress(NotStatedError):
                 goals[place] = statement(derivation, part, mutant.equation)
-    said = answers(coq, f"Mutants_{derivation.number}", goals, notice)
+    said = answers(coq, f"Mutants_{derivation.number}", controls | goals, notice)
+    if any(said.pop(place) is not Answer.ACCEPTED for place in controls):
+        raise RuntimeError(f"Eq. {derivation.number} itself is not accepted beside its mutants")
     accepted = []
-    for place in [place for place, yes in said.items() if yes]:
+    for place in [place for place, word in said.items() if word is Answer.ACCEPTED]:
         part, mutant = made[place]
         ruling = derivation.rule_on(part, mutant.equation)
         accepted.append(Change(part, mutant.change, ruling.verdict.is_proved))
-    return Changes(len(made), len(goals), tuple(accepted))
+    refuted = list(said.values()).count(Answer.REFUTED)
+    return Changes(len(made), len(goals), refuted, tuple(accepted))
 
 
-_ANSWER = re.compile(r"^(accepted|refused) (\d+)$", re.MULTILINE)
+class Answer(StrEnum):
+    """What Coq says of a statement that need not be true."""
+
+    ACCEPTED = "accepted"  # proved
+    REFUTED = "refuted"  # its contrary is
+    OPEN = "open"  # neither
+
+
+_ANSWER = re.compile(rf"^({'|'.join(Answer)}) (-?\d+)$", re.MULTILINE)
 
 
 def answers(
     coq: CoqFolder, name: str, goals: Mapping[int, Statement], notice: Notice = _silent
-) -> dict[int, bool]:
-    """Whether Coq accepts each of many statements that need not be true.
+) -> dict[int, Answer]:
+    """What Coq says of many statements: each is disproved if it can be, or else proved.
 
     Raises:
         RuntimeError: Coq did not get to the end of them.
@@ -227,16 +240,21 @@ def answers(
     asked: list[str] = []
     sources: dict[str, str] = {}
     for start in range(0, len(places), IN_ONE_FILE):
-        some = places[start : start + IN_ONE_FILE]
-        module = f"{name}_from_{start}"
-        says = words_of({f"statement_{place}": goals[place].proposition for place in some})
-        tried = "\n".join(_goal(place, module, goals[place].tactic) for place in some)
-        sources |= {f"{module}_statements.v": says}
-        sources |= {f"{module}.v": f"{head_of('Certify', f'{module}_statements')}\n{tried}"}
+        some = {place: goals[place] for place in places[start : start + IN_ONE_FILE]}
+        module, stated_in = f"{name}_from_{start}", f"{name}_from_{start}_statements"
+        beside = {one.beside.name: one.beside for one in some.values() if one.beside}
+        says = {known.name: known.proposition for known in beside.values()}
+        says |= {_statement_of(place): one.proposition for place, one in some.items()}
+        lemmas = [("Lemma", one.name, one.name, f"{one.tactic}.") for one in beside.values()]
+        goals_of = "\n".join(_goal(place, stated_in, one) for place, one in some.items())
+        sources |= {
+            f"{stated_in}.v": words_of(says),
+            f"{module}.v": f"{proof_of('Counterexamples', stated_in, *lemmas)}\n{goals_of}",
+        }
         asked.append(f"{module}.v")
     coq.compile(sources, notice)
     said = {
-        int(place): word == "accepted"
+        int(place): Answer(word)
         for file in asked
         for word, place in _ANSWER.findall(coq.said[file].printed)
     }
@@ -245,10 +263,20 @@ def answers(
     return said
 
 
-def _goal(place: int, module: str, tactic: str) -> str:
-    says = f"{module}_statements.statement_{place}"
+def _statement_of(place: int) -> str:
+    return f"statement_{place}".replace("-", "printed_")
+
+
+def _goal(place: int, stated_in: str, one: Statement) -> str:
+    says = f"{stated_in}.{_statement_of(place)}"
+    tries = [
+        (Answer.REFUTED, f"right; solve [abstract ({one.disproof or 'fail'})]"),
+        (Answer.ACCEPTED, f"left; solve [abstract ({one.tactic})]"),
+    ]
+    limited = "\n  |".join(
+        f'timeout {MUTANT_LIMIT} ({tactics}); idtac "{word} {place}"' for word, tactics in tries
+    )
     return (
-        f"Goal {says}.\ncbv delta [{says}].\n"
-        f'first [timeout {MUTANT_LIMIT} (solve [{tactic}]); idtac "accepted {place}"\n'
-        f'  |idtac "refused {place}"].\nAbort.\n'
+        f"Goal {says} \\/ ~ {says}.\ncbv delta [{says}].\n"
+        f'first\n  [{limited}\n  |idtac "{Answer.OPEN} {place}"].\nAbort.\n'
     )

@@ -12,6 +12,8 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t4_second_order as t4
+from force_diffusion.derivations.beyond.t7_averages import B22, B23
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.grounds import Beside, facts_of
 from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, Piece, usual
 from force_diffusion.derivations.framework.vocabulary import (
@@ -427,7 +429,7 @@ B9 = Derivation(
     ),
 )
 
-DERIVATIONS = {B9.number: B9}
+DERIVATIONS: dict[Number, Derivation] = {one.number: one for one in (B9, B22, B23)}
 
 if __name__ == "__main__":
     from force_diffusion.derivations.commands.alone import run_alone

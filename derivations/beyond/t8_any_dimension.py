@@ -1,11 +1,11 @@
-"""T8: variance of the contact forces in any dimension, for both loads; Eqs. B11, B13, B14, B20.
+"""T8: variance of the contact forces in any dimension; Eqs. B11, B13, B14, B20, B24, B25.
 
-The kernel has it exactly, at finite size and for every d: leading orders for any d (B11, B20), and
-closed forms for d = 3 (B13, B14).
+The kernel has it exactly, at finite size, for every d and for loads that lean: leading orders for
+any d (B11, B20), and closed forms for d = 3 (B13, B14; leaning, B24, B25).
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cache, partial
 
@@ -14,6 +14,7 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.beyond import t2_variance as t2
 from force_diffusion.derivations.framework.averaging import integral
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
@@ -37,7 +38,12 @@ from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare
 from force_diffusion.numeric.mechanics.any_dimension import force_weights, squared, together
 from force_diffusion.symbolic.algebra import explicit
-from force_diffusion.symbolic.kernel.any_dimension import BULK, SURFACE
+from force_diffusion.symbolic.kernel.any_dimension import (
+    BULK,
+    BULK_LEANING,
+    SURFACE,
+    SURFACE_LEANING,
+)
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.kernel.where import Loading
 from force_diffusion.symbolic.notation import Symbol
@@ -52,6 +58,9 @@ from force_diffusion.symbolic.symbols import (
     phi,
     r,
     sigma,
+    t,
+    tau_1,
+    tau_2,
     z,
 )
 from force_diffusion.symbolic.variances.variance import ClosedForm
@@ -78,7 +87,7 @@ class Case:
 
     Attributes:
         scale: number and powers of d in front of κ² and the profile.
-        next_order: the M² term at fixed z, without (σ/r)²/[(1−φ)²(1+2φ)²]; for d = 3.
+        next_order: the M² term at fixed z, without (σ/r)²/[(1−φ)²(1+2φ)²]; for d = 3, upright.
     """
 
     number: Number
@@ -90,9 +99,14 @@ class Case:
     next_order: sympy.Expr = sympy.S.Zero
 
     @property
+    def leaning(self) -> bool:
+        """Whether loads lean."""
+        return self.loading in (SURFACE_LEANING, BULK_LEANING)
+
+    @property
     def bulk(self) -> bool:
         """Whether every bead is loaded."""
-        return self.loading == BULK
+        return self.loading in (BULK, BULK_LEANING)
 
     @property
     def printed(self) -> sympy.Eq:
@@ -128,6 +142,19 @@ B13 = Case("B13", OF_SURFACE, SURFACE, 3, (Rational(20, 3),), SURFACE_PROFILE,
            formula("−M²(1 − z)[5 + 16φ + 5φ² + 3z(5 + 8φ + φ²)]"))  # fmt: skip
 B14 = Case("B14", OF_BULK, BULK, 3, (sympy.S.One,), BULK_PROFILE,
            formula("M²(1 − z)[5 + 4φ + 3φ² − z(5 + 4φ − 13φ²)]/4"))  # fmt: skip
+
+OF_LEANING = Symbol(
+    "leaning_variance",
+    r"\frac{\sigma^2(f^{1})}{\langle f^{1}\rangle^2}",
+    "σ²(f¹)/⟨f¹⟩²",
+)
+_SHARES = terms(times(2, tau_1**2), tau_2)
+B24 = Case("B24", OF_LEANING, SURFACE_LEANING, 3, (Rational(2, 3), _SHARES), SURFACE_PROFILE)
+B25 = Case("B25", OF_LEANING, BULK_LEANING, 3, (Rational(1, 10), _SHARES), BULK_PROFILE)
+ONE_BELOW = formula("M[τ₁²(1 + φ)² + τ₂(1 + 2φ + 3φ²) + 2φ²(τ₁ + 2)]")
+"""What the variance one layer below the surface goes as, without (σ/r)²/[(1−φ)²(1+2φ)²]."""
+VERTICAL = {tau_1: sympy.Integer(2), tau_2: sympy.Integer(2)}
+"""The load along the sum of three base vectors."""
 
 
 def exact_forms(case: Case) -> dict[str, ClosedForm]:
@@ -280,19 +307,24 @@ def _three_dimensions(case: Case) -> Lines:
     leading = variance.show_leading(
         lines, "To leading order in M at fixed z:", case.printed, inside
     )
-    variance.show_leading(
-        lines,
-        "The next order, to which the line sums along third directions contribute:",
-        equation(terms(case.symbol, minus(case.printed.rhs)), times(IN_THREE, case.next_order)),
-        leading,
-    )
+    if not case.leaning:
+        variance.show_leading(
+            lines,
+            "The next order, to which the line sums along third directions contribute:",
+            equation(terms(case.symbol, minus(case.printed.rhs)), times(IN_THREE, case.next_order)),
+            leading,
+        )
     variance.claim_edges(
         lines,
         "leading orders of the exact forms: at j = 0 the printed form at z = 0, at j = M − 1 "
-        "6(1 + 2φ + 3φ²) M in units of (σ/r)²/[(1−φ)²(1+2φ)²]",
+        "(τ₁²(1 + φ)² + τ₂(1 + 2φ + 3φ²) + 2φ²(τ₁ + 2)) M in units of (σ/r)²/[(1−φ)²(1+2φ)²], "
+        "6(1 + 2φ + 3φ²) M for τ₁ = τ₂ = 2, a load along the sum of the base vectors",
         base=case.printed.rhs.xreplace({z: sympy.S.Zero}),
-        surface=6 * M * (1 + 2 * phi + 3 * phi**2) * IN_THREE,
+        surface=(ONE_BELOW if case.leaning else ONE_BELOW.xreplace(VERTICAL)) * IN_THREE,
     )
+    if case.leaning:
+        _claim_leaning(case, lines)
+        return lines
     any_d = B20 if case.bulk else B11
     lines.claim(
         f"the leading order is Eq. {any_d.number} for d = 3",
@@ -320,7 +352,60 @@ def _three_dimensions(case: Case) -> Lines:
     return lines
 
 
+def _claim_leaning(case: Case, lines: Lines) -> None:
+    variance, upright = case.variance, B14 if case.bulk else B13
+    layers = tuple(map(variance.where, variance.forms))
+    lines.claim_each(
+        f"for τ₁ = τ₂ = 2 each closed form is that of Eq. {upright.number}",
+        (
+            (form.expression.xreplace(VERTICAL), exact_forms(upright)[name].expression, where)
+            for (name, form), where in zip(variance.forms.items(), layers, strict=True)
+        ),
+        rewrite(),
+    )
+    lines.claim_each(
+        "as the other vectors are unloaded, τ₁, τ₂ → 0, the tilt of the contact itself is left, "
+        "which does not know the height: φ²(4j + 1 + 2φ²) in units of (σ/r)²/[(1−φ)²(1+2φ)²]",
+        (
+            (
+                variance.forms["interior"].expression.xreplace({tau_1: 0 * d, tau_2: 0 * d}),
+                times(formula("φ²(4j + 1 + 2φ²)"), IN_THREE),
+                layers[0],
+            ),
+        ),
+        rewrite(),
+    )
+    anywhere = replace(variance.in_the_limit, dimension=d)
+    lines.claim(
+        "for any d it goes the same way, with the κ of that d",
+        equation(case.symbol, case.printed.rhs.xreplace({kappa: KAPPA})),
+        asymptotic(),
+        where=anywhere,
+        meaning=variance.meant,
+    )
+    plane = t2.DERIVATIONS["B3" if case.bulk else "B2"]
+    lines.claim(
+        f"for d = 2, τ₁ = t and τ₂ = t², it is Eq. {plane.number}",
+        equation(
+            _at(2, case.printed.rhs.xreplace({kappa: KAPPA, tau_1: t, tau_2: t**2})),
+            plane.printed[0].rhs,
+        ),
+        rewrite(),
+        where=Where((M,)),
+    )
+
+
 # witnesses
+
+
+RATIOS = (Fraction(3, 5), Fraction(4, 7), Fraction(5, 3))
+"""L^a/L^1 of the loads that lean in witnesses, a = 2, 3, 4."""
+
+
+def _ratios(case: Case, dimension: int) -> tuple[tuple[Fraction, ...], explicit.Values]:
+    """Those of a case, and their sums as values."""
+    ratios = (RATIOS if case.leaning else (Fraction(1),) * len(RATIOS))[: dimension - 1]
+    return ratios, {tau_1: sum(ratios), tau_2: sum(one**2 for one in ratios)}
 
 
 def _weights(case: Case, packing: SmallPacking) -> Ruling:
@@ -332,9 +417,12 @@ def _weights(case: Case, packing: SmallPacking) -> Ruling:
         for dimension in (fixed,) if fixed else (2, 3, 4):
             if 1 + dimension * cosine <= 0:
                 continue
-            values: explicit.Values = {phi: cosine, sigma: 1, r: 1, d: dimension}
+            ratios, sums = _ratios(case, dimension)
+            values: explicit.Values = {phi: cosine, sigma: 1, r: 1, d: dimension, **sums}
             for height, layer, stated in case.variance.stated(7 if fixed else 5, values):
-                both = force_weights(dimension, height, layer, cosine, bulk=case.bulk)
+                both = force_weights(
+                    dimension, height, layer, cosine, bulk=case.bulk, ratios=ratios
+                )
                 where = f"d = {dimension}, M = {height}, j = {layer}"
                 yield where, stated, squared(together(both))
 
@@ -344,13 +432,14 @@ def _weights(case: Case, packing: SmallPacking) -> Ruling:
 def _taylor(case: Case, packing: SmallPacking) -> Ruling:
     """The same against exact packings of spheres, solved as rational series."""
     cosine = witnesses.cosine_of(packing)
-    values: explicit.Values = {phi: cosine, sigma: 1, r: 1}
+    ratios, sums = _ratios(case, 3)
+    values: explicit.Values = {phi: cosine, sigma: 1, r: 1, **sums}
     load = "bulk" if case.bulk else "surface"
     return compare(
         (
             f"M = {height}, j = {layer}",
             stated,
-            witnesses.squares_of_spheres(cosine, height, load)[layer],
+            witnesses.squares_of_spheres(cosine, height, load, ratios)[layer],
         )
         for height, layer, stated in case.variance.stated(3, values)
     )
@@ -375,6 +464,11 @@ _IN_ANY = (
     (kappa, "b^a·b^a = [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}; 1/(1−φ²) for d = 2"),
     *usual(sigma, r, M, z),
     (phi, "mutual dot product of the base vectors, −1/d < φ < ½"),
+)
+_OF_LEANING = (
+    (OF_LEANING, "variance of the force along base vector 1, over its mean squared"),
+    (tau_1, "L^2/L^1 + L^3/L^1 for loads −Σ_a L^a n^a; in any dimension the sum over a ≠ 1"),
+    (tau_2, "the sum of their squares"),
 )
 _OF_SPHERES = (
     (kappa, "b^a·b^a = (1+φ)/(1+φ−2φ²)"),
@@ -408,7 +502,7 @@ def _derivation(
         number=case.number,
         name=name,
         title=title,
-        symbols=_IN_ANY if any_d else _OF_SPHERES,
+        symbols=_IN_ANY if any_d else (*(_OF_LEANING if case.leaning else ()), *_OF_SPHERES),
         dimension=2 if any_d else 3,
         assumptions=assumptions,
         premises=premises,
@@ -481,7 +575,42 @@ ANY_BULK = _derivation(
     (eq11.DERIVATION, eq14.DERIVATION, ANY_SURFACE, SPHERES_BULK),
 )
 
-DERIVATIONS = {one.number: one for one in (ANY_SURFACE, SPHERES_SURFACE, SPHERES_BULK, ANY_BULK)}
+_LEANS = "−Σ_a L^a n^a, all L^a > 0"
+LEANING_SURFACE = _derivation(
+    B24,
+    "leaning_surface",
+    "Variance of the forces in three dimensions under a surface load in any direction",
+    f"a surface load {_LEANS}",
+    (t2.DERIVATIONS["B2"], ANY_SURFACE, SPHERES_SURFACE),
+    (
+        "A force is fed by the loads along the other vectors: it fluctuates the more, in units of "
+        "its own mean, the less of the load points along its own. M* of contacts along 1 is "
+        "[3r²/((2τ₁² + τ₂)κ²σ²)]^(1/3).",
+        "The leading order holds in any dimension, with the κ, τ₁ and τ₂ of that.",
+    ),
+    (_series(B24),),
+)
+LEANING_BULK = _derivation(
+    B25,
+    "leaning_bulk",
+    "Variance of the forces in three dimensions under a bulk load in any direction",
+    f"every bead above the base carries the same load {_LEANS}",
+    (t2.DERIVATIONS["B3"], ANY_BULK, SPHERES_BULK, LEANING_SURFACE),
+    (),
+    (_series(B25),),
+)
+
+DERIVATIONS = {
+    one.number: one
+    for one in (
+        ANY_SURFACE,
+        SPHERES_SURFACE,
+        SPHERES_BULK,
+        ANY_BULK,
+        LEANING_SURFACE,
+        LEANING_BULK,
+    )
+}
 
 if __name__ == "__main__":
     from force_diffusion.derivations.commands.alone import run_alone

@@ -32,8 +32,8 @@ def certify(
         bool,
         typer.Option(
             "--mutants",
-            help="Ask also about every printed equation with one change, none of which may be "
-            "accepted that 'derive' refutes. Takes several minutes.",
+            help="Ask also about every printed equation with one change: whether it is false, and "
+            "accepted is none that 'derive' refutes. Takes several minutes.",
         ),
     ] = False,
     out: Annotated[
@@ -91,7 +91,7 @@ def _line(one: "Certificate") -> str:
     if one.changes:
         said += (
             f"\n    of {one.changes.made} mutants {one.changes.stated} stated, "
-            f"{len(one.changes.accepted)} accepted"
+            f"{one.changes.refuted} proved false, {len(one.changes.accepted)} accepted"
         )
     return said + "".join(
         f"\n    accepted, and not equivalent: part {change.part + 1}, {change.change}"

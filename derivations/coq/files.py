@@ -72,6 +72,9 @@ class Statement:
             under them (SymPy reads such sums in another way).
         theory: the file of ``proofs/`` that holds the tactic.
         about: its ranges and sites, from among the hypotheses.
+        disproof: tactics of ``proofs/Counterexamples.v`` that should prove its contrary, if it is
+            wrong; nothing where there are none.
+        beside: the printed statement, if the disproof needs it, as a lemma of its name.
     """
 
     name: str
@@ -81,6 +84,8 @@ class Statement:
     companions: tuple[Companion, ...] = ()
     theory: str = "Certify"
     about: tuple[str, ...] = ()
+    disproof: str = ""
+    beside: "Statement | None" = None
 
     @property
     def proposition(self) -> str:

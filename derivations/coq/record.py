@@ -47,11 +47,13 @@ class Changes:
     Attributes:
         made: how many there are.
         stated: of how many of them Coq was asked; of the others ``Model.v`` can't speak.
+        refuted: of how many of these Coq proved the contrary, in a packing of given numbers.
         accepted: those that it accepts.
     """
 
     made: int
     stated: int
+    refuted: int
     accepted: tuple[Change, ...]
 
 

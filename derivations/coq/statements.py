@@ -6,14 +6,16 @@ which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactic
 """
 
 import re
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.mechanics.paths import BRANCH_COUNT, IN_CONE
+from force_diffusion.symbolic.mechanics.lattice import mirror, mirrored_relation
+from force_diffusion.symbolic.mechanics.paths import IN_CONE
 
-from ..framework.record import Derivation
+from ..framework.catalogue import Number
+from ..framework.record import Derivation, ExactCase
 from .files import Companion, Statement
 from .words import (
     EXPANSION,
@@ -40,9 +42,12 @@ def ranges(derivation: Derivation) -> Iterator[str]:
     if derivation.where is None:
         raise NotStatedError(f"Eq. {derivation.number} has no domain")
     if derivation.where.limit is None:
-        for relation in derivation.where.relations:
-            left, right = map(index, relation.args)
-            yield f"({left} {relation.rel_op.replace('==', '=')} {right})%Z"
+        yield from map(_relation, derivation.where.relations)
+
+
+def _relation(relation: sympy.Basic) -> str:
+    left, right = map(index, relation.args)
+    return f"({left} {relation.rel_op.replace('==', '=')} {right})%Z"
 
 
 def _spoken_of(side: sympy.Expr) -> Iterator[str]:
@@ -131,16 +136,25 @@ class Frame:
     random: bool = False
 
 
+_HIGH = 1_000_000  # so that what is of lower order is small
 _BELOW = {sy.M: 7, sy.k: 6, sy.l: 6}
-_HIGHER = {sy.M: 3, sy.i: 1, sy.j: 1}
-_AT = {sy.M: 3, sy.i: 0, sy.j: 0}
+_AT = {sy.M: 7, sy.i: 1, sy.j: 3}
 _EVERY_CONTACT = ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
-_VARIANCE = Frame(_AT, _near("f_plus F i j", "56 * IZR M ^ 2"), _EVERY_CONTACT, random=True)
+
+
+def _variance(size: str) -> Frame:
+    return Frame(
+        {sy.M: _HIGH, sy.i: 0, sy.j: 3 * _HIGH // 10},
+        _near("f_plus F i j", size),
+        _EVERY_CONTACT,
+        random=True,
+    )
+
 
 FRAMES = {
-    1: Frame(_HIGHER, _exactly),
-    2: Frame(_HIGHER),
-    3: Frame(_HIGHER),
+    1: Frame(_AT, _exactly),
+    2: Frame(_AT),
+    3: Frame(_AT),
     4: Frame(_AT),
     5: Frame(_AT),
     6: Frame(_BELOW, _exactly),
@@ -148,15 +162,17 @@ FRAMES = {
     8: Frame({sy.M: 7, sy.site_r: 1, sy.site_s: 5}),
     9: Frame({**_BELOW, sy.i: 4, sy.j: 4}),
     10: Frame(
-        {**_BELOW, sy.i: 2, sy.j: 0, sy.n: 1},
-        conditions=(f"(2 * n = {index(2 * BRANCH_COUNT)})%Z",),
+        {**_BELOW, sy.i: 5, sy.j: 1, sy.n: 2},
     ),
     11: Frame(_AT),
-    12: Frame(_AT, _up_to_variance("53 * IZR M ^ 2"), random=True),
-    13: _VARIANCE,
-    14: _VARIANCE,
+    12: Frame(_AT, _up_to_variance("29 * IZR M ^ 2"), random=True),
+    13: _variance("(2 * IZR M ^ 2 + IZR M)"),
+    14: _variance("(3 / 8 * IZR M ^ 2 + 5 / 4 * IZR M)"),
     16: Frame(
-        {sy.M: 3, sy.k: 0, sy.l: 2, sy.i: 0, sy.j: 0, sy.p: 1, sy.q: 1},
+        {
+            **{sy.M: 6 * _HIGH, sy.k: 2 * _HIGH, sy.l: 5 * _HIGH},
+            **{sy.i: 0, sy.j: _HIGH, sy.p: 3 * _HIGH, sy.q: _HIGH},
+        },
         _near("pressed_down X F i j", "47"),
         (
             *(f"({x.in_code} = {index(at)})%Z" for x, at in IN_CONE.items()),
@@ -166,6 +182,7 @@ FRAMES = {
         random=True,
     ),
 }
+MIRRORED = (9, 10, 11)  # stated of f⁻, too
 AVERAGES = 15  # the one equation about all layers together
 STATED = (*FRAMES, AVERAGES)
 """Numbers of the equations that can be stated."""
@@ -178,14 +195,15 @@ class _Load:
     words: str
     variables: str = "(f_load : R)"
     hypotheses: tuple[str, ...] = ("0 < f_load",)
-    example: tuple[str, ...] = ("1",)
+    example: tuple[str, ...] = ("5",)
+    mean: str = ""  # of the force of a contact, where all contacts of a layer have one
 
 
-_ABOVE_THE_SITE = f"single ({sy.site_r.in_code} + 1) ({sy.site_s.in_code} + 1) 1"
+_ABOVE_THE_SITE = f"single ({sy.site_r.in_code} + 1) ({sy.site_s.in_code} + 1) 5"
 _LOADS = {
     "single": _Load("single k l f_load"),
-    "surface": _Load("surface M f_load"),
-    "bulk": _Load("bulk f_load"),
+    "surface": _Load("surface M f_load", mean="f_load / (2 * n_y G)"),
+    "bulk": _Load("bulk f_load", mean="(IZR M - IZR j) * (f_load / (2 * n_y G))"),
     "any": _Load(
         "load",
         "(load : Z -> Z -> vector)",
@@ -211,6 +229,7 @@ class _Case:
     hypotheses: tuple[str, ...]
     example: tuple[str, ...]
     law: str = ""  # of the example
+    disproof: str = ""  # of a statement about it, with the printed one's name left open
 
     def before(self) -> tuple[str, ...]:
         """The lines before the conclusion."""
@@ -235,22 +254,27 @@ def _with_values(words: str, values: dict[str, str]) -> str:
     return re.sub(r"\w+", lambda name: values.get(name[0], name[0]), words)
 
 
+_DISPROOF = "intros A; specialize (A {}); disprove A"
+
+
 def _one_packing(
     symbols: dict[sympy.Symbol, int], conditions: Iterable[str], load: _Load | None
 ) -> _Case:
     indices = {symbol.in_code: f"{value}%Z" for symbol, value in symbols.items()}
     height, laid = indices.pop("M"), "(laid_packing G rho)"
+    at = f"trial_lattice trial_radii {height} (trial {height}) {' '.join(indices.values())}"
     case = _Case(
         "(G : lattice) (rho : radii)",
         (),
         f"(M : Z) (X : centres) ({' '.join(indices)} : Z)",
         ("packing G M rho X", *conditions),
         (height, laid, *indices.values()),
+        disproof=_DISPROOF.format(at),
     )
     if load is None:
         return case
     *sizes, carried = (
-        f"({_with_values(words, {**indices, 'M': height, 'f_load': '1'})})"
+        f"({_with_values(words, {**indices, 'M': height, 'f_load': '5'})})"
         for words in (*load.example, load.words)
     )
     if load.words == "load":
@@ -260,6 +284,16 @@ def _one_packing(
         variables=f"{case.variables} (F : forces) {load.variables}",
         hypotheses=(*case.hypotheses, *load.hypotheses, f"carries M X ({load.words}) F"),
         example=(*case.example, f"(passed_down {height} {laid} {carried})", *sizes),
+        disproof=_DISPROOF.format(f"{at} (trial_forces {height} {carried}) {' '.join(sizes)}"),
+    )
+
+
+def _beside(*at: str, law: str) -> str:
+    """Disproof in a large packing, beside the printed equation, a lemma whose name is left open."""
+    same = " ".join(at)
+    return (
+        f"intros A; pose proof {{}} as T; destruct (law_exists {law}) as [L _];\n"
+        f"  specialize (A {same});\n  specialize (T {same}); disprove_beside T A"
     )
 
 
@@ -271,7 +305,8 @@ def _random_packings(
 ) -> _Case:
     """A family of packings and forces, one for each choice of the radii, and a law of these."""
     height, window, *others = example.values()
-    carried = f"({_with_values(load.words, {**example, 'f_load': '1'})})"
+    carried = f"({_with_values(load.words, {**example, 'f_load': '5'})})"
+    forces = "(fun rho => passed_down {0} (laid_packing {1} rho) {2})"
     return _Case(
         "(G : lattice) (sigma : R)",
         ("0 < sigma",),
@@ -285,11 +320,18 @@ def _random_packings(
         ),
         (
             *(height, window, "L", "(laid_packing G)"),
-            f"(fun rho => passed_down {height} (laid_packing G rho) {carried})",
+            forces.format(height, "G", carried),
             *others,
             *load.example,
         ),
         f"destruct (law_exists {window} {height} sigma) as [L _]. ",
+        _beside(
+            f"trial_lattice 1 ltac:(lra) {height} {window} L (laid_packing trial_lattice)",
+            forces.format(height, "trial_lattice", carried),
+            *others,
+            *load.example,
+            law=f"{window} {height} 1",
+        ),
     )
 
 
@@ -325,7 +367,7 @@ def _averages(derivation: Derivation, part: int, stated: sympy.Eq) -> str:
                 "  exists f, (forall j, (0 <= j < M)%Z ->",
                 "      linearised (fun rho => f_plus (Fs rho) (across j) j) (f j)) /\\",
                 f"    Rabs ({_statistic(deviation.lhs)} - {in_proportion}) "
-                f"<= 285 / IZR M * {in_proportion}",
+                f"<= 10 / IZR M * {in_proportion}",
             )
         )
         if part == 0:
@@ -341,18 +383,167 @@ def _averages(derivation: Derivation, part: int, stated: sympy.Eq) -> str:
 
 
 def statements(derivation: Derivation) -> list[Statement]:
-    """The printed equations of a derivation in Coq, part by part.
+    """The printed equations of a derivation in Coq, part by part, and what is stated beside them.
 
     Raises:
         NotStatedError: when there are no words for one.
     """
-    return [statement(derivation, part) for part in range(len(derivation.printed))]
+    made = _printed(derivation)
+    if derivation.number in MIRRORED:
+        made += _printed(mirror_image(derivation), mirrored=True)
+    return [*made, *(one(derivation) for one in BESIDE.get(derivation.number, ()))]
 
 
-def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = None) -> Statement:
+def _printed(derivation: Derivation, *, mirrored: bool = False) -> list[Statement]:
+    parts = range(len(derivation.printed))
+    return [statement(derivation, part, mirrored=mirrored) for part in parts]
+
+
+def mirror_image(derivation: Derivation) -> Derivation:
+    """The same of the other branch: printed equations and domain."""
+    if derivation.where is None:
+        raise NotStatedError(f"Eq. {derivation.number} has no domain")
+    relations = tuple(map(mirrored_relation, derivation.where.relations))
+    return replace(
+        derivation,
+        printed=tuple(map(mirror, derivation.printed)),
+        where=replace(derivation.where, relations=relations),
+    )
+
+
+def exact_statement(
+    derivation: Derivation,
+    exact: Mapping[str, ExactCase] | None = None,
+    at: Mapping[sympy.Symbol, int] | None = None,
+) -> Statement:
+    """State mean and variance of one contact's force in every layer, or others in their place."""
+    forms = derivation.exact() if exact is None and derivation.exact else exact or {}
+    (formula,) = derivation.printed
+    printed, load = statement(derivation, 0, formula, at=at), _LOADS[derivation.loads[0]]
+    layers: dict[tuple[str, ...], sympy.Expr] = {}
+    for case in forms.values():
+        domain = [_relation(one) for one in case.domain]
+        missed = [[_relation(one) for one in other.when] for other in case.missed]
+        layers[*domain, *(f"~ ({_and(one)})" for one in missed)] = case.expression
+        layers |= {
+            (*one,): other.expression for one, other in zip(missed, case.missed, strict=True)
+        }
+    statistic = _statistic(derivation.printed[0].lhs)
+    claims = [
+        f"exists f, linearised ({_OF_RHO} f_plus F i j {EXPANSION}) f",
+        f"expect L f = {load.mean}",
+        *(
+            f"({' -> '.join(when)} ->\n    {statistic} = {real(is_)})"
+            for when, is_ in layers.items()
+        ),
+    ]
+    every = " \\/\n  ".join(f"({_and(when)})" for when in layers)
+    name = f"{printed.name}_exact"
+    return replace(
+        printed,
+        name=name,
+        disproof=printed.disproof.replace(f"pose proof {printed.name} ", f"pose proof {name} "),
+        beside=None if exact is None else exact_statement(derivation),
+        conclusion=" /\\\n    ".join(claims),
+        tactic=f"{printed.tactic}_exact",
+        companions=(
+            *printed.companions,
+            Companion("of_every_layer", f"forall M j : Z, (0 <= j < M)%Z ->\n  {every}", "lia."),
+        ),
+    )
+
+
+def _nothing_else(derivation: Derivation) -> Statement:
+    """Beside Eqs. 9 and 10: no other contact below a loaded bead bears a force to first order."""
+    load = _LOADS["single"]
+    case = _one_packing(
+        {sy.M: 7, sy.k: 6, sy.l: 6, sy.i: 0, sy.j: 2},
+        (
+            *("bead M k l", "contact M i j", "(j < l)%Z"),
+            "(k - i > l - j \\/ i - k >= l - j)%Z",
+        ),
+        load,
+    )
+    force = sympy.Eq(sy.ForcePlus(sy.i, sy.j), sympy.S.Zero, evaluate=False)
+    return Statement(
+        f"equation_{derivation.number}_else_nothing",
+        case.before(),
+        _to_first_order(force),
+        "prove_nothing_else",
+        (case.companion(),),
+        disproof=case.disproof,
+    )
+
+
+def _second_differences(derivation: Derivation) -> Statement:
+    """Beside Eq. 12: the variance of one Δ."""
+    delta = real(sy.SecondDifference(sy.i, sy.j)).removesuffix(f" {EXPANSION}")
+    window = "within W M (i - 2) j /\\ within W M i j /\\ within W M (i + 2) j"
+    return Statement(
+        f"equation_{derivation.number}_second_difference",
+        ("  forall (sigma : R) (M W : Z) (L : law W M sigma) (i j : Z),", f"  {window} ->"),
+        f"variance L (fun rho => {delta} 1) = 6 * sigma ^ 2",
+        "prove_second_difference",
+        (
+            Companion(
+                "is_about_something",
+                f"forall sigma : R, exists (M W : Z) (L : law W M sigma) (i j : Z), {window}",
+                "intros. destruct (law_exists 3 2 sigma) as [L _]. exists 2%Z, 3%Z, L, 0%Z, 0%Z.\n"
+                "  unfold within, bead; lia.",
+            ),
+        ),
+    )
+
+
+def _maximum(derivation: Derivation) -> Statement:
+    """Beside Eq. 14: the printed form is largest at z = 1/6, and there alone."""
+    (printed,) = derivation.printed
+    here, top = real(printed.rhs), real(printed.rhs.xreplace({sy.z: sympy.Rational(1, 6)}))
+    return Statement(
+        f"equation_{derivation.number}_maximum",
+        (
+            "  forall (G : lattice) (sigma : R) (M j : Z),",
+            *("  0 < sigma ->", "  (0 <= j)%Z ->", "  (j < M)%Z ->"),
+        ),
+        f"{here} <= {top} /\\\n  ({here} = {top} -> (M = 6 * j)%Z)",
+        "prove_maximum",
+        (
+            Companion(
+                "is_about_something",
+                "exists (G : lattice) (sigma : R) (M j : Z),\n"
+                "  0 < sigma /\\ (0 <= j)%Z /\\ (j < M)%Z /\\ (M = 6 * j)%Z",
+                "destruct some_lattice as [G _]. exists G, 1, 6%Z, 1%Z.\n"
+                "  repeat split; (lia || lra).",
+            ),
+        ),
+    )
+
+
+BESIDE: dict[Number, tuple[Callable[[Derivation], Statement], ...]] = {
+    10: (_nothing_else,),
+    12: (_second_differences,),
+    13: (exact_statement,),
+    14: (exact_statement, _maximum),
+}
+"""What is stated beside the printed equations, besides their mirror images."""
+
+
+def _and(conditions: Iterable[str]) -> str:
+    return " /\\ ".join(conditions)
+
+
+def statement(
+    derivation: Derivation,
+    part: int,
+    equation: sympy.Eq | None = None,
+    *,
+    mirrored: bool = False,
+    at: Mapping[sympy.Symbol, int] | None = None,
+) -> Statement:
     """State a printed equation of a derivation, or a candidate in its place.
 
-    Hypotheses are those of the printed equation, whatever the candidate says.
+    Hypotheses are those of the printed equation, whatever the candidate says. Of a mirror image
+    the example is mirrored, too; ``at`` are the indices of another one.
 
     Raises:
         NotStatedError: when there are no words for it.
@@ -361,6 +552,7 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     stated = printed if equation is None else equation
     several = len(derivation.printed) > 1
     name = f"equation_{derivation.number}" + (f"_part_{part + 1}" if several else "")
+    name += "_mirrored" if mirrored else ""
     tactic = f"prove_{derivation.number}"
     if derivation.number == AVERAGES:
         companions = [
@@ -372,6 +564,10 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
     if derivation.number not in FRAMES:
         raise NotStatedError(f"Eq. {derivation.number} has no hypotheses in Model.v yet")
     frame = FRAMES[derivation.number]
+    frame = replace(frame, example={**frame.example, **(at or {})})
+    if mirrored and sy.k in frame.example:
+        across = 2 * frame.example[sy.k] - frame.example[sy.i]
+        frame = replace(frame, example={**frame.example, sy.i: across})
     strange = stated.free_symbols & set(sy.INDICES) - printed.free_symbols - set(frame.example)
     if strange:
         raise NotStatedError(f"{min(map(str, strange))} is no index of Eq. {derivation.number}")
@@ -391,6 +587,8 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
         )
     else:
         case = _one_packing(frame.example, conditions, load)
+    of_statistic = frame.random and getattr(printed.lhs, "name", "") in _STATISTICS
+    beside = statement(derivation, part) if of_statistic and equation is not None else None
     companions = [case.companion()]
     orders = [f"({index(low)} <= {index(high + 1)})%Z" for low, high in _bounds(stated)]
     if orders:
@@ -402,7 +600,14 @@ def statement(derivation: Derivation, part: int, equation: sympy.Eq | None = Non
             )
         )
     return Statement(
-        name, case.before(), frame.conclude(stated), tactic, (*companions,), about=conditions
+        name,
+        case.before(),
+        frame.conclude(stated),
+        tactic,
+        (*companions,),
+        about=conditions,
+        disproof=case.disproof.format(name) if beside or not frame.random else "",
+        beside=beside,
     )
 
 

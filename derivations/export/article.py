@@ -147,13 +147,13 @@ def _forms(derivation: Derivation, columns: int) -> str:
     for name, form in exact.items():
         line = Eq(form.quantity, form.expression, evaluate=False)
         said += [f"`{name}`:\n\n", _placed(line, form.validity, columns)]
-    missed = {
+    missed = dict.fromkeys(
         _placed(Eq(form.quantity, one.expression, evaluate=False), one.where, columns)
         for form in exact.values()
         for one in form.missed
-    }
+    )
     if missed:
-        said += ["In place of these, where it holds:\n\n", *sorted(missed)]
+        said += ["In place of these, where it holds:\n\n", *missed]
     return "".join(said)
 
 

@@ -34,6 +34,10 @@ def quoted(words: str) -> str:
     ('4 M (z - \\phi)', '2.31', '0.28')
     """
     match words.split():
+        case ["last"]:
+            return str(list(modules())[-1])
+        case ["calm", which]:
+            return str(_calm()[which])
         case ["version"]:
             return version("force-diffusion")
         case ["leading", label, which] if label in modules():
@@ -86,6 +90,25 @@ def _correlation(covariance: sympy.Expr, variance: sympy.Expr) -> sympy.Expr:
     upper = t6.z_upper
     squared = sympy.cancel(covariance**2 / (variance * variance.subs(sy.z, upper)))
     return sympy.sqrt(squared.subs(sy.z, 0).subs(upper, 1))
+
+
+def _calm() -> dict[str, int]:
+    """From which averages on the plateau of p (Eq. B9) shows, at φ = −1/8 and σ/r = 1/100.
+
+    "beads": N over √(l + j) (Eq. B22), and "layers" of cones that have so many; "pairs" of a load
+    and a bead, many of them (Eq. B23); beside them "M*".
+    """
+    at = {sy.phi: sympy.Rational(-1, 8), sy.sigma: sympy.Rational(1, 100), sy.r: sympy.Integer(1)}
+    plateau = (load("B9").exact or dict)()["bead"].expression.subs(at)
+    beads = load("B22").printed[1].rhs.subs(at) * sy.N**2 / plateau**2
+    pairs = load("B23").printed[0].rhs.subs(at) * sy.N / plateau**2
+    squared = sympy.expand(beads).coeff(sy.l)
+    return {
+        "beads": round(sympy.sqrt(squared)),
+        "layers": int(round(squared, -2)),
+        "pairs": int(round(sympy.expand(pairs).coeff(sy.N, 0), -1)),
+        "M*": round(float((at[sy.sigma] / at[sy.r]) ** sympy.Rational(-2, 3))),
+    }
 
 
 def _share(covariance: sympy.Expr, variance: sympy.Expr) -> sympy.Expr:

@@ -52,8 +52,18 @@ THEOREMS = (
         "t6_correlations",
         ("B7", "B8", "B12", "B21"),
     ),
-    Theorem("T7", "mean response to a point load", "t7_response", ("B9",)),
-    Theorem("T8", "any dimension", "t8_any_dimension", ("B11", "B13", "B14", "B20")),
+    Theorem(
+        "T7",
+        "mean response to a point load, and averages of the response",
+        "t7_response",
+        ("B9", "B22", "B23"),
+    ),
+    Theorem(
+        "T8",
+        "any dimension",
+        "t8_any_dimension",
+        ("B11", "B13", "B14", "B20", "B24", "B25"),
+    ),
     Theorem("T9", "response in three dimensions", "t9_spheres_response", ("B19",)),
 )
 """The theorems beyond the paper; T3, how far Eq. 13 is valid, is not proved yet."""

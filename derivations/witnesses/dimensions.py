@@ -116,8 +116,12 @@ def cosine_of(packing: SmallPacking) -> Fraction:
 
 
 @cache
-def squares_of_spheres(phi: Fraction, height: int, load: str) -> tuple[Fraction, ...]:
-    """Sum of the squared Taylor coefficients of f/⟨f⟩ for each layer, exact.
+def squares_of_spheres(
+    phi: Fraction, height: int, load: str, ratios: tuple[Fraction, ...] = (Fraction(1),) * 2
+) -> tuple[Fraction, ...]:
+    """Sum of the squared Taylor coefficients of f/⟨f⟩ for each layer, exact; along vector 1.
+
+    ``ratios`` are those of the load's components along the other vectors to that along this one.
 
     One sphere of each layer in turn has the radius r + ε; its effect on all contacts of a layer is,
     by translation, that of all spheres on one.
@@ -126,13 +130,20 @@ def squares_of_spheres(phi: Fraction, height: int, load: str) -> tuple[Fraction,
     found = [Fraction(0)] * height
     with system.active():
         region = whole(width**2, height, dimension=3)
-        unit = zeros(system, width**2) + system.number(Fraction(1))
-        on = tuple(unit if load == "bulk" or j == height else None for j in range(height + 1))
+        on = [
+            tuple(
+                zeros(system, width**2) + system.number(share)
+                if load == "bulk" or j == height
+                else None
+                for j in range(height + 1)
+            )
+            for share in (Fraction(1), *ratios)
+        ]
         for source in range(height + 1):
             rho = [zeros(system, width**2) for _ in range(height + 1)]
             rho[source][0] = system.series([Fraction(0), Fraction(1)])
             packing = deposit(phi, region, rho, system)
-            forces = sweep_down(packing, region.rows, PerAxis(on, on, on))
+            forces = sweep_down(packing, region.rows, PerAxis(*on))
             for j in range(height):
                 ordered = (height - j) if load == "bulk" else 1
                 for change in forces.change.plus[j + 1]:

@@ -7,6 +7,7 @@ state in closed form.
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from functools import lru_cache
+from itertools import product
 from typing import TYPE_CHECKING
 
 import sympy
@@ -184,6 +185,7 @@ Offset = tuple[int, int]
 """Columns i − k to the right of a loaded bead, and a layer."""
 
 
+@lru_cache(maxsize=64)
 def weights_below_a_load(
     level: int, n: tuple[Fraction, Fraction]
 ) -> tuple[dict[tuple[Offset, str], dict[Offset, Fraction]], ...]:
@@ -223,6 +225,25 @@ def weights_below_a_load(
                         magnitude.setdefault(contact, {})[bead] = slope
                         vertical.setdefault(contact, {})[bead] = slope * n[1] + force * tilt
     return vertical, magnitude
+
+
+@lru_cache(maxsize=4096)
+def mean_response(
+    level: int, bead: Offset, pairs: tuple[tuple[int, int], ...], n: tuple[Fraction, Fraction]
+) -> Fraction:
+    """Variance of p/f_load averaged over pairs of a load and a bead, both by their places.
+
+    p is the vertical force of both upper contacts, ``bead`` the (i − k, j) of the first one below
+    the first load; the others are so many places to the right. From exact packings, r = σ = 1.
+    """
+    vertical, _ = weights_below_a_load(level, n)
+    total: dict[Offset, Fraction] = {}
+    for (load, place), branch in product(pairs, "+-"):
+        contact = (bead[0] + 2 * (place - load), bead[1]), branch
+        for (offset, source), weight in vertical[contact].items():
+            radius = offset + 2 * load, source
+            total[radius] = total.get(radius, Fraction(0)) + weight
+    return sum((w**2 for w in total.values()), Fraction(0)) / len(pairs) ** 2
 
 
 def responses(packing: SmallPacking, level: int) -> Ruling:

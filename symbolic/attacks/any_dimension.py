@@ -6,7 +6,14 @@ import sympy
 from sympy import Eq, Integer, Symbol
 
 from ..kernel import limits, moments, rules
-from ..kernel.any_dimension import BULK, POINT, SURFACE, value
+from ..kernel.any_dimension import (
+    BULK,
+    BULK_LEANING,
+    POINT,
+    SURFACE,
+    SURFACE_LEANING,
+    value,
+)
 from ..kernel.theorem import NotProvedError
 from ..kernel.where import SURFACE as IN_THE_PLANE
 from ..kernel.where import Where, at_fixed_height
@@ -93,6 +100,14 @@ for tried, left, right, where, false, refused in (
      "it is the variance", "both sides differ"),
     ("another load's variance", Variance(HERE), value(Variance(HERE), ANY).to_sympy(),
      replace(ANY, loading=BULK), "it is less under a bulk load", "both sides differ"),
+    ("upright loads for leaning ones", Variance(HERE), value(Variance(HERE), ANY).to_sympy(),
+     replace(ANY, loading=SURFACE_LEANING), "they count with τ₁ and τ₂", "both sides differ"),
+    ("leaning loads for upright ones", Variance(HERE),
+     value(Variance(HERE), replace(ANY, loading=SURFACE_LEANING)).to_sympy(), ANY,
+     "each counts alike", "both sides differ"),
+    ("another leaning load's variance", Variance(HERE),
+     value(Variance(HERE), replace(ANY, loading=SURFACE_LEANING)).to_sympy(),
+     replace(ANY, loading=BULK_LEANING), "it is less under a bulk load", "both sides differ"),
     ("the variance of discs", Variance(HERE),
      value(Variance(HERE), ANY).to_sympy().xreplace({d: Integer(2)}), SPHERES,
      "spheres fluctuate more", "both sides differ"),

@@ -104,7 +104,7 @@ for tried, of, right, where, false, refused in (
     ("neighbours times a radius", HERE * _summed(HERE), 0, MANY, "it is no first order",
      "not a rational function"),
     ("neighbours where every index has a meaning", _summed(HERE), N,
-     MANY.also(indices=(p, q)), "none is left for their distance", "no index is left"),
+     MANY.also(indices=(n, p, q)), "none is left for their distance", "no index is left"),
     ("every second bead, taken for neighbours", Sum(TWO.xreplace({i: i + 4 * m}), (m, 0, N - 1)),
      4 * N - 2, MANY, "it is 2Nσ²", "leaves the lattice diagonals"),
     ("a covariance left out", _summed(TWO + DeltaR(i + 4, j)), 9 * N - 4, THREE,

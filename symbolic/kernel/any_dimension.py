@@ -1,7 +1,7 @@
 """Moments of contact forces in any dimension, to first order in the radii.
 
 Every bead rests on d others, along base vectors of equal mutual dot product φ, −1/d < φ < ½, and a
-load points along their sum. What the forces are in the radii is part of what is trusted:
+load points along their sum, or leans. What the forces are in the radii is part of what is trusted:
 ``weights_any_dimension`` and ``point_load`` say it, and sum squares.
 """
 
@@ -25,6 +25,14 @@ SURFACE = Loading(
     "surface, in any dimension", f"each bead of the surface j = M carries {_WORDS}", (sy.M,)
 )
 BULK = Loading("bulk, in any dimension", f"each bead above the base carries {_WORDS}", (sy.M,))
+_LEANS = "the same load −Σ_a L^a n^a, τ_n = Σ_(a≠1) (L^a/L^1)ⁿ"
+SURFACE_LEANING = Loading(
+    "surface leaning, in any dimension", f"each bead of the surface j = M carries {_LEANS}", (sy.M,)
+)
+BULK_LEANING = Loading(
+    "bulk leaning, in any dimension", f"each bead above the base carries {_LEANS}", (sy.M,)
+)
+LAYERED = (SURFACE, BULK, SURFACE_LEANING, BULK_LEANING)
 POINT = Loading(
     "point, in any dimension",
     "one bead of layer l carries a load along the sum of the base vectors, no other a load",
@@ -68,7 +76,7 @@ def _of(one: sy.Moment, forms: list[Linear], where: Where) -> RationalFunction:
         for force, factor in forces.items():
             found = found + factor * FIELD.constant(_ordered(force, where))
         return found
-    of = _of_layers if where.loading in (SURFACE, BULK) else _below_a_load
+    of = _of_layers if where.loading in LAYERED else _below_a_load
     found = of(forms[0], where)
     if isinstance(one, sy.Shift):
         raise NotProvedError("second order is not known in any dimension")
@@ -116,7 +124,7 @@ def _exists(force: sympy.Expr, where: Where) -> None:
     if isinstance(force, sy.ForceOfLayer):
         (layer,) = force.args
         within = [layer, sy.M - 1 - layer]
-        fits = loading in (SURFACE, BULK)
+        fits = loading in LAYERED
     else:
         axis, *steps = force.args
         if axis not in map(sympy.Integer, (1, 2, 3)):
@@ -138,7 +146,11 @@ def _of_layers(form: Linear, where: Where) -> RationalFunction:
     for force, factor in form[1].items():
         layer, height = (sympy.expand(one.xreplace(where.solved)) for one in (force.args[0], sy.M))
         geometry = replace(where, loading=None, limit=None, dimension=sy.d)
-        squares = weights_any_dimension.squares(layer, height, where.loading == BULK, geometry)
+        bulk, leaning = (
+            where.loading in both
+            for both in ((BULK, BULK_LEANING), (SURFACE_LEANING, BULK_LEANING))
+        )
+        squares = weights_any_dimension.squares(layer, height, bulk, geometry, leaning)
         if where.dimension != sy.d:
             squares = squares.substitute({sy.d: FIELD.constant(where.dimension)}).reduced()
         total = total + factor**2 * squares

@@ -296,7 +296,7 @@ class _Neighbours:
             sympy.expand(one.xreplace(where.solved)) for one in (self.count, *self.alone)
         )
         near = _in_order([one for one in places if _reached(one, count, where)], where)
-        spare = [one for one in (sy.p, sy.q) if one not in where.indices]
+        spare = [one for one in (sy.p, sy.q, sy.n) if one not in where.indices]
         if not spare:
             raise NotProvedError("no index is left for the distance of two neighbours")
         apart, beads = spare[0], self._of_beads(where)

@@ -1,13 +1,15 @@
 """Σ weight² of a contact's force in any dimension, in closed form, the radii being r = 1.
 
 Every bead rests on d others, along d base vectors of equal mutual dot product φ; loads along their
-sum. The contact leads up along vector 1 from bead x_0 of layer J; x_n are the beads of its path, up
-to n = K = M − J on the surface. To first order (balance of each bead of the path, along b^1) its
-force over its ordered value is 1 + α,
+sum, or leaning. The contact leads up along vector 1 from bead x_0 of layer J; x_n are the beads of
+its path, up to n = K = M − J on the surface. To first order (balance of each bead of the path,
+along b^1) its force over its ordered value is 1 + α,
 
-    α = (1/l_1) Σ_{n=1}^{K} b^1·Σ_c [u_n δn^c(x_n) − l_n δn^c(x_n − e_c)],
+    α = (1/l_1) Σ_{n=1}^{K} b^1·Σ_c t_c [u_n δn^c(x_n) − l_n δn^c(x_n − e_c)],
 
-l_n being the load that the path's contact below x_n carries, and u_n = l_{n+1} the one above. By
+l_n being the load that the path's contact below x_n carries, u_n = l_{n+1} the one above, and t_c
+what contacts along c carry for each unit of those along 1: 1 for loads along the sum. Which way a
+load leans enters by the two sums τ_1 and τ_2 of the t_c and of their squares, c ≠ 1. By
 the contact constraint, δn^c of the contact from y to y + e_c has
 
     n^b·δn^c = ½[L_b(y + e_c) − L_b(y) − φ (δr(y + e_c) + δr(y))],  b ≠ c,  and n^c·δn^c = 0,
@@ -40,20 +42,22 @@ BELOW = (1 - sy.phi) * (1 + (sy.d - 1) * sy.phi)
 _field = FIELD.from_sympy
 _OWN, _CROSS, _PHI, _BELOW = map(_field, (OWN, CROSS, sy.phi, BELOW))
 _OTHERS, _THIRD = _field(sy.d - 1), _field(sy.d - 2)
-_PAIRS = _OTHERS * _THIRD
 _HALF, _TWO = _field(sympy.S.Half), FIELD.constant(2)
 _RADIUS = -_PHI * (_OWN + _THIRD * _CROSS)
 _SIDES = (0, 1, -1)
 
 
 @lru_cache(maxsize=64)
-def squares(layer: sympy.Expr, height: sympy.Expr, bulk: bool, where: Where) -> RationalFunction:
-    """Σ weight² of α for r = 1, for a contact from a bead of a layer.
+def squares(
+    layer: sympy.Expr, height: sympy.Expr, bulk: bool, where: Where, leaning: bool = False
+) -> RationalFunction:
+    """Σ weight² of α for r = 1, for a contact from a bead of a layer, in τ_1 and τ_2 if loads lean.
 
     Raises:
         UndeterminedError: the domain doesn't say which beads are one, or where the base is.
     """
-    path = _Path(layer, sympy.expand(height - layer), bulk, where)
+    ratios = (_field(sy.tau_1), _field(sy.tau_2)) if leaning else (_OTHERS, _OTHERS)
+    path = _Path(layer, sympy.expand(height - layer), bulk, where, ratios)
     total = FIELD.zero
     for one in path.slices():
         total = total + one
@@ -69,6 +73,7 @@ class _Path:
     steps: sympy.Expr
     bulk: bool
     where: Where
+    ratios: tuple[RationalFunction, RationalFunction]
 
     def below(self, place: sympy.Expr) -> sympy.Expr:
         """l_n, a polynomial in n."""
@@ -110,33 +115,42 @@ class _Path:
         """
         at_path = _reaches(a, sympy.S.One, where)  # where lines start
         layer = sympy.expand(self.layer + a)
+        first, second = self.ratios
         here, up, down = (self._along(a, at_path, layer, side, where) for side in _SIDES)
-        here, lines = here * _OTHERS, [FIELD.zero] * 3  # factors of line sums along b from each
+        lines = [FIELD.zero] * 3  # factors of line sums along b from each, for each t_c, c ≠ b
+        own = tilt = FIELD.zero  # and of x_a and of lines from it, whatever t_c
         if at_path:
             upper, lower = map(_field, self.halves(a))
-            here = here + _RADIUS * (upper - lower) * _OTHERS
+            here = here + _RADIUS * (upper - lower)
             up, down = up + _RADIUS * upper, down - _RADIUS * lower
-            lines = [-_CROSS * _THIRD * (upper + lower), _CROSS * upper, _CROSS * lower]
+            lines = [-_CROSS * (upper + lower), _CROSS * upper, _CROSS * lower]
         if a in (0, 1):  # the tilt of the contact itself
             tilt = _field(self.below(sympy.S.One)) * _CROSS * _HALF
-            here = here + tilt * _PHI * _OTHERS
-            lines[0] = lines[0] + (-tilt if a == 1 else tilt)
+            own = tilt * _PHI * _OTHERS
+            tilt = -tilt if a == 1 else tilt
         total, sizes = FIELD.zero, [0, 0, 0]
         for place, (side, line) in enumerate(zip(_SIDES, lines, strict=True)):
-            if line.numerator != 0:
+            if line.numerator != 0 or (side == 0 and tilt.numerator != 0):
                 sizes[place] = _height(layer + side, where, 1 if side == 1 else 2)
+        met = FIELD.zero  # what the line from x_a puts on x_a − e_c, whatever t_c
         if sizes[0] > 0:
-            here = here + lines[0] * _OTHERS
-            down = down + lines[0] * _second(sizes[0])
-            total = total + _OTHERS * _further(lines[0], layer, sizes[0])
+            line, count = lines[0], _second(sizes[0])
+            here, own = here + line * _THIRD, own + tilt * _OTHERS
+            down, met = down - line * count, (line * first + tilt) * count
+            each = line**2 * (_field(sy.d - 3) * first**2 + second)
+            each = each + _TWO * line * tilt * _THIRD * first + tilt**2 * _OTHERS
+            total = total + each * _further(FIELD.one, layer, sizes[0])
         if sizes[1] > 0:
             up = up + lines[1] * _THIRD
-            total = total + _PAIRS * (lines[1] ** 2 + (_TWO * lines[1]) ** 2 * _field(layer))
+            further = lines[1] ** 2 + (_TWO * lines[1]) ** 2 * _field(layer)
+            total = total + _THIRD * second * further
         if sizes[2] > 0:
             down = down + lines[2] * _THIRD
-            crossing = _TWO * lines[2] * _second(sizes[2])
-            total = total + _PAIRS * (_HALF * crossing**2 + _further(lines[2], layer - 1, sizes[2]))
-        return total + here**2 + _OTHERS * (up**2 + down**2)
+            crossing = (lines[2] * _second(sizes[2])) ** 2 * (_field(sy.d - 3) * second + first**2)
+            further = _further(lines[2], layer - 1, sizes[2])
+            total = total + crossing + _THIRD * second * further
+        below = second * down**2 + _TWO * first * down * met + _OTHERS * met**2
+        return total + (here * first + own) ** 2 + second * up**2 + below
 
     def _along(
         self, a: sympy.Expr, at_path: bool, layer: sympy.Expr, side: int, where: Where

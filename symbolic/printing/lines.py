@@ -113,6 +113,8 @@ def _filled(pieces: Iterable[tuple[str, float]], room: float, first_room: float)
 
 _OPENING, _CLOSING = {"(", r"\left", r"\biggl"}, {")", r"\right", r"\biggr"}
 _FACTOR = {"(", r"\left", r"\frac", r"\sum"}
+# Around the terms of a sum; a line begins with it where no term fits behind what stands before.
+_BRACE = r"\biggl\{"
 # What must stand before a line that begins with a factor; else it continues a sum, or an argument.
 _NO_FACTOR = _BINARY | {r"\propto", r"\left", "("}
 # A line is broken at an outer place if that leaves no more than this share of it empty.
@@ -141,7 +143,7 @@ def folded(source: str, room: float) -> list[str]:
         least = min(depth for depth, _ in good)
         at = max(at for depth, at in good if depth == least)
         lines.append(lead + source[start:at].rstrip())
-        product = source[at:].startswith(tuple(_FACTOR))
+        product = source[at:].startswith((*_FACTOR, _BRACE))
         start, lead = at, r"\times " if product else ""
         room -= 0 if len(lines) > 1 else 10  # of \quad
     return [_sized(line) for line in (*lines, lead + source[start:])]
@@ -192,6 +194,8 @@ def _breaks(source: str) -> Iterator[tuple[float, int]]:
                 alone = before in _NO_FACTOR or before.isdigit()  # as the 2 of 2 Σ
                 if not (alone or summed[-1]):
                     yield depth + 0.5, at
+            elif spaced and source.startswith(_BRACE, at) and before not in _NO_FACTOR:
+                yield depth + 1.5, at
             summed[-1] |= token == r"\sum"
             if token in _OPENING:
                 depth += 1

@@ -28,7 +28,9 @@ COSINES = tuple(Fraction(*one) for one in ((1, 5), (-2, 9), (3, 7), (-1, 8)))
 _POINTS, _HIGHEST = 24, 9
 _OTHERS = {sy.sigma: Fraction(3, 7), sy.r: Fraction(7, 3), sy.t: Fraction(21, 55),
            sy.f_load: Fraction(11, 7), sy.m_g: Fraction(13, 5)}  # fmt: skip
-Ordered = Callable[[int, Bead], int]
+RATIOS = (Fraction(2, 3), Fraction(7, 5), Fraction(3, 4))
+"""L^a/L^1 of loads that lean, a = 2, 3, 4."""
+Ordered = Callable[[int, Bead], int | Fraction]
 """The ordered force of the contact up along an axis from a bead."""
 
 
@@ -96,7 +98,9 @@ class Packing:
         key = ("f", axis, highest, bead)
         if key not in self._known:
             above = _stepped(bead, axis)
-            parts = [(1, self.force(axis, above, highest))] if sum(above) < highest else []
+            parts: list[tuple[int | Fraction, Form]] = []
+            if sum(above) < highest:
+                parts.append((1, self.force(axis, above, highest)))
             for c in range(self.dimension):
                 below = _stepped(above, c, -1)
                 if sum(above) < highest and (carried := self.ordered(c, above)):
@@ -108,8 +112,21 @@ class Packing:
 
 
 @cache
-def _of_layer(dimension: int, cosine: Fraction, height: int, bulk: bool) -> Packing:
-    return Packing(dimension, cosine, lambda _, bead: height - sum(bead) if bulk else 1)
+def _of_layer(dimension: int, cosine: Fraction, height: int, load: str) -> Packing:
+    shares = (1, *RATIOS) if "leaning" in load else (1,) * dimension
+    return Packing(
+        dimension,
+        cosine,
+        lambda axis, bead: shares[axis] * (height - sum(bead) if "bulk" in load else 1),
+    )
+
+
+def _sums_of_ratios(dimension: int) -> dict[sympy.Symbol, sympy.Expr]:
+    """τ₁ and τ₂."""
+    return {
+        symbol: sympy.Rational(sum((one**power for one in RATIOS[: dimension - 1]), Fraction(0)))
+        for symbol, power in ((sy.tau_1, 1), (sy.tau_2, 2))
+    }
 
 
 @cache
@@ -130,9 +147,9 @@ def contact(
         (layer,), height = numbers, at[sy.M]
         if not 0 <= layer < height or "point" in load:
             raise ValueError("no such contact")
-        packing = _of_layer(dimension, cosine, int(height), "bulk" in load)
+        packing = _of_layer(dimension, cosine, int(height), load)
         bead = (layer, *(0,) * (dimension - 1))
-        carried = packing.ordered(0, bead)
+        carried = int(packing.ordered(0, bead))
         return 1, _sum((Fraction(1, carried), packing.force(0, bead, int(height))))
     level, axis = int(at[sy.l]), numbers[0] - 1
     if min(numbers[1:]) < 0 or sum(numbers[1:]) > level or "point" not in load:
@@ -144,7 +161,7 @@ def contact(
         # upwards is along the sum of the base vectors, with which each has the product 1 + 2φ
         up = [(1 / (1 + 2 * cosine), packing.tilt(bead, axis, b)) for b in range(3)]
         change = _sum((1, change), *up)
-    return ordered, change
+    return int(ordered), change
 
 
 def counterexample(statement: sympy.Eq, where: Where, at_most: int | None = None) -> str | None:
@@ -161,6 +178,7 @@ def counterexample(statement: sympy.Eq, where: Where, at_most: int | None = None
         values = {**others, **{s: sympy.Rational(c) for s, c in _OTHERS.items()}}
         values |= {s: sympy.Integer(c) for s, c in at.items()}
         values |= {sy.phi: sympy.Rational(cosine), sy.d: sympy.Integer(dimension)}
+        values |= _sums_of_ratios(dimension)
         sides = [_number(side, values, dimension, cosine, where) for side in statement.args]
         if not all(side.is_Rational for side in sides):
             if any(side.has(sympy.zoo, sympy.nan) for side in sides):

@@ -83,6 +83,8 @@ class World:
             sy.L_plus: plus,
             sy.L_minus: minus,
             sy.t: minus / plus,
+            sy.tau_1: minus / plus,
+            sy.tau_2: (minus / plus) ** 2,
             sy.kappa: 1 / (4 * x * x * y * y),
             sy.N: self.neighbours,
         }

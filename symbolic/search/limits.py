@@ -35,7 +35,8 @@ _SHARE = Fraction(1, 10**30)  # of what is of a lower order, far less is left at
 _LOW = Fraction(1, 3)
 
 Place = Mapping[sympy.Symbol, Fraction]
-_OTHERS = {sy.sigma: Fraction(3, 7), sy.r: Fraction(7, 3), sy.t: Fraction(21, 55)}
+_OTHERS = {sy.sigma: Fraction(3, 7), sy.r: Fraction(7, 3), sy.t: Fraction(21, 55),
+           sy.tau_1: Fraction(31, 15), sy.tau_2: Fraction(541, 225)}  # fmt: skip
 
 
 def _geometries(candidate: sympy.Expr) -> Iterator[explicit.Values]:
@@ -146,6 +147,7 @@ _RATIOS: Mapping[int, tuple[tuple[Fraction | int, ...], ...]] = {
     1: ((1,),),
     2: tuple((one, 1 - one) for one in HEIGHTS),
     3: ((1, 1, 1), (2, 1, 1), (3, 1, 2), (1, 2, 3), (1, 100, 1), (1, 1, 100)),
+    4: ((1, 1, 1, 1), (2, 1, 1, 3), (1, 2, 3, 1)),
 }
 """How what is positive in a limit stands to each other, by how many there are."""
 

@@ -100,7 +100,7 @@ def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str
     arguments = [str(number), "--exact", "--at-j", place]
     source = shown(capsys, *arguments, "--as", "sympy")
     assert source.count("\n") == 1
-    known = {"M", "N", "i", "j", "k", "l", "q", "t", "phi", "sigma", "r", "S", "Sum"}
+    known = {"M", "N", "i", "j", "k", "l", "q", "t", "phi", "sigma", "r", "S", "Sum", "tau_"}
     assert set(re.findall(r"[A-Za-z_]+", source)) <= known
     assert sympy.expand(eval(source, names()) - form.expression) == 0
 
@@ -108,7 +108,7 @@ def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str
     exec(shown(capsys, *arguments, "--as", "python"), scope)
     (function,) = (value for name, value in scope.items() if name != "__builtins__")
     values: dict[str, int | Fraction] = {"M": 9, "i": 1, "j": 4, "k": 3, "l": 12, "q": 5, "N": 7}
-    values |= {"t": Fraction(5, 3)}
+    values |= {"t": Fraction(5, 3), "tau_1": Fraction(7, 4), "tau_2": Fraction(9, 5)}
     values |= {"phi": Fraction(7, 25), "sigma": Fraction(1, 3), "r": Fraction(2)}
     code = function.__code__  # type: ignore[attr-defined]
     taken = code.co_varnames[: code.co_argcount]

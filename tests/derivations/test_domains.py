@@ -1,6 +1,6 @@
-"""Eqs. B1–B21 answer where they hold, and nowhere else: against all small exact packings."""
+"""Eqs. B1–B25 answer where they hold, and nowhere else: against all small exact packings."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from itertools import product
 from typing import Any
@@ -10,6 +10,7 @@ import sympy
 from force_diffusion.derivations.api.evaluation import ArgumentError
 from force_diffusion.derivations.beyond import t6_correlations as t6
 from force_diffusion.derivations.witnesses import second_order
+from force_diffusion.derivations.witnesses.squared_weights import mean_response
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.printing.text import text
@@ -77,10 +78,10 @@ def test_means_over_neighbours_answer_only_where_they_hold(number: str) -> None:
     assert answers >= 7
 
 
-def exact_answers(number: str, **arguments: Any) -> list[Any]:
-    """What the exact cases say; those that refuse are left out."""
+def exact_answers(number: str, of: Iterable[str] = ("",), **arguments: Any) -> list[Any]:
+    """What the exact cases whose names begin so say; those that refuse are left out."""
     found = []
-    for name in fd.equation(number).cases:
+    for name in (one for one in fd.equation(number).cases if one.startswith(tuple(of))):
         try:
             found.append(fd.equation(number).exact(name).at(**arguments, **ONES))
         except ArgumentError:
@@ -261,6 +262,40 @@ def test_under_a_bulk_load_forces_are_correlated_where_diagonals_cross_above_bot
             assert value != 0, (lower, upper, above)
         elif min(abs(above), abs(layer - upper), layer, size - layer) >= 4:
             assert value == 0, (lower, upper, above)
+
+
+# --- averages of the response: Eqs. B22 and B23 ------------------------------------------------
+
+N_OF_RESPONSE = (Fraction(3, 5), Fraction(4, 5))
+
+
+@pytest.mark.long(sample=1)
+@pytest.mark.parametrize("level", [5, 6, 8])
+def test_averages_of_the_response_have_one_form_wherever_all_beads_are_inside(level: int) -> None:
+    phi, answers = Fraction(7, 25), 0
+    for layer, left, count in product(range(level - 1), range(1, level), (2, 3)):
+        right = level - layer - left
+        if right < 1:
+            continue
+        at = {"l": level, "j": layer, "N": count, "phi": phi}
+        at |= {"k": level, "i": level + right - left}
+        one, many = range(1), range(count)
+        blocks = {"loads": (many, one), "beads": (one, many), "both": (many, many)}
+        for name, (loads, beads) in blocks.items():
+            inside = all(min(left + a - b, right - a + b) >= 1 for a, b in product(loads, beads))
+            told = exact_answers("B22", [name], **at)
+            assert len(told) == inside, (name, at)
+            if inside:
+                pairs = tuple(product(loads, beads))
+                answers += 1
+                true = mean_response(level, (right - left, layer), pairs, N_OF_RESPONSE)
+                assert fraction(told[0]) == true, (name, at)
+        for stated in exact_answers("B23", **at):
+            pairs = tuple((a, a) for a in many)
+            assert fraction(stated) == mean_response(
+                level, (right - left, layer), pairs, N_OF_RESPONSE
+            )
+    assert answers >= 20
 
 
 # --- second order: Eqs. B5, B6 and B9 -----------------------------------------------------------

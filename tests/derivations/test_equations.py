@@ -22,7 +22,8 @@ from tests.derivations.strategies import small_packings
 ALL = [load(number) for number in modules()]
 # costly: twelve layers of exact packings for each draw
 SEEDED = {12, 13, 14, 15, 16, "B2", "B3", "B4", "B5", "B6", "B7", "B8", "B9", "B10", "B11", "B12",
-          "B13", "B14", "B15", "B16", "B17", "B18", "B19", "B21"}  # fmt: skip
+          "B13", "B14", "B15", "B16", "B17", "B18", "B19", "B21", "B22", "B23", "B24",
+          "B25"}  # fmt: skip
 
 every_equation = pytest.mark.parametrize("derivation", ALL, ids=lambda d: f"eq{d.number:02}")
 

@@ -25,7 +25,7 @@ INDICES = ("i", "j", "k", "l", "m", "n", "p", "q", "site_r", "site_s", "M", "N",
 QUANTITIES = ("z", "t", "kappa", "sigma", "f_load", "m_g", "L_plus", "L_minus")
 GEOMETRY = ("r", "spacing", "n_x", "n_y", "phi")
 """What statements in the plane may be written in: n_x and n_y are functions of φ, s = 4rn_x."""
-IN_SPACE: tuple[int | str, ...] = ("B11", "B13", "B14", "B19", "B20")
+IN_SPACE: tuple[int | str, ...] = ("B11", "B13", "B14", "B19", "B20", "B24", "B25")
 """Not of the plane, whose cosines n_x and n_y have no meaning there."""
 
 MILLIONTH = Rational(1, 10**6)

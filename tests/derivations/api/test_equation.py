@@ -50,7 +50,7 @@ def test_expr_and_rhs(eq: fd.Equation) -> None:
     sides = list(eq.rhs) if isinstance(eq.rhs, sympy.Tuple) else [eq.rhs]
     assert [line.rhs for line in lines] == sides
     count = dict.fromkeys((7, 8, 15, "B1", "B2", "B3", "B9", "B15", "B16"), 2)
-    count |= {"B10": 3, "B17": 3, "B18": 4, "B19": 3}
+    count |= {"B10": 3, "B17": 3, "B18": 4, "B19": 3, "B22": 3}
     assert len(lines) == count.get(eq.number, 1)
 
 
@@ -78,7 +78,7 @@ STANDARD = {
     "frac", "left", "right", "sum", "delta", "sigma", "phi", "langle", "rangle", "hat", "bf", "rm",
     "cdot", "begin", "end", "approx", "sim", "propto", "Delta", "biggl", "biggr", "quad", "qquad",
     "leq", "overline", "int", "sqrt", "operatorname", "limits", "infty", "nu", "rho", "varepsilon",
-    "pm", "kappa", "mathrm", "mathbf", "times", "psi", "geq", "text",
+    "pm", "kappa", "mathrm", "mathbf", "times", "psi", "tau", "geq", "text",
 }  # fmt: skip
 
 

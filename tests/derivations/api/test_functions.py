@@ -184,7 +184,19 @@ def test_a_profile_is_of_one_quantity() -> None:
 @pytest.mark.parametrize("number", list(modules()))
 def test_a_profile_never_holds_what_is_no_number(number: Any) -> None:
     eq = fd.equation(number)
-    given = {"M": 7, "N": 3, "l": 6, "t": 2, "i": 0, "k": 0, "q": 1, "d": 2, **EXACT}
+    given = {
+        "M": 7,
+        "N": 3,
+        "l": 6,
+        "t": 2,
+        "i": 0,
+        "k": 0,
+        "q": 1,
+        "d": 2,
+        "tau_1": 2,
+        "tau_2": 3,
+        **EXACT,
+    }
     for case in eq.cases or (None,):
         try:
             found = eq.profile(case, **{n: v for n, v in given.items() if n in eq.symbols})
@@ -242,7 +254,8 @@ def test_a_function_has_a_signature_and_says_what_it_is() -> None:
     assert base.__name__ == "surface_diffusion_base"
 
 
-SITES = {"M": 9, "j": 3, "l": 7, "i": 1, "k": 1, "q": 2, "N": 2, "d": 3, "z": 0.25, "t": 1.5}
+SITES = {"M": 9, "j": 3, "l": 7, "i": 1, "k": 1, "q": 2, "N": 2, "d": 3, "z": 0.25, "t": 1.5,
+         "tau_1": 1.75, "tau_2": 1.6}  # fmt: skip
 NUMBERS = [fd.equation(number) for number in modules() if number not in range(1, 13)]
 FORMS = [eq for eq in NUMBERS if eq.number != "B1"]
 FORMS += [eq.exact(case) for eq in NUMBERS for case in eq.cases]

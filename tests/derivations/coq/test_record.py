@@ -100,7 +100,7 @@ def test_verdicts_in_words() -> None:
 
 def test_an_accepted_change_that_is_another_equation_fails() -> None:
     def one(equivalent: bool) -> Certificate:
-        changes = Changes(2, 2, (Change(0, "2 → 3", equivalent),))
+        changes = Changes(2, 2, 0, (Change(0, "2 → 3", equivalent),))
         return Certificate(1, Verdict.ACCEPTED, "Coq 8.16.1", changes=changes)
 
     assert one(equivalent=True).passed

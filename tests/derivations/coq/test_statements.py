@@ -73,7 +73,7 @@ def test_ranges_are_those_of_the_domain() -> None:
 def test_asymptotic_ones_are_stated_of_every_contact() -> None:
     assert list(coq.ranges(load(12))) == []
     for number in (13, 14):
-        (made,) = coq.statements(load(number))
+        made = coq.statement(load(number), 0)
         assert made.about == ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
         assert all(words in "".join(made.hypotheses) for words in made.about)
 
@@ -140,7 +140,7 @@ def test_a_statistic_is_the_one_that_is_printed() -> None:
 def test_the_load_is_the_one_that_the_derivation_names(load_of: str, words: str) -> None:
     made = coq.statement(replace(load(13), loads=(load_of,)), 0)
     assert f"carries M (Xs rho) ({words}) (Fs rho)" in made.proposition
-    assert f"({words.replace('M', '3%Z').replace('f_load', '1')})" in made.companions[0].proof
+    assert f"({words.replace('M', '1000000%Z').replace('f_load', '5')})" in made.companions[0].proof
 
 
 def test_a_change_of_the_ranges_changes_the_statement() -> None:

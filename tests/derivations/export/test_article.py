@@ -1,5 +1,6 @@
 """The article: all is in it, its numbers are right, and what can't be written is an error."""
 
+import math
 import re
 from collections import Counter
 
@@ -34,7 +35,7 @@ def test_every_equation_is_stated_once_below_its_theorem() -> None:
     found: dict[str, list[str]] = {}
     for name, label in stated:
         if name:
-            found[theorem := name] = []
+            found.setdefault(theorem := name, [])
         else:
             found[theorem].append(label)
     assert {name: sorted(labels) for name, labels in found.items()} == {
@@ -163,6 +164,17 @@ def test_what_it_does_not_know_is_an_error_in_words(markdown: str, said: str) ->
 )
 def test_what_it_quotes(words: str, value: sympy.Expr) -> None:
     assert abs(float(quoted(words)) - float(value)) <= 0.005  # two digits
+
+
+def test_it_quotes_where_a_plateau_shows() -> None:
+    unit = 1e-4 / (1 - 1 / 64) ** 2
+    plateau = (5 / 8 + 1) * unit
+    beads = int(quoted("calm beads"))
+    assert abs(beads - math.sqrt(unit) / plateau) <= 0.5  # of N² · noise² = (l + j) · unit
+    assert abs(int(quoted("calm layers")) - unit / plateau**2) <= 50
+    pairs = int(quoted("calm pairs"))
+    assert abs(pairs - (9 / 8) ** 2 / 4 * unit / plateau**2) <= 5
+    assert int(quoted("calm M*")) == 22  # 21.5
 
 
 def test_a_share_is_exact() -> None:

@@ -14,7 +14,7 @@ from force_diffusion.symbolic.algebra.weights import UndeterminedError
 from force_diffusion.symbolic.kernel.point_load import Weights
 from force_diffusion.symbolic.kernel.weights_any_dimension import squares
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.symbols import M, d, j, l, p, phi, q, r, sigma
+from force_diffusion.symbolic.symbols import M, d, j, l, p, phi, q, r, sigma, tau_1, tau_2
 from sympy import Eq, Integer
 
 CASES = {
@@ -44,6 +44,25 @@ def test_it_is_what_the_recursion_gives(load: str, case: str, dimension: int) ->
             assert found.at({s: Fraction(n) for s, n in at.items()}) == squared(together(both))
             compared += 1
     assert compared
+
+
+@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize(
+    "ratios", [(Fraction(2, 3),), (Fraction(3), Fraction(1, 5)), (Fraction(1, 2),) * 3]
+)
+def test_a_load_leans_by_the_sums_of_ratios_and_of_their_squares(
+    load: str, case: str, ratios: tuple[Fraction, ...]
+) -> None:
+    where = Where((j, M), CASES[case], dimension=d)
+    layer, height = (one.xreplace(where.solved) for one in (j, M))
+    found = squares(layer, height, LOADS[load], where, leaning=True)
+    dimension, cosine, size = len(ratios) + 1, Fraction(-1, 6), 5
+    at = next(at for at in range(1, size) if where.holds({j: at, M: size})) if case != "base" else 0
+    both = force_weights(dimension, size, at, cosine, bulk=LOADS[load], ratios=ratios)
+    values = {j: at, M: size, d: dimension, phi: cosine, tau_1: sum(ratios)}
+    values |= {tau_2: sum(one**2 for one in ratios)}
+    assert found.at({s: Fraction(n) for s, n in values.items()}) == squared(together(both))
 
 
 @pytest.mark.parametrize("size", [(1, 0), (2, 0), (2, 1)])

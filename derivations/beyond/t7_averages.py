@@ -1,0 +1,540 @@
+"""Averages of the response to point loads, over loads and over beads: Eqs. B22 and B23 of T7.
+
+All loads are equal, on beads of layer l; the beads whose p is averaged are in layer j, inside of
+all cones. The first bead lies p and q steps below the first load; load m and bead m are m places to
+the right of these.
+"""
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from itertools import product
+
+import sympy
+from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import eq16_response as eq16
+from force_diffusion.derivations.framework.proving import Line
+from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, Missed, usual
+from force_diffusion.derivations.framework.vocabulary import (
+    UNIT,
+    By,
+    Derivation,
+    Lines,
+    Where,
+    Witness,
+    asymptotic,
+    equation,
+    exhausting,
+    formula,
+    minus,
+    moment,
+    relations,
+    rewrite,
+    terms,
+    times,
+)
+from force_diffusion.derivations.parts import cone
+from force_diffusion.derivations.parts.neighbours import (
+    COVARIANCES,
+    FIRST,
+    OWN,
+    SECOND,
+    SPREAD,
+    apart,
+)
+from force_diffusion.derivations.witnesses.draws import SmallPacking
+from force_diffusion.derivations.witnesses.squared_weights import compare, mean_response
+from force_diffusion.symbolic.algebra import explicit
+from force_diffusion.symbolic.kernel.where import Limit
+from force_diffusion.symbolic.mechanics.paths import STEPS_BELOW
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.symbols import (
+    Covariance,
+    DeltaNMinus,
+    DeltaNPlus,
+    Dot,
+    ForceMinus,
+    ForcePlus,
+    N,
+    Variance,
+    f_load,
+    i,
+    j,
+    k,
+    l,
+    m,
+    n,
+    n_minus,
+    n_plus,
+    p,
+    phi,
+    q,
+    r,
+    sigma,
+)
+from sympy import Eq, Integer, Rational
+
+
+def _symbol(name: str, over: str, words: str) -> sympy.Symbol:
+    return Symbol(
+        name,
+        rf"\frac{{\sigma^2(\overline{{p}}_{{\mathrm{{{over}}}}})}}{{(f^{{\mathrm{{load}}}})^{{2}}}}",
+        f"σ²(mean of p over {words})/f_load²",
+    )
+
+
+OVER_LOADS = _symbol("mean_over_loads", "loads", "N loads")
+OVER_BEADS = _symbol("mean_over_beads", "beads", "N beads")
+OVER_BOTH = _symbol("mean_over_both", "both", "N loads and N beads")
+OVER_PAIRS = _symbol("mean_over_pairs", "pairs", "N loads with a bead each")
+
+
+def _where(*relations: sympy.Basic) -> Where:
+    """Places of the first bead below the first load; what is said is about the radii alone."""
+    return Where.of(Eq(l, j + p + q), *relations, indices=(i,))
+
+
+def pushed(load: sympy.Expr | int, bead: sympy.Expr | int) -> sympy.Expr:
+    """p/f_load of a bead below a load, both by their places (Eq. 16)."""
+    plus = eq10.branched_plus(i + 2 * bead, j, p + load - bead)
+    minus_ = eq10.PRINTED.rhs.xreplace({n: q - load + bead}).xreplace({i: i + 2 * bead})
+    return (plus + minus_) / 2
+
+
+def _over_beads(load: sympy.Expr | int) -> sympy.Expr:
+    """The sum of N beads below one load: the tilts at both ends of two stretches of its legs."""
+    tilts = (
+        (DeltaNMinus, n_plus, i + p + load, j + p + load, 1),
+        (DeltaNMinus, n_plus, i + p + N + load, j + p - N + load, -1),
+        (DeltaNPlus, n_minus, i - q + load + N - 1, j + q - load + N - 1, 1),
+        (DeltaNPlus, n_minus, i - q + load - 1, j + q - load - 1, -1),
+    )
+    summed = terms(*(sign * Dot(v, delta(across, up)) for delta, v, across, up, sign in tilts))
+    return times(1 / (1 - phi**2), summed) / 2
+
+
+# --- N loads, N beads, or both --------------------------------------------------------------------
+
+_BEADS_LOW = {
+    "": ("j ≥ N + 2 and N ≥ 2", 0),
+    "N=j-1": ("N = j − 1 ≥ 2", -Rational(3, 2)),
+    "N=j": ("N = j ≥ 2", 1),
+    "N=j+1": ("N = j + 1 ≥ 3", Rational(1, 2)),
+    "N>j+1": ("2 ≤ j ≤ N − 2", 0),
+    "base+1, N=2": ("j = 1 and N = 2", Rational(7, 2)),
+    "base+1": ("j = 1 and N ≥ 3", 3),
+    "base": ("j = 0 and N ≥ 2", -2),
+}
+_LOADS_LOW = {
+    "": ("j ≥ 3 and N ≥ 2", 0),
+    "base+2": ("j = 2 and N ≥ 2", -Rational(3, 2)),
+    "base+1": ("j = 1 and N ≥ 2", 4),
+    "base": ("j = 0 and N ≥ 2", -3),
+}
+
+
+@dataclass(frozen=True, eq=False)
+class Average:
+    """A mean of p over loads and beads below them, with a closed form at every site inside.
+
+    Attributes:
+        name: of its exact forms.
+        symbol: its variance.
+        of: the mean.
+        printed: that variance away from the base.
+        scale: of what is added to it elsewhere, in ``UNIT``.
+        share: of a bead beside a leg of the cone of a load: only 1/N of its pairs are.
+        least: the smallest p and q for which all beads are inside of all cones.
+        low: where it has more next to the base, in words, and how much in ``scale``.
+    """
+
+    name: str
+    symbol: sympy.Symbol
+    of: sympy.Expr
+    printed: sympy.Eq
+    scale: sympy.Expr
+    share: sympy.Expr
+    least: tuple[sympy.Expr, sympy.Expr]
+    low: dict[str, tuple[str, sympy.Expr | int]]
+
+    @property
+    def whole(self) -> Where:
+        """All sites."""
+        return _where(*self._inside, N >= 2, j >= 0)
+
+    def _beside_legs(self, layer: str) -> Iterator[tuple[str, tuple[sympy.Basic, ...], sympy.Expr]]:
+        """In words and relations, and what is added; the last is off all legs."""
+        first, second = self.least
+        at_both, at_base = (1 + phi) ** 2 * self.share**2 / 2, (1 - phi) * self.share
+        more = 2 * at_base if layer == "base" else Integer(0)
+        yield "beside both legs", (Eq(p, first), Eq(q, second)), at_both + more
+        if layer == "base":
+            yield "beside the left leg", (Eq(q, second), p >= first + 1), at_base
+            yield "beside the right leg", (Eq(p, first), q >= second + 1), at_base
+            yield "", (p >= first + 1, q >= second + 1), Integer(0)
+        else:
+            yield "", (p + q >= first + second + 1,), Integer(0)
+
+    @property
+    def _inside(self) -> tuple[sympy.Basic, ...]:
+        return p >= self.least[0], q >= self.least[1]
+
+    def forms(self) -> Iterator[tuple[str, str, tuple[sympy.Basic, ...], sympy.Expr, Where]]:
+        """Layer, words and relations of the legs, value, domain: every site inside, once."""
+        for layer, (words, added) in self.low.items():
+            for beside, at, more in self._beside_legs(layer):
+                value = self.printed.rhs
+                if added + more:
+                    value = terms(value, times(sympy.factor((added + more) * self.scale), UNIT))
+                yield layer, beside, at, value, _where(*relations(words), *at, *self._inside)
+
+    def exact(self) -> dict[str, ExactCase]:
+        """The same as users get it."""
+        found: dict[str, ExactCase] = {}
+        missed: list[Missed] = []
+        inside = tuple(
+            sympy.Ge(STEPS_BELOW[s], least) for s, least in zip((p, q), self.least, strict=True)
+        )
+        for layer, beside, at, value, where in self.forms():
+            if beside:
+                whens = tuple(one.xreplace(STEPS_BELOW) for one in at if isinstance(one, Eq))
+                missed.append(Missed(beside, whens, value))
+                continue
+            words = self.low[layer][0]
+            line = Line(words, equation(self.symbol, value), self.by(layer), where, self.meaning)
+            found[", ".join(filter(None, (self.name, layer)))] = ExactCase(
+                self.symbol, words, value, (*relations(words), *inside), tuple(missed), line=line
+            )
+            missed = []
+        return found
+
+    def by(self, layer: str = "") -> By:
+        """How a form is proved: by the distances from the legs of cones, further ones low down."""
+        tiers = 4 if layer.startswith("base+") else 2
+        near = (
+            (*((Eq(s, low + step),) for step in range(tiers)), (s >= low + tiers,))
+            for s, low in zip((p, q), self.least, strict=True)
+        )
+        return moment(eq11.DIRECTIONS, cases=[(*a, *b) for a, b in product(*near)])
+
+    @property
+    def meaning(self) -> dict[sympy.Symbol, sympy.Expr]:
+        """What the symbol stands for."""
+        return {self.symbol: Variance(self.of)}
+
+
+_EACH = sympy.Sum(pushed(m, 0), (m, 0, N - 1))
+
+
+def _printed(symbol: sympy.Symbol, prefactor: sympy.Expr, change: str) -> sympy.Eq:
+    unit = 1 / times(prefactor, (1 - phi**2) ** 2)
+    return equation(symbol, times(unit, formula(change), formula("(σ_δr/r)²")))
+
+
+PRINTED = (
+    _printed(OVER_LOADS, 4 * N, "6N(l + j) − 2N² − 3N − 1 + φ²"),
+    _printed(OVER_BEADS, 2 * N**2, "2(l + j) − 2 + φ²"),
+    _printed(OVER_BOTH, 6 * N**3, "6N(l + j) − 2N² − 3N − 1 + 3φ²"),
+)
+_SCALE = 1 / (4 * N**2)
+LOADS = Average(
+    "loads", OVER_LOADS, _EACH / N, PRINTED[0],
+    Rational(1, 4), 1 / N, (Integer(1), N), _LOADS_LOW,
+)  # fmt: skip
+BEADS = Average(
+    "beads", OVER_BEADS, _over_beads(0) / N, PRINTED[1],
+    _SCALE, Integer(1), (N, Integer(1)), _BEADS_LOW,
+)  # fmt: skip
+BOTH = Average(
+    "both", OVER_BOTH, sympy.Sum(_over_beads(m), (m, 0, N - 1)) / N**2, PRINTED[2],
+    _SCALE, 1 / N, (N, N), _BEADS_LOW,
+)  # fmt: skip
+BLOCKS = (LOADS, BEADS, BOTH)
+MEANING = {symbol: of for one in BLOCKS for symbol, of in one.meaning.items()}
+WHERE = _where(*relations("p ≥ N, q ≥ N, p + q ≥ 2N + 1, j ≥ N + 2"), N >= 2)
+"""Where all three hold."""
+
+_FIXED = "l → ∞ at fixed j/l, (i − k)/l and N/l, all beads inside of all cones"
+NEAR, FAR = (
+    _where(*relations(f"p ≥ N + 1, q ≥ N + 1, {words}"), N >= 3).in_the_limit(
+        Limit("∼", _FIXED, (j, p, q, N), (p - N, q - N, *positive))
+    )
+    for words, positive in (("j ≥ N + 3", (j - N, N)), ("3 ≤ j ≤ N − 3", (j, N - j)))
+)
+LEADING = tuple(map(formula, ("3(l + j)/2 − N/2", "(l + j)/N²", "(l + j)/N² − 1/(3N)")))
+"""In ``UNIT``, by the average; N/l may be small."""
+
+
+@cache
+def steps() -> Lines:
+    """Where paths turn; what telescopes; squares."""
+    lines = Lines(WHERE, rewrite(), MEANING)
+    turned = lines.show(
+        "By Eq. 10 the force that bead b takes from load a turns at one bead of each leg of the "
+        "cone of that load, p + a − b steps up n⁺ and q − a + b up n⁻. From load to load the bead "
+        "where it turns moves along the contact's own diagonal; so the same radii enter again:",
+        equation(
+            pushed(m, 0),
+            times(
+                1 / (2 * (1 - phi**2)),
+                terms(
+                    Dot(n_plus, DeltaNMinus(i + p + m, j + p + m)),
+                    minus(Dot(n_plus, DeltaNMinus(i + p + m + 1, j + p + m - 1))),
+                    Dot(n_minus, DeltaNPlus(i - q + m, j + q - m)),
+                    minus(Dot(n_minus, DeltaNPlus(i - q + m - 1, j + q - m - 1))),
+                ),
+            ),
+        ),
+        rewrite(),
+        where=_where(p >= 1, q >= m + 1, m >= 0, j >= 0),
+        after=(eq10.DERIVATION,),
+    )
+    lines.show(
+        "Averaged over N loads, for 1 ≤ p, N ≤ q and j ≥ 3:",
+        PRINTED[0],
+        LOADS.by(),
+        where=_where(*relations("p ≥ 1, q ≥ N, p + q ≥ N + 2, j ≥ 3"), N >= 2),
+        after=(turned, eq16.DERIVATION),
+    )
+    summed = lines.show(
+        "From bead to bead it moves along the leg, and the sum over N beads telescopes. What is "
+        "left are the tilts of the contacts at the ends of these stretches of both legs:",
+        equation(sympy.Sum(pushed(0, m), (m, 0, N - 1)), _over_beads(0)),
+        rewrite(),
+        where=BEADS.whole,
+        after=(turned,),
+    )
+    beads = lines.show("Averaged over N beads:", PRINTED[1], BEADS.by(), after=(summed,))
+    lines.show("Over N loads and N beads:", PRINTED[2], BOTH.by(), after=(summed, beads))
+    lines.claim(
+        "inside of the cone of every load f⁺ and f⁻ are those of Eq. 10, so that p is their sum",
+        sympy.Tuple(
+            equation(ForcePlus(i, j) / cone.ORDERED, cone.UPPER_RIGHT),
+            equation(ForceMinus(i, j) / cone.ORDERED, cone.UPPER_LEFT),
+            equation(terms(cone.UPPER_RIGHT / 2, cone.UPPER_LEFT / 2), pushed(0, 0)),
+        ),
+        rewrite(cone.FORCES),
+        where=cone.INSIDE,
+    )
+    for one, words in zip(BLOCKS, ("N loads", "N beads", "both"), strict=True):
+        forms = [*one.forms()]
+        domains = [where for *_, where in forms]
+        lines.claim_each(
+            f"the exact variance over {words}, at every site inside",
+            ((one.symbol, value, where) for *_, value, where in forms),
+            tuple(exhausting(one.whole, domains, one.by(layer)) for layer, *_ in forms),
+        )
+    lines.claim_each(
+        "to leading order, in units of (σ/r)²/(1−φ²)²: 3(l+j)/2 − N/2 over loads, (l+j)/N² over "
+        "beads, (l+j)/N² − 1/(3N) over both; N loads take off a third of it at most",
+        (
+            (one.symbol, times(goes, UNIT), where)
+            for one, goes in zip(BLOCKS, LEADING, strict=True)
+            for where in (NEAR, FAR)
+        ),
+        asymptotic(eq11.DIRECTIONS),
+    )
+    return lines
+
+
+_OF_LOADS = (
+    (f_load, "each of the loads, downwards"),
+    (l, "layer of the loaded beads, j that of the beads whose p is averaged"),
+    (p, "steps along n⁺ from the first load down to the first bead"),
+    (q, "steps along n⁻"),
+    *usual(sigma, r, phi),
+)
+_PUSH = "p is the vertical force on a bead, from both upper contacts, which one load makes"
+
+B22 = Derivation(
+    number="B22",
+    name="averaged_response",
+    title="Response averaged over N loads, over N beads, and over both",
+    symbols=(
+        (OVER_LOADS, "variance of p of one bead, averaged over N neighbouring loads"),
+        (OVER_BEADS, "the same below one load, averaged over N neighbouring beads"),
+        (OVER_BOTH, "the same averaged over N loads and N beads, N² pairs"),
+        (N, "number of neighbouring loads, or beads, or both"),
+        *_OF_LOADS,
+    ),
+    assumptions=(
+        *FIRST_ORDER,
+        _PUSH,
+        "every bead is inside of the cone of every load",
+        "printed forms: N ≥ 2, j ≥ N + 2, p, q ≥ N and p + q > 2N; exact forms: every site inside",
+    ),
+    premises=(eq10.DERIVATION, eq11.DERIVATION, eq16.DERIVATION),
+    printed=PRINTED,
+    domain=(N >= 2, sympy.Ge(j, N + 2), sympy.Ge(l, j + 2 * N + 1)),
+    where=WHERE,
+    exact=lambda: {name: form for one in BLOCKS for name, form in one.exact().items()},
+    steps=steps,
+    witnesses=(
+        Witness(
+            "exact packings with loads in layer l ≤ 8: squares of summed weights, all sites inside",
+            lambda packing: compare(_pairs_of_blocks(packing)),
+        ),
+    ),
+    remarks=(
+        "Averaging over loads hardly calms the noise, since one bead hears all of them through the "
+        "same radii; averaging over beads does: σ(p) falls as 1/N.",
+        "The plateau of Eq. B9 in p, (5φ − 1)(σ/r)²/(1−φ²)² f_load, is as large as the noise of N "
+        "beads for N = √(l + j) (1−φ²)/|5φ − 1| r/σ. A row inside of one cone has less than l − j "
+        "beads: it shows in packings of more than (1−φ²)²/(5φ − 1)² (r/σ)² layers, and these "
+        "are far higher than M*, where contacts pull.",
+    ),
+)
+
+
+# --- each load with a bead of its own -------------------------------------------------------------
+
+OF_PAIR = pushed(0, 0)
+"""p of the bead below its own load; the next pair is one place to the right."""
+ROW = _printed(OVER_PAIRS, 4 * N**2, "N(1 − φ)² + 4(l + j) − 2")
+OFF_AXIS = relations("p ≥ q + 3, q ≥ 1")
+SHORT = _where(*OFF_AXIS, *relations("2 ≤ N ≤ j − 2"))
+ROWS = {
+    "N>j+2": ("j ≥ 2 and N ≥ j + 3", 0),
+    "base+1": ("j = 1 and N ≥ 4", 3),
+    "base": ("j = 0 and N ≥ 3", -2),
+}
+"""Longer rows: what their forms have beyond the printed one, in UNIT/(4N²)."""
+ROW_MEANING = {
+    OVER_PAIRS: Variance(sympy.Sum(OF_PAIR.xreplace({i: i + 2 * m}), (m, 0, N - 1)) / N),
+    **{one: Covariance(OF_PAIR, apart(OF_PAIR, at)) for at, one in enumerate(COVARIANCES)},
+}
+_SHORT_BY, _LONG_BY = (
+    moment(eq11.DIRECTIONS, alone=(Integer(1), Integer(2), *further))
+    for further in ((), (j - 2, j - 1, j, j + 1, j + 2))
+)
+
+
+@cache
+def rows() -> dict[str, ExactCase]:
+    """Rows of pairs that are longer than the beads are high above the base."""
+    found = {}
+    for name, (words, added) in ROWS.items():
+        value = terms(ROW.rhs, times(added * _SCALE, UNIT)) if added else ROW.rhs
+        where = _where(*OFF_AXIS, *relations(words))
+        line = Line(words, equation(OVER_PAIRS, value), _LONG_BY, where, ROW_MEANING)
+        off_axis = (k - i >= 3, sympy.Ge(l - j, k - i + 2))
+        found[name] = ExactCase(OVER_PAIRS, words, value, (*relations(words), *off_axis), line=line)
+    return found
+
+
+def _rows() -> list[tuple[sympy.Expr, Where]]:
+    return [(one.expression, one.line.domain(0)) for one in rows().values() if one.line]
+
+
+@cache
+def row_steps() -> Lines:
+    """Covariances of neighbouring pairs; their sum."""
+    lines = Lines(SHORT, _SHORT_BY, ROW_MEANING)
+    inside = _where(*OFF_AXIS, j >= 5)
+    near = lines.show(
+        "From pair to pair the beads where paths turn move along their layers, and their second "
+        "differences overlap, as those of neighbouring contacts (Eq. B7). Covariances of pairs 0, "
+        "1 and 2 places apart:",
+        sympy.Tuple(
+            equation(OWN, times(formula("6(l + j) − 6 + φ²"), UNIT / 4)),
+            equation(FIRST, times(minus(formula("4(l + j) − 6 + 2φ")), UNIT / 4)),
+            equation(SECOND, times(formula("l + j − 5/2 + φ"), UNIT / 4)),
+        ),
+        where=inside,
+        after=(eq10.DERIVATION, eq16.DERIVATION),
+    )
+    spread = lines.show(
+        "All that grows with the height cancels in",
+        equation(SPREAD, times((1 - phi) ** 2, UNIT / 4)),
+        where=inside,
+        after=(near,),
+    )
+    lines.show("Further pairs are uncorrelated. All of it:", ROW, after=(near, spread))
+    lines.claim_each(
+        "from N = j + 3 on it is the same, but for the two layers next to the base",
+        ((OVER_PAIRS, *one) for one in _rows()),
+        _LONG_BY,
+    )
+    return lines
+
+
+B23 = Derivation(
+    number="B23",
+    name="averaged_pairs",
+    title="Response averaged over N loads, each with a bead of its own",
+    symbols=(
+        (OVER_PAIRS, "variance of the mean of p over N neighbouring loads and a bead below each"),
+        (N, "number of neighbouring loads, and of beads"),
+        *_OF_LOADS,
+    ),
+    assumptions=(
+        *FIRST_ORDER,
+        _PUSH,
+        "each bead is at the same place inside of the cone of its load, p ≥ q + 3 or q ≥ p + 3",
+        "printed form: 2 ≤ N ≤ j − 2",
+    ),
+    premises=(eq10.DERIVATION, eq11.DERIVATION, eq16.DERIVATION, B22),
+    printed=(ROW,),
+    domain=(N >= 2, sympy.Ge(j, N + 2), sympy.Ge(l, j + 5)),
+    where=SHORT,
+    exact=rows,
+    steps=row_steps,
+    witnesses=(
+        Witness(
+            "exact packings with loads in layer l ≤ 8: squares of summed weights, N ≤ 4",
+            lambda packing: compare(_pairs_of_rows(packing)),
+        ),
+    ),
+    remarks=(
+        "This is the ensemble's average, taken along one packing: each load is a sample, and the "
+        "mean is that of Eq. B9. It calms as 1/N at first, faster than independent samples would, "
+        "and as 1/√N once N is larger than the packing is high.",
+        "The plateau of Eq. B9 in p is as large as this noise for N of order (r/σ)², at any "
+        "height: in a wide packing it shows where the first order still holds.",
+    ),
+)
+
+
+# witnesses
+
+
+def _sites() -> Iterator[tuple[str, dict[sympy.Symbol, int]]]:
+    """Where there is a closed form, in words and as indices."""
+    for level, layer, left, count in product((4, 6, 8), range(6), range(1, 7), range(2, 5)):
+        right = level - layer - left
+        if right >= 1:
+            at = {l: level, j: layer, p: left, q: right, N: count, k: 0, i: right - left}
+            yield f"l = {level}, j = {layer}, p = {left}, q = {right}, N = {count}", at
+
+
+def _pairs_of_blocks(packing: SmallPacking) -> Iterator[tuple[str, Fraction, Fraction]]:
+    for one in BLOCKS:
+        forms = [(form, where) for *_, form, where in one.forms()]
+        for (words, at), (form, where) in product(_sites(), forms):
+            if where.holds(at):
+                loads = range(at[N] if one is not BEADS else 1)
+                beads = range(at[N] if one is not LOADS else 1)
+                yield f"{one.name}, {words}", *_both(packing, form, at, product(loads, beads))
+
+
+def _pairs_of_rows(packing: SmallPacking) -> Iterator[tuple[str, Fraction, Fraction]]:
+    forms = [(ROW.rhs, SHORT)]
+    forms += _rows()
+    for words, at in _sites():
+        for form, where in forms:
+            if where.holds(at):
+                yield words, *_both(packing, form, at, ((m_, m_) for m_ in range(at[N])))
+
+
+def _both(
+    packing: SmallPacking,
+    form: sympy.Expr,
+    at: dict[sympy.Symbol, int],
+    pairs: Iterable[tuple[int, int]],
+) -> tuple[Fraction, Fraction]:
+    """What is stated of a mean over pairs, and what is true, r = σ = 1."""
+    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
+    stated = explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
+    return stated, mean_response(at[l], (at[i], at[j]), tuple(pairs), packing.n)
