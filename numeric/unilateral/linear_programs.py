@@ -1,4 +1,4 @@
-"""The protocol for size: linear programs in a row, each on the gaps linearised, until beads rest.
+"""The protocol of linear programs: in a row, each on the gaps linearised anew, until beads rest.
 
 Minimise the load's energy over moves u with g + n·Δu ≥ 0 for all near pairs and |u| ≤ Δ a
 coordinate; move; repeat. A gap is never smaller than its linearisation, so that no step overlaps

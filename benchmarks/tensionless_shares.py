@@ -1,0 +1,62 @@
+"""How many modest packings without tension a protocol finds: the table on that page.
+
+    python benchmarks/tensionless_shares.py ladder --seeds 1000 1400
+    python benchmarks/tensionless_shares.py event-ladder --seeds 1000 1120 --highest 6 --seconds 20
+
+A line a scene, then the shares by the way that answered. Seeds below 1000 were looked at while the
+ladders were made.
+"""
+
+import argparse
+from collections import Counter
+
+import numpy as np
+
+import force_diffusion as fd
+
+
+def scene(seed: int, **effects: object) -> fd.Scene:
+    """Draw a scene: M, W, M/M*, s, the load's angle, the law of radii, a bulk load or not."""
+    draw = np.random.default_rng([27, seed])
+    height = int(draw.integers(3, 11))
+    width, of_critical = int(draw.integers(4, 2 * height + 1)), float(draw.uniform(0.4, 1.3))
+    spacing, angle = round(float(draw.uniform(2.2, 3.3)), 3), round(float(draw.uniform(0, 45)), 2)
+    kind = str(draw.choice(["uniform", "normal", "two-point"], p=[0.6, 0.2, 0.2]))
+    load = fd.BulkLoad if draw.random() < 0.3 else fd.SurfaceLoad
+    std = round((of_critical / height) ** 1.5, 5)
+    return fd.Scene(
+        packing=fd.Packing(height=height, width=width, spacing=spacing, allow_images=True),
+        disorder=fd.Disorder(kind=kind, relative_std=std, seed=seed),  # type: ignore[arg-type]
+        load=load(angle_deg=angle),
+        effects=fd.Effects(contacts="unilateral", **effects),  # type: ignore[arg-type]
+        ask=fd.Ask(quantity="contact_forces"),
+    )
+
+
+def main() -> None:
+    """Print lines and shares."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("protocol")
+    parser.add_argument("--seeds", type=int, nargs=2, default=[1000, 1400])
+    parser.add_argument("--highest", type=int, default=10, help="leave higher scenes out")
+    parser.add_argument("--seconds", type=float, help="of the processor, a scene")
+    asked = parser.parse_args()
+    limit = {} if asked.seconds is None else {"most_seconds": asked.seconds}
+    found: Counter[str] = Counter()
+    for seed in range(*asked.seeds):
+        one = scene(seed, protocol=asked.protocol, **limit)
+        if one.packing.height > asked.highest:
+            continue
+        try:
+            (network,) = one.run().answer.networks
+            way = network.rung or "as deposited"
+        except fd.ForceDiffusionError as error:
+            way = "proved that none" if "can stand" in str(error) else "not found"
+            print(f"{seed}: {error}")
+        found[way] += 1
+    for way, count in found.most_common():
+        print(f"{count} of {found.total()} ({count / found.total():.0%}): {way}")
+
+
+if __name__ == "__main__":
+    main()
