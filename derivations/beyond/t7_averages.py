@@ -12,6 +12,8 @@ from functools import cache
 from itertools import product
 
 import sympy
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
@@ -365,7 +367,13 @@ B22 = Derivation(
         "every bead is inside of the cone of every load",
         "printed forms: N ≥ 2, j ≥ N + 2, p, q ≥ N and p + q > 2N; exact forms: every site inside",
     ),
-    premises=(eq10.DERIVATION, eq11.DERIVATION, eq16.DERIVATION),
+    premises=(
+        eq04.DERIVATION,
+        eq05.DERIVATION,
+        eq10.DERIVATION,
+        eq11.DERIVATION,
+        eq16.DERIVATION,
+    ),
     printed=PRINTED,
     domain=(N >= 2, sympy.Ge(j, N + 2), sympy.Ge(l, j + 2 * N + 1)),
     where=WHERE,
@@ -475,7 +483,14 @@ B23 = Derivation(
         "each bead is at the same place inside of the cone of its load, p ≥ q + 3 or q ≥ p + 3",
         "printed form: 2 ≤ N ≤ j − 2",
     ),
-    premises=(eq10.DERIVATION, eq11.DERIVATION, eq16.DERIVATION, B22),
+    premises=(
+        eq04.DERIVATION,
+        eq05.DERIVATION,
+        eq10.DERIVATION,
+        eq11.DERIVATION,
+        eq16.DERIVATION,
+        B22,
+    ),
     printed=(ROW,),
     domain=(N >= 2, sympy.Ge(j, N + 2), sympy.Ge(l, j + 5)),
     where=SHORT,
