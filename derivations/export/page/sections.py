@@ -11,6 +11,8 @@ Notice = Callable[[str], None]
 """Told what is measured next."""
 # Of a figure's packings the report draws one in so many, and no fewer than these.
 SHARE, FEWEST = 10, 100
+# Columns of tables that paper has no room for; they are in the CSV.
+LEFT_OUT = {"plain_seconds", "ball_error", "ball_seconds"}
 
 
 def figures_part(notice: Notice) -> Part:
@@ -141,7 +143,14 @@ def stability_part(notice: Notice = lambda _: None) -> Part:
             ),
         ),
         tables=tuple(
-            Table(table.title, table.shown(found.rows(name)), csv_data(file, files[file]))
+            Table(
+                table.title,
+                [
+                    {key: value for key, value in row.items() if key not in LEFT_OUT}
+                    for row in table.shown(found.rows(name))
+                ],
+                csv_data(file, files[file]),
+            )
             for (name, table), file in zip(TABLES.items(), FILES.values(), strict=True)
         ),
     )
