@@ -267,8 +267,10 @@ def test_a_function_is_the_formula_in_floats(formula: Any) -> None:
     function = formula.function()
     names = list(inspect.signature(function).parameters)
     compared = 0
-    for M, j in [(9, j) for j in range(9)] + [(2, 1), (2, 0), (1, 0)]:
-        given = {n: v for n, v in (SITES | FLOATS | {"M": M, "j": j}).items() if n in names}
+    places = [*((9, j, 7) for j in range(9)), (2, 1, 7), (2, 0, 7), (1, 0, 7), (9, 3, 15)]
+    for M, j, l in places:  # noqa: E741
+        here = {"M": M, "j": j, "l": l}
+        given = {n: v for n, v in (SITES | FLOATS | here).items() if n in names}
         try:
             expected = formula.at(**given)
         except ArgumentError:
