@@ -116,10 +116,10 @@ what is said of whole sums of squares or of all layers together."""
 @pytest.mark.parametrize("number", paper())
 def test_mutants_are_proved_false(coq: CoqFolder, number: int) -> None:
     """The printed equation is asked about with them, and accepted."""
-    every_seventh = tried(coq, load(number), chosen=lambda at: at % 7 == number % 7)
-    assert every_seventh.stated
-    assert not [one for one in every_seventh.accepted if not one.equivalent]
-    assert every_seventh.stated - every_seventh.refuted <= NOT_REFUTED.get(number, 0)
+    some = tried(coq, load(number), chosen=lambda at: at % 21 == number % 7)
+    assert some.stated
+    assert not [one for one in some.accepted if not one.equivalent]
+    assert some.stated - some.refuted <= NOT_REFUTED.get(number, 0)
 
 
 def exact_and_changed(number: int) -> Iterator[tuple[str, Statement]]:
@@ -130,7 +130,7 @@ def exact_and_changed(number: int) -> Iterator[tuple[str, Statement]]:
     for name, (height, layer) in places.items():
         form = forms[name]
         changes = [*mutants(sympy.Eq(form.quantity, form.expression, evaluate=False))]
-        for one in changes[:: len(changes) // 4]:
+        for one in changes[:: len(changes) // 2]:
             changed = {**forms, name: replace(form, expression=one.equation.rhs)}
             at = {sy.M: height, sy.i: layer, sy.j: layer}
             yield f"{name}: {one.change}", exact_statement(load(number), changed, at)
@@ -140,7 +140,7 @@ def exact_and_changed(number: int) -> Iterator[tuple[str, Statement]]:
 def test_another_exact_variance_is_proved_false(coq: CoqFolder, number: int) -> None:
     changes = dict(enumerate(exact_and_changed(number)))
     said = answers(coq, f"Exact_{number}", {at: one for at, (_, one) in changes.items()})
-    assert len(said) >= 16
+    assert len(said) >= 8
     assert [changes[at][0] for at, word in said.items() if word is not Answer.REFUTED] == []
 
 
