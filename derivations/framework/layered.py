@@ -17,7 +17,17 @@ from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms
 from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Loading, Where, at_fixed_height, in_a_layer
-from force_diffusion.symbolic.symbols import LargestShare, M, Moment, j, phi, r, sigma
+from force_diffusion.symbolic.symbols import (
+    LargestShare,
+    M,
+    Moment,
+    j,
+    phi,
+    r,
+    sigma,
+    tau_1,
+    tau_2,
+)
 from force_diffusion.symbolic.variances.listed import listed, squares, weights
 from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
 
@@ -169,7 +179,7 @@ class Layered:
             name: ExactCase(
                 self.symbol,
                 form.validity,
-                form.expression,
+                _by_ratios(form.expression),
                 domain=self.cases[name].layers,
                 missed=tuple(
                     Missed(f"M = {size}, j = {at}", (sympy.Eq(M, size), sympy.Eq(j, at)), value)
@@ -319,3 +329,11 @@ class EveryLayer:
     def words(self) -> str:
         """How a line names it."""
         return self.derivation.words
+
+
+def _by_ratios(expression: sympy.Expr) -> sympy.Expr:
+    """The same, sums ordered by how loads lean: so long ones fit a column of a page."""
+    return expression.replace(
+        lambda one: isinstance(one, sympy.Add) and one.has(tau_1),
+        lambda one: sympy.collect(one, (tau_1, tau_2)),
+    )

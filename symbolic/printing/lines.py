@@ -274,7 +274,8 @@ class _Pieces:
 def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) -> list[str]:
     """An equation as the lines of an ``aligned`` environment, without the ``\\\\``."""
     lines = _at_terms(equation, relation, room)
-    if all(width(line.replace("&", "", 1)) <= room for line in lines):
+    before = max(width(line.split("&")[0]) for line in lines)  # further lines begin behind it
+    if all(before + width(line.split("&", 1)[1]) <= room for line in lines):
         return lines
     pieces = _Pieces(PaperLatex(), r"\biggl\{", r"\biggr\}")
     sides = equation.args if isinstance(equation, Eq) else (equation,)
