@@ -4,8 +4,8 @@
     compares them. Nothing here is trusted: a tactic that goes wrong proves nothing. *)
 
 From Coq Require Export ZArith Reals Lia Lra.
-From ForceDiffusion Require Export Roots Model Sums FirstOrder Lattice Geometry Forces Existence Random Weights Exact
-  Variances Cone.
+From ForceDiffusion Require Export Roots Model Sums FirstOrder Lattice Geometry Mirror Forces Existence Random Weights Exact
+  Variances Layers Cone.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -16,7 +16,7 @@ Ltac positive_things G :=
   pose proof (divisor_positive G); pose proof (phi_above G); pose proof (phi_below G).
 Ltac nonzero :=
   cbv beta; repeat split;
-  first [lra|repeat first [apply Rmult_integral_contrapositive_currified|apply pow_nonzero]; lra].
+  first [assumption|lra|repeat first [assumption|apply Rmult_integral_contrapositive_currified|apply pow_nonzero]; lra].
 
 (** Equal by arithmetic; if need be with φ = n_y² − n_x² and n_x² + n_y² = 1. *)
 Ltac arithmetic G :=
@@ -66,7 +66,7 @@ Ltac prove_2 :=
 Ltac prove_3 :=
   intros G rho M X i j P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
-  try nonzero; elementary_sums; try solve [arithmetic G]; unfold along_plus, along_minus;
+  try nonzero; elementary_sums; try solve [arithmetic G]; unfold along_minus, along_plus, mirrored;
   replace (j =? 0)%Z with false by lia; normal_form; arithmetic G.
 
 Ltac prove_4 :=
@@ -96,11 +96,8 @@ Ltac of_forces P known :=
 
 (** On a leg of the cone, inside of it, or outside: as the hypotheses on the indices say. *)
 Ltac where_it_is :=
-  unfold ordered_plus, ordered_minus, response_plus, response_minus, turn_plus, turn_minus;
-  cbv zeta;
-  repeat match goal with
-  | |- context [if ?b then _ else _] => let E := fresh "E" in destruct b eqn:E; try (exfalso; site)
-  end.
+  unfold ordered_minus, ordered_plus, response_minus, response_plus, turn_plus;
+  cbv zeta; decide_conditions; rewrite ?tilt_plus_mirrored, ?tilt_minus_mirrored.
 
 Ltac of_single P L C i j := apply (single_force _ _ _ _ P _ _ _ _ L ltac:(site) C j); site.
 
@@ -130,7 +127,8 @@ Ltac of_passage P F i j :=
         [|apply near_always; intros e; unfold Rdiv; ring]
   end;
   match goal with C : carries _ _ _ F |- _ =>
-    apply (propagates _ _ _ _ P F _ i j C); first [assumption|site]
+    first [apply (propagates _ _ _ _ P F _ i j C)|apply (propagates_mirrored _ _ _ _ P F _ i j C)];
+    first [assumption|site]
   end.
 
 Ltac prove_8 :=
@@ -157,15 +155,29 @@ Ltac prove_10 :=
   end;
   where_it_is; try nonzero; same_values; arithmetic G.
 
-Ltac of_surface P C i j := apply (surface_force _ _ _ _ P _ _ C j); site.
+Ltac of_surface P C i j := apply (surface_force _ _ _ _ P _ i j ltac:(site) _ C).
 
 Ltac prove_11 :=
   intros G rho M X i j F f_load P; intros; positive_things G;
   match goal with C : carries _ _ _ _ |- _ =>
     both_sides ltac:(fun _ => of_forces P ltac:(of_surface P C))
   end;
-  try nonzero; unfold surface_plus, surface_minus; normal_form;
+  try nonzero; rewrite ?change_minus_is; unfold change_plus, turned; normal_form;
   arithmetic G.
+
+(** Under a load of which L_minus = t L_plus. *)
+Ltac of_leaning P C i j :=
+  first [eapply (leaning_f_plus _ _ _ _ P _ i j ltac:(site) _ _ _ C); eassumption
+        |eapply (leaning_f_minus _ _ _ _ P _ i j ltac:(site) _ _ _ C); eassumption].
+
+Ltac prove_B1 :=
+  intros G rho M X i j F L_plus L_minus t P; intros; positive_things G;
+  match goal with
+  | C : carries M X _ F, E : L_minus = t * L_plus |- _ =>
+      try (assert (t <> 0) by (intros ->; lra); assert (L_plus = / t * L_minus) by (rewrite E; field; assumption));
+      both_sides ltac:(fun _ => of_forces P ltac:(of_leaning P C))
+  end;
+  try nonzero; rewrite ?change_minus_is; unfold change_plus, turned; normal_form; arithmetic G.
 
 (** Outside of the cone of a load, and on the other leg. *)
 Ltac prove_nothing_else :=
@@ -188,7 +200,7 @@ Proof. intros H -> <-. exact H. Qed.
 Ltac by_arithmetic G := unfold unit_of; rewrite ?minus_IZR; arithmetic G.
 
 (** The form to first order in one contact under a load of whole layers: what is known of its variance. *)
-Ltac with_variance theorem linear next :=
+Ltac with_variance theorem next :=
   let G := fresh "G" in
   intros G sigma S M W L Xs Fs i j f_load P; intros; positive_things G;
   match goal with
@@ -196,12 +208,12 @@ Ltac with_variance theorem linear next :=
     C : forall rho, carries M (Xs rho) _ (Fs rho) |- _ =>
       pose proof (height_positive M i j H);
       destruct (theorem G M W sigma S L Xs Fs P i j H HW f_load Hf C) as (A & E & V & B);
-      exists (linear G M i j f_load); split; [exact A|next G]
+      eexists; split; [exact A|next G]
   end.
 Ltac near_printed G :=
   eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G].
-Ltac prove_13 := with_variance surface_variance surface_linear near_printed.
-Ltac prove_14 := with_variance bulk_variance bulk_linear near_printed.
+Ltac prove_13 := with_variance surface_variance near_printed.
+Ltac prove_14 := with_variance bulk_variance near_printed.
 
 Lemma largest z : z < 1 -> (1 - z) ^ 2 * (4 * z + 1) <= (1 - 1 / 6) ^ 2 * (4 * (1 / 6) + 1) /\
   ((1 - z) ^ 2 * (4 * z + 1) = (1 - 1 / 6) ^ 2 * (4 * (1 / 6) + 1) -> z = 1 / 6).
@@ -249,8 +261,43 @@ Ltac every_layer G :=
       rewrite V; unfold surface_squares, bulk_squares, below_squares, plain, beside, twice;
       clear E V; repeat split; intros; site_of_case; decide_on; by_arithmetic G
   end.
-Ltac prove_13_exact := with_variance surface_variance surface_linear every_layer.
-Ltac prove_14_exact := with_variance bulk_variance bulk_linear every_layer.
+Ltac prove_13_exact := with_variance surface_variance every_layer.
+Ltac prove_14_exact := with_variance bulk_variance every_layer.
+
+(** Of f⁺ with t, of f⁻ with 1/t. *)
+Ltac prove_leaning next :=
+  let G := fresh "G" in
+  intros G sigma S M W L Xs Fs i j L_plus L_minus t P; intros; positive_things G;
+  match goal with
+  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, E : L_minus = t * L_plus,
+    C : forall rho, carries M (Xs rho) _ (Fs rho) |- _ =>
+      pose proof (height_positive M i j H);
+      assert (0 < t) by (apply (Rmult_lt_reg_r L_plus); lra);
+      let T := fresh in
+      lazymatch goal with
+      | |- context [f_plus] =>
+          pose proof (variance_of_f_plus G M W sigma S L Xs Fs P i j H HW _ _ t C
+            ltac:(assumption) ltac:(lra) E) as T
+      | |- _ =>
+          pose proof (variance_of_f_minus G M W sigma S L Xs Fs P i j H HW _ _ (/ t) C ltac:(assumption)
+            ltac:(apply Rlt_le, Rinv_0_lt_compat; assumption) ltac:(rewrite E; field; lra)) as T
+      end;
+      destruct T as (f1 & A & Ex & V & B); exists f1; split; [exact A|next G]
+  end.
+Ltac prove_B2 := prove_leaning near_printed.
+Ltac prove_B2_exact := prove_leaning every_layer.
+
+Ltac prove_B12 :=
+  intros G sigma S M W L Xs Fs i j l f_load P; intros; positive_things G;
+  match goal with
+  | H : contact M i j, HW : (Z.abs i + 2 * M + 2 <= W)%Z, Hf : 0 < f_load,
+    C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
+      let V := fresh in
+      destruct (covariance_of_layers G M W sigma L Xs Fs i j l f_load P H ltac:(lia) ltac:(lia) ltac:(lia) HW Hf C)
+        as (f1 & f2 & A & B & V);
+      exists f1, f2; split; [exact A|split; [exact B|]];
+      rewrite V, products_of_two by lia; by_arithmetic G
+  end.
 
 Lemma braces_are j M m : (0 <= j < M)%Z -> (1 <= m <= M)%Z ->
   braces (IZR M - IZR j) (IZR M - IZR m) m j = braces_at j M m.
@@ -265,12 +312,12 @@ Ltac prove_12 :=
   | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
     C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
       pose proof (height_positive M i j H);
-      exists (fun rho => surface_plus G rho M i j), (by_braces G M i j);
+      exists (fun rho => change_plus G 1 rho M i j), (by_braces G M i j);
       split; [|split; [|eapply Rle_trans;
         [exact (braces_miss G M W sigma S L Xs Fs P i j H HW)|apply Req_le; by_arithmetic G]]];
       intros rho; pose proof (P rho) as Pr; pose proof (C rho) as Cr;
       cbv zeta; unfold second_difference;
-      [exists 0, (surface_plus G rho M i j)|exists 0, (by_braces G M i j rho)]; (split; [|ring]);
+      [exists 0, (change_plus G 1 rho M i j)|exists 0, (by_braces G M i j rho)]; (split; [|ring]);
       (eapply expands_to;
         [expand_with ltac:(fun _ => of_forces Pr ltac:(of_surface Pr Cr))|..]);
       cbv beta; try nonzero; no_zero_sums; try solve [arithmetic G]

@@ -2,7 +2,7 @@
     bound, is what Eq. 16 says. *)
 
 From Coq Require Import ZArith Reals Lia Lra List.
-From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces Random Weights Variances.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Mirror Forces Random Weights Variances.
 Import ListNotations.
 
 Open Scope R_scope.
@@ -152,13 +152,7 @@ Section Cone.
     set (d := turn_a G t m) in *. set (e := turn_b t m) in *. set (f := turn_c G t m) in *.
     set (A := (i - j + m - 2)%Z). set (C := (i - j + m + 2)%Z). set (B := (i - j + m)%Z).
     set (D := (i + j - m + 2)%Z). set (F := (i + j - m - 2)%Z). set (E := (i + j - m)%Z).
-    rewrite !Z.eqb_refl.
-    replace (A =? B)%Z with false by lia. replace (A =? C)%Z with false by lia.
-    replace (B =? A)%Z with false by lia. replace (B =? C)%Z with false by lia.
-    replace (C =? A)%Z with false by lia. replace (C =? B)%Z with false by lia.
-    replace (D =? E)%Z with false by lia. replace (D =? F)%Z with false by lia.
-    replace (E =? D)%Z with false by lia. replace (E =? F)%Z with false by lia.
-    replace (F =? D)%Z with false by lia. replace (F =? E)%Z with false by lia.
+    compare_indices.
     rewrite (Z.eqb_sym D A), (Z.eqb_sym D B), (Z.eqb_sym D C).
     rewrite (Z.eqb_sym E A), (Z.eqb_sym E B), (Z.eqb_sym E C).
     rewrite (Z.eqb_sym F A), (Z.eqb_sym F B), (Z.eqb_sym F C).
@@ -167,14 +161,7 @@ Section Cone.
     rewrite (Rmult_comm f a), (Rmult_comm f b), (Rmult_comm f c).
     apply Rabs_def2' in S. apply Rabs_def2' in T. unfold crossing.
     destruct (Z.le_gt_cases 3 (Z.abs (m - j))) as [Far|Near].
-    - replace (A =? D)%Z with false by lia. replace (A =? E)%Z with false by lia.
-      replace (A =? F)%Z with false by lia. replace (B =? D)%Z with false by lia.
-      replace (B =? E)%Z with false by lia. replace (B =? F)%Z with false by lia.
-      replace (C =? D)%Z with false by lia. replace (C =? E)%Z with false by lia.
-      replace (C =? F)%Z with false by lia.
-      replace (m =? j - 2)%Z with false by lia. replace (m =? j - 1)%Z with false by lia.
-      replace (m =? j)%Z with false by lia. replace (m =? j + 1)%Z with false by lia.
-      replace (m =? j + 2)%Z with false by lia. unfold on at 3 4 5 6 7.
+    - compare_indices. unfold on at 3 4 5 6 7.
       apply Rabs_le. lra.
     - assert (X : 128 <= on (m =? j - 2)%Z 128 + on (m =? j - 1)%Z 128 + on (m =? j)%Z 128
         + on (m =? j + 1)%Z 128 + on (m =? j + 2)%Z 128) by (decide_on; lra || lia).
@@ -201,7 +188,7 @@ Section Cone.
           let N := fresh in pose proof (Sum_at_most 0 M a x ltac:(lra)) as N;
           set (Sum 0 M (fun m => on (m =? a)%Z x)) in *
       end. lra. }
-    rewrite Sum_minus in B. unfold squares. apply Rabs_def2' in B. apply Rabs_le. lra.
+    rewrite Sum_minus in B. unfold squares, products. apply Rabs_def2' in B. apply Rabs_le. lra.
   Qed.
 
   (** ** The response *)
@@ -221,21 +208,18 @@ Section Cone.
       + y_of (scale (f_minus F i j e) (N_minus X i j e)))).
     2:{ apply near_always. intros e. reflexivity. }
     assert (O1 : ordered_plus (i + p - q) (j + p + q) i j = 0)
-      by (unfold ordered_plus; replace (_ =? _)%Z with false by lia; reflexivity).
+      by (unfold ordered_plus; decide_conditions; reflexivity).
     assert (O2 : ordered_minus (i + p - q) (j + p + q) i j = 0)
-      by (unfold ordered_minus; replace (_ =? _)%Z with false by lia; reflexivity).
-    assert (T1 : turn_plus (i + p - q) (j + p + q) i j = p) by (unfold turn_plus; lia).
-    assert (T2 : turn_minus (i + p - q) (j + p + q) i j = q) by (unfold turn_minus; lia).
+      by (unfold ordered_minus, ordered_plus; decide_conditions; reflexivity).
     assert (R1 : response_plus G rho (i + p - q) (j + p + q) i j =
       - ((tilt_minus G rho (i + p + 1) (j + p - 1) - tilt_minus G rho (i + p) (j + p)) / (1 - phi * phi))).
-    { unfold response_plus. cbv zeta. rewrite T1.
-      replace (i + p - q - i =? j + p + q - j)%Z with false by lia.
-      replace ((1 <=? p) && (p <? j + p + q - j))%bool%Z with true by lia. reflexivity. }
+    { unfold response_plus. cbv zeta. replace (turn_plus _ _ i j) with p by (unfold turn_plus; lia).
+      decide_conditions. reflexivity. }
     assert (R2 : response_minus G rho (i + p - q) (j + p + q) i j =
       - ((tilt_plus G rho (i - q - 1) (j + q - 1) - tilt_plus G rho (i - q) (j + q)) / (1 - phi * phi))).
-    { unfold response_minus. cbv zeta. rewrite T2.
-      replace (i - (i + p - q) =? j + p + q - j)%Z with false by lia.
-      replace ((1 <=? q) && (q <? j + p + q - j))%bool%Z with true by lia. reflexivity. }
+    { unfold response_minus, response_plus. cbv zeta.
+      replace (turn_plus _ _ (- i) j) with q by (unfold turn_plus; lia).
+      rewrite !tilt_minus_mirrored. decide_conditions. same_values. reflexivity. }
     rewrite O1, R1 in Yp. rewrite O2, R2 in Ym.
     eapply expands_to; [apply expands_plus; [exact Yp|exact Ym]|field; lra|].
     rewrite <- response_in_layers. field. lra.

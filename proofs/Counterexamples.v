@@ -111,12 +111,15 @@ Ltac of_trial_force M load i j :=
   let C := constr:(trial_carries M load) in
   first
   [lazymatch load with
-   | surface _ _ => apply (surface_force _ _ _ _ P _ _ C j); site
-   | bulk _ => apply (bulk_force _ _ _ _ P _ _ C j); site
+   | surface _ _ => apply (surface_force _ _ _ _ P _ i j ltac:(site) _ C)
+   | bulk _ => apply (bulk_force _ _ _ _ P _ i j ltac:(site) _ C)
+   | leaning_surface _ _ ?a ?b =>
+       first [apply (leaning_f_plus _ _ _ _ P _ i j ltac:(site) a b (b / a) C); field
+             |apply (leaning_f_minus _ _ _ _ P _ i j ltac:(site) a b (a / b) C); field]
    | single ?k ?l ?f =>
        first
        [apply (single_force _ M _ _ P _ k l f ltac:(site) ltac:(site) C j); site
-       |apply (above_load _ M _ _ P _ k l f ltac:(site) C j); site]
+       |apply (above_load _ M _ _ P _ k l f C j); site]
    end
   |apply (constant_expands _ 7); reflexivity].
 
@@ -187,6 +190,9 @@ Ltac supposed :=
   | |- near (fun e => f_minus (trial_forces ?M (single ?k ?l ?f)) _ _ e = 0 /\ _) =>
       exact (proj2 (enters_alone _ M _ _ (trial_is_packing M) _ k l f ltac:(site) (trial_carries M _)
         1 ltac:(lra) ltac:(lia)))
+  | |- near (fun e => f_plus (trial_forces ?M (single ?k ?l ?f)) _ _ e = 0 /\ _) =>
+      exact (proj2 (enters_alone_mirrored _ M _ _ (trial_is_packing M) _ k l f 1 ltac:(site)
+        (trial_carries M _) ltac:(lra) ltac:(lia)))
   | |- _ => first [site|lra|reflexivity]
   end.
 
@@ -233,7 +239,10 @@ Ltac near_two T H :=
 (** Beside what is true of the same packing. *)
 Ltac disprove_beside T H :=
   repeat match type of H with ?A -> _ => specialize (H ltac:(something)); specialize (T ltac:(something)) end;
-  let f := fresh in let K := fresh in let g := fresh in let N := fresh in
-  destruct H as (f & K & H); destruct T as (g & N & T);
-  rewrite (linearised_unique _ _ _ K N) in H; clear K N;
+  repeat lazymatch type of H with
+  | exists f, _ => let f := fresh in let g := fresh in destruct H as [f H], T as [g T]
+  | linearised _ _ /\ _ =>
+      let K := fresh in let N := fresh in destruct H as [K H], T as [N T];
+      rewrite (linearised_unique _ _ _ K N) in H; clear K N
+  end;
   lazymatch type of H with Rabs _ <= _ => near_two T H | _ => two_numbers end.

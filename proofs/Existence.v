@@ -2,7 +2,7 @@
     generated statement supposes can be supposed, which [something] shows. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
-From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Forces.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Mirror Forces.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -172,14 +172,14 @@ Section Solved.
             unfold minus, add, scale, zero. cbn [x_of y_of]. f_equal; ring. }
           rewrite Hc. replace (Z.to_nat (M - M)) with O by lia. cbn [passed fst snd].
           replace (M - Z.of_nat 0)%Z with M by lia.
-          replace (i - 1 + 1)%Z with i by lia. replace (i - 1 + 2)%Z with (i + 1)%Z by lia.
-          replace (i + 1 - 1)%Z with i by lia. replace (i + 1 - 2)%Z with (i - 1)%Z by lia.
+          steps_back. replace (i - 1 + 2)%Z with (i + 1)%Z by lia.
+          steps_back. replace (i + 1 - 2)%Z with (i - 1)%Z by lia.
           split; reflexivity.
         - assert (Hn : Z.to_nat (M - j) = S (Z.to_nat (M - 1 - j))) by site.
           unfold c. replace (j <? M)%Z with true by site. rewrite Hn. cbn [passed fst snd].
           replace (M - Z.of_nat (S (Z.to_nat (M - 1 - j))))%Z with j by site.
-          replace (i - 1 + 1)%Z with i by lia. replace (i - 1 + 2)%Z with (i + 1)%Z by lia.
-          replace (i + 1 - 1)%Z with i by lia. replace (i + 1 - 2)%Z with (i - 1)%Z by lia.
+          steps_back. replace (i - 1 + 2)%Z with (i + 1)%Z by lia.
+          steps_back. replace (i + 1 - 2)%Z with (i - 1)%Z by lia.
           split; reflexivity. }
       destruct E1 as [-> ->]. pose proof (solves u v c Hd) as E. rewrite E. unfold c.
       unfold minus, add, scale, zero. cbn [x_of y_of]. f_equal; ring.
@@ -219,14 +219,13 @@ Section Alone.
         apply (silent G M rho X P F _ i l C Hi ltac:(lia)).
         - unfold single. replace (i =? k)%Z with false by lia. reflexivity.
         - apply (nothing_above G M rho X P F _ l C ltac:(lia)); [|site|lia|exact Hi].
-          intros a b Hb. unfold single. replace (b =? l)%Z with false by lia.
-          rewrite andb_false_r. reflexivity. }
+          intros a b Hb. apply no_load. lia. }
       intros i Hi. split; intros Hc.
       + destruct (Top (i + 1)%Z ltac:(site) ltac:(site)) as [N|N]; [|site].
-        replace (i + 1 - 1)%Z with i in N by lia.
+        steps_back in N.
         eapply near_then; [exact N|]. cbv beta. tauto.
       + destruct (Top (i - 1)%Z ltac:(site) ltac:(site)) as [N|N]; [|site].
-        replace (i - 1 + 1)%Z with i in N by lia.
+        steps_back in N.
         eapply near_then; [exact N|]. cbv beta. tauto.
     - intros j Hj IH.
       assert (Low : forall i, contact M i (j + 1) -> (i - (j + 1) < k - l)%Z ->
@@ -234,15 +233,15 @@ Section Alone.
       { intros i Hi Hk. destruct (Z.le_gt_cases 0 j) as [H0|H0]; [left|right; exact H0].
         destruct (IH i Hi) as [A B].
         pose proof (silent G M rho X P F _ i (j + 1) C ltac:(site) ltac:(lia)) as N.
-        replace (j + 1 - 1)%Z with j in N by lia. apply N.
-        - unfold single. replace (j + 1 =? l)%Z with false by lia. rewrite andb_false_r. reflexivity.
+        steps_back in N. apply N.
+        - apply no_load. lia.
         - apply near_both; [apply A; lia|apply B; lia]. }
       intros i Hi. split; intros Hc.
       + destruct (Low (i + 1)%Z ltac:(site) ltac:(site)) as [N|N]; [|site].
-        replace (i + 1 - 1)%Z with i in N by lia.
+        steps_back in N.
         eapply near_then; [exact N|]. cbv beta. tauto.
       + destruct (Low (i - 1)%Z ltac:(site) ltac:(site)) as [N|N]; [|site].
-        replace (i - 1 + 1)%Z with i in N by lia.
+        steps_back in N.
         eapply near_then; [exact N|]. cbv beta. tauto.
   Qed.
 
@@ -251,7 +250,7 @@ Section Alone.
     near (fun e => f_minus F (k - d) (l - d) e = 0 /\ f_plus F (k - d) (l - d) e <> 0).
   Proof.
     intros Hf Hd. split.
-    - unfold single. replace (l - d =? l)%Z with false by lia. rewrite andb_false_r. reflexivity.
+    - apply no_load. lia.
     - apply near_both.
       + apply (left_of_the_cone (l - d) ltac:(lia) (k - d) ltac:(site)). lia.
       + destruct (single_force G M rho X P F k l f loaded ltac:(lia) C (l - d) ltac:(lia) (k - d)
@@ -261,6 +260,18 @@ Section Alone.
         pose proof (n_y_pos G). assert (0 < f / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra). lra.
   Qed.
 End Alone.
+
+Corollary enters_alone_mirrored G M rho X (P : packing G M rho X) F k l f d :
+  bead M k l -> carries M X (single k l f) F -> 0 < f -> (1 <= d < l)%Z ->
+  single k l f (k + d) (l - d) = zero /\
+  near (fun e => f_plus F (k + d) (l - d) e = 0 /\ f_minus F (k + d) (l - d) e <> 0).
+Proof.
+  intros K C Hf Hd. split; [apply no_load; lia|].
+  pose proof (enters_alone G M _ _ (mirrored_packing G M rho X P) _ (- k) l f ltac:(site)
+    (mirrored_carries M X _ _ F C (mirrored_single k l f)) d Hf Hd) as [_ N].
+  cbn [f_plus f_minus mirrored_forces] in N. unfold mirrored in N.
+  replace (- (- k - d))%Z with (k + d)%Z in N by lia. exact N.
+Qed.
 
 (** In the ordered packing no two beads but those in contact are as near as 2r. *)
 Theorem ordered_beads_do_not_overlap G M rho X i j k l : packing G M rho X ->
@@ -312,4 +323,7 @@ Ltac something :=
   | |- near (fun e => f_minus (passed_down ?M (laid_packing ?G ?rho) (single ?k ?l ?f)) ?i ?j e = 0 /\ _) =>
       refine (proj2 (enters_alone G M rho _ (laid_is_packing G rho M) _ k l f ltac:(site)
         (passed_down_carries G M rho _ (laid_is_packing G rho M) _) 1 ltac:(lra) ltac:(lia)))
+  | |- near (fun e => f_plus (passed_down ?M (laid_packing ?G ?rho) (single ?k ?l ?f)) ?i ?j e = 0 /\ _) =>
+      refine (proj2 (enters_alone_mirrored G M rho _ (laid_is_packing G rho M) _ k l f 1 ltac:(site)
+        (passed_down_carries G M rho _ (laid_is_packing G rho M) _) ltac:(lra) ltac:(lia)))
   end.

@@ -1,8 +1,9 @@
 (** Forces to first order: how a bead passes on what it carries. By induction downwards that gives the forces of
-    every contact under the three loads, on which Eqs. 6-11 rest. *)
+    every contact under a load on one bead, and under loads of whole layers in any direction, on which Eqs. 6-11
+    and B1 rest. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
-From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Mirror.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -91,124 +92,195 @@ Section Forces.
         field; lra.
   Qed.
 
-  Lemma push_minus i j v d : bead M i j -> expands (f_minus F i j) v d ->
-    expands (fun e => x_of (scale (f_minus F i j e) (N_minus X i j e)))
-      (- v * n_x) (- d * n_x + v * nu_minus i j / (2 * n_x)) /\
-    expands (fun e => y_of (scale (f_minus F i j e) (N_minus X i j e)))
-      (v * n_y) (d * n_y + v * nu_minus i j / (2 * n_y)).
-  Proof.
-    intros H E. pose proof (n_x_pos G). pose proof (n_y_pos G).
-    destruct (Z.eq_dec j M) as [->|Hne].
-    - assert (Z0 : forall e, f_minus F i M e = 0) by (intros e; apply (free_surface _ _ _ _ C)).
-      destruct (expands_unique _ _ _ 0 0 E) as [-> ->].
-      { eapply expands_near; [apply expands_const|]. apply near_always. intros e. rewrite Z0. ring. }
-      split; (eapply expands_near; [eapply expands_to; [apply (expands_const 0)|ring|]|];
-        [field; lra|apply near_always; intros e; unfold scale; cbn; rewrite Z0; ring]).
-    - destruct (N_minus_expands G M rho X P i j ltac:(site)) as [Nx Ny].
-      split; unfold scale; cbn [x_of y_of]; (eapply expands_to; [apply expands_mult; eassumption|ring|]);
-        field; lra.
-  Qed.
-
-  (** What leaves a bead (i, j) whose load points downwards, in terms of what enters it. *)
-  Theorem passes i j l v d w c : bead M i j -> (1 <= j)%Z -> load i j = downwards l ->
-    expands (f_plus F i j) v d -> expands (f_minus F i j) w c ->
-    let v' := v + l / (2 * n_y) in
-    let w' := w + l / (2 * n_y) in
-    expands (f_plus F (i - 1) (j - 1)) v'
-      (d + (- (phi * v * nu_plus i j) + w * nu_minus i j
-            + phi * v' * nu_plus (i - 1) (j - 1) - w' * nu_minus (i + 1) (j - 1)) / (1 - phi * phi)) /\
-    expands (f_minus F (i + 1) (j - 1)) w'
-      (c + (- (phi * w * nu_minus i j) + v * nu_plus i j
-            + phi * w' * nu_minus (i + 1) (j - 1) - v' * nu_plus (i - 1) (j - 1)) / (1 - phi * phi)).
-  Proof.
-    intros H Hj Hl Hp Hm v' w'.
-    pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
-    destruct (push_plus i j v d H Hp) as [Px Py]. destruct (push_minus i j w c H Hm) as [Mx My].
-    destruct (N_plus_expands G M rho X P (i - 1) (j - 1) ltac:(site)) as [Ux Uy].
-    destruct (N_minus_expands G M rho X P (i + 1) (j - 1) ltac:(site)) as [Vx Vy].
-    pose proof (expands_plus _ _ _ _ _ _ Px Mx) as Sx.
-    pose proof (expands_plus _ _ _ _ _ _ (expands_plus _ _ _ _ _ _ Py My) (expands_const l)) as Sy.
-    destruct (solved (f_plus F (i - 1) (j - 1)) (f_minus F (i + 1) (j - 1))
-      _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ Ux Uy Vx Vy Sx Sy) as [A B].
-    - intros E. assert (0 < n_x * n_y) by (apply Rmult_lt_0_compat; assumption). lra.
-    - eapply near_then; [exact (balance _ _ _ _ C i j H Hj)|]. intros e E.
-      unfold balanced in E. rewrite Hl in E.
-      pose proof (f_equal x_of E) as E1. pose proof (f_equal y_of E) as E2.
-      components in E1. components in E2. components. split; lra.
-    - assert (Hxy : 0 < n_x * n_y) by (apply Rmult_lt_0_compat; assumption).
-      rewrite one_minus_phi_squared, phi_is. unfold v', w'.
-      split; (eapply expands_to; [eassumption|field; repeat split; lra|]).
-      + field_simplify_eq; [ring [(n_y_squared G)]|repeat split; lra].
-      + field_simplify_eq; [ring [(n_y_squared G)]|repeat split; lra].
-  Qed.
 End Forces.
 
-(** ** The loads of the paper *)
+Lemma push_minus G M rho X (P : packing G M rho X) load F (C : carries M X load F) i j v d :
+  bead M i j -> expands (f_minus F i j) v d ->
+  expands (fun e => x_of (scale (f_minus F i j e) (N_minus X i j e)))
+    (- v * n_x G) (- d * n_x G + v * tilt_minus G rho i j / (2 * n_x G)) /\
+  expands (fun e => y_of (scale (f_minus F i j e) (N_minus X i j e)))
+    (v * n_y G) (d * n_y G + v * tilt_minus G rho i j / (2 * n_y G)).
+Proof.
+  intros H E. rewrite f_minus_is in *. pose proof (n_x_pos G).
+  destruct (push_plus G M _ _ (mirrored_packing G M rho X P) _ _
+    (mirrored_carries M X load _ F C (fun _ _ => eq_refl)) (- i) j v d ltac:(site) E) as [Ex Ey].
+  rewrite tilt_plus_mirrored, Z.opp_involutive in *.
+  split; (eapply expands_near; [eapply expands_to|]);
+    [exact (expands_opp _ _ _ Ex)|ring|field; lra| |exact Ey|reflexivity|reflexivity|];
+    apply near_always; intros e; rewrite N_plus_mirrored; unfold flipped, scale; cbn [x_of y_of]; ring.
+Qed.
 
-Lemma zero_is_downwards : zero = downwards 0.
-Proof. unfold zero, downwards. f_equal. ring. Qed.
+(** ** Loads in any direction *)
 
-(** Relative changes, over ε, of the forces under a surface load (Eq. 11 and its mirror image). *)
-Section Changes.
+Lemma downwards_leans G f : downwards f = leaning G (f / (2 * n_y G)) (f / (2 * n_y G)).
+Proof.
+  pose proof (n_y_pos G). unfold downwards, leaning, scale, add, n_plus, n_minus. cbn [x_of y_of].
+  f_equal; field; lra.
+Qed.
+
+Lemma zero_leans G : zero = leaning G 0 0.
+Proof. unfold zero, leaning, scale, add, n_plus, n_minus. cbn [x_of y_of]. f_equal; ring. Qed.
+
+Lemma flipped_leaning G a b : flipped (leaning G a b) = leaning G b a.
+Proof. unfold flipped, leaning, scale, add, n_plus, n_minus. cbn [x_of y_of]. f_equal; ring. Qed.
+
+Section Below.
   Variable G : lattice.
+  Variable M : Z.
   Variable rho : radii.
+  Variable X : centres.
+  Hypothesis P : packing G M rho X.
+  Variable load : Z -> Z -> vector.
+  Variable F : forces.
+  Hypothesis C : carries M X load F.
+  Local Notation n_x := (n_x G).
+  Local Notation n_y := (n_y G).
   Local Notation phi := (phi G).
   Local Notation nu_plus := (tilt_plus G rho).
   Local Notation nu_minus := (tilt_minus G rho).
 
-  Definition surface_plus (M i j : Z) : R :=
-    (phi * nu_plus i j - nu_minus (i + M - j + 1)%Z (M - 1)%Z
-     - Sum 1 (M - j - 1) (fun n => nu_minus (i + n + 1)%Z (j + n - 1)%Z - nu_minus (i + n)%Z (j + n)%Z))
-    / (1 - phi * phi).
-  Definition surface_minus (M i j : Z) : R :=
-    (phi * nu_minus i j - nu_plus (i - M + j - 1)%Z (M - 1)%Z
-     - Sum 1 (M - j - 1) (fun n => nu_plus (i - n - 1)%Z (j + n - 1)%Z - nu_plus (i - n)%Z (j + n)%Z))
-    / (1 - phi * phi).
-
-  Lemma surface_plus_top M i :
-    surface_plus M i (M - 1) = (phi * nu_plus i (M - 1)%Z - nu_minus (i + 2)%Z (M - 1)%Z) / (1 - phi * phi).
+  (** What leaves the bead (i + 1, j + 1) along n⁺, in terms of what enters it, and of its load. *)
+  Theorem f_plus_below i j a b v d w c : contact M i j -> load (i + 1)%Z (j + 1)%Z = leaning G a b ->
+    expands (f_plus F (i + 1) (j + 1)) v d -> expands (f_minus F (i + 1) (j + 1)) w c ->
+    expands (f_plus F i j) (v + a)
+      (d + (- (phi * v * nu_plus (i + 1)%Z (j + 1)%Z) + w * nu_minus (i + 1)%Z (j + 1)%Z
+            + phi * (v + a) * nu_plus i j - (w + b) * nu_minus (i + 2)%Z j) / (1 - phi * phi)).
   Proof.
-    unfold surface_plus. rewrite Sum_empty by lia.
-    replace (i + M - (M - 1) + 1)%Z with (i + 2)%Z by lia. rewrite Rminus_0_r. reflexivity.
+    intros H Hl Hp Hm.
+    pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
+    destruct (push_plus G M rho X P load F C (i + 1) (j + 1) v d ltac:(site) Hp) as [Px Py].
+    destruct (push_minus G M rho X P load F C (i + 1) (j + 1) w c ltac:(site) Hm) as [Mx My].
+    destruct (N_plus_expands G M rho X P i j H) as [Ux Uy].
+    destruct (N_minus_expands G M rho X P (i + 2) j ltac:(site)) as [Vx Vy].
+    pose proof (expands_plus _ _ _ _ _ _ (expands_plus _ _ _ _ _ _ Px Mx)
+      (expands_const ((a - b) * n_x))) as Sx.
+    pose proof (expands_plus _ _ _ _ _ _ (expands_plus _ _ _ _ _ _ Py My)
+      (expands_const ((a + b) * n_y))) as Sy.
+    assert (Hxy : 0 < n_x * n_y) by (apply Rmult_lt_0_compat; assumption).
+    destruct (solved (f_plus F i j) (f_minus F (i + 2) j)
+      _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ Ux Uy Vx Vy Sx Sy) as [A _].
+    - lra.
+    - pose proof (balance _ _ _ _ C (i + 1)%Z (j + 1)%Z ltac:(site) ltac:(site)) as N.
+      unfold balanced in N. rewrite Hl, !Z.add_simpl_r in N.
+      replace (i + 1 + 1)%Z with (i + 2)%Z in N by lia.
+      eapply near_then; [exact N|]. intros e E.
+      pose proof (f_equal x_of E) as E1. pose proof (f_equal y_of E) as E2.
+      unfold leaning in *. components in E1. components in E2. components. split; lra.
+    - rewrite one_minus_phi_squared, phi_is.
+      eapply expands_to; [exact A|field; repeat split; lra|].
+      field_simplify_eq; [ring [(n_y_squared G)]|repeat split; lra].
   Qed.
 
-  Lemma surface_minus_top M i :
-    surface_minus M i (M - 1) = (phi * nu_minus i (M - 1)%Z - nu_plus (i - 2)%Z (M - 1)%Z) / (1 - phi * phi).
+  Lemma at_surface i : expands (f_plus F i M) 0 0 /\ expands (f_minus F i M) 0 0.
   Proof.
-    unfold surface_minus. rewrite Sum_empty by lia.
-    replace (i - M + (M - 1) - 1)%Z with (i - 2)%Z by lia. rewrite Rminus_0_r. reflexivity.
+    split; (eapply expands_near; [apply (expands_const 0)|]; apply near_always; intros e;
+      symmetry; apply (free_surface _ _ _ _ C)).
   Qed.
+End Below.
 
-  Lemma surface_plus_step M i j : (j + 1 < M)%Z ->
-    surface_plus M i j = surface_plus M (i + 1) (j + 1) +
-      (- (phi * nu_plus (i + 1)%Z (j + 1)%Z) + nu_minus (i + 1)%Z (j + 1)%Z
-       + phi * nu_plus i j - nu_minus (i + 2)%Z j) / (1 - phi * phi).
-  Proof.
-    intros H. pose proof (divisor_positive G). unfold surface_plus.
-    rewrite (Sum_first 1 (M - j - 1)) by lia.
-    replace (Sum (1 + 1) (M - j - 1) _) with (Sum 1 (M - (j + 1) - 1) (fun n =>
-      nu_minus (i + 1 + n + 1)%Z (j + 1 + n - 1)%Z - nu_minus (i + 1 + n)%Z (j + 1 + n)%Z)).
-    2:{ rewrite Sum_next. apply Sum_eq; [lia|lia|]. intros m Hm. same_sites. }
-    replace (i + 1 + M - (j + 1) + 1)%Z with (i + M - j + 1)%Z by lia.
-    replace (i + 1 + 1)%Z with (i + 2)%Z by lia. replace (j + 1 - 1)%Z with j by lia.
-    field. lra.
-  Qed.
+(** ** Loads of whole layers *)
 
-  Lemma surface_minus_step M i j : (j + 1 < M)%Z ->
-    surface_minus M i j = surface_minus M (i - 1) (j + 1) +
-      (- (phi * nu_minus (i - 1)%Z (j + 1)%Z) + nu_plus (i - 1)%Z (j + 1)%Z
-       + phi * nu_minus i j - nu_plus (i - 2)%Z j) / (1 - phi * phi).
-  Proof.
-    intros H. pose proof (divisor_positive G). unfold surface_minus.
-    rewrite (Sum_first 1 (M - j - 1)) by lia.
-    replace (Sum (1 + 1) (M - j - 1) _) with (Sum 1 (M - (j + 1) - 1) (fun n =>
-      nu_plus (i - 1 - n - 1)%Z (j + 1 + n - 1)%Z - nu_plus (i - 1 - n)%Z (j + 1 + n)%Z)).
-    2:{ rewrite Sum_next. apply Sum_eq; [lia|lia|]. intros m Hm. same_sites. }
-    replace (i - 1 - M + (j + 1) - 1)%Z with (i - M + j - 1)%Z by lia.
-    replace (i - 1 - 1)%Z with (i - 2)%Z by lia. replace (j + 1 - 1)%Z with j by lia.
-    field. lra.
-  Qed.
-End Changes.
+(** What turns into f⁺ at the beads above its contact, if f⁻ comes from a surface at height M. *)
+Definition turned (G : lattice) (rho : radii) (M i j : Z) : R :=
+  tilt_minus G rho (i + M - j + 1) (M - 1)
+  + Sum 1 (M - j - 1) (fun n => tilt_minus G rho (i + n + 1) (j + n - 1) - tilt_minus G rho (i + n) (j + n)).
+
+Lemma turned_at_top G rho i j : turned G rho (j + 1) i j = tilt_minus G rho (i + 2) j.
+Proof.
+  unfold turned. rewrite Sum_empty, Z.add_simpl_r by lia.
+  replace (i + (j + 1) - j + 1)%Z with (i + 2)%Z by lia. ring.
+Qed.
+
+Lemma turned_below G rho M i j : (j + 1 < M)%Z -> turned G rho M i j =
+  turned G rho M (i + 1) (j + 1) + (tilt_minus G rho (i + 2) j - tilt_minus G rho (i + 1) (j + 1)).
+Proof.
+  intros H. unfold turned. rewrite (Sum_first 1 (M - j - 1)), Sum_next by lia.
+  rewrite (Sum_eq 1 (M - j - 1 - 1) 1 (M - (j + 1) - 1) _ (fun n =>
+    tilt_minus G rho (i + 1 + n + 1) (j + 1 + n - 1) - tilt_minus G rho (i + 1 + n) (j + 1 + n)))
+    by (lia || (intros; same_sites)).
+  replace (i + 1 + M - (j + 1) + 1)%Z with (i + M - j + 1)%Z by lia.
+  replace (i + 1 + 1)%Z with (i + 2)%Z by lia. rewrite Z.add_simpl_r. ring.
+Qed.
+
+(** A load −(a n⁺ + b n⁻) on each bead of a layer, a and b of that layer: f⁺ of every contact. *)
+Theorem layered_f_plus G M j : (j <= M)%Z -> forall rho X load F a b,
+  packing G M rho X -> carries M X load F -> (forall i l, load i l = leaning G (a l) (b l)) ->
+  forall i, bead M i j ->
+  expands (f_plus F i j) (Sum (j + 1) M a)
+    ((phi G * Sum (j + 1) M a * tilt_plus G rho i j
+      - Sum (j + 1) M (fun l => b l * turned G rho l i j)) / (1 - phi G * phi G)).
+Proof.
+  intros Hj. pose proof (divisor_positive G) as Hd.
+  pattern j. apply (down_from _ M); [| |exact Hj]; clear j Hj.
+  - intros rho X load F a b P C L i H. rewrite !Sum_empty by lia.
+    eapply expands_to; [exact (proj1 (at_surface M X load F C i))|reflexivity|field; lra].
+  - intros j Hj IH rho X load F a b P C L i H.
+    pose proof (IH rho X load F a b P C L (i + 1)%Z ltac:(site)) as Ep.
+    assert (Em : exists c, expands (f_minus F (i + 1) (j + 1)) (Sum (j + 1 + 1) M b) c).
+    { rewrite f_minus_is. eexists. refine (IH _ _ (fun i l => leaning G (b l) (a l)) _ b a
+        (mirrored_packing G M rho X P) (mirrored_carries M X load _ F C _) _ (- (i + 1))%Z _).
+      - intros. rewrite L, flipped_leaning. reflexivity.
+      - reflexivity.
+      - site. }
+    destruct Em as [c Em].
+    eapply expands_to; [exact (f_plus_below G M rho X P load F C i j _ _ _ _ _ _ ltac:(site) (L _ _) Ep Em)|..];
+      rewrite !(Sum_first (j + 1) M) by lia; [ring|].
+    rewrite turned_at_top, (Sum_eq (j + 1 + 1) M (j + 1 + 1) M (fun l => b l * turned G rho l i j) (fun l =>
+      b l * turned G rho l (i + 1) (j + 1)
+      + b l * (tilt_minus G rho (i + 2) j - tilt_minus G rho (i + 1) (j + 1))))
+      by (reflexivity || (intros; rewrite turned_below by lia; ring)).
+    rewrite Sum_plus, Sum_times. field. lra.
+Qed.
+
+(** The relative change of f⁺ over ε, where L⁻ = t L⁺ acts at height M alone (Eq. 11; B1); of f⁻, L⁺ = t L⁻. *)
+Definition change_plus (G : lattice) (t : R) (rho : radii) (M i j : Z) : R :=
+  (phi G * tilt_plus G rho i j - t * turned G rho M i j) / (1 - phi G * phi G).
+Definition change_minus (G : lattice) (t : R) (rho : radii) (M i j : Z) : R :=
+  change_plus G t (mirrored rho) M (- i) j.
+
+(** One vector, s(l) times of it, on each bead of layer l. *)
+Theorem f_plus_of_layers G M rho X (P : packing G M rho X) F i j load s a t :
+  contact M i j -> carries M X load F ->
+  (forall i l, load i l = leaning G (s l * a) (s l * (t * a))) ->
+  expands (f_plus F i j) (Sum (j + 1) M s * a)
+    (a * Sum (j + 1) M (fun l => s l * change_plus G t rho l i j)).
+Proof.
+  intros H C L. pose proof (divisor_positive G).
+  eapply expands_to; [apply (layered_f_plus G M j ltac:(site) rho X load F (fun l => s l * a)
+    (fun l => s l * (t * a)) P C L i); site|apply Sum_times|].
+  rewrite Sum_times.
+  rewrite (Sum_eq _ _ (j + 1) M (fun l => s l * change_plus G t rho l i j) (fun l =>
+    phi G * tilt_plus G rho i j / (1 - phi G * phi G) * s l
+    - t / (1 - phi G * phi G) * (s l * turned G rho l i j)) eq_refl eq_refl)
+    by (intros; unfold change_plus; field; lra).
+  rewrite (Sum_eq _ _ (j + 1) M (fun l => s l * (t * a) * turned G rho l i j) (fun l =>
+    t * a * (s l * turned G rho l i j)) eq_refl eq_refl) by (intros; ring).
+  rewrite Sum_minus, !Sum_scale. field. lra.
+Qed.
+
+Corollary f_minus_of_layers G M rho X (P : packing G M rho X) F i j load s b t :
+  contact M i j -> carries M X load F ->
+  (forall i l, load i l = leaning G (s l * (t * b)) (s l * b)) ->
+  expands (f_minus F i j) (Sum (j + 1) M s * b)
+    (b * Sum (j + 1) M (fun l => s l * change_minus G t rho l i j)).
+Proof.
+  intros H C L. rewrite f_minus_is.
+  refine (f_plus_of_layers G M _ _ (mirrored_packing G M rho X P) _ _ _
+    (fun i l => leaning G (s l * b) (s l * (t * b))) s b t _ (mirrored_carries M X load _ F C _) _);
+    [site|intros; rewrite L, flipped_leaning|]; reflexivity.
+Qed.
+
+Lemma change_minus_is G t rho M i j : change_minus G t rho M i j =
+  (phi G * tilt_minus G rho i j - t * (tilt_plus G rho (i - M + j - 1) (M - 1)
+    + Sum 1 (M - j - 1) (fun n => tilt_plus G rho (i - n - 1) (j + n - 1) - tilt_plus G rho (i - n) (j + n))))
+    / (1 - phi G * phi G).
+Proof.
+  unfold change_minus, change_plus, turned. rewrite tilt_plus_mirrored, tilt_minus_mirrored.
+  rewrite Z.opp_involutive, (Sum_eq 1 (M - j - 1) 1 (M - j - 1) _ (fun n =>
+    tilt_plus G rho (i - n - 1) (j + n - 1) - tilt_plus G rho (i - n) (j + n)) eq_refl eq_refl)
+    by (intros; rewrite !tilt_minus_mirrored; same_values; reflexivity).
+  replace (- (- i + M - j + 1))%Z with (i - M + j - 1)%Z by lia. reflexivity.
+Qed.
 
 Section Loads.
   Variable G : lattice.
@@ -217,49 +289,90 @@ Section Loads.
   Variable X : centres.
   Hypothesis P : packing G M rho X.
   Variable F : forces.
+  Variables i j : Z.
+  Hypothesis at_contact : contact M i j.
   Local Notation n_y := (n_y G).
 
-  (** [passes], read from the contact below: the bead above (i, j) along n⁺, and along n⁻. *)
-  Lemma below_plus load i j l v d w c : carries M X load F -> contact M i j ->
-    load (i + 1)%Z (j + 1)%Z = downwards l ->
-    expands (f_plus F (i + 1) (j + 1)) v d -> expands (f_minus F (i + 1) (j + 1)) w c ->
-    let v' := v + l / (2 * n_y) in
-    let w' := w + l / (2 * n_y) in
-    expands (f_plus F i j) v'
-      (d + (- (phi G * v * tilt_plus G rho (i + 1) (j + 1)) + w * tilt_minus G rho (i + 1) (j + 1)
-            + phi G * v' * tilt_plus G rho i j - w' * tilt_minus G rho (i + 2) j)
-            / (1 - phi G * phi G)).
+  Lemma Sum_top s low high f : (low <= high)%Z -> s high = 1 ->
+    (forall l, (l < high)%Z -> s l = 0) -> Sum low high (fun l => s l * f l) = f high.
   Proof.
-    intros C H Hl Hp Hm v' w'.
-    destruct (passes G M rho X P load F C (i + 1) (j + 1) l v d w c) as [E _];
-      try assumption; try site.
-    replace (i + 1 - 1)%Z with i in E by lia. replace (j + 1 - 1)%Z with j in E by lia.
-    replace (i + 1 + 1)%Z with (i + 2)%Z in E by lia. exact E.
+    intros H One Zero. rewrite Sum_last, One, (Sum_zero low (high - 1)); [ring| |lia].
+    intros l Hl. rewrite Zero by lia. ring.
   Qed.
 
-  Lemma below_minus load i j l v d w c : carries M X load F -> contact M i j ->
-    load (i - 1)%Z (j + 1)%Z = downwards l ->
-    expands (f_plus F (i - 1) (j + 1)) v d -> expands (f_minus F (i - 1) (j + 1)) w c ->
-    let v' := v + l / (2 * n_y) in
-    let w' := w + l / (2 * n_y) in
-    expands (f_minus F i j) w'
-      (c + (- (phi G * w * tilt_minus G rho (i - 1) (j + 1)) + v * tilt_plus G rho (i - 1) (j + 1)
-            + phi G * w' * tilt_minus G rho i j - v' * tilt_plus G rho (i - 2) j)
-            / (1 - phi G * phi G)).
+  Definition at_top (l : Z) : R := if (l =? M)%Z then 1 else 0.
+  Lemma of_top f : Sum (j + 1) M (fun l => at_top l * f l) = f M.
   Proof.
-    intros C H Hl Hp Hm v' w'.
-    destruct (passes G M rho X P load F C (i - 1) (j + 1) l v d w c) as [_ E];
-      try assumption; try site.
-    replace (i - 1 + 1)%Z with i in E by lia. replace (j + 1 - 1)%Z with j in E by lia.
-    replace (i - 1 - 1)%Z with (i - 2)%Z in E by lia. exact E.
+    apply Sum_top; unfold at_top; [site|rewrite Z.eqb_refl; reflexivity|].
+    intros l Hl. replace (l =? M)%Z with false by lia. reflexivity.
+  Qed.
+  Lemma once : Sum (j + 1) M at_top = 1.
+  Proof. rewrite <- (of_top (fun _ => 1)). apply Sum_eq; auto. intros. ring. Qed.
+
+  (** A surface load −(a n⁺ + b n⁻) on every bead at j = M (Eq. B1). *)
+  Theorem leaning_f_plus a b t : carries M X (leaning_surface G M a b) F -> b = t * a ->
+    expands (f_plus F i j) a (a * change_plus G t rho M i j).
+  Proof.
+    intros C ->. eapply expands_to; [apply (f_plus_of_layers G M rho X P F i j _ at_top a t at_contact C)
+      |rewrite once; ring|rewrite of_top; reflexivity].
+    intros. unfold leaning_surface, at_top.
+    destruct (l =? M)%Z; [f_equal; ring|rewrite (zero_leans G); f_equal; ring].
   Qed.
 
-  Lemma at_surface load i : carries M X load F ->
-    expands (f_plus F i M) 0 0 /\ expands (f_minus F i M) 0 0.
+  Theorem leaning_f_minus a b t : carries M X (leaning_surface G M a b) F -> a = t * b ->
+    expands (f_minus F i j) b (b * change_minus G t rho M i j).
   Proof.
-    intros C. split; (eapply expands_near; [apply (expands_const 0)|]; apply near_always; intros e;
-      symmetry; apply (free_surface _ _ _ _ C)).
+    intros C ->. eapply expands_to; [apply (f_minus_of_layers G M rho X P F i j _ at_top b t at_contact C)
+      |rewrite once; ring|rewrite of_top; reflexivity].
+    intros. unfold leaning_surface, at_top.
+    destruct (l =? M)%Z; [f_equal; ring|rewrite (zero_leans G); f_equal; ring].
   Qed.
+
+  Lemma same_load load other : carries M X load F -> (forall k l, other k l = load k l) -> carries M X other F.
+  Proof.
+    intros C L. split; [apply (free_surface _ _ _ _ C)|]. intros k l H Hl. rewrite L.
+    exact (balance _ _ _ _ C k l H Hl).
+  Qed.
+
+  (** A surface load f straight down: Eq. 11, and its mirror image. *)
+  Theorem surface_force f : carries M X (surface M f) F ->
+    expands (f_plus F i j) (f / (2 * n_y)) (f / (2 * n_y) * change_plus G 1 rho M i j) /\
+    expands (f_minus F i j) (f / (2 * n_y)) (f / (2 * n_y) * change_minus G 1 rho M i j).
+  Proof.
+    intros C. split; (eapply leaning_f_plus || eapply leaning_f_minus);
+      [apply (same_load _ _ C); intros; unfold surface, leaning_surface; rewrite (downwards_leans G); reflexivity
+      |ring|apply (same_load _ _ C); intros; unfold surface, leaning_surface; rewrite (downwards_leans G); reflexivity
+      |ring].
+  Qed.
+
+  (** A weight g on every bead: loads superpose; layer l acts as the surface of a height l. *)
+  Theorem bulk_force g : carries M X (bulk g) F ->
+    expands (f_plus F i j) (IZR (M - j) * (g / (2 * n_y)))
+      (g / (2 * n_y) * Sum (j + 1) M (fun l => change_plus G 1 rho l i j)) /\
+    expands (f_minus F i j) (IZR (M - j) * (g / (2 * n_y)))
+      (g / (2 * n_y) * Sum (j + 1) M (fun l => change_minus G 1 rho l i j)).
+  Proof.
+    intros C. assert (N : Sum (j + 1) M (fun _ => 1) = IZR (M - j))
+      by (rewrite Sum_const by site; replace (M - (j + 1) + 1)%Z with (M - j)%Z by lia; ring).
+    split; (eapply expands_to;
+      [first [apply (f_plus_of_layers G M rho X P F i j _ (fun _ => 1) (g / (2 * n_y)) 1 at_contact C)
+             |apply (f_minus_of_layers G M rho X P F i j _ (fun _ => 1) (g / (2 * n_y)) 1 at_contact C)];
+       intros; rewrite !Rmult_1_l; apply downwards_leans
+      |rewrite N; reflexivity
+      |f_equal; apply Sum_eq; auto; intros; ring]).
+  Qed.
+End Loads.
+
+(** ** Beads without load *)
+
+Section Unloaded.
+  Variable G : lattice.
+  Variable M : Z.
+  Variable rho : radii.
+  Variable X : centres.
+  Hypothesis P : packing G M rho X.
+  Variable F : forces.
+  Local Notation n_y := (n_y G).
 
   (** What leaves a bead without load that f⁺ alone enters, over what enters it (Eq. 8). *)
   Theorem propagates load i j : carries M X load F -> contact M i j -> (1 <= j)%Z ->
@@ -291,85 +404,6 @@ Section Loads.
       + field_simplify_eq; [ring [(n_y_squared G)]|repeat split; lra].
   Qed.
 
-  (** A surface load f on every bead at j = M: Eq. 11 for all layers, downwards. *)
-  Theorem surface_force f : carries M X (surface M f) F -> forall j, (j <= M - 1)%Z ->
-    forall i, contact M i j ->
-    expands (f_plus F i j) (f / (2 * n_y)) (f / (2 * n_y) * surface_plus G rho M i j) /\
-    expands (f_minus F i j) (f / (2 * n_y)) (f / (2 * n_y) * surface_minus G rho M i j).
-  Proof.
-    intros C j Hj. pose proof (divisor_positive G) as Hd. pose proof (n_y_pos G) as Hy.
-    pattern j. apply (down_from _ (M - 1)); [| |exact Hj]; clear j Hj.
-    - intros i Hi. rewrite surface_plus_top, surface_minus_top.
-      assert (L : forall k, surface M f k (M - 1 + 1)%Z = downwards f).
-      { intros k. unfold surface. replace (M - 1 + 1 =? M)%Z with true by lia. reflexivity. }
-      split.
-      + destruct (at_surface _ (i + 1) C) as [Sp Sm].
-        pose proof (below_plus _ i (M - 1) f 0 0 0 0 C Hi (L _)) as B.
-        replace (M - 1 + 1)%Z with M in B by lia.
-        eapply expands_to; [apply B; assumption|field; lra|field; lra].
-      + destruct (at_surface _ (i - 1) C) as [Sp Sm].
-        pose proof (below_minus _ i (M - 1) f 0 0 0 0 C Hi (L _)) as B.
-        replace (M - 1 + 1)%Z with M in B by lia.
-        eapply expands_to; [apply B; assumption|field; lra|field; lra].
-    - intros j Hj IH i Hi. rewrite surface_plus_step, surface_minus_step by lia.
-      assert (L : forall k, surface M f k (j + 1)%Z = downwards 0).
-      { intros k. unfold surface. replace (j + 1 =? M)%Z with false by lia. apply zero_is_downwards. }
-      split.
-      + destruct (IH (i + 1)%Z ltac:(site)) as [Sp Sm].
-        eapply expands_to; [exact (below_plus _ i j 0 _ _ _ _ C Hi (L _) Sp Sm)|field; lra|field; lra].
-      + destruct (IH (i - 1)%Z ltac:(site)) as [Sp Sm].
-        eapply expands_to; [exact (below_minus _ i j 0 _ _ _ _ C Hi (L _) Sp Sm)|field; lra|field; lra].
-  Qed.
-
-  (** A weight g on every bead: loads superpose; layer l acts as the surface of a height l. *)
-  Theorem bulk_force g : carries M X (bulk g) F -> forall j, (j <= M - 1)%Z ->
-    forall i, contact M i j ->
-    expands (f_plus F i j) (IZR (M - j) * (g / (2 * n_y)))
-      (g / (2 * n_y) * Sum (j + 1) M (fun l => surface_plus G rho l i j)) /\
-    expands (f_minus F i j) (IZR (M - j) * (g / (2 * n_y)))
-      (g / (2 * n_y) * Sum (j + 1) M (fun l => surface_minus G rho l i j)).
-  Proof.
-    intros C j Hj. pose proof (divisor_positive G) as Hd. pose proof (n_y_pos G) as Hy.
-    pattern j. apply (down_from _ (M - 1)); [| |exact Hj]; clear j Hj.
-    - intros i Hi. replace (M - 1 + 1)%Z with M by lia.
-      rewrite !Sum_one, surface_plus_top, surface_minus_top.
-      replace (M - (M - 1))%Z with 1%Z by lia.
-      split.
-      + destruct (at_surface _ (i + 1) C) as [Sp Sm].
-        pose proof (below_plus _ i (M - 1) g 0 0 0 0 C Hi eq_refl) as B.
-        replace (M - 1 + 1)%Z with M in B by lia.
-        eapply expands_to; [apply B; assumption|field; lra|field; lra].
-      + destruct (at_surface _ (i - 1) C) as [Sp Sm].
-        pose proof (below_minus _ i (M - 1) g 0 0 0 0 C Hi eq_refl) as B.
-        replace (M - 1 + 1)%Z with M in B by lia.
-        eapply expands_to; [apply B; assumption|field; lra|field; lra].
-    - intros j Hj IH i Hi.
-      assert (E : IZR (M - j) = IZR (M - (j + 1)) + 1) by (rewrite !minus_IZR, plus_IZR; ring).
-      rewrite E. rewrite !(Sum_first (j + 1) M) by lia.
-      pose proof (surface_plus_top G rho (j + 1) i) as Tp.
-      pose proof (surface_minus_top G rho (j + 1) i) as Tm.
-      replace (j + 1 - 1)%Z with j in * by lia. rewrite Tp, Tm.
-      split.
-      + destruct (IH (i + 1)%Z ltac:(site)) as [Sp Sm].
-        eapply expands_to; [exact (below_plus _ i j g _ _ _ _ C Hi eq_refl Sp Sm)|field; lra|].
-        rewrite (Sum_eq (j + 1 + 1) M (j + 1 + 1) M (fun l => surface_plus G rho l i j) (fun l =>
-          surface_plus G rho l (i + 1) (j + 1) + (- (phi G * tilt_plus G rho (i + 1)%Z (j + 1)%Z)
-            + tilt_minus G rho (i + 1)%Z (j + 1)%Z
-            + phi G * tilt_plus G rho i j - tilt_minus G rho (i + 2)%Z j) / (1 - phi G * phi G)));
-          [|lia|lia|intros; apply surface_plus_step; lia].
-        rewrite Sum_plus, Sum_const by lia.
-        replace (M - (j + 1 + 1) + 1)%Z with (M - (j + 1))%Z by lia. field. lra.
-      + destruct (IH (i - 1)%Z ltac:(site)) as [Sp Sm].
-        eapply expands_to; [exact (below_minus _ i j g _ _ _ _ C Hi eq_refl Sp Sm)|field; lra|].
-        rewrite (Sum_eq (j + 1 + 1) M (j + 1 + 1) M (fun l => surface_minus G rho l i j) (fun l =>
-          surface_minus G rho l (i - 1) (j + 1) + (- (phi G * tilt_minus G rho (i - 1)%Z (j + 1)%Z)
-            + tilt_plus G rho (i - 1)%Z (j + 1)%Z
-            + phi G * tilt_minus G rho i j - tilt_plus G rho (i - 2)%Z j) / (1 - phi G * phi G)));
-          [|lia|lia|intros; apply surface_minus_step; lia].
-        rewrite Sum_plus, Sum_const by lia.
-        replace (M - (j + 1 + 1) + 1)%Z with (M - (j + 1))%Z by lia. field. lra.
-  Qed.
-
   (** A bead without load that nothing enters sends nothing on: exactly, near 0. *)
   Lemma silent load i j : carries M X load F -> bead M i j -> (1 <= j)%Z -> load i j = zero ->
     near (fun e => f_plus F i j e = 0 /\ f_minus F i j e = 0) ->
@@ -399,8 +433,8 @@ Section Loads.
         (IH ltac:(lia) (i + 1)%Z ltac:(site))) as A.
       pose proof (silent load (i - 1) (j + 1) C ltac:(site) ltac:(lia) ltac:(apply Hl; lia)
         (IH ltac:(lia) (i - 1)%Z ltac:(site))) as B.
-      replace (i + 1 - 1)%Z with i in A by lia. replace (j + 1 - 1)%Z with j in * by lia.
-      replace (i - 1 + 1)%Z with i in B by lia.
+      steps_back in A. steps_back in *.
+      steps_back in B.
       eapply near_then; [exact (near_both _ _ A B)|]. cbv beta. tauto.
   Qed.
 
@@ -423,9 +457,91 @@ Section Loads.
     intros N. eapply expands_near; [apply (expands_const 0)|]. eapply near_then; [exact N|].
     intros e E. symmetry. exact E.
   Qed.
-End Loads.
+End Unloaded.
+
+(** The same, of f⁻ alone. *)
+Corollary propagates_mirrored G M rho X (P : packing G M rho X) F load i j :
+  carries M X load F -> contact M i j -> (1 <= j)%Z -> load i j = zero ->
+  near (fun e => f_plus F i j e = 0 /\ f_minus F i j e <> 0) ->
+  let turn := tilt_minus G rho (i + 1) (j - 1) - tilt_minus G rho i j in
+  expands (fun e => f_minus F (i + 1) (j - 1) e / f_minus F i j e)
+    1 (phi G / (1 - phi G * phi G) * turn) /\
+  expands (fun e => f_plus F (i - 1) (j - 1) e / f_minus F i j e)
+    0 (- (turn / (1 - phi G * phi G))).
+Proof.
+  intros C H Hj Hl N. pose proof (mirrored_carries M X load _ F C (fun _ _ => eq_refl)) as C'.
+  pose proof (propagates G M _ _ (mirrored_packing G M rho X P) _ _ (- i) j C' ltac:(site) Hj) as E.
+  cbn [f_plus f_minus mirrored_forces] in E. cbv zeta in *.
+  rewrite !tilt_plus_mirrored, Z.opp_involutive in E. unfold mirrored in E.
+  replace (- (- i - 1))%Z with (i + 1)%Z in E by lia. replace (- (- i + 1))%Z with (i - 1)%Z in E by lia.
+  rewrite Z.opp_involutive in E. apply E; [rewrite Hl; unfold flipped, zero; components; f_equal; ring|exact N].
+Qed.
 
 (** ** A load on one bead (k, l) *)
+
+(** Layers between the contact and the bead at which a force turns into it. *)
+Definition turn_plus (k l i j : Z) : Z := ((l - j + (k - i)) / 2)%Z.
+
+(** The ordered f⁺, and its change over ε, in units of f/2n_y: on a leg of the cone (n = l - j), inside of it
+    (0 < n < l - j), outside. *)
+Definition ordered_plus (k l i j : Z) : R := if (k - i =? l - j)%Z then 1 else 0.
+Definition response_plus (G : lattice) (rho : radii) (k l i j : Z) : R :=
+  let n := turn_plus k l i j in
+  if (k - i =? l - j)%Z
+  then (phi G * tilt_plus G rho i j - tilt_minus G rho (k + 1) (l - 1)) / (1 - phi G * phi G)
+  else if ((1 <=? n) && (n <? l - j))%Z
+  then - ((tilt_minus G rho (i + n + 1) (j + n - 1) - tilt_minus G rho (i + n) (j + n)) / (1 - phi G * phi G))
+  else 0.
+
+Lemma load_at k l f i : single k l f i l = downwards (if (i =? k)%Z then f else 0).
+Proof.
+  unfold single. rewrite Z.eqb_refl, Bool.andb_true_r.
+  destruct (i =? k)%Z; [reflexivity|]. unfold downwards, zero. f_equal. ring.
+Qed.
+
+Lemma no_load k l f i j : j <> l -> single k l f i j = zero.
+Proof. intros H. unfold single. replace (j =? l)%Z with false by lia. rewrite Bool.andb_false_r. reflexivity. Qed.
+
+Lemma above_load G M rho X (P : packing G M rho X) F k l f (C : carries M X (single k l f) F) j :
+  (0 <= l)%Z -> (l <= j <= M)%Z -> forall i, bead M i j ->
+  expands (f_plus F i j) 0 0 /\ expands (f_minus F i j) 0 0.
+Proof.
+  intros Hl Hj i Hi.
+  pose proof (nothing_above G M rho X P F (single k l f) l C Hl
+    ltac:(intros; apply no_load; lia) j ltac:(lia) ltac:(lia) i Hi) as N.
+  split; apply zero_expands; (eapply near_then; [exact N|]); cbv beta; tauto.
+Qed.
+
+Lemma mirrored_single k l f i j : single (- k) l f i j = flipped (single k l f (- i) j).
+Proof.
+  unfold single. replace (- i =? k)%Z with (i =? - k)%Z by lia.
+  destruct ((i =? - k) && (j =? l))%bool%Z; unfold flipped, downwards, zero; components; f_equal; ring.
+Qed.
+
+Theorem single_f_plus G M l f j : (1 <= l)%Z -> (j <= l - 1)%Z -> forall rho X F k,
+  packing G M rho X -> bead M k l -> carries M X (single k l f) F -> forall i, contact M i j ->
+  expands (f_plus F i j) (f / (2 * n_y G) * ordered_plus k l i j) (f / (2 * n_y G) * response_plus G rho k l i j).
+Proof.
+  intros Hl Hj. pose proof (divisor_positive G) as Hd. pose proof (n_y_pos G) as Hy.
+  pattern j. apply (down_from _ (l - 1)); [| |exact Hj]; clear j Hj.
+  - intros rho X F k P K C i Hi.
+    destruct (above_load G M rho X P F k l f C l ltac:(lia) ltac:(site) (i + 1) ltac:(site)) as [Sp Sm].
+    pose proof (fun a b => f_plus_below G M rho X P _ F C i (l - 1) a b 0 0 0 0 Hi) as B.
+    rewrite Z.sub_add in B. rewrite load_at, (downwards_leans G) in B.
+    eapply expands_to; [exact (B _ _ eq_refl Sp Sm)|..];
+      unfold ordered_plus, response_plus, turn_plus; cbv zeta; decide_conditions; same_values; field; lra.
+  - intros j Hj IH rho X F k P K C i Hi.
+    pose proof (IH rho X F k P K C (i + 1)%Z ltac:(site)) as Sp.
+    assert (Sm : exists c, expands (f_minus F (i + 1) (j + 1))
+      (f / (2 * n_y G) * ordered_plus (- k) l (- (i + 1)) (j + 1)) c).
+    { rewrite f_minus_is. eexists. refine (IH _ _ _ _ (mirrored_packing G M rho X P) _
+        (mirrored_carries M X _ _ F C (mirrored_single k l f)) _ _); site. }
+    destruct Sm as [c Sm].
+    pose proof (f_plus_below G M rho X P _ F C i j 0 0 _ _ _ _ Hi
+      (eq_trans (no_load k l f (i + 1) (j + 1) ltac:(lia)) (zero_leans G)) Sp Sm) as B.
+    eapply expands_to; [exact B|..];
+      unfold ordered_plus, response_plus, turn_plus; cbv zeta; decide_conditions; same_values; field; lra.
+Qed.
 
 Section Single.
   Variable G : lattice.
@@ -439,87 +555,17 @@ Section Single.
   Hypothesis loaded : bead M k l.
   Hypothesis lifted : (1 <= l)%Z.
   Hypothesis C : carries M X (single k l f) F.
-  Local Notation n_y := (n_y G).
-  Local Notation phi := (phi G).
-  Local Notation nu_plus := (tilt_plus G rho).
-  Local Notation nu_minus := (tilt_minus G rho).
 
-  (** Layers between the contact and the bead at which a force turns into it. *)
-  Definition turn_plus (i j : Z) : Z := ((l - j + (k - i)) / 2)%Z.
-  Definition turn_minus (i j : Z) : Z := ((l - j - (k - i)) / 2)%Z.
-
-  (** Ordered forces, and changes over ε, in units of f/2n_y: on a leg of the cone (n = l - j),
-      inside of it (0 < n < l - j), outside. *)
-  Definition ordered_plus (i j : Z) : R := if (k - i =? l - j)%Z then 1 else 0.
-  Definition ordered_minus (i j : Z) : R := if (i - k =? l - j)%Z then 1 else 0.
-  Definition response_plus (i j : Z) : R :=
-    let n := turn_plus i j in
-    if (k - i =? l - j)%Z then (phi * nu_plus i j - nu_minus (k + 1)%Z (l - 1)%Z) / (1 - phi * phi)
-    else if ((1 <=? n) && (n <? l - j))%Z
-      then - ((nu_minus (i + n + 1)%Z (j + n - 1)%Z - nu_minus (i + n)%Z (j + n)%Z) / (1 - phi * phi))
-    else 0.
-  Definition response_minus (i j : Z) : R :=
-    let n := turn_minus i j in
-    if (i - k =? l - j)%Z then (phi * nu_minus i j - nu_plus (k - 1)%Z (l - 1)%Z) / (1 - phi * phi)
-    else if ((1 <=? n) && (n <? l - j))%Z
-      then - ((nu_plus (i - n - 1)%Z (j + n - 1)%Z - nu_plus (i - n)%Z (j + n)%Z) / (1 - phi * phi))
-    else 0.
-
-  Lemma above_load j : (l <= j <= M)%Z -> forall i, bead M i j ->
-    expands (f_plus F i j) 0 0 /\ expands (f_minus F i j) 0 0.
-  Proof.
-    intros Hj i Hi.
-    pose proof (nothing_above G M rho X P F (single k l f) l C ltac:(lia)) as N.
-    specialize (N ltac:(intros a b Hb; unfold single; replace (b =? l)%Z with false by lia;
-      rewrite Bool.andb_false_r; reflexivity) j ltac:(lia) ltac:(lia) i Hi).
-    split; apply zero_expands; (eapply near_then; [exact N|]); cbv beta; tauto.
-  Qed.
-
-  Lemma load_at i : single k l f i l = downwards (if (i =? k)%Z then f else 0).
-  Proof.
-    unfold single. rewrite Z.eqb_refl, Bool.andb_true_r.
-    destruct (i =? k)%Z; [reflexivity|apply zero_is_downwards].
-  Qed.
-
-  Lemma no_load i j : j <> l -> single k l f i j = downwards 0.
-  Proof.
-    intros H. unfold single. replace (j =? l)%Z with false by lia.
-    rewrite Bool.andb_false_r. apply zero_is_downwards.
-  Qed.
-
-  Ltac by_cases :=
-    unfold ordered_plus, ordered_minus, response_plus, response_minus, turn_plus, turn_minus;
-    cbv zeta;
-    repeat match goal with
-    | |- context [if ?b then _ else _] => let E := fresh "E" in destruct b eqn:E; try (exfalso; site)
-    end;
-    same_values; field; lra.
+  Definition ordered_minus (i j : Z) : R := ordered_plus (- k) l (- i) j.
+  Definition response_minus (i j : Z) : R := response_plus G (mirrored rho) (- k) l (- i) j.
 
   Theorem single_force j : (j <= l - 1)%Z -> forall i, contact M i j ->
-    expands (f_plus F i j) (f / (2 * n_y) * ordered_plus i j)
-      (f / (2 * n_y) * response_plus i j) /\
-    expands (f_minus F i j) (f / (2 * n_y) * ordered_minus i j)
-      (f / (2 * n_y) * response_minus i j).
+    expands (f_plus F i j) (f / (2 * n_y G) * ordered_plus k l i j)
+      (f / (2 * n_y G) * response_plus G rho k l i j) /\
+    expands (f_minus F i j) (f / (2 * n_y G) * ordered_minus i j) (f / (2 * n_y G) * response_minus i j).
   Proof.
-    intros Hj. pose proof (divisor_positive G) as Hd. pose proof (n_y_pos G) as Hy.
-    pattern j. apply (down_from _ (l - 1)); [| |exact Hj]; clear j Hj.
-    - intros i Hi. split.
-      + destruct (above_load l ltac:(site) (i + 1) ltac:(site)) as [Sp Sm].
-        pose proof (fun a => below_plus G M rho X P F _ i (l - 1) a 0 0 0 0 C Hi) as B.
-        replace (l - 1 + 1)%Z with l in B by lia. specialize (B _ (load_at _) Sp Sm).
-        eapply expands_to; [exact B|by_cases|by_cases].
-      + destruct (above_load l ltac:(site) (i - 1) ltac:(site)) as [Sp Sm].
-        pose proof (fun a => below_minus G M rho X P F _ i (l - 1) a 0 0 0 0 C Hi) as B.
-        replace (l - 1 + 1)%Z with l in B by lia. specialize (B _ (load_at _) Sp Sm).
-        eapply expands_to; [exact B|by_cases|by_cases].
-    - intros j Hj IH i Hi. split.
-      + destruct (IH (i + 1)%Z ltac:(site)) as [Sp Sm].
-        pose proof (below_plus G M rho X P F _ i j 0 _ _ _ _ C Hi
-          (no_load (i + 1) (j + 1) ltac:(lia)) Sp Sm) as B.
-        eapply expands_to; [exact B|by_cases|by_cases].
-      + destruct (IH (i - 1)%Z ltac:(site)) as [Sp Sm].
-        pose proof (below_minus G M rho X P F _ i j 0 _ _ _ _ C Hi
-          (no_load (i - 1) (j + 1) ltac:(lia)) Sp Sm) as B.
-        eapply expands_to; [exact B|by_cases|by_cases].
+    intros Hj i Hi. split; [exact (single_f_plus G M l f j lifted Hj rho X F k P loaded C i Hi)|].
+    rewrite f_minus_is. apply (single_f_plus G M l f j lifted Hj _ _ _ (- k) (mirrored_packing G M rho X P)
+      ltac:(site) (mirrored_carries M X _ _ F C (mirrored_single k l f))). site.
   Qed.
 End Single.

@@ -10,8 +10,8 @@ Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
 
 Ltac fraction :=
-  unfold surface_plus, surface_minus, ordered_plus, ordered_minus, response_plus, response_minus,
-    tilt_plus, tilt_minus, along_plus, along_minus;
+  unfold change_minus, change_plus, turned, ordered_minus, ordered_plus, response_minus, response_plus,
+    tilt_minus, tilt_plus, along_minus, along_plus;
   rewrite ?phi_is;
   match goal with
   | Hr : r ?G = _, Hx : n_x ?G = _, Hy : n_y ?G = _, E : ?rho = _ |- _ =>
@@ -29,10 +29,10 @@ Ltac prove_packing :=
     | C : carries _ _ ?load _ |- expands (_ ?F ?i ?j) _ _ =>
         eapply expands_to;
         [lazymatch load with
-         | surface _ _ => apply (surface_force _ _ _ _ P _ _ C j)
-         | bulk _ => apply (bulk_force _ _ _ _ P _ _ C j)
-         | single ?k ?l ?f => apply (single_force _ M _ _ P _ k l f ltac:(site) ltac:(site) C j)
-         end; site
+         | surface _ _ => apply (surface_force _ _ _ _ P _ i j ltac:(site) _ C)
+         | bulk _ => apply (bulk_force _ _ _ _ P _ i j ltac:(site) _ C)
+         | single ?k ?l ?f => apply (single_force _ M _ _ P _ k l f ltac:(site) ltac:(site) C j); site
+         end
         |fraction|fraction]
     | |- expands _ _ _ =>
         eapply expands_to; [expand_with ltac:(fun _ => of_packing P)|fraction|fraction]

@@ -1,5 +1,5 @@
 (** The geometry of a packing to first order: displacements are sums of radii along diagonals. That centres and
-    contact directions are differentiable follows, and what Eqs. 1-5 rest on. *)
+    contact directions along n⁺ are differentiable follows, and what Eqs. 1-4 rest on. *)
 
 From Coq Require Import ZArith Reals Lia Lra.
 From ForceDiffusion Require Import Model Sums FirstOrder Lattice.
@@ -14,9 +14,9 @@ Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
 Definition along_plus (rho : radii) (i j : Z) : R :=
   if (j =? 0)%Z then 0
   else rho (i - j)%Z 0%Z + rho i j + 2 * Sum 1 (j - 1) (fun m => rho (i - j + m)%Z m).
-Definition along_minus (rho : radii) (i j : Z) : R :=
-  if (j =? 0)%Z then 0
-  else rho (i + j)%Z 0%Z + rho i j + 2 * Sum 1 (j - 1) (fun m => rho (i + j - m)%Z m).
+(** What is at the sites, seen in a mirror: i becomes -i, n⁺ and n⁻ change places. *)
+Definition mirrored {A} (at_sites : Z -> Z -> A) : Z -> Z -> A := fun i j => at_sites (- i)%Z j.
+Definition along_minus (rho : radii) (i j : Z) : R := along_plus (mirrored rho) (- i) j.
 
 Lemma along_plus_step rho i j : (1 <= j)%Z ->
   along_plus rho i j = along_plus rho (i - 1) (j - 1) + rho i j + rho (i - 1)%Z (j - 1)%Z.
@@ -33,14 +33,7 @@ Qed.
 
 Lemma along_minus_step rho i j : (1 <= j)%Z ->
   along_minus rho i j = along_minus rho (i + 1) (j - 1) + rho i j + rho (i + 1)%Z (j - 1)%Z.
-Proof.
-  intros Hj. unfold along_minus. replace (j =? 0)%Z with false by lia.
-  destruct (j - 1 =? 0)%Z eqn:E.
-  - replace j with 1%Z by lia. rewrite Sum_empty by lia. cbn. ring.
-  - rewrite (Sum_last 1 (j - 1)) by lia.
-    replace (i + 1 + (j - 1))%Z with (i + j)%Z by lia.
-    replace (i + j - (j - 1))%Z with (i + 1)%Z by lia. ring.
-Qed.
+Proof. intros Hj. unfold along_minus. rewrite along_plus_step by lia. unfold mirrored. same_sites. Qed.
 
 (** ** Positions *)
 
@@ -75,7 +68,7 @@ Section Packing.
       pose proof (near_zero _ (touches_left _ _ _ _ P i (j + 1) Hi ltac:(lia))) as L.
       pose proof (near_zero _ (touches_right _ _ _ _ P i (j + 1) Hi ltac:(lia))) as R.
       pose proof (above_supports _ _ _ _ P i (j + 1) Hi ltac:(lia)) as A.
-      replace (j + 1 - 1)%Z with j in * by lia.
+      steps_back in *.
       rewrite IH in L by site. rewrite IH in R by site. rewrite IH in A by site.
       destruct (X i (j + 1)%Z 0) as [x y].
       unfold dot, minus, add, scale, delta_r in *. cbn [x_of y_of] in *.
@@ -170,7 +163,7 @@ Section Packing.
   Proof.
     pose proof (r_pos G) as Hr. pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
     intros Hj. pattern j. apply (up_from _ 0); [| |exact Hj]; clear j Hj.
-    - intros i Hi. unfold along_plus, along_minus. cbn [Z.eqb].
+    - intros i Hi. unfold along_minus, along_plus. cbn [Z.eqb].
       split; (eapply expands_near; [eapply expands_to; [apply expands_const|reflexivity|field; lra]|]);
         apply near_always; intros e; rewrite (base_is_fixed _ _ _ _ P) by exact Hi; cbn; ring.
     - intros j Hj IH i Hi.
@@ -179,7 +172,7 @@ Section Packing.
       assert (D : (exists d, expands (fun e => x_of (X i (j + 1)%Z e)) (2 * IZR i * r * n_x) d) /\
         (exists d, expands (fun e => y_of (X i (j + 1)%Z e)) (2 * IZR (j + 1) * r * n_y) d)).
       { pose proof (rests_where_they_meet i (j + 1)) as W.
-        replace (j + 1 - 1)%Z with j in W by lia. rewrite E in W. cbn [x_of y_of] in W.
+        steps_back in W. rewrite E in W. cbn [x_of y_of] in W.
         rewrite minus_IZR in Lx. rewrite plus_IZR in Rx. rewrite plus_IZR in W. rewrite plus_IZR.
         replace (2 * (IZR i + 1) * r * n_x) with (2 * (IZR i - 1) * r * n_x + 4 * r * n_x) in Rx by ring.
         destruct (W (2 * (IZR i - 1) * r * n_x) (2 * IZR j * r * n_y) _ _ _ _ Hi ltac:(lia)
@@ -188,12 +181,12 @@ Section Packing.
       destruct D as [[dx Ex] [dy Ey]].
       pose proof (touches_left _ _ _ _ P i (j + 1) Hi ltac:(lia)) as TL.
       pose proof (touches_right _ _ _ _ P i (j + 1) Hi ltac:(lia)) as TR.
-      replace (j + 1 - 1)%Z with j in * by lia.
+      steps_back in *.
       pose proof (touch_slope _ _ _ _ _ _ _ _ _ _ _ _ TL Ex Ey Lx Ly) as SL.
       pose proof (touch_slope _ _ _ _ _ _ _ _ _ _ _ _ TR Ex Ey Rx Ry) as SR.
       pose proof (along_plus_step rho i (j + 1) ltac:(lia)) as CP.
       pose proof (along_minus_step rho i (j + 1) ltac:(lia)) as CM.
-      replace (j + 1 - 1)%Z with j in * by lia.
+      steps_back in *.
       rewrite minus_IZR, plus_IZR in SL. rewrite !plus_IZR in SR.
       assert (KP : n_x * dx + n_y * dy = along_plus rho i (j + 1)).
       { apply (Rmult_eq_reg_l (2 * r)); [|lra]. rewrite CP.
@@ -228,13 +221,10 @@ Section Packing.
 
   (** ** Directions *)
 
-  (** n⁻·δn⁺ and n⁺·δn⁻ to first order, over ε; the other components are 0. *)
+  (** n⁻·δn⁺ to first order, over ε; the other component is 0. *)
   Definition tilt_plus (i j : Z) : R :=
     (along_minus rho (i + 1) (j + 1) - along_minus rho i j
       - phi G * (rho i j + rho (i + 1)%Z (j + 1)%Z)) / (2 * r).
-  Definition tilt_minus (i j : Z) : R :=
-    (along_plus rho (i - 1) (j + 1) - along_plus rho i j
-      - phi G * (rho i j + rho (i - 1)%Z (j + 1)%Z)) / (2 * r).
 
   (** The centres of a contact are exactly the sum of the radii apart. *)
   Lemma distance i j k l : touch G rho X k l i j -> near (fun e =>
@@ -259,13 +249,13 @@ Section Packing.
     intros H. pose proof (r_pos G) as Hr. pose proof (n_x_pos G). pose proof (n_y_pos G).
     assert (T : touch G rho X (i + 1) (j + 1) i j).
     { pose proof (touches_left _ _ _ _ P (i + 1) (j + 1) ltac:(site) ltac:(site)) as T.
-      replace (i + 1 - 1)%Z with i in T by lia. replace (j + 1 - 1)%Z with j in T by lia.
+      steps_back in T.
       exact T. }
     apply distance in T.
     destruct (centre_expands j ltac:(site) i ltac:(site)) as [Ax Ay].
     destruct (centre_expands (j + 1) ltac:(site) (i + 1) ltac:(site)) as [Bx By].
     pose proof (along_plus_step rho (i + 1) (j + 1) ltac:(site)) as C.
-    replace (i + 1 - 1)%Z with i in C by lia. replace (j + 1 - 1)%Z with j in C by lia.
+    steps_back in C.
     assert (D : expands (fun e => 2 * r + e * (rho i j + rho (i + 1)%Z (j + 1)%Z)) (2 * r)
       (rho i j + rho (i + 1)%Z (j + 1)%Z)).
     { eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring]. }
@@ -275,39 +265,6 @@ Section Packing.
         (2 * r + e * (rho i j + rho (i + 1)%Z (j + 1)%Z)) = x (N_plus X i j e))).
     { intros x Hx. eapply near_then; [exact T|]. cbv beta. intros e E.
       unfold N_plus, direction. rewrite E. unfold scale, minus, add.
-      destruct Hx as [-> | ->]; cbn; unfold Rdiv; ring. }
-    split; (eapply expands_near; [|apply F; auto]); (eapply expands_to;
-      [apply expands_div; [|apply expands_minus|exact D];
-        [|first [exact Bx|exact By]|first [exact Ax|exact Ay]]; lra
-      |field; lra
-      |rewrite C, phi_is]).
-    - rewrite n_y_squared. field. lra.
-    - replace (n_x * n_x) with (1 - n_y * n_y) by ring [(n_y_squared G)]. field. lra.
-  Qed.
-
-  Lemma N_minus_expands i j : contact M i j ->
-    expands (fun e => x_of (N_minus X i j e)) (- n_x) (tilt_minus i j / (2 * n_x)) /\
-    expands (fun e => y_of (N_minus X i j e)) n_y (tilt_minus i j / (2 * n_y)).
-  Proof.
-    intros H. pose proof (r_pos G) as Hr. pose proof (n_x_pos G). pose proof (n_y_pos G).
-    assert (T : touch G rho X (i - 1) (j + 1) i j).
-    { pose proof (touches_right _ _ _ _ P (i - 1) (j + 1) ltac:(site) ltac:(site)) as T.
-      replace (i - 1 + 1)%Z with i in T by lia. replace (j + 1 - 1)%Z with j in T by lia.
-      exact T. }
-    apply distance in T.
-    destruct (centre_expands j ltac:(site) i ltac:(site)) as [Ax Ay].
-    destruct (centre_expands (j + 1) ltac:(site) (i - 1) ltac:(site)) as [Bx By].
-    pose proof (along_minus_step rho (i - 1) (j + 1) ltac:(site)) as C.
-    replace (i - 1 + 1)%Z with i in C by lia. replace (j + 1 - 1)%Z with j in C by lia.
-    assert (D : expands (fun e => 2 * r + e * (rho i j + rho (i - 1)%Z (j + 1)%Z)) (2 * r)
-      (rho i j + rho (i - 1)%Z (j + 1)%Z)).
-    { eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring]. }
-    rewrite minus_IZR in Bx. rewrite plus_IZR in By. unfold tilt_minus.
-    assert (F : forall x : vector -> R, x = x_of \/ x = y_of -> near (fun e =>
-      (x (X (i - 1)%Z (j + 1)%Z e) - x (X i j e)) /
-        (2 * r + e * (rho i j + rho (i - 1)%Z (j + 1)%Z)) = x (N_minus X i j e))).
-    { intros x Hx. eapply near_then; [exact T|]. cbv beta. intros e E.
-      unfold N_minus, direction. rewrite E. unfold scale, minus, add.
       destruct Hx as [-> | ->]; cbn; unfold Rdiv; ring. }
     split; (eapply expands_near; [|apply F; auto]); (eapply expands_to;
       [apply expands_div; [|apply expands_minus|exact D];
@@ -331,46 +288,19 @@ Section Packing.
     intros H. destruct (N_plus_expands i j H) as [_ D]. unfold delta_n_plus, n_plus, minus, add, scale.
     cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
   Qed.
-
-  Lemma delta_n_minus_x_expands i j : contact M i j ->
-    expands (fun e => x_of (delta_n_minus G X i j e)) 0 (tilt_minus i j / (2 * n_x)).
-  Proof.
-    intros H. destruct (N_minus_expands i j H) as [D _].
-    unfold delta_n_minus, n_minus, minus, add, scale.
-    cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
-  Qed.
-
-  Lemma delta_n_minus_y_expands i j : contact M i j ->
-    expands (fun e => y_of (delta_n_minus G X i j e)) 0 (tilt_minus i j / (2 * n_y)).
-  Proof.
-    intros H. destruct (N_minus_expands i j H) as [_ D].
-    unfold delta_n_minus, n_minus, minus, add, scale.
-    cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
-  Qed.
 End Packing.
 
 Lemma delta_r_expands rho i j : expands (delta_r rho i j) 0 (rho i j).
 Proof. unfold delta_r. eapply expands_to; [expand_with ltac:(fun _ => fail)|ring|ring]. Qed.
 
-(** The tilts in the radii, as Eqs. 4 and 5 print them. *)
+(** The tilt in the radii, as Eq. 4 prints it. *)
 Lemma tilt_plus_is G rho i j : (0 <= j)%Z ->
   2 * r G * tilt_plus G rho i j =
   (1 - phi G) * (rho i j + rho (i + 1)%Z (j + 1)%Z) + (rho (i + j + 2)%Z 0%Z - rho (i + j)%Z 0%Z
     + 2 * (Sum 1 j (fun m => rho (i + j - m + 2)%Z m) - Sum 1 j (fun m => rho (i + j - m)%Z m))).
 Proof.
-  intros Hj. pose proof (r_pos G). unfold tilt_plus, along_minus.
+  intros Hj. pose proof (r_pos G). unfold tilt_plus, along_minus, along_plus, mirrored.
   replace (j + 1 =? 0)%Z with false by lia. destruct (j =? 0)%Z eqn:E.
   - assert (j = 0%Z) as -> by lia. rewrite !Sum_empty by lia. normal_form. field. lra.
   - rewrite (Sum_last 1 j (fun m => rho (i + j - m)%Z m)) by lia. normal_form. field. lra.
-Qed.
-
-Lemma tilt_minus_is G rho i j : (0 <= j)%Z ->
-  2 * r G * tilt_minus G rho i j =
-  (1 - phi G) * (rho i j + rho (i - 1)%Z (j + 1)%Z) + (rho (i - j - 2)%Z 0%Z - rho (i - j)%Z 0%Z
-    + 2 * (Sum 1 j (fun m => rho (i - j + m - 2)%Z m) - Sum 1 j (fun m => rho (i - j + m)%Z m))).
-Proof.
-  intros Hj. pose proof (r_pos G). unfold tilt_minus, along_plus.
-  replace (j + 1 =? 0)%Z with false by lia. destruct (j =? 0)%Z eqn:E.
-  - assert (j = 0%Z) as -> by lia. rewrite !Sum_empty by lia. normal_form. field. lra.
-  - rewrite (Sum_last 1 j (fun m => rho (i - j + m)%Z m)) by lia. normal_form. field. lra.
 Qed.

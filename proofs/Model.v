@@ -170,6 +170,12 @@ Definition surface (M : Z) (load : R) (_ j : Z) : vector :=
   if (j =? M)%Z then downwards load else zero.
 Definition bulk (weight : R) (_ _ : Z) : vector := downwards weight.
 
+(** Loads in any direction, in components along the contacts: −(a n⁺ + b n⁻), on the whole surface. *)
+Definition leaning (G : lattice) (a b : R) : vector :=
+  scale (-1) (add (scale a (n_plus G)) (scale b (n_minus G))).
+Definition leaning_surface (G : lattice) (M : Z) (a b : R) (_ j : Z) : vector :=
+  if (j =? M)%Z then leaning G a b else zero.
+
 (** ** Random radii *)
 
 (** Beads at most W from i = 0: where the radii's second moments are given. *)
@@ -201,6 +207,9 @@ Arguments expect {W M sigma}.
 Definition variance {W M sigma} (L : law W M sigma) (f : radii -> R) : R :=
   expect L (fun rho => (f rho - expect L f) ^ 2).
 
+Definition covariance {W M sigma} (L : law W M sigma) (f g : radii -> R) : R :=
+  expect L (fun rho => (f rho - expect L f) * (g rho - expect L g)).
+
 (** f is g to first order in δr, where δr = ρ: value and slope of g, added. *)
 Definition linearised (g : radii -> R -> R) (f : radii -> R) : Prop :=
   forall rho, exists v d, expands (g rho) v d /\ f rho = v + d.
@@ -208,6 +217,8 @@ Definition linearised (g : radii -> R -> R) (f : radii -> R) : Prop :=
 (** σ_f²/⟨f⟩², and the root of its mean over one contact of each layer. *)
 Definition relative_variance {W M sigma} (L : law W M sigma) (f : radii -> R) : R :=
   variance L f / expect L f ^ 2.
+Definition relative_covariance {W M sigma} (L : law W M sigma) (f g : radii -> R) : R :=
+  covariance L f g / (expect L f * expect L g).
 Definition root_mean_square {W M sigma} (L : law W M sigma) (f : Z -> radii -> R) : R :=
   sqrt (Sum 0 (M - 1) (fun j => relative_variance L (f j)) / IZR M).
 

@@ -122,53 +122,86 @@ Section Moments.
       destruct (m =? n)%Z; ring.
   Qed.
 
-  (** A linear form whose weights are listed layer by layer: mean 0, and its second moment. *)
+  (** A linear form whose weights are listed layer by layer. *)
+  Definition whole (form : Z -> layer) (rho : radii) : R := Sum 0 M (fun m => weigh (form m) m rho).
+  Definition products (form other : Z -> layer) : R := Sum 0 M (fun m => overlap (form m) (other m)).
+  Definition squares (form : Z -> layer) : R := products form form.
+
+  (** Its mean is 0. That of a product of two: *)
   Variable form : Z -> layer.
   Hypothesis form_inside : forall m, (0 <= m <= M)%Z -> inside (form m) m.
 
-  Definition whole (rho : radii) : R := Sum 0 M (fun m => weigh (form m) m rho).
-  Definition squares : R := Sum 0 M (fun m => overlap (form m) (form m)).
-
-  Lemma whole_mean : known whole 0.
+  Lemma whole_mean : known (whole form) 0.
   Proof.
     replace 0 with (Sum 0 M (fun _ => 0)) by (apply Sum_zero; auto).
     apply (known_Sum 0 M (fun m => weigh (form m) m)). intros. apply known_weigh, form_inside. lia.
   Qed.
 
-  Theorem whole_square : known (fun rho => whole rho ^ 2) (sigma ^ 2 * squares).
+  Variable other : Z -> layer.
+  Hypothesis other_inside : forall m, (0 <= m <= M)%Z -> inside (other m) m.
+
+  Theorem whole_product : known (fun rho => whole form rho * whole other rho) (sigma ^ 2 * products form other).
   Proof.
     apply (known_as (fun rho => Sum 0 M (fun m => Sum 0 M (fun n =>
-      weigh (form m) m rho * weigh (form n) n rho)))).
-    - unfold squares. rewrite <- Sum_scale.
-      apply (known_Sum 0 M (fun m rho => Sum 0 M (fun n => weigh (form m) m rho * weigh (form n) n rho))).
+      weigh (form m) m rho * weigh (other n) n rho)))).
+    - unfold products. rewrite <- Sum_scale.
+      apply (known_Sum 0 M (fun m rho => Sum 0 M (fun n => weigh (form m) m rho * weigh (other n) n rho))).
       intros m Hm.
-      replace (sigma ^ 2 * overlap (form m) (form m)) with
-        (Sum 0 M (fun n => if (m =? n)%Z then sigma ^ 2 * overlap (form m) (form n) else 0)).
-      + apply (known_Sum 0 M (fun n rho => weigh (form m) m rho * weigh (form n) n rho)).
-        intros n Hn. apply known_overlap; apply form_inside; lia.
-      + rewrite <- (Sum_pick 0 M m (sigma ^ 2 * overlap (form m) (form m))) by lia.
+      replace (sigma ^ 2 * overlap (form m) (other m)) with
+        (Sum 0 M (fun n => if (m =? n)%Z then sigma ^ 2 * overlap (form m) (other n) else 0)).
+      + apply (known_Sum 0 M (fun n rho => weigh (form m) m rho * weigh (other n) n rho)).
+        intros n Hn. apply known_overlap; [apply form_inside|apply other_inside]; lia.
+      + rewrite <- (Sum_pick 0 M m (sigma ^ 2 * overlap (form m) (other m))) by lia.
         apply Sum_eq; auto. intros n Hn. destruct (Z.eqb_spec m n) as [->|]; reflexivity.
-    - intros rho. unfold whole.
-      rewrite (Sum_eq 0 M 0 M _ (fun m => Sum 0 M (fun n => weigh (form n) n rho) * weigh (form m) m rho)).
-      + rewrite Sum_scale. ring.
-      + reflexivity.
-      + reflexivity.
-      + intros m Hm. rewrite Rmult_comm, <- Sum_scale. reflexivity.
-  Qed.
-
-  (** The variance of a constant plus a multiple of the form. *)
-  Theorem form_variance c w f : (forall rho, f rho = c + w * whole rho) ->
-    expect L f = c /\ variance L f = w ^ 2 * (sigma ^ 2 * squares).
-  Proof.
-    intros E. assert (Ef : expect L f = c).
-    { pose proof (known_sum _ _ _ _ (known_constant c) (known_multiple w _ _ whole_mean)) as K.
-      apply (known_as _ f) in K; [|intros; symmetry; apply E]. destruct K as [_ ->]. ring. }
-    split; [exact Ef|]. unfold variance. rewrite Ef.
-    pose proof (known_multiple (w ^ 2) _ _ whole_square) as K.
-    apply (known_as _ (fun rho => (f rho - c) ^ 2)) in K; [exact (proj2 K)|].
-    intros rho. rewrite E. ring.
+    - intros rho. unfold whole. rewrite <- Sum_times. apply Sum_eq; auto. intros m Hm. apply Sum_scale.
   Qed.
 End Moments.
+
+Section Forms.
+  Variables W M : Z.
+  Variable sigma : R.
+  Variable L : law W M sigma.
+  Variables form other : Z -> layer.
+  Hypothesis form_inside : forall m, (0 <= m <= M)%Z -> inside W M (form m) m.
+  Hypothesis other_inside : forall m, (0 <= m <= M)%Z -> inside W M (other m) m.
+
+  Lemma form_mean c w f : (forall rho, f rho = c + w * whole M form rho) -> expect L f = c.
+  Proof.
+    intros E. pose proof (known_sum _ _ _ L _ _ _ _ (known_constant _ _ _ L c)
+      (known_multiple _ _ _ L w _ _ (whole_mean W M sigma L form form_inside))) as K.
+    apply (known_as _ _ _ L _ f) in K; [|intros; symmetry; apply E]. destruct K as [_ ->]. ring.
+  Qed.
+
+  (** The covariance of two constants plus multiples of forms. *)
+  Theorem form_covariance c w f d v g : (forall rho, f rho = c + w * whole M form rho) ->
+    (forall rho, g rho = d + v * whole M other rho) -> expect L g = d ->
+    covariance L f g = w * v * (sigma ^ 2 * products M form other).
+  Proof.
+    intros Ef Eg D. unfold covariance. rewrite (form_mean c w f Ef), D.
+    pose proof (known_multiple _ _ _ L (w * v) _ _ (whole_product W M sigma L form form_inside other other_inside)) as K.
+    apply (known_as _ _ _ L _ (fun rho => (f rho - c) * (g rho - d))) in K; [exact (proj2 K)|].
+    intros rho. rewrite Ef, Eg. ring.
+  Qed.
+End Forms.
+
+Section Variance.
+  Variables W M : Z.
+  Variable sigma : R.
+  Variable L : law W M sigma.
+  Variable form : Z -> layer.
+  Hypothesis form_inside : forall m, (0 <= m <= M)%Z -> inside W M (form m) m.
+
+  (** The variance of a constant plus a multiple of the form. *)
+  Theorem form_variance c w f : (forall rho, f rho = c + w * whole M form rho) ->
+    expect L f = c /\ variance L f = w ^ 2 * (sigma ^ 2 * squares M form).
+  Proof.
+    intros E. pose proof (form_mean W M sigma L form form_inside c w f E) as D. split; [exact D|].
+    replace (variance L f) with (covariance L f f)
+      by (unfold variance, covariance; f_equal; apply functional_extensionality; intros; ring).
+    rewrite (form_covariance W M sigma L form form form_inside form_inside c w f c w f E E D).
+    unfold squares. ring.
+  Qed.
+End Variance.
 
 (** ** Laws exist: every bead of a window tosses a coin for +σ or −σ *)
 

@@ -154,6 +154,26 @@ Qed.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
 Ltac site := unfold bead, contact in *; lia.
 
+(** A step there and one back. *)
+Ltac steps_back := rewrite ?Z.add_simpl_r, ?Z.sub_add.
+Tactic Notation "steps_back" "in" hyp(H) := rewrite ?Z.add_simpl_r, ?Z.sub_add in H.
+Tactic Notation "steps_back" "in" "*" := rewrite ?Z.add_simpl_r, ?Z.sub_add in *.
+
+(** Comparisons of indices that follow, one way or the other, from what is supposed. *)
+Ltac compare_indices :=
+  repeat match goal with
+  | |- context [(?x =? ?y)%Z] =>
+      first [replace (x =? y)%Z with false by lia|replace (x =? y)%Z with true by lia]
+  | |- context [(?x <=? ?y)%Z] =>
+      first [replace (x <=? y)%Z with true by lia|replace (x <=? y)%Z with false by lia]
+  end.
+
+(** Decide every condition; what contradicts the hypotheses goes. *)
+Ltac decide_conditions :=
+  repeat match goal with
+  | |- context [if ?b then _ else _] => let E := fresh "E" in destruct b eqn:E; try (exfalso; site)
+  end.
+
 (** ** One name for one thing *)
 
 (** Values h(a, b) and h(c, d) at sites that are equal by what is supposed get one name. *)
@@ -239,6 +259,8 @@ Definition sum_in_normal_form (h : Z -> Z -> R) (c u n : Z) : R := sum_along h c
 
 Lemma along_as h u c c' n n' : c = c' -> n = n' -> sum_along h c u n = sum_along h c' u n'.
 Proof. intros -> ->. reflexivity. Qed.
+Lemma along_named h u c c' n n' : c = c' -> n = n' -> sum_along h c u n = sum_in_normal_form h c' u n'.
+Proof. intros -> ->. reflexivity. Qed.
 Lemma value_as (h : Z -> Z -> R) a a' b b' : a = a' -> b = b' -> h a b = site_value h a' b'.
 Proof. intros -> ->. reflexivity. Qed.
 
@@ -270,15 +292,15 @@ Ltac bounds_in_normal_form :=
       let C := fresh in let N := fresh in
       in_normal_form c C; in_normal_form n N;
       let c' := other_side C in let n' := other_side N in
-      rewrite (along_as h u c c' n n' C N); clear C N;
       lazymatch n' with
-      | 0%Z => rewrite (along_none h c' u)
-      | Z.pos _ => rewrite (along_step h c' u n')
-      | Z.neg _ => rewrite (along_back h c' u n')
-      | (_ + Z.pos _)%Z => rewrite (along_step h c' u n')
-      | (_ - Z.pos _)%Z => rewrite (along_back h c' u n')
-      | _ => change (sum_along h c' u n') with (sum_in_normal_form h c' u n')
-      end
+      | 0%Z => rewrite (along_as h u c c' n n' C N), (along_none h c' u)
+      | Z.pos _ => rewrite (along_as h u c c' n n' C N), (along_step h c' u n')
+      | Z.neg _ => rewrite (along_as h u c c' n n' C N), (along_back h c' u n')
+      | (_ + Z.pos _)%Z => rewrite (along_as h u c c' n n' C N), (along_step h c' u n')
+      | (_ - Z.pos _)%Z => rewrite (along_as h u c c' n n' C N), (along_back h c' u n')
+      | _ => rewrite (along_named h u c c' n n' C N)
+      end;
+      clear C N
   end.
 Ltac sites_in_normal_form :=
   repeat match goal with

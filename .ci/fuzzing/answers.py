@@ -23,7 +23,7 @@ from force_diffusion.numeric.accuracy.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.decimals import short
 from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT
 from force_diffusion.numeric.arithmetic.systems import as_ball, midpoint
-from force_diffusion.numeric.planning import division
+from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import checkpoint
 from force_diffusion.numeric.run.checkpoint import CheckpointError
@@ -226,10 +226,12 @@ def _by_segments(random: Random) -> Plan:
         path = Path("segments.toml")
         path.write_text(questions.toml(sections), encoding="utf-8")
         made = fd.read_scene(path).explain()
-        cut = division.cut(made.problem, made.method, made.scene, None)
+        cut = memory.by_segments(made.problem, made.method, made.scene, None)
         if cut is not None:
             layers = random.choice([2, 4, 6])
-            return replace(made, problem=replace(cut, segment=layers, every=random.choice([1, 2])))
+            return replace(
+                made, problem=replace(cut[0], segment=layers, every=random.choice([1, 2]))
+            )
 
 
 def _stopped(random: Random, made: Plan, path: Path) -> None:

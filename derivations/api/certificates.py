@@ -38,9 +38,9 @@ from ..coq.record import (
     Changes,
     Verdict,
 )
-from ..coq.statements import statement, statements
+from ..coq.statements import STATED, statement, statements
 from ..coq.words import NotStatedError
-from ..framework.catalogue import Number, paper
+from ..framework.catalogue import Number
 from ..framework.loading import load
 from ..framework.record import Derivation
 from ..framework.runner import SEEDS
@@ -69,7 +69,7 @@ def asked_of(number: Number) -> Asked:
 def stated(numbers: Iterable[Number] | None = None) -> list[Statement]:
     """The statements that ``certify`` tries; of what can't be stated there is none."""
     found: list[Statement] = []
-    for number in (*paper(), *SEEDS) if numbers is None else numbers:
+    for number in (*STATED, *SEEDS) if numbers is None else numbers:
         asked = asked_of(number)
         found += [] if isinstance(asked, NotStatedError) else asked
     return found
@@ -82,7 +82,7 @@ def certify(
     notice: Notice = _silent,
     told: Callable[[Certificate], None] = lambda _: None,
 ) -> Certification:
-    """Ask Coq about equations, all of the paper's by default; takes about two minutes.
+    """Ask Coq about equations, by default all that are stated; takes about two minutes.
 
     The theory is compiled, and kept in the user's cache; each statement is made and proved in files
     of its own, the axioms that it rests on are compared with those that are allowed, and all that
@@ -101,7 +101,7 @@ def certify(
     """
     if isinstance(numbers, int | str):
         raise TypeError(f"certify takes several numbers: certify([{numbers!r}])")
-    wanted: list[Number] = list(paper())
+    wanted: list[Number] = list(STATED)
     if numbers is not None:
         wanted = [equation(number).number for number in numbers]
     seeds = SEEDS if numbers is None else ()

@@ -1,6 +1,5 @@
 """Several equations derived in one go, premises first: what was found, as JSON and as LaTeX."""
 
-from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
@@ -23,6 +22,7 @@ from ..export.terminal import (
     tried_counts,
     tried_text,
     trouble_lines,
+    verdicts_text,
 )
 from ..framework.catalogue import Number, modules
 from ..framework.loading import load, with_premises
@@ -57,10 +57,8 @@ class Derived:
 
     def counts(self) -> str:
         """How many equations have which verdict, in words; and printed statements refuted."""
-        counts = Counter(one.words for one in self.outcomes)
-        words = [f"{count} {verdict}" for verdict, count in counts.items()]
         refuted = sum(len(one.refuted) for one in self.outcomes)
-        return ", ".join(filter(None, [*words, expected_text(refuted)]))
+        return ", ".join(filter(None, [verdicts_text(self.outcomes), expected_text(refuted)]))
 
     def data(self) -> dict[str, Any]:
         """What JSON can hold: verdicts, checks and mutants of each equation, times in seconds."""

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import sympy
-from force_diffusion.numeric.theory.critical_height import critical_height
+from force_diffusion.numeric.theory.expected import critical_height
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 

@@ -440,6 +440,7 @@ B12 = Derivation(
     domain=INSIDE,
     where=between(*INSIDE),
     steps=layer_steps,
+    loads=("surface",),
     exact=edges,
     claims=(
         Claim(

@@ -392,7 +392,7 @@ B7 = Derivation(
     exact=lambda: UNDER_SURFACE.exact,
     witnesses=UNDER_SURFACE.witnesses("force"),
     remarks=(
-        "N independent contacts would have σ_f²/N. Force fluctuations are hyperuniform along a "
+        "N independent contacts would have σ_f²/N. Force fluctuations nearly cancel along a "
         "layer up to N of order M³, where the radii of the two layers that touch take over.",
     ),
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""Averages of the response to point loads, over loads and over beads: Eqs. B22 and B23 of T7.
+"""Averages of the response to point loads, over loads and over beads: Eq. B22 of T7.
 
 All loads are equal, on beads of layer l; the beads whose p is averaged are in layer j, inside of
 all cones. The first bead lies p and q steps below the first load; load m and bead m are m places to
@@ -38,14 +38,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.parts import cone
-from force_diffusion.derivations.parts.neighbours import (
-    COVARIANCES,
-    FIRST,
-    OWN,
-    SECOND,
-    SPREAD,
-    apart,
-)
 from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.derivations.witnesses.squared_weights import compare, mean_response
 from force_diffusion.symbolic.algebra import explicit
@@ -53,7 +45,6 @@ from force_diffusion.symbolic.kernel.where import Limit
 from force_diffusion.symbolic.mechanics.paths import STEPS_BELOW
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
-    Covariance,
     DeltaNMinus,
     DeltaNPlus,
     Dot,
@@ -93,7 +84,7 @@ OVER_BOTH = _symbol("mean_over_both", "both", "N loads and N beads")
 OVER_PAIRS = _symbol("mean_over_pairs", "pairs", "N loads with a bead each")
 
 
-def _where(*relations: sympy.Basic) -> Where:
+def places(*relations: sympy.Basic) -> Where:
     """Places of the first bead below the first load; what is said is about the radii alone."""
     return Where.of(Eq(l, j + p + q), *relations, indices=(i,))
 
@@ -119,6 +110,7 @@ def _over_beads(load: sympy.Expr | int) -> sympy.Expr:
 
 # --- N loads, N beads, or both --------------------------------------------------------------------
 
+_SIGNS = {Eq: "=", sympy.Ge: "≥"}
 _BEADS_LOW = {
     "": ("j ≥ N + 2 and N ≥ 2", 0),
     "N=j-1": ("N = j − 1 ≥ 2", -Rational(3, 2)),
@@ -164,7 +156,7 @@ class Average:
     @property
     def whole(self) -> Where:
         """All sites."""
-        return _where(*self._inside, N >= 2, j >= 0)
+        return places(*self._inside, N >= 2, j >= 0)
 
     def _beside_legs(self, layer: str) -> Iterator[tuple[str, tuple[sympy.Basic, ...], sympy.Expr]]:
         """In words and relations, and what is added; the last is off all legs."""
@@ -190,7 +182,7 @@ class Average:
                 value = self.printed.rhs
                 if added + more:
                     value = terms(value, times(sympy.factor((added + more) * self.scale), UNIT))
-                yield layer, beside, at, value, _where(*relations(words), *at, *self._inside)
+                yield layer, beside, at, value, places(*relations(words), *at, *self._inside)
 
     def exact(self) -> dict[str, ExactCase]:
         """The same as users get it."""
@@ -200,11 +192,12 @@ class Average:
             sympy.Ge(STEPS_BELOW[s], least) for s, least in zip((p, q), self.least, strict=True)
         )
         for layer, beside, at, value, where in self.forms():
+            words = self.low[layer][0]
             if beside:
                 whens = tuple(one.xreplace(STEPS_BELOW) for one in at if isinstance(one, Eq))
-                missed.append(Missed(beside, whens, value))
+                place = ", ".join(f"{one.lhs} {_SIGNS[type(one)]} {one.rhs}" for one in at)
+                missed.append(Missed(f"{beside}, {place}, {words}", whens, value))
                 continue
-            words = self.low[layer][0]
             line = Line(words, equation(self.symbol, value), self.by(layer), where, self.meaning)
             found[", ".join(filter(None, (self.name, layer)))] = ExactCase(
                 self.symbol, words, value, (*relations(words), *inside), tuple(missed), line=line
@@ -230,37 +223,38 @@ class Average:
 _EACH = sympy.Sum(pushed(m, 0), (m, 0, N - 1))
 
 
-def _printed(symbol: sympy.Symbol, prefactor: sympy.Expr, change: str) -> sympy.Eq:
+def printed(symbol: sympy.Symbol, prefactor: sympy.Expr, change: str) -> sympy.Eq:
+    """``change`` (σ/r)², over ``prefactor`` (1 − φ²)²."""
     unit = 1 / times(prefactor, (1 - phi**2) ** 2)
     return equation(symbol, times(unit, formula(change), formula("(σ_δr/r)²")))
 
 
 PRINTED = (
-    _printed(OVER_LOADS, 4 * N, "6N(l + j) − 2N² − 3N − 1 + φ²"),
-    _printed(OVER_BEADS, 2 * N**2, "2(l + j) − 2 + φ²"),
-    _printed(OVER_BOTH, 6 * N**3, "6N(l + j) − 2N² − 3N − 1 + 3φ²"),
+    printed(OVER_LOADS, 4 * N, "6N(l + j) − 2N² − 3N − 1 + φ²"),
+    printed(OVER_BEADS, 2 * N**2, "2(l + j) − 2 + φ²"),
+    printed(OVER_BOTH, 6 * N**3, "6N(l + j) − 2N² − 3N − 1 + 3φ²"),
 )
-_SCALE = 1 / (4 * N**2)
+OF_A_SUM = 1 / (4 * N**2)
 LOADS = Average(
     "loads", OVER_LOADS, _EACH / N, PRINTED[0],
     Rational(1, 4), 1 / N, (Integer(1), N), _LOADS_LOW,
 )  # fmt: skip
 BEADS = Average(
     "beads", OVER_BEADS, _over_beads(0) / N, PRINTED[1],
-    _SCALE, Integer(1), (N, Integer(1)), _BEADS_LOW,
+    OF_A_SUM, Integer(1), (N, Integer(1)), _BEADS_LOW,
 )  # fmt: skip
 BOTH = Average(
     "both", OVER_BOTH, sympy.Sum(_over_beads(m), (m, 0, N - 1)) / N**2, PRINTED[2],
-    _SCALE, 1 / N, (N, N), _BEADS_LOW,
+    OF_A_SUM, 1 / N, (N, N), _BEADS_LOW,
 )  # fmt: skip
 BLOCKS = (LOADS, BEADS, BOTH)
 MEANING = {symbol: of for one in BLOCKS for symbol, of in one.meaning.items()}
-WHERE = _where(*relations("p ≥ N, q ≥ N, p + q ≥ 2N + 1, j ≥ N + 2"), N >= 2)
+WHERE = places(*relations("p ≥ N, q ≥ N, p + q ≥ 2N + 1, j ≥ N + 2"), N >= 2)
 """Where all three hold."""
 
 _FIXED = "l → ∞ at fixed j/l, (i − k)/l and N/l, all beads inside of all cones"
 NEAR, FAR = (
-    _where(*relations(f"p ≥ N + 1, q ≥ N + 1, {words}"), N >= 3).in_the_limit(
+    places(*relations(f"p ≥ N + 1, q ≥ N + 1, {words}"), N >= 3).in_the_limit(
         Limit("∼", _FIXED, (j, p, q, N), (p - N, q - N, *positive))
     )
     for words, positive in (("j ≥ N + 3", (j - N, N)), ("3 ≤ j ≤ N − 3", (j, N - j)))
@@ -290,14 +284,14 @@ def steps() -> Lines:
             ),
         ),
         rewrite(),
-        where=_where(p >= 1, q >= m + 1, m >= 0, j >= 0),
+        where=places(p >= 1, q >= m + 1, m >= 0, j >= 0),
         after=(eq10.DERIVATION,),
     )
     lines.show(
         "Averaged over N loads, for 1 ≤ p, N ≤ q and j ≥ 3:",
         PRINTED[0],
         LOADS.by(),
-        where=_where(*relations("p ≥ 1, q ≥ N, p + q ≥ N + 2, j ≥ 3"), N >= 2),
+        where=places(*relations("p ≥ 1, q ≥ N, p + q ≥ N + 2, j ≥ 3"), N >= 2),
         after=(turned, eq16.DERIVATION),
     )
     summed = lines.show(
@@ -341,14 +335,15 @@ def steps() -> Lines:
     return lines
 
 
-_OF_LOADS = (
+OF_LOADS = (
     (f_load, "each of the loads, downwards"),
     (l, "layer of the loaded beads, j that of the beads whose p is averaged"),
     (p, "steps along n⁺ from the first load down to the first bead"),
     (q, "steps along n⁻"),
     *usual(sigma, r, phi),
 )
-_PUSH = "p is the vertical force on a bead, from both upper contacts, which one load makes"
+PREMISES = tuple(one.DERIVATION for one in (eq04, eq05, eq10, eq11, eq16))
+PUSH = "p is the vertical force on a bead, from both upper contacts, which one load makes"
 
 B22 = Derivation(
     number="B22",
@@ -359,21 +354,15 @@ B22 = Derivation(
         (OVER_BEADS, "the same below one load, averaged over N neighbouring beads"),
         (OVER_BOTH, "the same averaged over N loads and N beads, N² pairs"),
         (N, "number of neighbouring loads, or beads, or both"),
-        *_OF_LOADS,
+        *OF_LOADS,
     ),
     assumptions=(
         *FIRST_ORDER,
-        _PUSH,
+        PUSH,
         "every bead is inside of the cone of every load",
         "printed forms: N ≥ 2, j ≥ N + 2, p, q ≥ N and p + q > 2N; exact forms: every site inside",
     ),
-    premises=(
-        eq04.DERIVATION,
-        eq05.DERIVATION,
-        eq10.DERIVATION,
-        eq11.DERIVATION,
-        eq16.DERIVATION,
-    ),
+    premises=PREMISES,
     printed=PRINTED,
     domain=(N >= 2, sympy.Ge(j, N + 2), sympy.Ge(l, j + 2 * N + 1)),
     where=WHERE,
@@ -386,128 +375,12 @@ B22 = Derivation(
         ),
     ),
     remarks=(
-        "Averaging over loads hardly calms the noise, since one bead hears all of them through the "
-        "same radii; averaging over beads does: σ(p) falls as 1/N.",
+        "Averaging over loads reduces the noise by a third at most, since one bead hears all of "
+        "them through the same radii; averaging over beads reduces σ(p) as 1/N.",
         "The plateau of Eq. B9 in p, (5φ − 1)(σ/r)²/(1−φ²)² f_load, is as large as the noise of N "
-        "beads for N = √(l + j) (1−φ²)/|5φ − 1| r/σ. A row inside of one cone has less than l − j "
-        "beads: it shows in packings of more than (1−φ²)²/(5φ − 1)² (r/σ)² layers, and these "
-        "are far higher than M*, where contacts pull.",
-    ),
-)
-
-
-# --- each load with a bead of its own -------------------------------------------------------------
-
-OF_PAIR = pushed(0, 0)
-"""p of the bead below its own load; the next pair is one place to the right."""
-ROW = _printed(OVER_PAIRS, 4 * N**2, "N(1 − φ)² + 4(l + j) − 2")
-OFF_AXIS = relations("p ≥ q + 3, q ≥ 1")
-SHORT = _where(*OFF_AXIS, *relations("2 ≤ N ≤ j − 2"))
-ROWS = {
-    "N>j+2": ("j ≥ 2 and N ≥ j + 3", 0),
-    "base+1": ("j = 1 and N ≥ 4", 3),
-    "base": ("j = 0 and N ≥ 3", -2),
-}
-"""Longer rows: what their forms have beyond the printed one, in UNIT/(4N²)."""
-ROW_MEANING = {
-    OVER_PAIRS: Variance(sympy.Sum(OF_PAIR.xreplace({i: i + 2 * m}), (m, 0, N - 1)) / N),
-    **{one: Covariance(OF_PAIR, apart(OF_PAIR, at)) for at, one in enumerate(COVARIANCES)},
-}
-_SHORT_BY, _LONG_BY = (
-    moment(eq11.DIRECTIONS, alone=(Integer(1), Integer(2), *further))
-    for further in ((), (j - 2, j - 1, j, j + 1, j + 2))
-)
-
-
-@cache
-def rows() -> dict[str, ExactCase]:
-    """Rows of pairs that are longer than the beads are high above the base."""
-    found = {}
-    for name, (words, added) in ROWS.items():
-        value = terms(ROW.rhs, times(added * _SCALE, UNIT)) if added else ROW.rhs
-        where = _where(*OFF_AXIS, *relations(words))
-        line = Line(words, equation(OVER_PAIRS, value), _LONG_BY, where, ROW_MEANING)
-        off_axis = (k - i >= 3, sympy.Ge(l - j, k - i + 2))
-        found[name] = ExactCase(OVER_PAIRS, words, value, (*relations(words), *off_axis), line=line)
-    return found
-
-
-def _rows() -> list[tuple[sympy.Expr, Where]]:
-    return [(one.expression, one.line.domain(0)) for one in rows().values() if one.line]
-
-
-@cache
-def row_steps() -> Lines:
-    """Covariances of neighbouring pairs; their sum."""
-    lines = Lines(SHORT, _SHORT_BY, ROW_MEANING)
-    inside = _where(*OFF_AXIS, j >= 5)
-    near = lines.show(
-        "From pair to pair the beads where paths turn move along their layers, and their second "
-        "differences overlap, as those of neighbouring contacts (Eq. B7). Covariances of pairs 0, "
-        "1 and 2 places apart:",
-        sympy.Tuple(
-            equation(OWN, times(formula("6(l + j) − 6 + φ²"), UNIT / 4)),
-            equation(FIRST, times(minus(formula("4(l + j) − 6 + 2φ")), UNIT / 4)),
-            equation(SECOND, times(formula("l + j − 5/2 + φ"), UNIT / 4)),
-        ),
-        where=inside,
-        after=(eq10.DERIVATION, eq16.DERIVATION),
-    )
-    spread = lines.show(
-        "All that grows with the height cancels in",
-        equation(SPREAD, times((1 - phi) ** 2, UNIT / 4)),
-        where=inside,
-        after=(near,),
-    )
-    lines.show("Further pairs are uncorrelated. All of it:", ROW, after=(near, spread))
-    lines.claim_each(
-        "from N = j + 3 on it is the same, but for the two layers next to the base",
-        ((OVER_PAIRS, *one) for one in _rows()),
-        _LONG_BY,
-    )
-    return lines
-
-
-B23 = Derivation(
-    number="B23",
-    name="averaged_pairs",
-    title="Response averaged over N loads, each with a bead of its own",
-    symbols=(
-        (OVER_PAIRS, "variance of the mean of p over N neighbouring loads and a bead below each"),
-        (N, "number of neighbouring loads, and of beads"),
-        *_OF_LOADS,
-    ),
-    assumptions=(
-        *FIRST_ORDER,
-        _PUSH,
-        "each bead is at the same place inside of the cone of its load, p ≥ q + 3 or q ≥ p + 3",
-        "printed form: 2 ≤ N ≤ j − 2",
-    ),
-    premises=(
-        eq04.DERIVATION,
-        eq05.DERIVATION,
-        eq10.DERIVATION,
-        eq11.DERIVATION,
-        eq16.DERIVATION,
-        B22,
-    ),
-    printed=(ROW,),
-    domain=(N >= 2, sympy.Ge(j, N + 2), sympy.Ge(l, j + 5)),
-    where=SHORT,
-    exact=rows,
-    steps=row_steps,
-    witnesses=(
-        Witness(
-            "exact packings with loads in layer l ≤ 8: squares of summed weights, N ≤ 4",
-            lambda packing: compare(_pairs_of_rows(packing)),
-        ),
-    ),
-    remarks=(
-        "This is the ensemble's average, taken along one packing: each load is a sample, and the "
-        "mean is that of Eq. B9. It calms as 1/N at first, faster than independent samples would, "
-        "and as 1/√N once N is larger than the packing is high.",
-        "The plateau of Eq. B9 in p is as large as this noise for N of order (r/σ)², at any "
-        "height: in a wide packing it shows where the first order still holds.",
+        "beads for N = (r/σ) (1−φ²) √(l + j)/|5φ − 1|. A row inside of one cone has less than "
+        "l − j beads: it shows in packings of more than (r/σ)²(1−φ²)²/(5φ − 1)² layers, and these "
+        "are far higher than M*, below which contacts begin to pull.",
     ),
 )
 
@@ -515,7 +388,7 @@ B23 = Derivation(
 # witnesses
 
 
-def _sites() -> Iterator[tuple[str, dict[sympy.Symbol, int]]]:
+def sites() -> Iterator[tuple[str, dict[sympy.Symbol, int]]]:
     """Where there is a closed form, in words and as indices."""
     for level, layer, left, count in product((4, 6, 8), range(6), range(1, 7), range(2, 5)):
         right = level - layer - left
@@ -527,23 +400,17 @@ def _sites() -> Iterator[tuple[str, dict[sympy.Symbol, int]]]:
 def _pairs_of_blocks(packing: SmallPacking) -> Iterator[tuple[str, Fraction, Fraction]]:
     for one in BLOCKS:
         forms = [(form, where) for *_, form, where in one.forms()]
-        for (words, at), (form, where) in product(_sites(), forms):
+        for (words, at), (form, where) in product(sites(), forms):
             if where.holds(at):
                 loads = range(at[N] if one is not BEADS else 1)
                 beads = range(at[N] if one is not LOADS else 1)
-                yield f"{one.name}, {words}", *_both(packing, form, at, product(loads, beads))
+                yield (
+                    f"{one.name}, {words}",
+                    *stated_and_true(packing, form, at, product(loads, beads)),
+                )
 
 
-def _pairs_of_rows(packing: SmallPacking) -> Iterator[tuple[str, Fraction, Fraction]]:
-    forms = [(ROW.rhs, SHORT)]
-    forms += _rows()
-    for words, at in _sites():
-        for form, where in forms:
-            if where.holds(at):
-                yield words, *_both(packing, form, at, ((m_, m_) for m_ in range(at[N])))
-
-
-def _both(
+def stated_and_true(
     packing: SmallPacking,
     form: sympy.Expr,
     at: dict[sympy.Symbol, int],

@@ -12,7 +12,8 @@ import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.beyond import t4_second_order as t4
-from force_diffusion.derivations.beyond.t7_averages import B22, B23
+from force_diffusion.derivations.beyond.t7_averages import B22
+from force_diffusion.derivations.beyond.t7_pairs import B23
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.grounds import Beside, facts_of
 from force_diffusion.derivations.framework.record import SECOND_ORDER, ExactCase, Piece, usual
@@ -393,7 +394,7 @@ B9 = Derivation(
         (f_load, "the load on bead (k, l), downwards"),
         (l, "layer of the loaded bead"),
         (p, "steps along n⁺ from (k, l) down to (i, j) (p is no force there)"),
-        (q, "steps along n⁻; the contact in question is f⁺_ij, its mirror image f⁻"),
+        (q, "steps along n⁻; the contact in question is f⁺_ij, and for f⁻ p and q change places"),
         *usual(sigma, r, phi),
     ),
     assumptions=(

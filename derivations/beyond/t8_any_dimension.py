@@ -128,7 +128,13 @@ class Case:
             own = KAPPA if self.dimension == d else _at(int(self.dimension), KAPPA)
             of = Variance(ForceOfLayer(j))
             _VARIANCES[self] = Layered(
-                self.symbol, of, (), self.loading, {kappa: own}, dimension=self.dimension
+                self.symbol,
+                of,
+                (),
+                self.loading,
+                {kappa: own},
+                dimension=self.dimension,
+                ordered_by=(tau_1, tau_2) if self.leaning else (),
             )
         return _VARIANCES[self]
 
@@ -554,7 +560,7 @@ SPHERES_SURFACE = _derivation(
     (ANY_SURFACE,),
     (
         "At finite M line sums along all three vectors count: at z = 0 the next order is a share "
-        "of −3(5 + 16φ + 5φ²)/[20 (1+φ)²] 1/M, against −3/4 1/M for discs.",
+        "of −3(5 + 16φ + 5φ²)/[20(1+φ)² M], against −3/(4M) for discs.",
     ),
     (_series(B13),),
 )

@@ -336,7 +336,7 @@ DERIVATION = Derivation(
         (LEG_MAGNITUDE, "variance of its magnitude over the squared mean"),
         (f_load, "the load on one bead, downwards"),
         (l, "layer of the loaded bead, j that of the bead below the contact"),
-        (q, "steps of that contact from the leg where its path turns"),
+        (q, "steps along that contact's own vector, from the leg where its path turns"),
         (p, "steps down the leg"),
         *usual(sigma, r),
         (phi, "mutual dot product of the three base vectors, −1/3 < φ < ½"),

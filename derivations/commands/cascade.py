@@ -1,6 +1,5 @@
 """The command ``cascade``: a thin layer over ``fd.cascade``."""
 
-import json
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -9,10 +8,9 @@ import typer
 
 import force_diffusion as fd
 
-from ..export.tables import csv_text
 from .cli import command_line
 from .output import Overwrite, out_option, output
-from .shared import drawn, images, noticing
+from .shared import images, noticing, write_study
 
 STATUSES = (
     "Takes a minute by default, and 16 times as long for twice the height. Exit status: "
@@ -51,17 +49,8 @@ def cascade(
                 packings=packings,
                 protocol=protocol.value,
             )
-        data = {"command": command, **found.data()}
-        if folder:
-            rows = [row | {"command": command} for row in found.rows()]
-            folder.write(
-                {
-                    "cascade.json": json.dumps(data, indent=2) + "\n",
-                    "cascade.csv": csv_text(rows),
-                    **drawn(found.plot, "cascade", "Cascades", command),
-                }
-            )
-    print(json.dumps(data, indent=2) if as_json else found)
+        data = write_study(folder, found, "Cascades", {"command": command})
+    print(data if as_json else found)
 
 
 def register(app: typer.Typer) -> None:

@@ -26,7 +26,10 @@ STATUSES = (
 def certify(
     numbers: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[N...]", help="Equations to ask about; by default the paper's."),
+        typer.Argument(
+            metavar="[N...]",
+            help="Equations to ask about; by default all that are stated.",
+        ),
     ] = None,
     mutants: Annotated[
         bool,

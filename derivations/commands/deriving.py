@@ -40,36 +40,6 @@ def watched(
         return derive_with(start, numbers, watch.checking, watch.finished)
 
 
-def article_files() -> list[str]:
-    """Names of what the article is made of. Raises ``MissingLibraryError``: it has figures."""
-    from force_diffusion.numeric.figures.library import drawing
-    from force_diffusion.numeric.figures.names import FIGURES
-
-    from ..export.article import ARTICLE, figures_of, source
-
-    with drawing():
-        pass
-    return [ARTICLE, *(f"{FIGURES[name].file}.pdf" for name in figures_of(source()))]
-
-
-def written_article(found: "Derived", watch: Silence) -> dict[str, str | bytes]:
-    """The article and its figures, by file name; it says what was found."""
-    from force_diffusion.numeric.figures.catalogue import begun
-
-    from ..export.article import ARTICLE, Plate, article, figures_of, source, verdicts
-
-    markdown, command = source(), command_line()
-    files: dict[str, str | bytes] = {}
-    plates = {}
-    with watch.showing():
-        for name in figures_of(markdown):
-            made = begun(name, command=command, kinds=("pdf",), notice=watch.checking)()
-            (file,) = (own for own in made.files if own.endswith(".pdf"))
-            files[file] = made.files[file]
-            plates[name] = Plate(file, made.wide, tuple(made.lines))
-    return {ARTICLE: article(markdown, plates, verdicts(found.outcomes, found.counts())), **files}
-
-
 def derive(
     numbers: "Sequence[Number | Derivation]",
     out: Path | None,
@@ -91,18 +61,26 @@ def derive(
         fragment_name,
     )
 
+    in_article: Sequence[str] = ()
+    if article:  # it needs more than the rest
+        from ..export.article import names_of_files
+
+        in_article = names_of_files()
     derivations = premises_first(numbers)
     names = [*map(fragment_name, derivations), DOCUMENT]
     with (
         output(out, "derive", names, overwrite) as folder,
-        output(article, "derive --article", article_files() if article else (), overwrite) as paper,
+        output(article, "derive --article", in_article, overwrite) as paper,
     ):
         watch = display(len(derivations), as_json=as_json)
         many = len(derivations) >= WORTH_ANOTHER_PROCESS
         with beside() if many else nullcontext() as start:
             found = watched(numbers, watch, start)
         if paper:
-            paper.write(written_article(found, watch))
+            from ..export.article import article_and_figures
+
+            with watch.showing():
+                paper.write(article_and_figures(found.outcomes, command_line(), watch.checking))
         if folder:
             parts = {
                 earlier.number: (load(earlier.number), earlier)

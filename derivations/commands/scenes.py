@@ -4,6 +4,7 @@ import json
 import sys
 from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack, nullcontext
+from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
@@ -15,7 +16,6 @@ from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 import force_diffusion as fd
 
 from ..export.answers import Format
-from ..export.tables import csv_text
 from .cli import command_line, shell_line
 from .guard import about as named
 from .guard import in_range, say
@@ -24,13 +24,13 @@ from .shared import (
     Quiet,
     Written,
     checked,
-    drawn,
     images,
     noticing,
     show,
     sourced,
     warn,
     write,
+    write_study,
 )
 from .sweep import Seed, Settings, name_of, variants
 
@@ -195,7 +195,6 @@ def cost(
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
     from force_diffusion.numeric.scene.source import source_of
-    from force_diffusion.numeric.studies.cost.table import csv_rows
 
     command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]
@@ -204,21 +203,11 @@ def cost(
             read = fd.read_scene(scene)
             found = fd.cost(read, notice)
         source = sourced(source_of(read), scene, None)
-        data = {"command": command, "source": source, **found.data()}
-        if folder:
-            title = printable(scene.stem)
-            folder.write(
-                {
-                    "cost.json": json.dumps(data, indent=2) + "\n",
-                    "cost.csv": csv_text(csv_rows(data, command)),
-                    **drawn(
-                        lambda: found.plot(title), "cost", f"Cost of accuracy: {title}", command
-                    ),
-                },
-                seed=source["seed"],
-                inputs=source["sha256"],
-            )
-    print(json.dumps(data, indent=2) if as_json else found)
+        title = printable(scene.stem)
+        about = {"command": command, "source": source}
+        plot = partial(found.plot, title)
+        data = write_study(folder, found, f"Cost of accuracy: {title}", about, plot)
+    print(data if as_json else found)
 
 
 def _solved(planned: "Plan", scene: Path, quiet: bool, checkpoint: Path | None) -> "Outcome":

@@ -1,6 +1,5 @@
 """The command ``stability``: a thin layer over ``fd.stability``."""
 
-import json
 from pathlib import Path
 from typing import Annotated
 
@@ -8,13 +7,12 @@ import typer
 
 import force_diffusion as fd
 
-from ..export.tables import csv_text
 from .cli import shell_line
 from .output import Overwrite, out_option, output
-from .shared import drawn, images, noticing
+from .shared import images, noticing, write_study
 
 STATUSES = (
-    "Takes about 40 s. Exit status: 0 measured, 2 wrong usage, 3 the disk or a pipe failed, "
+    "Takes about a minute. Exit status: 0 measured, 2 wrong usage, 3 the disk or a pipe failed, "
     "130 interrupted."
 )
 
@@ -30,21 +28,17 @@ def stability(
     where = [] if out is None else ["--out", str(out)]
     command = shell_line(["force-diffusion", "stability", *where])
 
-    names = ["stability.json", *study.FILES.values(), *images("stability")]
+    names = [
+        "stability.json",
+        *(table.file for table in study.TABLES.values()),
+        *images("stability"),
+    ]
     with output(out, "stability", names, overwrite) as folder:
         with noticing() as notice:
             found = fd.stability(notice)
-        data = {"command": command, **found.data()}
-        if folder:
-            tables = study.csv_rows(data, command)
-            folder.write(
-                {
-                    "stability.json": json.dumps(data, indent=2) + "\n",
-                    **{name: csv_text(rows) for name, rows in tables.items()},
-                    **drawn(found.plot, "stability", "The cost of stability", command),
-                }
-            )
-    print(json.dumps(data, indent=2) if as_json else found)
+        title = "The cost of stability"
+        data = write_study(folder, found, title, {"command": command})
+    print(data if as_json else found)
 
 
 def register(app: typer.Typer) -> None:

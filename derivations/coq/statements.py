@@ -5,17 +5,18 @@ index ranges from the assumptions, its sites from the left-hand side. What is wr
 which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactics in ``proofs/``.
 """
 
-import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.mechanics.lattice import mirror, mirrored_relation
 from force_diffusion.symbolic.mechanics.paths import IN_CONE
 
-from ..framework.catalogue import Number
+from ..framework.catalogue import Number, paper
 from ..framework.record import Derivation, ExactCase
+from .cases import LOADS, Case, Load, all_of, far, one_packing, random_packings
 from .files import Companion, Statement
 from .words import (
     EXPANSION,
@@ -81,6 +82,9 @@ _STATISTICS = {
     "relative_variance": "relative_variance L f",
     "relative_deviation": "root_mean_square L f",
     "response": "variance L f / f_load ^ 2",
+    "variance_plus": "relative_variance L f",
+    "variance_minus": "relative_variance L f",
+    "layers_covariance": "relative_covariance L f g",
 }
 """Left-hand sides that are a statistic of a quantity f, by the name of their symbol."""
 
@@ -119,6 +123,32 @@ def _near(quantity: str, size: str) -> Callable[[sympy.Eq], str]:
     return conclude
 
 
+def _of_its_branch(sizes: Mapping[str, str]) -> Callable[[sympy.Eq], str]:
+    """The same for the force that the left-hand side names, with the size of that branch."""
+
+    def conclude(equation: sympy.Eq) -> str:
+        branch = getattr(equation.lhs, "name", "").removeprefix("variance_")
+        if branch not in sizes:
+            raise NotStatedError(f"{equation.lhs} is no variance of f⁺ or f⁻")
+        return _near(f"f_{branch} F i j", sizes[branch])(equation)
+
+    return conclude
+
+
+def _of_both(first: sy.SiteFunction, second: sy.SiteFunction) -> Callable[[sympy.Eq], str]:
+    """A statistic of two quantities, exactly."""
+
+    def conclude(equation: sympy.Eq) -> str:
+        return (
+            "exists f g,\n"
+            f"    linearised ({_OF_RHO} {real(first)}) f /\\\n"
+            f"    linearised ({_OF_RHO} {real(second)}) g /\\\n"
+            f"    {_statistic(equation.lhs)} = {real(equation.rhs)}"
+        )
+
+    return conclude
+
+
 @dataclass(frozen=True)
 class Frame:
     """What an equation is about, besides what its derivation says: ranges, sites and the load.
@@ -127,13 +157,17 @@ class Frame:
         example: indices that obey all conditions, M first.
         conclude: what an equation says, given the hypotheses.
         conditions: on indices, besides ranges and sites.
+        of_part: a condition for each of the printed equations, if they have any of their own.
         random: whether the packing is one of a family, with a law of the radii.
+        reach: how many heights M on each side have to be free of a horizontal boundary.
     """
 
     example: dict[sympy.Symbol, int]
     conclude: Callable[[sympy.Eq], str] = _to_first_order
     conditions: tuple[str, ...] = ()
+    of_part: tuple[str, ...] = ()
     random: bool = False
+    reach: int = 1
 
 
 _HIGH = 1_000_000  # so that what is of lower order is small
@@ -142,16 +176,20 @@ _AT = {sy.M: 7, sy.i: 1, sy.j: 3}
 _EVERY_CONTACT = ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
 
 
+_HIGH_UP = {sy.M: _HIGH, sy.i: 0, sy.j: 3 * _HIGH // 10}
+_LEANING = "((2 * IZR M ^ 2 + IZR M) * {0} ^ 2 + 2 * IZR M * {0} + IZR M / 2)"
+
+
 def _variance(size: str) -> Frame:
     return Frame(
-        {sy.M: _HIGH, sy.i: 0, sy.j: 3 * _HIGH // 10},
+        _HIGH_UP,
         _near("f_plus F i j", size),
         _EVERY_CONTACT,
         random=True,
     )
 
 
-FRAMES = {
+FRAMES: dict[Number, Frame] = {
     1: Frame(_AT, _exactly),
     2: Frame(_AT),
     3: Frame(_AT),
@@ -181,166 +219,33 @@ FRAMES = {
         ),
         random=True,
     ),
-}
-MIRRORED = (9, 10, 11)  # stated of f⁻, too
-AVERAGES = 15  # the one equation about all layers together
-STATED = (*FRAMES, AVERAGES)
-"""Numbers of the equations that can be stated."""
-
-
-@dataclass(frozen=True)
-class _Load:
-    """A load in the words of ``Model.v``: what else is quantified on its account, and supposed."""
-
-    words: str
-    variables: str = "(f_load : R)"
-    hypotheses: tuple[str, ...] = ("0 < f_load",)
-    example: tuple[str, ...] = ("5",)
-    mean: str = ""  # of the force of a contact, where all contacts of a layer have one
-
-
-_ABOVE_THE_SITE = f"single ({sy.site_r.in_code} + 1) ({sy.site_s.in_code} + 1) 5"
-_LOADS = {
-    "single": _Load("single k l f_load"),
-    "surface": _Load("surface M f_load", mean="f_load / (2 * n_y G)"),
-    "bulk": _Load("bulk f_load", mean="(IZR M - IZR j) * (f_load / (2 * n_y G))"),
-    "any": _Load(
-        "load",
-        "(load : Z -> Z -> vector)",
-        (
-            "load site_r site_s = zero",
-            "near (fun e => f_minus F site_r site_s e = 0 /\\ f_plus F site_r site_s e <> 0)",
-        ),
-        (_ABOVE_THE_SITE,),
+    "B1": Frame(_AT, of_part=("0 < L_plus", "0 < L_minus")),
+    "B2": Frame(
+        _HIGH_UP,
+        _of_its_branch({"plus": _LEANING.format("t"), "minus": _LEANING.format("(1 / t)")}),
+        (*_EVERY_CONTACT, "0 < L_plus", "0 < L_minus"),
+        random=True,
+    ),
+    "B12": Frame(
+        {sy.M: 12, sy.i: 1, sy.j: 3, sy.l: 7},
+        _of_both(sy.ForcePlus(sy.i, sy.j), sy.ForcePlus(sy.i + sy.l - sy.j, sy.l)),
+        ("contact M i j",),
+        random=True,
+        reach=2,
     ),
 }
-
-
-@dataclass(frozen=True)
-class _Case:
-    """Variables, hypotheses on them, and an example: all that stands before a conclusion.
-
-    ``given`` are variables, and one hypothesis on them, for which the others exist.
-    """
-
-    given: str
-    supposed: tuple[str, ...]
-    variables: str
-    hypotheses: tuple[str, ...]
-    example: tuple[str, ...]
-    law: str = ""  # of the example
-    disproof: str = ""  # of a statement about it, with the printed one's name left open
-
-    def before(self) -> tuple[str, ...]:
-        """The lines before the conclusion."""
-        return (
-            " ".join([f"  forall {self.given},", *(f"{one} ->" for one in self.supposed)]),
-            f"  forall {self.variables},",
-            *(f"  {hypothesis} ->" for hypothesis in self.hypotheses),
-        )
-
-    def companion(self, name: str = "is_about_something") -> "Companion":
-        """That the hypotheses can be fulfilled."""
-        supposed = "".join(f"{one} -> " for one in self.supposed)
-        return Companion(
-            name,
-            f"forall {self.given}, {supposed}\n  exists {self.variables},\n"
-            f"  {_all(self.hypotheses)}",
-            f"intros. {self.law}exists {', '.join(self.example)}. something.",
-        )
-
-
-def _with_values(words: str, values: dict[str, str]) -> str:
-    return re.sub(r"\w+", lambda name: values.get(name[0], name[0]), words)
-
-
-_DISPROOF = "intros A; specialize (A {}); disprove A"
-
-
-def _one_packing(
-    symbols: dict[sympy.Symbol, int], conditions: Iterable[str], load: _Load | None
-) -> _Case:
-    indices = {symbol.in_code: f"{value}%Z" for symbol, value in symbols.items()}
-    height, laid = indices.pop("M"), "(laid_packing G rho)"
-    at = f"trial_lattice trial_radii {height} (trial {height}) {' '.join(indices.values())}"
-    case = _Case(
-        "(G : lattice) (rho : radii)",
-        (),
-        f"(M : Z) (X : centres) ({' '.join(indices)} : Z)",
-        ("packing G M rho X", *conditions),
-        (height, laid, *indices.values()),
-        disproof=_DISPROOF.format(at),
-    )
-    if load is None:
-        return case
-    *sizes, carried = (
-        f"({_with_values(words, {**indices, 'M': height, 'f_load': '5'})})"
-        for words in (*load.example, load.words)
-    )
-    if load.words == "load":
-        carried = sizes[0]
-    return replace(
-        case,
-        variables=f"{case.variables} (F : forces) {load.variables}",
-        hypotheses=(*case.hypotheses, *load.hypotheses, f"carries M X ({load.words}) F"),
-        example=(*case.example, f"(passed_down {height} {laid} {carried})", *sizes),
-        disproof=_DISPROOF.format(f"{at} (trial_forces {height} {carried}) {' '.join(sizes)}"),
-    )
-
-
-def _beside(*at: str, law: str) -> str:
-    """Disproof in a large packing, beside the printed equation, a lemma whose name is left open."""
-    same = " ".join(at)
-    return (
-        f"intros A; pose proof {{}} as T; destruct (law_exists {law}) as [L _];\n"
-        f"  specialize (A {same});\n  specialize (T {same}); disprove_beside T A"
-    )
-
-
-_FAR = "(Z.abs i + M + 2 <= W)%Z"  # no horizontal boundary is met
-
-
-def _random_packings(
-    variables: str, conditions: Iterable[str], load: _Load, example: dict[str, str]
-) -> _Case:
-    """A family of packings and forces, one for each choice of the radii, and a law of these."""
-    height, window, *others = example.values()
-    carried = f"({_with_values(load.words, {**example, 'f_load': '5'})})"
-    forces = "(fun rho => passed_down {0} (laid_packing {1} rho) {2})"
-    return _Case(
-        "(G : lattice) (sigma : R)",
-        ("0 < sigma",),
-        "(M W : Z) (L : law W M sigma) (Xs : radii -> centres) (Fs : radii -> forces)\n"
-        f"    {variables} {load.variables}",
-        (
-            "(forall rho, packing G M rho (Xs rho))",
-            *conditions,
-            *load.hypotheses,
-            f"(forall rho, carries M (Xs rho) ({load.words}) (Fs rho))",
-        ),
-        (
-            *(height, window, "L", "(laid_packing G)"),
-            forces.format(height, "G", carried),
-            *others,
-            *load.example,
-        ),
-        f"destruct (law_exists {window} {height} sigma) as [L _]. ",
-        _beside(
-            f"trial_lattice 1 ltac:(lra) {height} {window} L (laid_packing trial_lattice)",
-            forces.format(height, "trial_lattice", carried),
-            *others,
-            *load.example,
-            law=f"{window} {height} 1",
-        ),
-    )
+MIRRORED = (8, 9, 10, 11)  # stated of f⁻, too
+AVERAGES = 15  # the one equation about all layers together
+STATED: tuple[Number, ...] = (*paper(), *(n for n in FRAMES if isinstance(n, str)))
+"""Numbers of the equations that can be stated."""
 
 
 _LAYERS = ("(1 <= M)%Z", "(0 <= j < M)%Z", "contact M (across j) j")
 
 
-def _across_layers(load: _Load) -> _Case:
+def _across_layers(load: Load) -> Case:
     """One contact of each layer, at ``across j`` in layer j."""
-    return _random_packings(
+    return random_packings(
         "(across : Z -> Z)",
         (
             "(1 <= M)%Z",
@@ -363,7 +268,7 @@ def _averages(derivation: Derivation, part: int, stated: sympy.Eq) -> str:
     for load in derivation.loads:
         claim = "\n".join(
             (
-                *_across_layers(_LOADS[load]).before(),
+                *_across_layers(LOADS[load]).before(),
                 "  exists f, (forall j, (0 <= j < M)%Z ->",
                 "      linearised (fun rho => f_plus (Fs rho) (across j) j) (f j)) /\\",
                 f"    Rabs ({_statistic(deviation.lhs)} - {in_proportion}) "
@@ -379,7 +284,7 @@ def _averages(derivation: Derivation, part: int, stated: sympy.Eq) -> str:
                 "  forall (G : lattice) (sigma M_star : R), 0 < sigma -> 0 < M_star ->\n"
                 f"  (({at_height}) ^ 2 = 1 <-> M_star = d (phi G) * {operand(stated.rhs)}))"
             )
-    return _all(claims)
+    return all_of(claims)
 
 
 def statements(derivation: Derivation) -> list[Statement]:
@@ -415,25 +320,32 @@ def exact_statement(
     derivation: Derivation,
     exact: Mapping[str, ExactCase] | None = None,
     at: Mapping[sympy.Symbol, int] | None = None,
+    *,
+    branch: str = "plus",
 ) -> Statement:
-    """State mean and variance of one contact's force in every layer, or others in their place."""
+    """State mean and variance of one contact's force in every layer, or others in their place.
+
+    Of f⁻ those of f⁺ are stated, with 1/t for t.
+    """
     forms = derivation.exact() if exact is None and derivation.exact else exact or {}
-    (formula,) = derivation.printed
-    printed, load = statement(derivation, 0, formula, at=at), _LOADS[derivation.loads[0]]
+    part, other = (0, {}) if branch == "plus" else (1, {sy.t: 1 / sy.t})
+    formula = derivation.printed[part]
+    printed = statement(derivation, part, formula, at=at)
+    mean = LOADS[derivation.loads[0]].mean.format(branch)
     layers: dict[tuple[str, ...], sympy.Expr] = {}
     for case in forms.values():
         domain = [_relation(one) for one in case.domain]
         missed = [[_relation(one) for one in other.when] for other in case.missed]
         layers[*domain, *(f"~ ({_and(one)})" for one in missed)] = case.expression
         layers |= {
-            (*one,): other.expression for one, other in zip(missed, case.missed, strict=True)
+            (*one,): small.expression for one, small in zip(missed, case.missed, strict=True)
         }
-    statistic = _statistic(derivation.printed[0].lhs)
+    statistic = _statistic(formula.lhs)
     claims = [
-        f"exists f, linearised ({_OF_RHO} f_plus F i j {EXPANSION}) f",
-        f"expect L f = {load.mean}",
+        f"exists f, linearised ({_OF_RHO} f_{branch} F i j {EXPANSION}) f",
+        f"expect L f = {mean}",
         *(
-            f"({' -> '.join(when)} ->\n    {statistic} = {real(is_)})"
+            f"({' -> '.join(when)} ->\n    {statistic} = {real(is_.xreplace(other))})"
             for when, is_ in layers.items()
         ),
     ]
@@ -453,22 +365,18 @@ def exact_statement(
     )
 
 
-def _nothing_else(derivation: Derivation) -> Statement:
+def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> Statement:
     """Beside Eqs. 9 and 10: no other contact below a loaded bead bears a force to first order."""
-    load = _LOADS["single"]
-    case = _one_packing(
-        {sy.M: 7, sy.k: 6, sy.l: 6, sy.i: 0, sy.j: 2},
-        (
-            *("bead M k l", "contact M i j", "(j < l)%Z"),
-            "(k - i > l - j \\/ i - k >= l - j)%Z",
-        ),
-        load,
-    )
-    force = sympy.Eq(sy.ForcePlus(sy.i, sy.j), sympy.S.Zero, evaluate=False)
+    force, across = sy.ForcePlus(sy.i, sy.j), ("k - i", "i - k")
+    at = {sy.M: 7, sy.k: 6, sy.l: 6, sy.i: 0, sy.j: 2}
+    if mirrored:
+        force, across, at = mirror(force), across[::-1], at | {sy.i: 12}
+    outside = f"({across[0]} > l - j \\/ {across[1]} >= l - j)%Z"
+    case = one_packing(at, ("bead M k l", "contact M i j", "(j < l)%Z", outside), LOADS["single"])
     return Statement(
-        f"equation_{derivation.number}_else_nothing",
+        f"equation_{derivation.number}_else_nothing" + ("_mirrored" if mirrored else ""),
         case.before(),
-        _to_first_order(force),
+        _to_first_order(sympy.Eq(force, sympy.S.Zero, evaluate=False)),
         "prove_nothing_else",
         (case.companion(),),
         disproof=case.disproof,
@@ -520,10 +428,11 @@ def _maximum(derivation: Derivation) -> Statement:
 
 
 BESIDE: dict[Number, tuple[Callable[[Derivation], Statement], ...]] = {
-    10: (_nothing_else,),
+    10: (_nothing_else, partial(_nothing_else, mirrored=True)),
     12: (_second_differences,),
     13: (exact_statement,),
     14: (exact_statement, _maximum),
+    "B2": (exact_statement, partial(exact_statement, branch="minus")),
 }
 """What is stated beside the printed equations, besides their mirror images."""
 
@@ -556,7 +465,7 @@ def statement(
     tactic = f"prove_{derivation.number}"
     if derivation.number == AVERAGES:
         companions = [
-            _across_layers(_LOADS[one]).companion(f"{one}_is_about_something")
+            _across_layers(LOADS[one]).companion(f"{one}_is_about_something")
             for one in derivation.loads
         ]
         claims = _averages(derivation, part, stated)
@@ -574,19 +483,22 @@ def statement(
     conditions = tuple(
         dict.fromkeys((*_spoken_of(printed.lhs), *ranges(derivation), *frame.conditions))
     )
-    load = _LOADS[derivation.loads[0]] if derivation.loads else None
+    supposed = (*conditions, *frame.of_part[part : part + 1])
+    load = LOADS[derivation.loads[0]] if derivation.loads else None
+    if mirrored and load is LOADS["any"]:
+        load = LOADS["any, mirrored"]
     indices = " ".join(symbol.in_code for symbol in frame.example if symbol != sy.M)
     if frame.random and load:
         values = {symbol.in_code: f"{value}%Z" for symbol, value in frame.example.items()}
-        window = 2 + frame.example[sy.M] + abs(frame.example[sy.i])
-        case = _random_packings(
+        window = 2 + frame.reach * frame.example[sy.M] + abs(frame.example[sy.i])
+        case = random_packings(
             f"({indices} : Z)",
-            (*conditions, _FAR),
+            (*supposed, far(frame.reach)),
             load,
             {"M": values.pop("M"), "W": f"{window}%Z", **values},
         )
     else:
-        case = _one_packing(frame.example, conditions, load)
+        case = one_packing(frame.example, supposed, load)
     of_statistic = frame.random and getattr(printed.lhs, "name", "") in _STATISTICS
     beside = statement(derivation, part) if of_statistic and equation is not None else None
     companions = [case.companion()]
@@ -595,7 +507,7 @@ def statement(
         companions.append(
             Companion(
                 "sums_in_order",
-                f"forall M {indices} : Z,\n  {_all(conditions)} -> {_all(orders)}",
+                f"forall M {indices} : Z,\n  {all_of(conditions)} -> {all_of(orders)}",
                 "site.",
             )
         )
@@ -605,14 +517,10 @@ def statement(
         frame.conclude(stated),
         tactic,
         (*companions,),
-        about=conditions,
+        about=supposed,
         disproof=case.disproof.format(name) if beside or not frame.random else "",
         beside=beside,
     )
-
-
-def _all(conditions: Iterable[str]) -> str:
-    return " /\\\n  ".join(conditions)
 
 
 def _bounds(equation: sympy.Eq) -> Iterator[tuple[sympy.Expr, sympy.Expr]]:

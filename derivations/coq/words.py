@@ -27,6 +27,7 @@ FIXED = ("Position", "Load")  # do not depend on ε
 _SCALARS = {sy.r: "r G", sy.n_x: "n_x G", sy.n_y: "n_y G", sy.phi: "phi G"}
 HEIGHT = sympy.Symbol("M_star", positive=True)  # the height of Eq. 15, a real number
 _SCALARS |= {HEIGHT: "M_star"}
+_SCALARS |= {one: one.name for one in (sy.L_plus, sy.L_minus, sy.t)}
 _SCALARS |= {sy.f_load: "f_load", sy.sigma: "sigma", sy.z: "(IZR j / IZR M)"}
 _VECTORS = {v: f"{v.name} G" for v in (sy.n_plus, sy.n_minus, sy.b_plus, sy.b_minus)}
 _VECTORS[sy.e_y] = "e_y"

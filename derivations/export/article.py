@@ -15,7 +15,8 @@ from textwrap import indent
 
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.figures.names import FIGURES
-from force_diffusion.symbolic.printing.latex import RELATIONS
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import column_width, latex_body
 from markdown_it import MarkdownIt
 from markdown_it.tree import SyntaxTreeNode as Node
@@ -26,12 +27,14 @@ from ..framework.catalogue import THEOREMS, modules, number_of
 from ..framework.loading import load
 from ..framework.record import Derivation, Outcome
 from .document import sentence, statement_latex
-from .prose import phrase_latex, pieces, prose_latex, prose_markdown, text_latex
+from .prose import both, phrase_latex, pieces, prose_latex, prose_markdown, text_latex
 from .quoted import quoted
-from .terminal import relation_of
+from .terminal import relation_of, verdicts_text
 
 ARTICLE = "article.tex"
 COLUMNS = 2
+EVERYWHERE = {sy.sigma, sy.r, sy.M, sy.phi, sy.z, sy.n_y}
+"""Symbols that the text of the article defines for all equations."""
 
 _HEAD = r"""\documentclass[aps,pre,twocolumn,nofootinbib,floatfix]{revtex4-2}
 \usepackage{amsmath,amssymb,array,graphicx}
@@ -76,6 +79,35 @@ def figures_of(markdown: str) -> list[str]:
         if name not in FIGURES:
             raise ArticleError(f"the article shows figure {name}; there are {', '.join(FIGURES)}")
     return names
+
+
+def names_of_files() -> list[str]:
+    """Name what the article is made of. Raises ``MissingLibraryError``: it has figures."""
+    from force_diffusion.numeric.figures.library import drawing
+
+    with drawing():
+        pass
+    return [ARTICLE, *(f"{FIGURES[name].file}.pdf" for name in figures_of(source()))]
+
+
+def article_and_figures(
+    outcomes: Sequence[Outcome], command: str, notice: Callable[[str], None]
+) -> dict[str, str | bytes]:
+    """Give the article and its figures by file name; it says what was derived.
+
+    ``command`` is what the figures say that made them; ``notice`` is told which is made next.
+    Raises ``MissingLibraryError``.
+    """
+    from force_diffusion.numeric.figures.catalogue import begun
+
+    markdown, plates = source(), {}
+    drawn: dict[str, str | bytes] = {}
+    for name in figures_of(markdown):
+        made = begun(name, command=command, kinds=("pdf",), notice=notice)()
+        file = f"{FIGURES[name].file}.pdf"
+        drawn[file] = made.files[file]
+        plates[name] = Plate(file, made.wide, tuple(made.lines))
+    return {ARTICLE: article(markdown, plates, verdicts(outcomes)), **drawn}
 
 
 def own_equations() -> list[str]:
@@ -143,17 +175,22 @@ def _forms(derivation: Derivation, columns: int) -> str:
         f"### Eq. {derivation.number}: {derivation.title}\n\n*Assumed:* "
         f"{prose_markdown(sentence('; '.join(derivation.assumptions)))}\n\n"
     ]
+    named = [
+        f"${latex(symbol)}$: {prose_markdown(words)}"
+        for symbol, words in derivation.symbols
+        if symbol not in EVERYWHERE
+    ]
+    said.append(f"*Symbols:* {'; '.join(named)}.\n\n")
     exact = derivation.exact() if derivation.exact else {}
     for name, form in exact.items():
         line = Eq(form.quantity, form.expression, evaluate=False)
         said += [f"`{name}`:\n\n", _placed(line, form.validity, columns)]
-    missed = dict.fromkeys(
-        _placed(Eq(form.quantity, one.expression, evaluate=False), one.where, columns)
-        for form in exact.values()
-        for one in form.missed
-    )
-    if missed:
-        said += ["In place of these, where it holds:\n\n", *missed]
+        if form.missed:
+            said.append("but in its place\n\n")
+        said += [
+            _placed(Eq(form.quantity, one.expression, evaluate=False), one.where, columns)
+            for one in form.missed
+        ]
     return "".join(said)
 
 
@@ -319,11 +356,14 @@ def _image(node: Node) -> str:
     return str(parts[0].attrs["src"]) if [one.type for one in parts] == ["image"] else ""
 
 
-def verdicts(outcomes: Sequence[Outcome], counts: str) -> str:
-    """What the run that writes the article has derived; ``counts``: how many, in words."""
+def verdicts(outcomes: Sequence[Outcome]) -> str:
+    """What the run that writes the article has derived."""
     found = {one.derivation.number for one in outcomes}
     left = [label for label in own_equations() if label not in found]
+    refuted = [f"Eq. {one.derivation.number}" for one in outcomes if one.derivation.refuted]
     return (
-        f"In the run that wrote this text the program derived {len(found)} equations: {counts}."
+        f"In the run that wrote this text the program derived {len(found)} equations: "
+        f"{verdicts_text(outcomes)}."
         + (f" Not derived in it: {', '.join(left)}." if left else "")
+        + (f" As its words read in Ref. [1], {both(refuted)} is refuted." if refuted else "")
     )

@@ -33,6 +33,9 @@ _HEAD = r"""\documentclass[10pt]{article}
 \setlength{\parindent}{0pt}
 \setlength{\parskip}{4pt plus 1pt}
 \setlength{\emergencystretch}{4em}
+\widowpenalty=10000
+\clubpenalty=10000
+\displaywidowpenalty=10000
 \setcounter{secnumdepth}{0} % equations have numbers, their sections have none
 \renewcommand{\labelitemi}{$\bullet$}
 \makeatletter\@beginparpenalty=10000\makeatother % no page ends between a heading and its list
@@ -115,7 +118,8 @@ def _steps(derivation: Derivation, verdicts: list[str]) -> str:
     if len(verdicts) != len(steps):  # an earlier version has left them behind
         verdicts = ["not decided"] * len(steps)
     for step, verdict in zip(steps, verdicts, strict=True):
-        follows = f"\\emph{{{prose_latex(sentence(follows_text(step, verdict.capitalize())))}}}"
+        told = follows_text(step, verdict[:1].upper() + verdict[1:])
+        follows = f"\\emph{{{prose_latex(sentence(told))}}}"
         if derivation.printed == (step.formula,):  # not the same display twice
             reason = prose_latex(step.reason.rstrip(".:"))
             items.append(f"{reason}: Eq.~({derivation.number}). {follows}")
@@ -165,7 +169,10 @@ def _numbered(derivation: Derivation) -> str:
 
 def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     """All about one equation; the statement itself is read from its fragment."""
-    symbols = [f"${latex(symbol)}$: {prose_latex(words)}" for symbol, words in derivation.symbols]
+    symbols = [
+        f"$\\displaystyle {latex(symbol)}$: {prose_latex(words)}"
+        for symbol, words in derivation.symbols
+    ]
     rests = ", ".join(f"({premise.number})" for premise in derivation.premises)
     plural = "s" if len(derivation.premises) > 1 else ""
     checks = [

@@ -37,10 +37,13 @@ _INDEXED = re.compile(r"_(?:\(([^()]*)\)|([A-Za-z0-9δ]+|±))")
 _VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
 _FORCE = re.compile(r"F(?=\^\{\\mathrm\{load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
-_NAMES = re.compile(r"(?<![A-Za-z\\])(max|min|exp)(?![A-Za-z])")
+_NAMES = re.compile(r"(?<![A-Za-z\\])(max|min|exp|erfc)(?![A-Za-z])")
+_ARGUMENT = re.compile(r"(?:√|(?<![A-Za-z])(?:max|min|exp|erfc))\((?:[^()]|\([^()]*\))*\)")
+_KIND = re.compile(r"(?<=[a-z])\(([a-z]{3,})\)")  # of stress, as in σ_yy(flux)
+_SIGNS = frozenset("+−±·×/=≤≥<>")
 _POWER = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\d+))")
 _STAR = re.compile(r"(?<=[A-Za-z])\*")
-_ROOT = re.compile(r"√(\d+|\([^()]*\))")
+_ROOT = re.compile(r"√(?:(\d+|[^\W\d_])|\(([^()]*)\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
 _FLOAT = re.compile(r"(?<![A-Za-z0-9.])(\d(?:\.\d+)?)e([+-]\d+)(?![A-Za-z0-9])")
 # In LaTeX, where a bracket is in the words beside a formula.
@@ -75,11 +78,13 @@ def both(words: Sequence[str]) -> str:
 
 def _is_mathematics(word: str) -> bool:
     """Whether a word is a symbol or a formula rather than English."""
-    if re.fullmatch(r"[b-zB-HJ-Z]", word):
+    if re.fullmatch(r"[b-zB-HJ-Z]", word.strip("()[]")):
         return True
     if re.fullmatch(r"[BT]\d+", word):  # the name of an equation or of a theorem
         return False
-    letters = re.findall(r"[A-Za-z]+", _INDEXED.sub("", _NAMES.sub("", word)))
+    if _ARGUMENT.match(word):
+        return True
+    letters = re.findall(r"[A-Za-z]+", _INDEXED.sub("", _KIND.sub("", _NAMES.sub("", word))))
     return bool(_SYMBOLIC.search(word)) and all(len(run) <= 2 for run in letters)
 
 
@@ -114,13 +119,16 @@ def _set_mathematics(word: str) -> str:
     for special in "%#&{}$":
         word = word.replace(special, f"\\{special}")
     word = _STAR.sub("^{*}", _POWER.sub(lambda found: f"^{{{found[1] or found[2]}}}", word))
+    word = _KIND.sub(r"^{\\mathrm{\1}}", word)
     for raised, source in _WORDS.items():
         word = word.replace(raised, source)
-    word = _ROOT.sub(r"\\sqrt{\1}", _RUN.sub(_run, _INDEXED.sub(_lowered, word)))
+    word = _ROOT.sub(
+        lambda root: rf"\sqrt{{{root[1] or root[2]}}}", _RUN.sub(_run, _INDEXED.sub(_lowered, word))
+    )
     word = "".join(map(_character, _FLOAT.sub(_power_of_ten, word)))
     word = _FORCE.sub(r"\\mathbf{F}", word)
     word = _RECIPROCAL.sub(r"\\mathbf{b}", _VECTOR.sub(r"\\hat{\\mathbf{n}}", word))
-    return _NAMES.sub(r"\\\1 ", word)
+    return _NAMES.sub(r"\\operatorname{\1}", word)
 
 
 def text_latex(word: str) -> str:
@@ -140,7 +148,10 @@ def _parts(word: str) -> tuple[str, str, str]:
     """Opening punctuation, what it encloses, closing punctuation."""
     found = _PUNCTUATION.fullmatch(word)
     opening, core, closing = found.group("open", "core", "close") if found else ("", word, "")
-    while core.count("(") > core.count(")") and closing.startswith(")"):
+    # what the core opens last is closed behind it: f(x), or (a)^(b)
+    while closing.startswith(")") and (
+        core.count("(") > core.count(")") or core.rfind("(") > core.rfind(")")
+    ):
         core, closing = f"{core})", closing[1:]
     while core.count(")") > core.count("(") and opening.endswith("("):
         core, opening = f"({core}", opening[:-1]
@@ -157,10 +168,13 @@ def pieces(words: str) -> Iterator[tuple[str, list[str], str]]:
     """
     formula: list[str] = []  # mathematics that is still open to the right
     before = ""
-    for word in words.split(" "):
+    split = _ARGUMENT.sub(lambda found: found[0].replace(" ", ""), words).split(" ")
+    for word, last, following in zip(split, ["", *split], [*split[1:], ""], strict=False):
         opening, core, closing = _parts(word)
-        pair = core == "a" and opening.endswith("(") and closing.startswith(",")
-        if not core or not (core.isdecimal() or pair or _is_mathematics(core)):
+        symbol = core == "a" and (  # and not the article
+            (opening.endswith("(") and closing.startswith(",")) or {last, following} & _SIGNS
+        )
+        if not core or not (core.isdecimal() or symbol or _is_mathematics(core)):
             if formula:
                 yield before, formula, ""
             formula, before = [], ""
@@ -221,10 +235,13 @@ def phrase_latex(words: str) -> list[str]:
     >>> for piece in phrase_latex("for j ≥ 1, inside of the cone"):
     ...     print(piece)
     \text{for }
-    j \geq  1
-    \text{, inside of the cone}
+    j \geq  1,
+    \text{ inside of the cone}
     """
-    found = re.split(r"(?<!\\)\$", prose_latex(words))
+    source = re.sub(
+        r"\$([^$]+)\$([,;]?)", r"$\1\2$", prose_latex(words)
+    )  # no line begins with a comma
+    found = re.split(r"(?<!\\)\$", source)
     return [
         piece if place % 2 else rf"\text{{{piece}}}" for place, piece in enumerate(found) if piece
     ]

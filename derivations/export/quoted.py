@@ -13,6 +13,7 @@ from force_diffusion.symbolic.printing.latex import latex
 from .. import eq13_surface_diffusion as eq13
 from .. import eq14_bulk_diffusion as eq14
 from ..beyond import t6_correlations as t6
+from ..coq.statements import STATED
 from ..framework.catalogue import modules
 from ..framework.layered import UNIT
 from ..framework.loading import load
@@ -34,8 +35,9 @@ def quoted(words: str) -> str:
     ('4 M (z - \\phi)', '2.31', '0.28')
     """
     match words.split():
-        case ["last"]:
-            return str(list(modules())[-1])
+        case ["beyond", "in", "Coq"]:
+            *others, last = (one for one in STATED if isinstance(one, str))
+            return f"{', '.join(others)} and {last}"
         case ["calm", which]:
             return str(_calm()[which])
         case ["version"]:
@@ -52,7 +54,8 @@ def quoted(words: str) -> str:
             return str(FIGURES[name].realisations)
         case ["figure", name, constant]:
             made_by = import_module(f"force_diffusion.numeric.figures.{FIGURES[name].module}")
-            return str(vars(made_by)[constant])
+            value = vars(made_by)[constant]
+            return f"{value:.2g}" if isinstance(value, float) else str(value)
         case ["correlation", "surface"]:
             return _decimal(_correlation(*ON_SURFACE))
         case ["correlation", "bulk"]:
@@ -82,7 +85,7 @@ def _leading(label: str, which: str) -> sympy.Expr:
         if len(found) > 1 and linear and factor.subs(sy.phi, 0) == -1:
             number, found[place] = -number, -factor
     power = M ** (above.degree() - below.degree())
-    return times(*(one for one in (number, power, *found) if one != 1))
+    return times(number, power, *found)
 
 
 def _correlation(covariance: sympy.Expr, variance: sympy.Expr) -> sympy.Expr:

@@ -1,6 +1,7 @@
 """Derivations and their outcomes as plain text or JSON, for a terminal or a pipe."""
 
 import re
+from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from textwrap import fill
 from typing import Any
@@ -50,6 +51,12 @@ def refuted_text(derivation: Derivation) -> list[str]:
         lines += ["", _paragraph(f"Printed as well; {one.reading}.", "")]
         lines += ["  " + line for line in text_lines(one.formula, one.relation, TEXT_WIDTH - 2)]
     return lines
+
+
+def verdicts_text(outcomes: Iterable[Outcome]) -> str:
+    """How many equations have which verdict, in words."""
+    counts = Counter(one.words for one in outcomes)
+    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
 
 
 def expected_text(refuted: int) -> str:

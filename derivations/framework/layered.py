@@ -25,8 +25,6 @@ from force_diffusion.symbolic.symbols import (
     phi,
     r,
     sigma,
-    tau_1,
-    tau_2,
 )
 from force_diffusion.symbolic.variances.listed import listed, squares, weights
 from force_diffusion.symbolic.variances.variance import CASES, ClosedForm
@@ -98,6 +96,7 @@ class Layered:
         by: what proves its closed forms; working out the moments, for most.
         said_as: what the symbol stands for there, if it is not the moment.
         dimension: of the packing.
+        ordered_by: symbols by whose powers long sums are shown to users.
     """
 
     symbol: sympy.Expr
@@ -109,6 +108,7 @@ class Layered:
     by: By | None = None
     said_as: sympy.Expr | None = None
     dimension: int | sympy.Symbol = 2
+    ordered_by: tuple[sympy.Symbol, ...] = ()
 
     @property
     def meant(self) -> Meaning:
@@ -179,7 +179,7 @@ class Layered:
             name: ExactCase(
                 self.symbol,
                 form.validity,
-                _by_ratios(form.expression),
+                self._shown(form.expression),
                 domain=self.cases[name].layers,
                 missed=tuple(
                     Missed(f"M = {size}, j = {at}", (sympy.Eq(M, size), sympy.Eq(j, at)), value)
@@ -189,6 +189,15 @@ class Layered:
             )
             for name, form in self.forms.items()
         }
+
+    def _shown(self, expression: sympy.Expr) -> sympy.Expr:
+        """The same; so ordered, long sums fit a column of a page."""
+        if not self.ordered_by:
+            return expression
+        return expression.replace(
+            lambda one: isinstance(one, sympy.Add) and one.has(*self.ordered_by),
+            lambda one: sympy.collect(one, self.ordered_by),
+        )
 
     def theorems(self, lines: Lines) -> tuple[Theorem, ...]:
         """What lines prove of every layer, and of the small packings."""
@@ -329,11 +338,3 @@ class EveryLayer:
     def words(self) -> str:
         """How a line names it."""
         return self.derivation.words
-
-
-def _by_ratios(expression: sympy.Expr) -> sympy.Expr:
-    """The same, sums ordered by how loads lean: so long ones fit a column of a page."""
-    return expression.replace(
-        lambda one: isinstance(one, sympy.Add) and one.has(tau_1),
-        lambda one: sympy.collect(one, (tau_1, tau_2)),
-    )

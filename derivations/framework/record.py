@@ -399,7 +399,7 @@ class Mutant:
     @property
     def note(self) -> str:
         """What the ruling rests on, and why it is an equivalent rewriting where it is one."""
-        return ". ".join(filter(None, (self.reason, self.ruling.note)))
+        return "; ".join(filter(None, (self.reason, self.ruling.note)))
 
     @property
     def equivalent(self) -> bool:

@@ -150,13 +150,15 @@ class Means:
         if window.added is None:
             form = self.value(self.symbol, where)
         else:
-            form = terms(self.printed.rhs, times(sympy.factor(window.added / N**2), UNIT))
+            more = times(sympy.factor(window.added / N**2), UNIT)
+            form = terms(self.printed.rhs, more) if window.added else self.printed.rhs
         missed = tuple[Missed, ...]()
         if window.missed:
             domain = tuple(one for one in domain if not one.has(M))
             small = Eq(M, window.missed)
             value = self.value(self.symbol, self.on(*domain, small))
-            missed = (Missed(f"M = {window.missed}", (small,), value),)
+            words = f"{window.validity.rsplit(' and M', 1)[0]} and M = {window.missed}"
+            missed = (Missed(words, (small,), value),)
         by = self.by if window.parts == ((),) else cases(self.by, *window.parts)
         line = Line(window.validity, equation(self.symbol, form), by, where, self.meaning)
         return ExactCase(self.symbol, window.validity, form, domain, missed, line=line)

@@ -16,7 +16,7 @@ from ..planning.methods import initial_bits
 from ..planning.plan import CERTIFY, Plan
 from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
-from ..theory.critical_height import critical_height
+from ..theory.expected import critical_height
 from .accuracy import Accuracy, ToleranceError
 
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.

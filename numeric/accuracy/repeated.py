@@ -66,18 +66,12 @@ def repeated(plan: Plan, work: Work, kept: Kept | None = None) -> tuple[Answer, 
 
 def of_carried(found: Answer, plan: Plan) -> Accuracy:
     """State the error of an answer whose sweeps carried it, from the table that holds both."""
-    system, table, apart = plan.system, found.table, Fraction(0)
+    apart: Fraction | None = Fraction(0)
     if found.left is not None:
-        if not math.isfinite(found.left):
-            return Accuracy(math.inf, False, system.name, float(system.bits))
-        return stated(found, Fraction(found.left), plan)
-    for name in table.small if found.exact is not None else ():
-        assert found.exact is not None
-        one = _apart(table.numbers[name], found.exact.numbers[name], system)
-        if one is None:
-            return Accuracy(math.inf, False, system.name, float(system.bits))
-        apart = max(apart, one)
-    return stated(found, apart, plan)
+        apart = Fraction(found.left) if math.isfinite(found.left) else None
+    elif found.exact is not None:
+        apart = _farthest(found.table, found.exact, plan.system)
+    return _unknown(plan.system) if apart is None else stated(found, apart, plan)
 
 
 def stated(found: Answer, apart: Fraction, plan: Plan) -> Accuracy:
@@ -90,13 +84,10 @@ def stated(found: Answer, apart: Fraction, plan: Plan) -> Accuracy:
     largest = max((_largest(table.numbers[name]) for name in table.small), default=Fraction(0))
     unseen = _unseen(found, plan, largest)
     if unseen is None:
-        return Accuracy(math.inf, False, system.name, float(system.bits))
+        return _unknown(system)
     if not largest:
         exact = not apart and not found.sizes.changed and not found.sizes.moved
-        if exact and plan.tolerance is None:
-            return Accuracy(0.0, False, system.name, 0.0, CARRIED)
-        note = "every change is zero here, and only balls can tell whether that is exact"
-        return Accuracy(math.inf, False, system.name, 0.0, note)
+        return _of_zeros(plan, CARRIED, exact=exact)
     ratio = (apart + unseen) / largest
     if plan.tolerance is not None:
         ratio = PRINTED * max(ratio, Fraction(1, 2**system.bits))
@@ -148,18 +139,12 @@ def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
     method = plan.method
     assert method.longer is not None
     unit = Fraction(1, 2**method.system.bits)
-    apart = Fraction(0)
-    for name in table.small:
-        difference = _apart(table.numbers[name], again.numbers[name], method.longer)
-        if difference is None:
-            return Accuracy(math.inf, False, method.system.name, float(method.system.bits))
-        apart = max(apart, difference)
+    apart = _farthest(table, again, method.longer)
+    if apart is None:
+        return _unknown(method.system)
     largest = max((_largest(whole.numbers[name]) for name in whole.small), default=Fraction(0))
     if not largest:
-        if not apart and plan.tolerance is None:
-            return Accuracy(0.0, False, method.system.name, 0.0, "estimated, not certified")
-        note = "every change is zero here, and only balls can tell whether that is exact"
-        return Accuracy(math.inf, False, method.system.name, 0.0, note)
+        return _of_zeros(plan, "estimated, not certified", exact=not apart)
     seen = method.repeated >= plan.problem.realisations
     factor = SAFETY if seen else UNSEEN
     ratio = max(factor * apart / largest, 4 * unit)
@@ -169,6 +154,30 @@ def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
     note = f"estimated, not certified, from {of_all}"
     printed = ratio if plan.tolerance is None else PRINTED * ratio
     return Accuracy(_bound(printed), False, method.system.name, round(lost, 1), note)
+
+
+def _unknown(system: NumberSystem) -> Accuracy:
+    """Say that an error is not finite."""
+    return Accuracy(math.inf, False, system.name, float(system.bits))
+
+
+def _of_zeros(plan: Plan, note: str, *, exact: bool) -> Accuracy:
+    """State the error where every change is zero; ``exact``: as far as was seen."""
+    if exact and plan.tolerance is None:
+        return Accuracy(0.0, False, plan.system.name, 0.0, note)
+    note = "every change is zero here, and only balls can tell whether that is exact"
+    return Accuracy(math.inf, False, plan.system.name, 0.0, note)
+
+
+def _farthest(table: Table, other: Table, system: NumberSystem) -> Fraction | None:
+    """Bound how far small columns of two tables are apart; None where a number is not finite."""
+    found = Fraction(0)
+    for name in table.small:
+        one = _apart(table.numbers[name], other.numbers[name], system)
+        if one is None:
+            return None
+        found = max(found, one)
+    return found
 
 
 def _apart(values: Any, longer: Any, system: NumberSystem) -> Fraction | None:

@@ -19,8 +19,6 @@ import numpy as np
 from .errors import ForceDiffusionError
 from .systems import Array
 
-# Of numbers that are doubles: sums of as many as a memory holds stay finite.
-LARGEST = 1e300
 LONGEST_HEADER = 10_000  # bytes of a NumPy header, as NumPy itself allows
 _MAGIC = b"\x93NUMPY"
 # Bytes that say how long the header is, for each version of the format.
@@ -112,16 +110,3 @@ def _header(file: BinaryIO) -> tuple[np.dtype[Any], bool, tuple[int, ...]]:
         raise _no_numbers(f"the type {descr} is unknown here") from None
     sizes = tuple(int(word.strip().rstrip("L")) for word in shape.split(",") if word.strip())
     return kind, order == "True", sizes
-
-
-def finite(values: Array) -> None:
-    """Raise ``ValueError`` where a float64 is not finite, or so large that sums are not."""
-    with np.errstate(invalid="ignore"):
-        if values.min() >= -LARGEST and values.max() <= LARGEST:  # neither holds with a NaN
-            return
-    good = np.abs(values) <= LARGEST
-    at = tuple(int(k) for k in np.argwhere(~good)[0])
-    place = f"[{', '.join(map(str, at))}]"
-    if np.isfinite(values[at]):
-        raise ValueError(f"must hold numbers of at most {LARGEST:g}, and {place} is larger")
-    raise ValueError(f"must hold finite numbers, and {place} is not")

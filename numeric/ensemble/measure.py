@@ -24,8 +24,7 @@ from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
 from ..quantities.contacts_that_open import NetworkQuantity
-from ..scene.checks import refuse
-from ..scene.scene import Scene
+from ..scene.scene import Scene, refuse
 from ..scene.sections import SceneError
 from ..statistics.moments import unit_near
 

@@ -2,6 +2,7 @@
 
 from bisect import bisect_right, insort
 from collections.abc import Callable, Iterator
+from itertools import chain
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from ..statistics.confidence import Rule, looks
@@ -10,7 +11,7 @@ from .estimates import Estimates
 from .measure import Measurement
 from .result import Ensemble
 from .store import Store, StoreError
-from .sums import Block, Sums, joined, nothing, ranges, total, why_left_out
+from .sums import Block, Sums, joined, ranges, total, why_left_out
 from .workers import Workers, solved
 
 # Beads of a block, about; of a large ensemble more, as long as there are so many blocks for workers
@@ -51,35 +52,30 @@ def run(
     """
     confidence = confidence if rule is None else rule.confidence
     blocks = _Blocks(m, size, store)
-    sizes, look, solved_now = list(looks(size)), 0, 0
-    found, width, met = Estimates(m, nothing(m, 1)[0]), None, False
-
-    def enough() -> bool:
-        """Look at all sizes up to which nothing is missing; say whether that is enough."""
-        nonlocal look, found, width, met
+    sizes = [] if rule is None else list(looks(size))
+    look, solved_now, met = 0, 0, False
+    width: float | None = None
+    progress(blocks.done, None)
+    for block in chain([None], solved(m, blocks.missing(), workers)):
+        if block is not None:
+            solved_now += block.stop - block.first
+            blocks.keep(block)
         done = blocks.without_gap
         while rule is not None and not met and look < len(sizes) and sizes[look] <= done:
             found = Estimates(m, blocks.sums(sizes[look]))
             look += 1
             width = found.width(confidence, look)
             met = width <= rule.relative
-        if not met and done >= size:
-            found = Estimates(m, blocks.sums(size))
-        return met or done >= size
-
-    progress(blocks.done, None)
-    ended = enough()
-    for block in () if ended else solved(m, blocks.missing(), workers):
-        solved_now += block.stop - block.first
-        blocks.keep(block)
-        ended = enough()
-        progress(blocks.done, width)
-        if ended:
+        if block is not None:
+            progress(blocks.done, width)
+        if met or done >= size:
             break
+    if not met:
+        found = Estimates(m, blocks.sums(size))
     _refuse_unbuildable(m, found.sums)
     if rule is not None:  # the size itself is looked at last
         look += found.sums.tried not in sizes
-    last = found.width(confidence, look if rule is not None else 0)
+    last = found.width(confidence, look)
     reached = None if rule is None else last <= rule.relative
     return Ensemble(m, found.sums, confidence, look, last, reached, solved_now)
 
@@ -90,23 +86,19 @@ class _Blocks:
     def __init__(self, m: Measurement, size: int, store: Store | None) -> None:
         self.m, self.size, self.store = m, size, store
         self._all = [] if store is None else store.blocks(m)
-        ends: tuple[int, ...] = ()
+        for block in self._all:
+            if store is not None and block.first < size < block.stop:
+                raise StoreError(
+                    f"{store.path} holds sums over realisations {block.first} to "
+                    f"{block.stop - 1}, of which {size} would need a part: ask for "
+                    f"{block.first or block.stop} or {block.stop}, or give another name"
+                )
         if store is not None:
-            self._refuse_straddling(store)
             store.begin(size, self._all)
-            ends = store.about.ends
+        ends = () if store is None else store.about.ends
         last = max([size, *(block.stop for block in self._all)])
         # Where ranges begin and end that are looked at, or were asked for: none lies across.
         self.cuts = sorted({*looks(2 * last), *ends, size})
-
-    def _refuse_straddling(self, store: Store) -> None:
-        for block in self._all:
-            if block.first < self.size < block.stop:
-                raise StoreError(
-                    f"{store.path} holds sums over realisations {block.first} to "
-                    f"{block.stop - 1}, of which {self.size} would need a part: ask for "
-                    f"{block.first or block.stop} or {block.stop}, or give another name"
-                )
 
     @property
     def done(self) -> int:

@@ -9,7 +9,7 @@ import hashlib
 import json
 import sqlite3
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, suppress
+from contextlib import closing, contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from time import sleep
@@ -32,6 +32,7 @@ _TABLES = (
     "CREATE TABLE sums (first INTEGER PRIMARY KEY, stop INTEGER NOT NULL, content BLOB NOT NULL, "
     "checksum TEXT NOT NULL)",
 )
+_SETTINGS = "locking_mode = EXCLUSIVE", "synchronous = FULL", "trusted_schema = 0"
 # Bytes of what a store says of itself, and of a block: a covariance of 2048 variables has 50 MB.
 LARGEST_TEXT, LARGEST_BLOCK = 1_000_000, 500_000_000
 _Number = Annotated[int, Field(ge=0, le=10**12)]  # of a realisation
@@ -157,26 +158,29 @@ class Store:
         self._database.close()
 
 
-def open_store(path: Path, key: dict[str, Any] | None) -> Store:
+def open_store(path: Path, key: dict[str, Any] | None, *, peek: bool = False) -> Store:
     """Open a store, or make one; without a ``key`` whatever ensemble it holds, and no new one.
 
-    Raises ``StoreError`` for a file that is damaged, of another kind, scene or version, or in use.
+    ``peek``: one that another run has locked, to read it as it is. Raises ``StoreError`` for a file
+    that is damaged, of another kind, scene or version, or in use.
     """
     if str(path) == ":memory:":
         raise StoreError(f"{path} would be kept nowhere: give the name of a file")
     new = _looked_at(path, may_be_new=key is not None)
+    # from the root, since SQLite obeys other names, such as file:x?mode=memory
+    name = f"{path.absolute().as_uri()}?immutable=1" if peek else path.absolute()
     with _reading(path):
-        # from the root, since SQLite obeys other names, such as file:x?mode=memory
-        database = sqlite3.connect(path.absolute(), timeout=0, isolation_level=None)
+        database = sqlite3.connect(name, uri=peek, timeout=0, isolation_level=None)
     try:
         with _reading(path):
-            for setting in ("locking_mode = EXCLUSIVE", "synchronous = FULL", "trusted_schema = 0"):
-                database.execute(f"PRAGMA {setting}")
-            database.execute("BEGIN EXCLUSIVE")  # takes the lock, or fails at once
-            if new and not database.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
-                assert key is not None
-                _create(database, key)
-            database.execute("COMMIT")
+            if not peek:
+                for setting in _SETTINGS:
+                    database.execute(f"PRAGMA {setting}")
+                database.execute("BEGIN EXCLUSIVE")  # takes the lock, or fails at once
+                if new and not database.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
+                    assert key is not None
+                    _create(database, key)
+                database.execute("COMMIT")
         return Store(path, database, _checked(path, database, key))
     except BaseException:
         database.close()
@@ -236,30 +240,16 @@ def read_store(path: str | Path) -> StoreContent:
         pass
     for _ in range(LOOKS):  # between two transactions the file is whole
         with suppress(StoreError):
-            return _content(_peeked(Path(path)), in_use=True)
+            return _content(open_store(Path(path), None, peek=True), in_use=True)
         sleep(PAUSE)
-    return _content(_peeked(Path(path)), in_use=True)
+    return _content(open_store(Path(path), None, peek=True), in_use=True)
 
 
 def _content(opened: Store, *, in_use: bool) -> StoreContent:
-    try:
-        ranges = tuple((first, stop) for first, stop in opened.ranges())
-    finally:
-        opened.close()
+    with closing(opened):
+        ranges = tuple(opened.ranges())
     total = sum(stop - first for first, stop in ranges)
     return StoreContent(total, ranges, tuple(opened.about.ends), opened.about.key, in_use)
-
-
-def _peeked(path: Path) -> Store:
-    """Open a store that another run has locked, to read it as it is; all of it is checked."""
-    with _reading(path):
-        uri = f"{path.absolute().as_uri()}?immutable=1"
-        database = sqlite3.connect(uri, uri=True, isolation_level=None)
-    try:
-        return Store(path, database, _checked(path, database, None))
-    except BaseException:
-        database.close()
-        raise
 
 
 def _looked_at(path: Path, *, may_be_new: bool) -> bool:
@@ -339,13 +329,9 @@ def _checked(path: Path, database: sqlite3.Connection, key: dict[str, Any] | Non
         database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_BLOCK)
         if database.execute("PRAGMA integrity_check(1)").fetchall() != [("ok",)]:
             raise _damaged(path, "the database is not in order")
-    found = {}
-    for name, content, checksum in rows:
-        if not isinstance(name, str) or not isinstance(content, str):
-            raise _damaged(path, "a text in it is none")
-        if checksum != _hash(name, content):
-            raise _damaged(path, "a checksum is wrong")
-        found[name] = content
+    found = {name: content for name, content, _ in rows}
+    if any(checksum != _hash(str(name), str(content)) for name, content, checksum in rows):
+        raise _damaged(path, "a checksum is wrong")
     if set(found) != {"ensemble", "ends"}:
         raise _damaged(path, "it does not say what it holds")
     try:

@@ -37,6 +37,9 @@ AT_ONCE = 20_000
 NEVER = 2**62
 
 
+_COUNTS = ("packings", "held", "samples", "tensile", "bins")
+
+
 @dataclass(frozen=True, eq=False)
 class Sums:
     """Sums over packings, of G groups, V variables and B bins; a first axis may list several.
@@ -96,17 +99,15 @@ class Sums:
         step, weight = other.means - self.means, own * share
         rows, columns = np.triu_indices(step.shape[-2])
         x = step[..., self.row, : self.pairs.shape[-1]]
-        return Sums(
-            self.row,
-            np.minimum(self.first, other.first),
-            self.packings + other.packings,
-            self.held + other.held,
-            self.samples + other.samples,
-            self.tensile + other.tensile,
-            self.bins + other.bins,
-            self.means + step * share,
-            self.products + other.products + step[..., rows, :] * step[..., columns, :] * weight,
-            self.pairs + other.pairs + x[..., :, None] * (x[..., None, :] * weight),
+        return replace(
+            self,
+            first=np.minimum(self.first, other.first),
+            **{name: getattr(self, name) + getattr(other, name) for name in _COUNTS},
+            means=self.means + step * share,
+            products=self.products
+            + other.products
+            + step[..., rows, :] * step[..., columns, :] * weight,
+            pairs=self.pairs + other.pairs + x[..., :, None] * (x[..., None, :] * weight),
         )
 
     def to_bytes(self) -> bytes:

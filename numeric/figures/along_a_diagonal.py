@@ -66,20 +66,22 @@ def figure(o: Options) -> spec.Figure:
         rows = np.array([lower == j for lower, _ in PAIRS])
         z, fine = np.array(UPPER[j]) / HEIGHT, np.linspace(j / HEIGHT, 1, 101)
         panel += [
-            spec.Line(fine, leading(j / HEIGHT, fine), "0.55", "--"),
+            spec.Line(fine, leading(j / HEIGHT, fine), c, "--"),
             *found.drawn(z, c, f"lower contact at $z={j}/{HEIGHT}$", unit=UNIT, rows=rows),
         ]
     panel += [
         spec.Line(name=f"Eq. (B12), exact at $M={HEIGHT}$"),
-        spec.Line(name=r"its leading order, $M\to\infty$", colour="0.55", dashes="--"),
+        spec.Line(name=r"its leading order, $M\to\infty$", dashes="--"),
     ]
     return spec.Figure(
         spec.Picture(
             [
                 spec.Panel(
                     panel,
-                    spec.Axis("height of the upper contact $z'$", 0, 1),
-                    spec.Axis(r"covariance $/\,M^3(\sigma/r)^2(1-\phi^2)^{-2}$", 0, 2.6),
+                    spec.Axis(r"height of the upper contact $z^\prime$", 0, 1),
+                    spec.Axis(
+                        r"covariance $/\,\langle f\rangle^2M^3(\sigma/r)^2(1-\phi^2)^{-2}$", 0, 2.6
+                    ),
                     legend="upper right",
                 )
             ],

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arithmetic.systems import Array, as_floats
 from ..planning.plan import Plan
-from ..scene.checks import refuse
+from ..scene.scene import refuse
 from ..scene.sections import SceneError
 from ..unilateral import Network
 from .library import drawing

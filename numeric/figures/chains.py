@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from ..mechanics.physicality import Physicality
-from ..theory.critical_height import critical_height
+from ..theory.expected import critical_height
 from . import specification as spec
 from .elements import base, surface_load
 from .packings import Medium, Options, centres, forces_of, planned, solved

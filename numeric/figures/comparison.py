@@ -20,7 +20,7 @@ from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..planning.plan import Plan
 from ..statistics.bands import Estimate, averaged, log_relative_std, simultaneous
-from ..theory.critical_height import critical_height
+from ..theory.expected import critical_height
 from . import specification as spec
 from .models.q_model import weight_variance
 from .names import LEAST_REALISATIONS

@@ -9,6 +9,7 @@ and at M = 2 with two-point radii there is no Gaussian.
 """
 
 from dataclasses import dataclass
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -25,6 +26,7 @@ KURTOSIS = {"uniform": -1.2, "normal": 0.0, "two-point": -2.0}
 CASES = (("uniform", 32), ("two-point", 32), ("normal", 2), ("uniform", 2), ("two-point", 2))
 DRAWN = (("uniform", 32), ("two-point", 2))
 SIMULATED_TESTS = 999
+LEAST_P = 1 / (SIMULATED_TESTS + 1)
 LEVEL = 0.01
 
 
@@ -45,6 +47,25 @@ class Sample:
         square = self.deviates**2
         return float((square**2).mean() / square.mean() ** 2 - 3)
 
+    @property
+    def rejected(self) -> bool:
+        """Whether either test rejects the Gaussian, both together at ``LEVEL``."""
+        return min(self.smirnov, self.anderson) < LEVEL / 2
+
+    def says(self) -> str:
+        """Say what the tests find, and what the kurtosis shows beside them."""
+        found, expected = (
+            round(value, 2) + 0.0 for value in (self.kurtosis, self.kurtosis_expected)
+        )
+        equal = "≤" if self.anderson <= LEAST_P else "="
+        return (
+            f"{self.kind} radii, M = {self.height}: "
+            f"{'the tests reject' if self.rejected else 'no test rejects'} the Gaussian "
+            f"(Kolmogorov–Smirnov p = {self.smirnov:.2g}, Anderson–Darling p {equal} "
+            f"{self.anderson:.2g}); excess kurtosis {found:.2f}, to first order {expected:.2f}, of "
+            f"so many Gaussian forces 0 ± {sqrt(24 / len(self.deviates)):.2f}"
+        )
+
     def facts(self) -> dict[str, Any]:
         """The tests and the kurtosis."""
         return {
@@ -53,7 +74,7 @@ class Sample:
             "samples": len(self.deviates),
             "p_kolmogorov_smirnov": self.smirnov,
             "p_anderson_darling": self.anderson,
-            "gaussian_rejected": min(self.smirnov, self.anderson) < LEVEL / 2,
+            "gaussian_rejected": self.rejected,
             "excess_kurtosis": self.kurtosis,
             "excess_kurtosis_first_order": self.kurtosis_expected,
         }
@@ -140,12 +161,7 @@ def figure(o: Options) -> spec.Figure:
             "level_of_both_tests_together": LEVEL,
             "samples": facts,
         },
-        words=[
-            f"{one.kind} radii, M = {one.height}: Gaussian "
-            f"{'rejected' if fact['gaussian_rejected'] else 'not rejected'} "
-            f"(Kolmogorov–Smirnov p = {one.smirnov:.2g}, Anderson–Darling p = {one.anderson:.2g})"
-            for one, fact in zip(found, facts, strict=True)
-        ],
+        words=[one.says() for one in found],
     )
 
 

@@ -1,6 +1,6 @@
 """What a ``Picture`` says, drawn in the house style. Needs matplotlib (the extra ``plots``)."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any
 
 import matplotlib as mpl
@@ -107,7 +107,9 @@ def _scale(axes: Axes, letter: str, axis: spec.Axis) -> None:
         part.set_major_formatter(_short if low > PLAIN and high < 1 / PLAIN else _SCIENTIFIC)
         part.set_minor_formatter(NullFormatter())
     if axis.ticks is not None:
-        part.set_ticks(axis.ticks, [f"{tick:g}".replace("-", "−") for tick in axis.ticks])
+        words = axis.ticks if isinstance(axis.ticks, Mapping) else {}
+        shown = [words.get(tick, f"{tick:g}".replace("-", "−")) for tick in axis.ticks]
+        part.set_ticks(list(axis.ticks), shown)
         axes.minorticks_off()
 
 
@@ -132,8 +134,8 @@ def _line(axes: Axes, one: spec.Line) -> Iterable[Artist]:
 def _points(axes: Axes, one: spec.Points) -> Iterable[Any]:
     colour, marker = style.series(one.series)
     drawn = axes.errorbar(
-        one.x, one.y, one.error, fmt=marker, color=colour, mfc="white", ms=one.size, mew=0.7,
-        elinewidth=0.7, label=one.name or None, zorder=2.5,
+        one.x, one.y, one.error, fmt=marker, color=colour, ms=one.size, mew=0.7,
+        mfc=colour if one.filled else "white", elinewidth=0.7, label=one.name or None, zorder=2.5,
     )  # fmt: skip
     if len(one.x):  # markers on an axis are drawn in full, bars end there
         drawn.lines[0].set_clip_on(False)
@@ -186,11 +188,12 @@ def _arrow(axes: Axes, one: spec.Arrow) -> Iterable[Artist]:
 
 def _beads(axes: Axes, one: spec.Beads) -> Iterable[Artist]:
     if isinstance(axes, Axes3D):
-        shades = "white" if one.shades is None else one.shades
+        look: dict[str, Any] = {"c": "white"}
+        if one.shades is not None:
+            look = {"c": one.shades, "cmap": "Greys", "vmin": one.least, "vmax": _darkest(one)}
         beads: Any = axes.scatter(
-            *one.centres.T, c=shades, s=one.size**2, cmap="Greys", vmin=0, vmax=1.15 * one.most,
-            ec=one.edge, lw=one.width, depthshade=False,
-        )  # fmt: skip
+            *one.centres.T, s=one.size**2, ec=one.edge, lw=one.width, depthshade=False, **look
+        )
         if one.bar:
             _bar(axes, beads, one)
         return ()
@@ -205,7 +208,7 @@ def _beads(axes: Axes, one: spec.Beads) -> Iterable[Artist]:
     else:
         beads.set_cmap(greys)
         beads.set_array(one.shades)
-        beads.set_clim(0, 1.15 * one.most)  # the darkest grey still lets circles be seen
+        beads.set_clim(one.least, _darkest(one))
     axes.add_collection(beads)
     axes.autoscale_view()
     if one.bar:
@@ -213,11 +216,16 @@ def _beads(axes: Axes, one: spec.Beads) -> Iterable[Artist]:
     return ()
 
 
+def _darkest(one: spec.Beads) -> float:
+    """Give what would be black: the darkest grey that is used still lets circles be seen."""
+    return one.most + 0.15 * (one.most - one.least)
+
+
 def _bar(axes: Axes, beads: Any, one: spec.Beads) -> None:
     bar = axes.figure.colorbar(
         beads, ax=axes, location=one.side, shrink=0.8, aspect=18, pad=0.03, label=one.bar
     )
-    (bar.ax.set_xlim if one.side == "bottom" else bar.ax.set_ylim)(0, one.most)
+    (bar.ax.set_xlim if one.side == "bottom" else bar.ax.set_ylim)(one.least, one.most)
 
 
 def _chains(axes: Axes, one: spec.Chains) -> Iterable[Artist]:

@@ -53,7 +53,8 @@ def across_cone(phi: float, layers: int, colour: Colour, name: str = "") -> Line
 def point_load_in_space(phi: float, layers: int) -> list[Element]:
     """Draw the load of the bead at the origin, and the edge of its cone on the base."""
     arrow = Arrow((0, 0, 6), (0, 0, 1.5), r"$\mathbf{F}^{\rm load}$", width=1.0)
-    return [across_cone(phi, layers, "black"), arrow]
+    loaded = Beads(np.zeros((1, 3)), edge="black", width=0.6)
+    return [across_cone(phi, layers, "black"), loaded, arrow]
 
 
 def cone(

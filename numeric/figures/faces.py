@@ -63,7 +63,13 @@ def cone() -> spec.Panel:
     shades = np.sqrt([float(form(own, APEX, float(PHI), 1.0, 1.0)) for own in steps])
     centres = -2 * np.array(steps) @ base_vectors(float(PHI))
     beads = spec.Beads(
-        centres, shades=shades, bar=SCATTER, side="left", most=float(shades.max()), size=5.5
+        centres,
+        shades=shades,
+        bar=SCATTER,
+        side="left",
+        least=0.9 * float(shades.min()),
+        most=float(shades.max()),
+        size=5.5,
     )
     layer = across_cone(float(PHI), APEX - LAYER, 0, f"layer $j={LAYER}$, of (b)")
     return spec.Panel(

@@ -2,8 +2,14 @@
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from typing import TYPE_CHECKING
 
 from ..arithmetic.errors import NotReachedError
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from .specification import Picture
 
 KINDS = ("png", "svg", "pdf")
 """What figures are written as."""
@@ -17,6 +23,14 @@ class MissingLibraryError(NotReachedError):
         super().__init__(
             f"figures need {name}, which is missing; pip install 'force-diffusion[plots]'"
         )
+
+
+def drawn(picture: "Picture") -> "Figure":
+    """Draw a picture. Raises ``MissingLibraryError``."""
+    with drawing():
+        from .drawing import draw
+
+        return draw(picture)
 
 
 @contextmanager

@@ -86,8 +86,8 @@ def figure(o: Options) -> spec.Figure:
         tables={"figureB5": spec.table("load spacing phi j", layers) | columns("shift", found)},
         facts=of_ensembles(o, STD, height=HEIGHT) | facts(found),
         words=[
-            f"{one.verdict()}; no shift at all would be "
-            f"{one.deviation(np.zeros(HEIGHT)):.1f} of it off"
+            f"{one.verdict()}; without any shift it would be "
+            f"{one.deviation(np.zeros(HEIGHT)):.1f}"
             for one in found
         ],
         comparisons=found,

@@ -84,8 +84,8 @@ def figure(o: Options) -> spec.Figure:
         tables={"figureB9": spec.table("spacing phi offset", places) | columns("mean", found)},
         facts=of_ensembles(o, STD, apex=APEX, layer=LAYER) | facts(found),
         words=[
-            f"{one.verdict()}; no mean response would be "
-            f"{one.deviation(np.zeros(len(OFFSETS))):.1f} of it off"
+            f"{one.verdict()}; without any mean it would be "
+            f"{one.deviation(np.zeros(len(OFFSETS))):.1f}"
             for one in found
         ],
         comparisons=found,

@@ -15,18 +15,18 @@ from .packings import PAPER, PAPER_STD, PHI, Options, band_of_means, gathered, o
 
 HEIGHT, LAYER = 32, 16
 WINDOWS = (1, 2, 3, 5, 8, 14)
-KNOWN = np.array([count >= 3 for count in WINDOWS] * 2)
+KNOWN = np.array([count >= 2 for count in WINDOWS] * 2)
 """Windows, of contacts and then of beads, that the equations are for."""
 
 
 def contacts(count: int) -> float:
-    """Variance of the mean of f⁺/⟨f⟩ over 3 ≤ N ≤ j − 1 neighbours in layer j (Eq. B7)."""
+    """Variance of the mean of f⁺/⟨f⟩ over 2 ≤ N ≤ j − 1 neighbours in layer j (Eq. B7)."""
     form = closed_forms.contacts_mean_variance
     return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
 
 
 def beads(count: int) -> float:
-    """The same of the vertical force on a bead over its mean, 3 ≤ N ≤ j − 2 (Eq. B8)."""
+    """The same of the vertical force on a bead over its mean, 2 ≤ N ≤ j − 2 (Eq. B8)."""
     form = closed_forms.beads_mean_variance
     return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
 
@@ -57,7 +57,7 @@ def simulated(o: Options) -> spec.Comparison:
     """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
     ensemble = planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
     (square,) = gathered(ensemble, o.notice, "figure B7", window_means)
-    exact = [form(N) if N >= 3 else np.nan for form in (contacts, beads) for N in WINDOWS]
+    exact = [form(N) if N >= 2 else np.nan for form in (contacts, beads) for N in WINDOWS]
     what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
     return spec.Comparison(what, band_of_means(square, o.seed, 0.5), np.sqrt(exact), KNOWN)
 

@@ -134,5 +134,5 @@ def figure(o: Options) -> spec.Figure:
         spec.Picture([contact(), cone(), spheres()], 2.1, page=True, columns=[1, 1, 1.35]),
         tables={"figureB1": spec.table("i j weight", rows)},
         facts={"height": HEIGHT, "layer": LAYER, "apex": APEX, "phi": float(PHI)},
-        words=[f"{len(rows)} radii of the contact in layer {LAYER} of {HEIGHT}, by Eq. 12"],
+        words=[f"The contact in layer {LAYER} of {HEIGHT} depends on {len(rows)} radii (Eq. 12)"],
     )

@@ -7,6 +7,7 @@ a place are keys of the legend alone.
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from math import ceil, floor
 from typing import Any
 
 import numpy as np
@@ -25,13 +26,28 @@ EQUAL = 1e-12
 
 @dataclass(frozen=True)
 class Axis:
-    """An axis; limits that are None are found from what is drawn."""
+    """An axis; limits that are None are found from what is drawn; ``ticks`` may have words."""
 
     name: str = ""
     low: float | None = None
     high: float | None = None
     log: bool = False
-    ticks: Sequence[float] | None = None
+    ticks: Sequence[float] | Mapping[float, str] | None = None
+
+
+def powers_of_ten(name: str, logs: Iterable[float]) -> Axis:
+    """Give an axis of log10 of what is drawn, which may lie beyond a float's range, as powers.
+
+    >>> list(powers_of_ten("error", [-337, -15.5]).ticks)
+    [-350, -300, -250, -200, -150, -100, -50, 0]
+    """
+    found = list(logs)
+    low, high = min(found, default=0.0), max(found, default=0.0)
+    room = max(0.06 * (high - low), 0.3)
+    low, high = low - room, high + room
+    step = next(s for s in (1, 2, 5, 10, 20, 50, 100) if s >= min((high - low) / 8, 100))
+    powers = range(ceil(low / step) * step, floor(high) + 1, step)
+    return Axis(name, low, high, ticks={power: f"$10^{{{power}}}$" for power in powers})
 
 
 RELATIVE_HEIGHT = Axis("relative height $z=j/M$", 0, 1)
@@ -63,6 +79,7 @@ class Points:
     name: str = ""
     error: Any = None
     size: float = 3.2
+    filled: bool = False
 
 
 @dataclass(frozen=True)
@@ -120,8 +137,8 @@ class Arrow:
 class Beads:
     """Beads at ``centres``, (beads, d), as grey as ``shades``, (beads,), are large.
 
-    Negative shades are vermillion. With ``bar``, the name of the shades, there is a bar of greys up
-    to ``most``, on a side of the panel. Without shades they are filled with ``face``.
+    Negative shades are vermillion. With ``bar``, the name of the shades, there is a bar of greys
+    from ``least`` to ``most``, on a side of the panel. Without shades ``face`` fills them.
     In space they are so many points in ``size``, and white without shades.
     """
 
@@ -136,6 +153,7 @@ class Beads:
     width: float = 0.25
     above: bool = False
     size: float = 5.0
+    least: float = 0.0
 
 
 @dataclass(frozen=True)

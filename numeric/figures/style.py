@@ -6,7 +6,6 @@ Fonts are those that matplotlib brings along. Needs matplotlib (the extra ``plot
 """
 
 import io
-import math
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import Any
@@ -16,7 +15,6 @@ from matplotlib.axes import Axes
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, FuncFormatter
 from PIL import Image
 from PIL.PngImagePlugin import PngInfo
 
@@ -135,21 +133,3 @@ def _png(drawn: Figure, about: dict[str, str], file: io.BytesIO) -> None:
     image = Image.frombytes("RGBA", size, painted.getvalue()).convert("RGB")
     image = image.quantize(256, dither=Image.Dither.NONE)
     image.save(file, format="png", optimize=True, pnginfo=words, dpi=(DPI, DPI))
-
-
-def powers_of_ten(axes: Axes, axis: str, values: Sequence[float], room: float) -> None:
-    """Fit the axis "x" or "y" to values of log10, and mark whole powers of ten.
-
-    ``room`` is left at both ends, as a share of the span. Logarithms, because what is drawn may lie
-    beyond a float's range.
-    """
-    low, high = min(values), max(values)
-    more = max((high - low) * room, 0.3)
-    low, high = low - more, high + more
-    getattr(axes, f"set_{axis}lim")(low, high)
-    step = max(1, math.ceil((high - low) / 8))
-    step = next((s for s in (1, 2, 5, 10, 20, 50, 100) if s >= step), step)
-    ticks = range(math.ceil(low / step) * step, math.floor(high) + 1, step)
-    part = getattr(axes, f"{axis}axis")
-    part.set_major_locator(FixedLocator(list(ticks)))
-    part.set_major_formatter(FuncFormatter(lambda power, _: f"$10^{{{power:.0f}}}$"))

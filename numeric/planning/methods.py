@@ -6,17 +6,15 @@ raised until their bound fits. What a scene names is never replaced: all methods
 question about the same packings.
 """
 
-from collections.abc import Callable, Iterator
-from dataclasses import replace
+from collections.abc import Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 
 from ..arithmetic.carried import LONGER, PAIRS, Pairs
 from ..arithmetic.decimals import short
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..mechanics.problem import Problem, Route
-from ..scene.sections import SceneError
-from ..theory.critical_height import critical_height
-from .plan import Candidate, Choice, Method, Plan
+from ..theory.expected import critical_height
 
 # Where so many realisations agree with a longer significand, the others are taken to do so, too;
 # one is enough of packings that are not small.
@@ -33,6 +31,30 @@ SAFETY = 2
 UNSEEN = 1000
 # Room for printing: a number that its error swallows is printed as 0, and digits are cut off.
 PRINTED = 2
+
+
+@dataclass(frozen=True)
+class Method:
+    """An arithmetic, and how the error of its answer becomes known.
+
+    In float64 and pairs, sweeps of the first ``repeated`` realisations carry their errors, and
+    ``longer`` holds both together; what is longer still is repeated in ``longer``. None stands for
+    balls, which certify.
+    """
+
+    system: NumberSystem
+    longer: NumberSystem | None = None
+    repeated: int = 0
+
+    @property
+    def certified(self) -> bool:
+        """Whether the error is a rigorous bound."""
+        return isinstance(self.system, Balls)
+
+    @property
+    def carries(self) -> bool:
+        """Whether sweeps carry their own errors."""
+        return self.system is FLOAT64 or isinstance(self.system, Pairs)
 
 
 def usual_units(system: NumberSystem, height: int) -> Fraction:
@@ -84,44 +106,8 @@ def usual_method(problem: Problem, system: NumberSystem, *, merged: bool) -> Met
     return Method(system, Balls(system.bits + 128), few)
 
 
-def choose(
-    planned: Callable[[Method], Plan],
-    problem: Problem,
-    algorithm: str,
-    tolerance: Fraction,
-    *,
-    certified: bool,
-) -> Plan:
-    """Give the plan of the first method that should do, with all that were looked at.
-
-    Raises ``SceneError`` if no method is possible.
-    """
-    found: list[Candidate] = []
-    for method in _methods(tolerance, problem):
-        error = expected(method, problem.height, problem.realisations)
-        out = "" if method.certified else _why_not(method, problem, error, tolerance, certified)
-        made = None
-        try:
-            made = planned(method)
-        except SceneError as refused:
-            out = out or str(refused)
-        found.append(Candidate(algorithm, method, error, out, None if out else made))
-    possible = [candidate for candidate in found if not candidate.out]
-    if not possible:
-        planned(Method(Balls(initial_bits(tolerance, problem.height))))  # says why not
-    reason = f"the first of {len(possible)} that should meet it"
-    if certified:
-        reason = "certified was asked for, and only balls certify"
-    elif len(possible) == 1:
-        reason = "the only one that should meet it"
-    found.sort(key=lambda candidate: bool(candidate.out))
-    first = found[0].plan
-    assert first is not None
-    return replace(first, choice=Choice(tolerance, reason, tuple(found)))
-
-
-def _methods(tolerance: Fraction, problem: Problem) -> Iterator[Method]:
-    """Give the arithmetics in their order; few realisations are repeated rather than all."""
+def methods(tolerance: Fraction, problem: Problem) -> Iterator[Method]:
+    """Give what is tried, in that order; few realisations are repeated rather than all."""
     if problem.realisations > FEW:
         yield Method(FLOAT64, LONGER, FEW)
     yield Method(FLOAT64, LONGER, problem.realisations)
@@ -129,10 +115,12 @@ def _methods(tolerance: Fraction, problem: Problem) -> Iterator[Method]:
     yield Method(Balls(initial_bits(tolerance, problem.height)))
 
 
-def _why_not(
-    method: Method, problem: Problem, error: Fraction, tolerance: Fraction, certified: bool
+def why_not(
+    method: Method, problem: Problem, error: Fraction, tolerance: Fraction, *, certified: bool
 ) -> str:
-    """Say why an estimate won't do; an empty string where it may."""
+    """Say why a method won't do; an empty string where it may."""
+    if method.certified:
+        return ""
     if certified:
         return "its error would be estimated, and certified was asked for"
     if problem.stop_at_tension:

@@ -1,14 +1,13 @@
 """What a plan is: a problem, steps, what is left out, and the ways to the answer."""
 
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from fractions import Fraction
 from functools import cached_property
 from importlib.util import find_spec
 from typing import Any
 
-from ..arithmetic.carried import Pairs
 from ..arithmetic.decimals import bound_string, short
-from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
+from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
 from ..mechanics.engine import worth_compiling
 from ..mechanics.images import sees_images
@@ -17,9 +16,15 @@ from ..mechanics.problem import Problem, Route
 from ..mechanics.work import ESTIMATE
 from ..quantities.base import Quantity, has_theory
 from ..scene.scene import Scene
-from ..theory.critical_height import critical_height
-from ..theory.expected import ExpectedTension, expected_tension, expected_tension_of_spheres
+from ..tables import text_table
+from ..theory.expected import (
+    ExpectedTension,
+    critical_height,
+    expected_tension,
+    expected_tension_of_spheres,
+)
 from .memory import size
+from .methods import Method
 
 CERTIFY = "certify"
 # How plans call the way to the numbers.
@@ -49,30 +54,6 @@ class Skipped:
 
     effect: str
     reason: str
-
-
-@dataclass(frozen=True)
-class Method:
-    """An arithmetic, and how the error of its answer becomes known.
-
-    In float64 and pairs, sweeps of the first ``repeated`` realisations carry their errors, and
-    ``longer`` holds both together; what is longer still is repeated in ``longer``. None stands for
-    balls, which certify.
-    """
-
-    system: NumberSystem
-    longer: NumberSystem | None = None
-    repeated: int = 0
-
-    @property
-    def certified(self) -> bool:
-        """Whether the error is a rigorous bound."""
-        return isinstance(self.system, Balls)
-
-    @property
-    def carries(self) -> bool:
-        """Whether sweeps carry their own errors."""
-        return self.system is FLOAT64 or isinstance(self.system, Pairs)
 
 
 @dataclass(frozen=True)
@@ -169,10 +150,7 @@ class Plan:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """What is done for all realisations, each step with its reason."""
-        steps = steps_of(self.quantity, self.problem, self.method)
-        if not self.problem.segment:
-            return steps
-        return _repeated(steps, self.problem, self.quantity, self.why_segments)
+        return steps_of(self.quantity, self.problem, self.method, self.why_segments)
 
     @cached_property
     def tension(self) -> ExpectedTension | None:
@@ -248,75 +226,90 @@ class Plan:
     __repr__ = __str__
 
 
-def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step, ...]:
-    """List what is done for all realisations."""
-    n, arithmetic = problem.realisations, method.system.name
-    one = _solving(quantity, problem, method)
-    steps = [replace(step, beads=step.beads * n, arithmetic=arithmetic) for step in one]
-    if problem.route != Route.ORDERED:
-        steps.append(_judging(one, problem, method))
-    return tuple(steps)
-
-
-def _solving(quantity: Quantity, problem: Problem, method: Method) -> list[Step]:
-    """List the steps of one realisation."""
+def steps_of(
+    quantity: Quantity, problem: Problem, method: Method, why_segments: str = ""
+) -> tuple[Step, ...]:
+    """List what is done for all realisations; ``why_segments``: why a packing is swept by parts."""
+    name, n = method.system.name, problem.realisations
     if problem.route == Route.ORDERED:
-        return [Step("closed form", "the ordered packing is known: nothing is swept", 0)]
+        return (Step("closed form", "the ordered packing is known: nothing is swept", 0, name),)
     source = "draw radii" if isinstance(problem.radii, DrawnRadii) else "read radii"
     if problem.route == Route.LINE_SUMS:
-        beads = quantity.line_beads(problem.load)
-        return [
-            Step(source, "only the beads on the diagonals that the answer depends on", beads),
-            Step("line sums", "to first order the answer is a sum down a few diagonals", beads),
+        beads = n * quantity.line_beads(problem.load)
+        steps = [
+            Step(source, "only the beads on the diagonals that the answer depends on", beads, name),
+            Step(
+                "line sums", "to first order the answer is a sum down a few diagonals", beads, name
+            ),
         ]
-    if problem.route == Route.UNILATERAL:
-        beads, why = problem.region.beads, "every bead may move"
-        return [
-            Step(source, why, beads),
-            Step("relax", f"{problem.protocol}: contacts that pull open, others close", beads),
+    elif problem.route == Route.UNILATERAL:
+        beads = n * problem.region.beads
+        moves = f"{problem.protocol}: contacts that pull open, others close"
+        steps = [
+            Step(source, "every bead may move", beads, name),
+            Step("relax", moves, beads, name),
         ]
-    beads, exact = problem.region.beads, problem.route == Route.EXACT
-    steps = [Step(source, _why_region(problem), beads)]
+    else:
+        steps = _sweeping(source, quantity, problem, method, why_segments)
+    return (*steps, _judging(steps, problem, method))
+
+
+def _sweeping(
+    source: str, quantity: Quantity, problem: Problem, method: Method, why_segments: str
+) -> list[Step]:
+    """List the steps of a sweep; by segments some are done more than once."""
+    name, n, region = method.system.name, problem.realisations, problem.region
+    exact = problem.route == Route.EXACT
+    why, why_forces, times, balanced = _why_region(problem), _why_forces(problem), 1, 1
+    how, done = "line sums", "displacements to first order, layer by layer"
     if exact:
         quick = worth_compiling(problem, method.system) and find_spec("numba") is not None
-        by = ", by compiled code" if quick else ""
-        why = f"exact positions, as deviations in line-sum coordinates{by}"
-        steps.append(Step("deposit", why, beads))
-    else:
-        steps.append(Step("line sums", "displacements to first order, layer by layer", beads))
+        done = "exact positions, as deviations in line-sum coordinates"
+        how, done = "deposit", f"{done}{', by compiled code' if quick else ''}"
+    if problem.segment:
+        counts, k, kept = quantity.name == "histogram", problem.segment, problem.every
+        down = 1 + (kept > 1)
+        times = 1 + down * (1 + counts)
+        often = {2: "twice", 3: "three times", 5: "five times"}[times]
+        again = "again" if down == 1 else f"twice again, {kept} segments at a time,"
+        why = f"{often}, on the way up and down"
+        done = (
+            f"{often}, {k} of {region.top + 1} layers at a time, because {why_segments}: on the "
+            f"way up every {k * kept}-th layer is kept, and those between are deposited {again} "
+            f"on the way down{', and once more to count' if counts else ''}"
+        )
+        if counts:
+            balanced = 2
+            why_forces = "twice: the bins lie between the smallest and the largest change"
+    beads = n * region.beads
+    steps = [Step(source, why, times * beads, name), Step(how, done, times * beads, name)]
     if problem.needs_forces:
-        visited = problem.force_rows[1:].beads
-        steps.append(Step("balance forces", _why_forces(problem), visited))
+        visited = n * balanced * problem.force_rows[1:].beads
+        steps.append(Step("balance forces", why_forces, visited, name))
     if exact:
-        steps.append(Step(PHYSICAL, "gaps, overlaps and signs, always", beads))
+        steps.append(Step(PHYSICAL, "gaps, overlaps and signs, always", beads, name))
     return steps
 
 
-def _judging(one: list[Step], problem: Problem, method: Method) -> Step:
+def _judging(steps: list[Step], problem: Problem, method: Method) -> Step:
     """Give the last step, which says how accurate the answer is."""
+    name = method.system.name
     if problem.route == Route.UNILATERAL:
         why = "Kantorovich's theorem in balls: beads touch exactly, forces and gaps are positive"
-        return Step(CERTIFY, why, 0, method.system.name)
+        return Step(CERTIFY, why, 0, name)
     if method.longer is None:
         why = "balls enclose the answer; bits are added, and all is done again, until it fits"
-        return Step(CERTIFY, why, 0, method.system.name)
-    if method.carries and method.repeated == problem.realisations:
-        why = "the sweep carried the rounding error of every number along"
-        return Step(ESTIMATE, why, 0, method.system.name)
-    passes = 1 if method.repeated == problem.realisations else 2
-    visits = sum(step.beads for step in one if step.step != PHYSICAL)
-    longer = method.longer.name
+        return Step(CERTIFY, why, 0, name)
+    whole = method.repeated == problem.realisations
+    if method.carries and whole:
+        return Step(ESTIMATE, "the sweep carried the rounding error of every number along", 0, name)
+    visits = sum(step.beads for step in steps if step.step != PHYSICAL) // problem.realisations
     again = "their rounding errors carried along" if method.carries else "a longer significand"
-    return Step(
-        ESTIMATE,
-        f"the first realisations again with {again}",
-        passes * method.repeated * visits,
-        longer
-        if passes == 1
-        else method.system.name
-        if method.carries
-        else f"{method.system.name}, then {longer}",
-    )
+    longer = method.longer.name
+    if not whole:
+        longer = name if method.carries else f"{name}, then {longer}"
+    beads = (1 if whole else 2) * method.repeated * visits
+    return Step(ESTIMATE, f"the first realisations again with {again}", beads, longer)
 
 
 def _why_region(problem: Problem) -> str:
@@ -335,37 +328,6 @@ def _why_forces(problem: Problem) -> str:
     if problem.contact is not None:
         return "only beads above the contact decide its force"
     return "every bead passes its load on"
-
-
-def _repeated(
-    found: tuple[Step, ...], problem: Problem, quantity: Quantity, because: str
-) -> tuple[Step, ...]:
-    """Say what a sweep by segments does twice, and why."""
-    k, all_layers = problem.segment, problem.region.top + 1
-    counts = quantity.name == "histogram"
-    down = 1 + (problem.every > 1)
-    times = 1 + down * (1 + counts)
-    often = {2: "twice", 3: "three times", 5: "five times"}[times]
-    again = "again" if down == 1 else f"twice again, {problem.every} segments at a time,"
-    why = (
-        f"{often}, {k} of {all_layers} layers at a time, because {because}: on the way up every "
-        f"{k * problem.every}-th layer is kept, and those between are deposited {again} on the "
-        f"way down{', and once more to count' if counts else ''}"
-    )
-    drawn = f"{often}, on the way up and down"
-    why_again = {
-        "draw radii": (drawn, times),
-        "read radii": (drawn, times),
-        "deposit": (why, times),
-    }
-    if counts:
-        two = "twice: the bins lie between the smallest and the largest change"
-        why_again["balance forces"] = two, 2
-    changed = []
-    for step in found:
-        reason, passes = why_again.get(step.step, (step.reason, 1))
-        changed.append(replace(step, reason=reason, beads=passes * step.beads))
-    return tuple(changed)
 
 
 def plan_lines(data: dict[str, Any]) -> list[str]:
@@ -393,19 +355,24 @@ def _choice_lines(choice: dict[str, Any]) -> list[str]:
     """Say what was chosen, and from what."""
     chosen = choice["chosen"]
     kind = "certified" if chosen["certified"] else "estimated"
+    table = [
+        {
+            " ": "*" if one == chosen else "",
+            "method": one["algorithm"],
+            "arithmetic": one["arithmetic"],
+            "repeated": one["repeated"] or None,
+            "error": one["expected_error"],
+            "memory": None if one["memory_bytes"] is None else size(one["memory_bytes"]),
+            "": one["out"],
+        }
+        for one in choice["candidates"]
+    ]
     lines = [
         f"How, for a tolerance of {choice['tolerance']}: {chosen['algorithm']}, "
         f"{chosen['arithmetic']}, {kind}",
         f"  {choice['reason']}",
-        f"  {'':2}{'method':<31}{'arithmetic':<22}{'repeated':>8} {'error':>9} {'memory':>9}",
+        *(f"  {line}" for line in text_table(table)),
     ]
-    for one in choice["candidates"]:
-        mark = "*" if one == chosen else ""
-        memory = "" if one["memory_bytes"] is None else size(one["memory_bytes"])
-        lines.append(
-            f"  {mark:2}{one['algorithm']:<31}{one['arithmetic']:<22}{one['repeated'] or '':>8} "
-            f"{one['expected_error']:>9} {memory:>9}  {one['out']}".rstrip()
-        )
     for missed in choice.get("missed", []):
         lines.append(
             f"Tried before: {missed['algorithm']}, {missed['arithmetic']}: {missed['why']}"

@@ -5,7 +5,7 @@ and adds nothing but the measured cost.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
 from time import monotonic
@@ -21,10 +21,17 @@ from ..quantities import quantity_of
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
-from . import division
-from .memory import COMPILED, PLAN_LAYER, TooLargeError, memory, refuse_memory, size
-from .methods import TOUCHING, choose, initial_bits, usual_method
-from .plan import ALGORITHMS, Method, Plan, Skipped, steps_of
+from .memory import COMPILED, TooLargeError, divided, memory, refuse_beads, refuse_memory, size
+from .methods import (
+    TOUCHING,
+    Method,
+    expected,
+    initial_bits,
+    methods,
+    usual_method,
+    why_not,
+)
+from .plan import ALGORITHMS, Candidate, Choice, Plan, Skipped
 from .sources import load_of, radii_of, refuse_beyond_floats
 
 
@@ -89,8 +96,7 @@ def _plan(
         return asked.plan(Method(Balls(initial_bits(tolerance or TOUCHING, 1))))
     if tolerance is None:
         return asked.plan(usual_method(problem, system, merged=asked.quantity.merged))
-    algorithm = ALGORITHMS[problem.route]
-    return choose(asked.plan, problem, algorithm, tolerance, certified=certified)
+    return asked.choose(tolerance, certified=certified)
 
 
 @dataclass
@@ -126,8 +132,12 @@ class _Asked:
         Raises ``SceneError`` for a scene that is too large, before a single row of beads is made,
         and ``TableError``.
         """
-        self._refuse_beads()
-        scene, quantity, load = self.scene, self.quantity, load_of(self.scene)
+        scene, quantity = self.scene, self.quantity
+        beads = 5 * scene.packing.height if self.single else quantity.most_beads()
+        if self.ordered and scene.packing.dimension == 2:
+            beads = 0
+        refuse_beads(quantity, beads, self.tolerance, self.limit, text=self.text)
+        load = load_of(scene)
         if not quantity.needs_forces:
             if "load" in scene.model_fields_set:
                 self.skipped["load"] = "positions follow from the radii alone"
@@ -159,21 +169,6 @@ class _Asked:
             scene.effects.most_events,
             scene.effects.most_seconds,
         )
-
-    def _refuse_beads(self) -> None:
-        """Refuse what surely takes too much memory, with the least of plans."""
-        quantity, packing = self.quantity, self.scene.packing
-        beads = 5 * packing.height if self.single else quantity.most_beads()
-        if self.ordered and packing.dimension == 2:
-            beads = 0
-        layers = 0 if quantity.single and not beads else packing.height + 1
-        nothing, rows = Region(packing.width, Rows()), layers * PLAN_LAYER
-        needed = memory(quantity, nothing, beads, 1, FLOAT64, text=self.text)
-        if needed + rows > self.limit and division.suits(self.scene, self.tolerance):
-            height = packing.height
-            widest = min(packing.width or 2 * height + 2, -(-2 * beads // (height + 1)))
-            needed = min(needed, division.division(widest, height, packing.dimension, 0).bytes)
-        refuse_memory(self.scene, needed + rows, self.limit)
 
     def _theory(self, region: Region, *, unloaded: bool) -> tuple[Radii, Route]:
         """Give the radii and the route, and say what that leaves out."""
@@ -214,16 +209,42 @@ class _Asked:
         quantity, problem, scene = self.quantity, self.problem, self.scene
         if method.carries or method.system.dtype is not object:
             refuse_beyond_floats(scene, problem.radii, problem.load)
-        needed, cut, because = self._memory(method), None, ""
-        if needed > self.limit or problem.region.beads > division.QUICKER:
-            cut = division.cut(problem, method, scene, self.tolerance, self.limit)
-        if cut is not None:
-            because = division.why(needed, self.limit)
-            needed = division.memory(cut, quantity, text=self.text)
-            problem = cut
+        problem, needed, because = divided(
+            quantity, problem, method, self.tolerance, self._memory(method), self.limit,
+            text=self.text,
+        )  # fmt: skip
         refuse_memory(scene, needed, self.limit)
         skipped = tuple(Skipped(*one) for one in self.skipped.items())
         return Plan(scene, quantity, problem, self.tolerance, method, skipped, needed, because)
+
+    def choose(self, tolerance: Fraction, *, certified: bool) -> Plan:
+        """Give the plan of the first method that should do, with all that were looked at.
+
+        Raises ``SceneError`` if no method is possible.
+        """
+        problem, algorithm = self.problem, ALGORITHMS[self.problem.route]
+        found: list[Candidate] = []
+        refused: SceneError | None = None
+        for method in methods(tolerance, problem):
+            error = expected(method, problem.height, problem.realisations)
+            out = why_not(method, problem, error, tolerance, certified=certified)
+            made = None
+            try:
+                made = self.plan(method)
+            except SceneError as why:
+                refused, out = why, out or str(why)
+            found.append(Candidate(algorithm, method, error, out, None if out else made))
+        found.sort(key=lambda candidate: bool(candidate.out))
+        possible, first = sum(not one.out for one in found), found[0].plan
+        if first is None:  # balls, the last, are refused as well
+            assert refused is not None
+            raise refused
+        reason = f"the first of {possible} that should meet it"
+        if certified:
+            reason = "certified was asked for, and only balls certify"
+        elif possible == 1:
+            reason = "the only one that should meet it"
+        return replace(first, choice=Choice(tolerance, reason, tuple(found)))
 
     def _memory(self, method: Method) -> int:
         """Give the memory needed, of a whole packing."""
@@ -232,7 +253,7 @@ class _Asked:
         together = min(n, chunk_size(problem, method.system))
         at_once = region.beads * together
         if problem.route == Route.LINE_SUMS:  # one realisation after the other
-            at_once = max(step.beads for step in steps_of(quantity, problem, method)) // n
+            at_once = quantity.line_beads(problem.load)
         elif problem.route == Route.ORDERED and problem.dimension == 2:
             at_once = 0
         at_once += quantity.gathered(region, together)

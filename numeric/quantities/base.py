@@ -25,7 +25,7 @@ from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import Forces
 from ..scene.scene import Scene
-from ..theory.stds import std_of_spheres, stds_of_discs
+from ..theory.expected import std_of_spheres, stds_of_discs
 
 # σ_f/⟨f⟩, and the columns that scatter from sample to sample as others do, whose errors are known.
 RATIO = "std_over_mean"

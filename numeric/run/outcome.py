@@ -21,7 +21,7 @@ from ..scene.source import source_of
 from ..statistics import bins
 from ..tables import SHOWN, Row, html_table, rows_of
 from ..text import rows_of_text, text_of
-from ..theory.critical_height import critical_height
+from ..theory.expected import critical_height
 from ..unilateral import Network
 
 if TYPE_CHECKING:

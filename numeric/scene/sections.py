@@ -16,10 +16,12 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 
 from ..arithmetic.decimals import decimal_string, exact, short
 from ..arithmetic.errors import ForceDiffusionError, rule
-from ..arithmetic.foreign import finite
 from ..arithmetic.systems import Array
 from ..lattice.branch import Axis
 from .combinations import QuantityName
+
+# Of numbers that are doubles: sums of as many as a memory holds stay finite.
+LARGEST = 1e300
 
 
 class SceneError(ForceDiffusionError, ValueError):
@@ -173,6 +175,19 @@ class Disorder(Section):
             raise SceneError("disorder.relative_std", self.relative_std, "must not be negative")
 
 
+def _refuse_infinite(values: Array) -> None:
+    """Raise ``ValueError`` where a float64 is not finite, or so large that sums are not."""
+    with np.errstate(invalid="ignore"):
+        if values.min() >= -LARGEST and values.max() <= LARGEST:  # neither holds with a NaN
+            return
+    good = np.abs(values) <= LARGEST
+    at = tuple(int(k) for k in np.argwhere(~good)[0])
+    place = f"[{', '.join(map(str, at))}]"
+    if np.isfinite(values[at]):
+        raise ValueError(f"must hold numbers of at most {LARGEST:g}, and {place} is larger")
+    raise ValueError(f"must hold finite numbers, and {place} is not")
+
+
 def radii_array(value: object) -> Array:
     """Hold a copy of an array of finite numbers."""
     if np.ma.isMaskedArray(value):
@@ -191,7 +206,7 @@ def radii_array(value: object) -> Array:
             "must be an array of shape (layers, W) or, of spheres, (layers, W, W) and so on; "
             "with an axis before it for several packings"
         )
-    finite(values)
+    _refuse_infinite(values)
     values.setflags(write=False)
     return values
 

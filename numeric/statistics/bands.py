@@ -118,7 +118,10 @@ class Band:
     def verdict(self, deviation: float) -> str:
         """Say whether a curve with this deviation is inside."""
         where = "inside" if deviation <= 1 else "outside"
-        return f"{where} the simultaneous {self.level:.0%} band ({deviation:.2f} of its half-width)"
+        return (
+            f"{where} the simultaneous {self.level:.0%} band, off by {deviation:.2f} of its "
+            "half-width at most"
+        )
 
 
 def simultaneous(

@@ -1,4 +1,4 @@
-"""How many contacts of a packing are expected to pull, and from which height on.
+"""σ_f to first order, M*, and how many contacts of a packing are expected to pull.
 
 Estimates: to first order in δr (Eqs. 13, 14, B2, B3, B13 and B14), with Gaussian forces. M*
 (Eq. 15) is where forces scatter as widely as they are large; in a packing of many contacts some
@@ -8,15 +8,70 @@ pull far below it.
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 
-from .stds import std_of_spheres, stds_of_discs
+from .. import closed_forms
 
 # A typical packing has tension: the chance of none, exp(−number), is below one half.
 TYPICAL = math.log(2)
 # Layers that are looked at, spread evenly, of packings that are higher.
 LAYERS = 400
 HIGHEST = 10_000_000
+
+
+def critical_height(relative_std: Fraction) -> float:
+    """Give M* = (σ/r)^(−2/3), where contacts begin to pull (Eq. 15); inf beyond a float's range.
+
+    >>> critical_height(Fraction(1, 1000))
+    100.0
+    """
+    if not relative_std:
+        return math.inf
+    # The exponents of numerator and denominator may lie outside a float's range.
+    log = _log10(relative_std.numerator) - _log10(relative_std.denominator)
+    return round(10 ** (-2 * log / 3), 9) if log > -460 else math.inf
+
+
+def _log10(n: int) -> float:
+    shift = max(n.bit_length() - 60, 0)
+    return math.log10(n >> shift) + shift * math.log10(2)
+
+
+@lru_cache(maxsize=4096)
+def stds_of_discs(
+    load: str, M: int, j: int, phi: float, components: tuple[float, float]
+) -> tuple[float, float]:
+    """Give σ of f⁺ and f⁻ of layer j (Eqs. 13, 14, B2 and B3 at finite M).
+
+    ``load``: "surface" or "bulk"; ``phi``: n⁺·n⁻; ``components``: (L⁺, L⁻) of the load, the unit of
+    the result. Under a bulk load it is per layer above the contact.
+    """
+    bulk = load == "bulk"
+    plus, minus = components
+    if plus == minus:  # straight down
+        vertical = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
+        std = math.sqrt(float(vertical(M, j, phi, 1, 1))) * plus
+        return std, std
+    tilted = closed_forms.bulk_variance_at_angle if bulk else closed_forms.surface_variance_at_angle
+    # own² times a polynomial of degree 2 in t = other/own, where own may vanish
+    none, one, turned = (float(tilted(M, j, t, phi, 1, 1)) for t in (0, 1, -1))
+    mixed, last = (one - turned) / 2, (one + turned) / 2 - none
+
+    def std_of(own: float, other: float) -> float:
+        return math.sqrt(max(0.0, none * own**2 + mixed * own * other + last * other**2))
+
+    return std_of(plus, minus), std_of(minus, plus)
+
+
+@lru_cache(maxsize=4096)
+def std_of_spheres(load: str, M: int, j: int, phi: float) -> float:
+    """Give σ_f/⟨f⟩ of layer j in three dimensions, alike along all axes (Eqs. B13 and B14)."""
+    bulk = load == "bulk"
+    form = (
+        closed_forms.bulk_variance_of_spheres if bulk else closed_forms.surface_variance_of_spheres
+    )
+    return math.sqrt(float(form(M, j, phi, 1, 1)))
 
 
 @dataclass(frozen=True)

@@ -1,15 +1,15 @@
 """A proof, in balls, that an exact packing touches where a computed one nearly does.
 
 The gaps of the backbone are as many equations as its beads have coordinates. Newton and
-Kantorovich: where β = ‖A⁻¹‖, K bounds the change of the Jacobian A a unit of distance, and
-h = β² K |g| ≤ 1/2, an exact solution lies within 2 β |g|, one alone near there. Its forces, of
-AᵀF + load = 0, are enclosed from residuals. If all of them are positive and all other gaps too, and
-no bead outside of the backbone bears a load, the packing is a strict local minimum of the load's
-energy in the backbone's coordinates: gaps serve as coordinates there, the energy rises with each of
-them, and A can be inverted. Of beads that touch without force nothing can be proved in this way.
+Kantorovich, in Euclidean norms: where β = ‖A⁻¹‖, K bounds the change of the Jacobian A a unit of
+distance, and h = β² K |g| ≤ 1/2, an exact solution lies within 2 β |g|, one alone near there. Its
+forces, of AᵀF + load = 0, are enclosed from residuals. If all of them are positive and all other
+gaps too, and no bead outside of the backbone bears a load, the packing is a strict local minimum of
+the load's energy in the backbone's coordinates: gaps serve as coordinates there, the energy rises
+with each of them, and A can be inverted. Of beads that touch without force nothing can be proved in
+this way.
 
-Norms are bounded from floating-point inverses whose own error is bounded: rounding to nearest, at
-most 2⁻⁵³ an operation.
+β is the inverse of A's smallest singular value, which one sparse factorisation bounds.
 """
 
 from dataclasses import dataclass
@@ -17,18 +17,20 @@ from typing import Any
 
 import flint
 import numpy as np
+from scipy.sparse import diags_array, eye_array
+from scipy.sparse.linalg import splu
 
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import Array, Balls, as_floats
 from .grains import Grains, Pairs
 from .network import Frame, UnfinishedError
 
-# Columns of the inverse that are found together.
-TOGETHER = 256
+# Steps of inverse iteration, which estimate the smallest singular value.
+ITERATIONS = 10
 # Gaps are measured of pairs up to this far apart, in units of r; those of all others are larger.
 FAR = 0.5
-# Nine roundings, the most that an entry of A times a vector takes, and some room.
-ROUNDED = 1e-15
+# The share of a rounding to nearest, and some room for what is computed with it.
+ROUNDED = 2.0**-53 * (1 + 1e-6)
 
 
 @dataclass(frozen=True)
@@ -57,9 +59,8 @@ def certify(
         if not all(load == 0 for load in known.load[bead]):
             raise UnfinishedError(f"bead {bead} bears a load, and no contact holds it")
     place = grains.coordinates(backbone)
-    A = grains.jacobian(contacts)[:, place].tocsc()
     factors = grains.factors(contacts, place)
-    rows_norm, columns_norm, rows_off, columns_off = _inverse_norms(A, factors)
+    least = smallest_singular_value(grains.jacobian(contacts)[:, place].tocsc(), factors)
     x = _exactly(grains.x)
     x[: grains.fixed] = known.base
     for _ in range(4 + system.bits // 20):  # each gains about 30 bits
@@ -72,18 +73,20 @@ def certify(
         x[grains.fixed :] = _middle(x[grains.fixed :] - _exactly(move.reshape(-1, 2)))
     gaps, directions = _geometry(x, contacts, known, grains)
     worst = _largest(gaps)
-    # how much the Jacobian at x, in balls, differs from A, entry by entry
+    # entry by entry, how much the Jacobian at x, in balls, differs from that in floats
     off = _off(directions, grains.directions(contacts))
-    touching = int(np.diff(A.indptr).max(initial=1))
-    beta = rows_norm / _positive(1 - rows_off - rows_norm * 4 * off)
+    root = np.sqrt(len(contacts)) * (1 + 1e-9)  # ‖v‖ ≤ root · max|v|; a row has four entries
+    beta = 1 / _remaining(least, 2 * root * off)
     shortest = float(min(float((known.radii[a] + known.radii[b]).lower()) for a, b in contacts))
-    reach = 2 * beta * worst * (1 + 1e-9)
+    reach = 2 * beta * root * worst * (1 + 1e-9)
     shortest -= 3 * reach + worst
-    h = beta**2 * 8 / shortest * worst * (1 + 1e-9)
+    # a direction changes by |d(x_a − x_b)|/shortest at most, and stands in its row twice
+    bends = 2 * np.sqrt(np.bincount(contacts.ravel())[grains.fixed :].max()) / shortest
+    h = beta**2 * bends * root * worst * (1 + 1e-9)
     if not (h <= 0.5 and shortest > 0):
         raise UndecidedError(f"Kantorovich's h is {h:.2g}, and at most 1/2 proves that beads touch")
-    turned = 2.83 * reach / shortest  # how much a direction changes within reach
-    across = columns_norm / _positive(1 - columns_off - columns_norm * touching * (off + turned))
+    turned = 1.42 * reach / shortest  # how much a direction changes within reach
+    across = root / _remaining(least, 2 * root * (off + turned))
     forces = _balanced(grains, contacts, place, directions, known, factors, across, turned)
     radius = flint.arb(0, reach)
     enclosed = x.copy()
@@ -130,40 +133,46 @@ def _widest(balls: Array) -> float:
     return max((_upper(ball.rad()) for ball in balls.ravel()), default=0.0)
 
 
-def _positive(value: float) -> float:
-    """Give what remains of 1, or say that no inverse is shown to exist."""
-    if not value > 0.01:
+def _remaining(least: float, change: float) -> float:
+    """Bound the smallest singular value after a change of the matrix, or say that it may be 0."""
+    if not least - change > 0.01 * least:
         raise UndecidedError("the inverse of the contacts' Jacobian is too inaccurate to bound")
-    return value * (1 - 1e-9)
+    return (least - change) * (1 - 1e-9)
 
 
-def _inverse_norms(A: Any, factors: Any) -> tuple[float, float, float, float]:
-    """Bound, for R ≈ A⁻¹, the norms ‖R‖∞ and ‖R‖₁, and those of I − R A.
+def smallest_singular_value(A: Any, factors: Any) -> float:
+    """Bound the smallest singular value of a square matrix of floats from below.
 
-    Row i of R is solved for, so that R is never held as a whole.
+    Where AᵀA − s = H Hᵀ + E, it is √(s − ‖E‖) or more. The factor H may come from anywhere: E is
+    what it leaves, entry by entry, and the rounding of that. Where s would be below ‖E‖, about
+    1e-12, raises ``UndecidedError``. ``factors``, of A, only serve to choose s.
     """
     n = A.shape[0]
-    T = A.T.tocsr()
-    size = abs(T)
-    rows = rows_off = 0.0
-    columns, columns_off = np.zeros(n), np.zeros(n)
-    for at in range(0, n, TOGETHER):
-        count = min(TOGETHER, n - at)
-        unit = np.zeros((n, count))
-        unit[at + np.arange(count), np.arange(count)] = 1
-        y = factors.solve(unit, trans="T")
-        left = np.abs(unit - T @ y) + ROUNDED * (size @ np.abs(y) + unit)
-        rows = max(rows, float(np.abs(y).sum(axis=0).max()))
-        rows_off = max(rows_off, float(left.sum(axis=0).max()))
-        columns += np.abs(y).sum(axis=1)
-        columns_off += left.sum(axis=1)
-    room = 1 + 1e-9  # sums of up to a million terms
-    return (
-        rows * room,
-        float(columns.max()) * room,
-        rows_off * room,
-        float(columns_off.max()) * room,
-    )
+    vector = np.random.default_rng(1).standard_normal(n)
+    for _ in range(ITERATIONS):
+        vector = factors.solve(factors.solve(vector / np.linalg.norm(vector), trans="T"))
+    shift = 0.5 / float(np.linalg.norm(vector))
+    square, size = (A.T @ A).tocsc(), abs(A)
+    ones = np.ones(n)
+    rounded = (int(np.diff(A.indptr).max()) + 2) * ROUNDED * (size.T @ (size @ ones) + shift)
+    while shift > float(rounded.max()):
+        shifted = square - shift * eye_array(n)
+        found = splu(
+            shifted, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
+        )
+        pivots = found.U.diagonal()
+        if (pivots > 0).all():
+            H = (found.L @ diags_array(np.sqrt(pivots))).tocsr()
+            order = np.argsort(found.perm_c)
+            left = abs(shifted[order][:, order] - H @ H.T) @ ones * (1 + 1e-9)
+            positive = abs(H)
+            left += (np.diff(H.indptr) + 2) * ROUNDED * (positive @ (positive.T @ ones))
+            off = float((left + rounded[order]).max()) * (1 + 1e-9)
+            if shift > 2 * off:
+                return float(np.sqrt(shift - off)) * (1 - 1e-9)
+            break
+        shift /= 4
+    raise UndecidedError("the inverse of the contacts' Jacobian is too inaccurate to bound")
 
 
 def _exactly(values: Array) -> Array:

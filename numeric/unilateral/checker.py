@@ -1,10 +1,10 @@
 """A check of packings that shares nothing with what found them: no solver, no lattice, no module.
 
 A file holds radii, loads, centres and contacts. By Krawczyk's operator in balls, with an inverse
-that SciPy gives, some rows at a time, an exact packing is shown to touch at these contacts within a
-distance ρ of the centres; its forces are enclosed and shown to be positive, and all other gaps too,
-those between beads of the base included. No other bead bears a load, radii are positive, and no
-bead lies below the base.
+whose norm a factorisation of AᵀA bounds, an exact packing is shown to touch at these contacts
+within a distance ρ of the centres; its forces are enclosed and shown to be positive, and all other
+gaps too, those between beads of the base included. No other bead bears a load, radii are positive,
+and no bead lies below the base.
 Then the packing is a strict local minimum of the load's energy in the coordinates of the beads
 that contacts hold. Of all others it is shown that they touch nothing, and not how far they could
 go. A contact that bears no force, and beads that touch without one, can't be proved: no enclosure
@@ -16,12 +16,12 @@ import json
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal, NamedTuple
+from typing import Annotated, Any, Literal
 
 import flint
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from scipy.sparse import csc_array
+from scipy.sparse import csc_array, diags_array, eye_array
 from scipy.sparse.linalg import splu
 
 from ..arithmetic.errors import ForceDiffusionError, rule
@@ -32,7 +32,6 @@ BITS = 256
 LARGEST = 1e100  # of all numbers: beyond, products of floats end
 LARGEST_FILE = 100_000_000
 OPEN = 1e-5  # of gaps of contacts: no inverse of a Jacobian has a norm below a quarter
-TOGETHER = 256  # rows of an inverse that are found at once
 UNPROVABLE = "(of beads that touch without force nothing can be proved)"
 Number = Annotated[str, Field(pattern=r"^-?[0-9]{1,400}(\.[0-9]{1,400})?(e-?[0-9]{1,4})?$")]
 Bead = Annotated[int, Field(ge=0)]
@@ -48,7 +47,7 @@ class _Packing(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
     period: Number
     fixed: Annotated[int, Field(ge=1)]
-    radii: Annotated[list[Number], Field(min_length=2, max_length=20_000)]
+    radii: Annotated[list[Number], Field(min_length=2, max_length=40_000)]
     loads: list[Annotated[list[Number], Field(min_length=2, max_length=2)]]
     centres: list[Annotated[list[Number], Field(min_length=2, max_length=2)]]
     contacts: list[Annotated[list[Bead], Field(min_length=2, max_length=2)]]
@@ -233,19 +232,21 @@ class _Proof:
             factors = splu(A)
         except RuntimeError:
             return no("the Jacobian of the gaps is singular: the packing is not rigid")
-        inverse, off = _inverse(A, factors)
-        step = inverse.rows * worst * (1 + 1e-9)  # at least |R g|
+        sigma = _least_singular_value(A, factors)
+        if not sigma > 0:
+            return no("the Jacobian of the gaps is too near to a singular one")
+        root = n**0.5 * (1 + 1e-9)  # of a vector: its length is at most this times its largest
+        step = root * worst / sigma * (1 + 1e-9)  # at least |A⁻¹ g|
         if not step < 1e-6:
             return no(f"the contacts are open or overlap by up to {worst:.2g}")
         within = 2 * step + 1e-60
         *_, values = self.jacobian(flint.arb(0, within))
         spread = [_upper(value - m) for value, m in zip(values, middle, strict=True)]
-        radius = _norms(csc_array((spread, (rows, columns)), shape=(n, n)))
-        moved = (off.rows + inverse.rows * radius.rows) * (1 + 1e-9)
-        turned = (off.columns + inverse.columns * radius.columns) * (1 + 1e-9)
-        if not (step + moved * within < within and turned < 0.5):
+        change = float(np.linalg.norm(spread)) * (1 + 1e-9)  # of the Jacobian, over the box
+        moved = root * change / sigma * (1 + 1e-9)
+        if not (step + moved * within < within and change < sigma / 2):
             return no(f"Krawczyk's operator does not map the box into itself: {moved:.2g}")
-        forces, error = self.forces(factors, inverse.columns / (1 - turned))
+        forces, error = self.forces(factors, root / (sigma - change) * (1 + 1e-9))
         smallest = float((forces * (1 - 1e-15) - error).min())  # they are rounded
         if not smallest > 0:
             k = int(np.argmin(forces))
@@ -265,7 +266,7 @@ class _Proof:
         return Verdict(True, "", n, rattlers, within, smallest, gap)
 
     def forces(self, factors: Any, norm: float) -> tuple[Any, float]:
-        """Give forces, and a bound on their error: residuals over the box times ‖A⁻¹‖₁ ≤ norm.
+        """Give forces, and a bound on their error: the largest residual over the box times norm.
 
         They are corrected by what they leave, in balls, while that falls.
         """
@@ -312,33 +313,28 @@ class _Proof:
         return float(min(least, 1.0)) - room, pair
 
 
-class _Norms(NamedTuple):
-    """‖·‖∞, the largest sum of a row, and ‖·‖₁, that of a column; infinite where unknown."""
+def _least_singular_value(A: Any, factors: Any) -> float:
+    """Bound A's smallest singular value from below; 0 where it is not shown to be above 1e-7 or so.
 
-    rows: float
-    columns: float
-
-
-def _norms(matrix: Any) -> _Norms:
-    size = abs(matrix)
-    return _Norms(*(float(size.sum(axis=k).max()) * (1 + 1e-9) for k in (1, 0)))
-
-
-def _inverse(A: Any, factors: Any) -> tuple[_Norms, _Norms]:
-    """Bound the norms of R ≈ A⁻¹ and of I − R A; R is whatever SciPy gives, row by row."""
-    n = A.shape[0]
-    rounding = (int(np.diff(A.indptr).max()) + 3) * 2.0**-53 * (1 + 1e-6)
-    largest, sums = np.zeros(2), np.zeros((2, n))
-    for first in range(0, n, TOGETHER):
-        unit = np.eye(n, min(TOGETHER, n - first), -first)
-        R = factors.solve(unit, trans="T")  # rows of R, as columns
-        off = np.abs(unit - A.T @ R) + rounding * (abs(A).T @ np.abs(R) + unit)
-        for k, part in enumerate((np.abs(R), off)):
-            largest[k] = np.maximum(largest[k], part.sum(axis=0).max())
-            sums[k] += part.sum(axis=1)
-    found = np.stack([largest, sums.max(axis=1)], axis=1) * (1 + 1e-9)
-    found[~np.isfinite(found)] = np.inf
-    return _Norms(*map(float, found[0])), _Norms(*map(float, found[1]))
+    AᵀA − s = B Bᵀ + E, whatever B is: no eigenvalue of AᵀA lies below s − ‖E‖.
+    """
+    n, unit = A.shape[0], 2.0**-53 * (1 + 1e-6)
+    v = np.cos(np.arange(n))
+    for _ in range(10):  # of the power method
+        v = factors.solve(factors.solve(v / np.linalg.norm(v), trans="T"))
+    s, ones = 0.5 / float(np.linalg.norm(v)), np.ones(n)
+    terms = int(np.diff(A.indptr).max()) + 2
+    own = terms * unit * (abs(A).T @ (abs(A) @ ones) + s)  # roundings of AᵀA − s, by row
+    while s > own.max():
+        shifted = (A.T @ A - s * eye_array(n)).tocsc()
+        lu = splu(shifted, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        if (pivots := lu.U.diagonal()).min() > 0:
+            B = (lu.L @ diags_array(np.sqrt(pivots))).tocsr()[np.array(lu.perm_r)]
+            E = abs(shifted - B @ B.T) @ ones * (1 + 1e-9) + own
+            E += (np.diff(B.indptr) + 2) * unit * (abs(B) @ (abs(B).T @ ones))
+            return float(np.sqrt(max(s - float(E.max()) * (1 + 1e-9), 0.0))) * (1 - 1e-9)
+        s /= 4
+    return 0.0
 
 
 def _largest(balls: list[Any]) -> float:

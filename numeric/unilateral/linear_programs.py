@@ -11,10 +11,9 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
 from .grains import Grains, Pairs
-from .network import UnfinishedError
+from .network import MissingSolverError, UnfinishedError
 
 # Δ, in units of r.
 TRUST = 0.8
@@ -32,10 +31,6 @@ FEW = 200
 NO_FORCE = 1e-7
 # Coordinates from which on HiGHS's newer interior points, if installed, are faster.
 LARGE = 8000
-
-
-class MissingSolverError(ForceDiffusionError, ImportError):
-    """The solver of linear programs is not installed."""
 
 
 def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array]:
@@ -111,10 +106,7 @@ class _Programs:
         try:
             import highspy
         except ImportError:
-            raise MissingSolverError(
-                'protocols "ladder" and "linear-programs" need highspy, '
-                '"force-diffusion[unilateral]"; protocol = "event-driven" does without'
-            ) from None
+            raise MissingSolverError("linear programs", "highspy") from None
         program = highspy.HighsLp()
         program.num_col_, program.num_row_ = A.shape[1], A.shape[0]
         program.col_cost_ = -self.grains.weights

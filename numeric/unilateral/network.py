@@ -17,6 +17,16 @@ class UnfinishedError(ForceDiffusionError, ArithmeticError):
     exit_status = NOT_REACHED
 
 
+class MissingSolverError(ForceDiffusionError, ImportError):
+    """A solver that a protocol needs is not installed."""
+
+    def __init__(self, what: str, package: str) -> None:
+        super().__init__(
+            f'{what} need {package}: pip install "force-diffusion[unilateral]"; '
+            'protocol = "event-driven" does without'
+        )
+
+
 @dataclass(frozen=True)
 class Frame:
     """What is exactly known, in balls: ``radii`` (N,), ``base`` (fixed, 2), ``load`` (N, 2).

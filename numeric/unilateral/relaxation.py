@@ -53,7 +53,10 @@ _PROGRAMS = Rung("the deposited packing", "linear programs")
 _EVENTS = Rung("the deposited packing", "events")
 PROTOCOLS = {
     "linear-programs": (_PROGRAMS,),
-    "interior-path": (Rung("the end of an interior path", "linear programs"),),
+    "interior-path": (
+        Rung("the end of an interior path", "nothing"),
+        Rung("the end of an interior path", "linear programs"),
+    ),
     "event-driven": (_EVENTS,),
     "event-ladder": (_EVENTS, Rung("beads dropped one by one", "events")),
     "ladder": (
@@ -130,6 +133,7 @@ class Search:
         self.events, self.seconds = 0, 0.0
         self.refused: list[tuple[Rung, UnfinishedError]] = []
         self.found: RelaxedPacking | None = None
+        self.path: tuple[Array, Pairs, Array] | None = None  # centres where it ended, pairs, λ/g
         self.as_deposited = False
         if self.supports is not None and not self.overlaps:
             forces = balanced(self.grains, self.supports)
@@ -190,11 +194,18 @@ class Search:
             contacts = self._placed(rung, grains)
             before = grains.energy()
             if rung.start == "the end of an interior path":
-                interior_path.follow(grains, progress)
+                if self.path is None:
+                    pairs, firmness = interior_path.follow(grains, progress)
+                    self.path = grains.x, pairs, firmness
+                grains.x, pairs, firmness = self.path
+                if rung.by == "nothing":
+                    contacts = _bearing(grains, pairs, firmness)
+                    contacts = contacts[np.argsort(grains.named(contacts))]  # not by rounding
             if rung.by == "linear programs":
                 steps = events
                 near, forces = linear_programs.relax(grains, lambda n: progress(steps + n))
-                contacts = _bearing(grains, near, forces)
+                touching = grains.gaps(near) < NEARLY
+                contacts = _bearing(grains, near[touching], forces[touching])
             elif rung.by == "events":
                 if contacts is None:
                     wrong = f"has {self.overlaps} overlaps" if self.overlaps else "can't be built"
@@ -237,11 +248,13 @@ def balanced(grains: Grains, contacts: Pairs, backbone: Array | None = None) -> 
     return np.asarray(factors.solve(-grains.weights[place], trans="T"))
 
 
-def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
-    """Pick the contacts that bear force: as many, the largest first, as make a rigid packing."""
-    touching = (grains.gaps(pairs) < NEARLY) & (forces > 0)
-    order = np.argsort(-forces[touching], kind="stable")
-    candidates, sizes = pairs[touching][order], forces[touching][order]
+def _bearing(grains: Grains, pairs: Pairs, sizes: Array) -> Pairs:
+    """Pick the contacts that bear force: as many, the largest first, as make a rigid packing.
+
+    ``sizes``: of their forces, or what else is larger the surer a pair bears one.
+    """
+    order = np.argsort(-sizes, kind="stable")[: np.count_nonzero(sizes > 0)]
+    candidates, sizes = pairs[order], sizes[order]
     beads = np.zeros(len(grains.radii), dtype=bool)
     beads[: grains.fixed] = True
     found, best = None, 0.0
@@ -249,13 +262,11 @@ def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
     for k, pair in enumerate(candidates):
         free += int(np.count_nonzero(~beads[pair]))
         beads[pair] = True
-        following = sizes[k + 1] if k + 1 < len(sizes) else 1e-300
+        following = sizes[k + 1] if k + 1 < len(sizes) else 1e-250
         if k + 1 == 2 * free and sizes[k] / following > best:
             found, best = k + 1, sizes[k] / following
     if found is None:
-        raise UnfinishedError(
-            "degenerate: the linear programs ended where no rigid set of contacts bears force"
-        )
+        raise UnfinishedError("degenerate: no rigid set of contacts bears force at the end")
     return np.asarray(candidates[:found])
 
 

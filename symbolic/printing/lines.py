@@ -321,10 +321,10 @@ def column_width(columns: int) -> float:
 
 
 def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:
-    """The formulas one by one, those of a tuple too."""
+    """The formulas one by one, those of a tuple too; one said of several domains comes once."""
     for formula in formulas:
         if isinstance(formula, Tuple):
-            yield from formula
+            yield from dict.fromkeys(formula)
         else:
             yield formula
 
@@ -354,7 +354,7 @@ def latex_body(
 def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> list[str]:
     """An equation as lines of plain text, continued lines indented."""
     if isinstance(equation, Tuple):
-        return [line for one in equation for line in text_lines(one, relation, room)]
+        return [line for one in _single([equation]) for line in text_lines(one, relation, room)]
     printer = PaperText()
     pieces = _Pieces(printer, "{", "}")
     if not isinstance(equation, Eq):

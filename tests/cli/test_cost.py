@@ -99,9 +99,7 @@ def test_the_table(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
 def test_without_matplotlib_only_the_plot_is_missing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.delitem(
-        sys.modules, "force_diffusion.numeric.studies.cost.cost_plot", raising=False
-    )
+    monkeypatch.delitem(sys.modules, "force_diffusion.numeric.figures.style", raising=False)
     for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "matplotlib", None)

@@ -50,8 +50,8 @@ def test_json_and_files(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> N
     assert {row["form"] for row in found["enclosures"]} == {"positions", "line sums"}
     assert found["closed_forms"]
     assert sorted(path.name for path in out.iterdir()) == FILES
-    for name, table in tables.FILES.items():
-        rows = list(csv.DictReader(io.StringIO((out / table).read_text())))
+    for name, table in tables.TABLES.items():
+        rows = list(csv.DictReader(io.StringIO((out / table.file).read_text())))
         assert len(rows) == len(found[name])
         assert rows[0]["command"] == found["command"]
     png = (out / "stability.png").read_bytes()
@@ -75,11 +75,7 @@ def test_without_matplotlib_only_the_figure_is_missing(
 ) -> None:
     for name in [name for name in sys.modules if name.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, name)
-    for name in (
-        "force_diffusion.numeric.studies.stability.stability_plot",
-        "force_diffusion.numeric.figures.style",
-    ):
-        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.delitem(sys.modules, "force_diffusion.numeric.figures.style", raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     out = tmp_path / "out"
     status, printed, err = call(capsys, "stability", "--out", out, "--json")

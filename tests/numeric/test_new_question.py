@@ -10,7 +10,7 @@ from force_diffusion.numeric import quantities
 from force_diffusion.numeric.arithmetic.systems import NumberSystem
 from force_diffusion.numeric.lattice.layers import Region
 from force_diffusion.numeric.mechanics.problem import Problem, Solved
-from force_diffusion.numeric.planning import division
+from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.quantities.base import Gatherer, Quantity, Table, column
 from force_diffusion.numeric.run import run
 from force_diffusion.numeric.scene.sections import SceneError
@@ -103,7 +103,7 @@ def test_by_segments_it_is_what_it_is_in_memory(monkeypatch: pytest.MonkeyPatch)
     pytest.importorskip("numba")
     sections = basic(60, 61, quantity="profile")
     whole = run(planned(sections))
-    monkeypatch.setattr(division, "QUICKER", 1)  # for small packings, too
+    monkeypatch.setattr(memory, "QUICKER", 1)  # for small packings, too
     parts = run(planned(sections))
     assert parts.plan.problem.segment
     assert parts.decimals() == whole.decimals()

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.mechanics import engine
-from force_diffusion.numeric.planning import division
+from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run.running import run
@@ -176,13 +176,13 @@ def test_segments_find_what_they_can_and_say_what_stays_open(
         ask=fd.Ask(quantity="profile"),
     )
     whole = plan(asked)
-    parts = division.cut(whole.problem, whole.method, whole.scene, None)
+    parts = memory.by_segments(whole.problem, whole.method, whole.scene, None)
     assert parts is not None
     try:
         found = run(whole).physical
     except fd.ForceDiffusionError:
         assume(False)
-    physical = run(replace(whole, problem=replace(parts, segment=2))).physical
+    physical = run(replace(whole, problem=replace(parts[0], segment=2))).physical
     assert found is not None
     assert physical is not None
     if physical.undecided_gaps:

@@ -16,7 +16,7 @@ from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.physicality import Physicality
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning import division, memory
+from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.quantities.answer import answer
@@ -103,9 +103,9 @@ def sections(name: str, **disorder: Any) -> dict[str, dict[str, Any]]:
 
 
 def cut(made: Plan, layers: int, every: int = 1) -> Plan:
-    found = division.cut(made.problem, made.method, made.scene, None)
+    found = memory.by_segments(made.problem, made.method, made.scene, None)
     assert found is not None
-    return replace(made, problem=replace(found, segment=layers, every=every))
+    return replace(made, problem=replace(found[0], segment=layers, every=every))
 
 
 def same(a: Outcome, b: Outcome) -> None:
@@ -277,7 +277,7 @@ def test_with_a_tolerance_it_is_refused_and_said_that_without_it_runs(said: str)
 
 
 def test_without_numba_it_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(division, "find_spec", lambda name: None)
+    monkeypatch.setattr(memory, "find_spec", lambda name: None)
     asked = scene(sections("profile") | {"packing": {"height": 1999, "width": 2002}})
     with pytest.raises(SceneError, match="may be used"):
         plan(asked, memory_limit=4 * 10**8)

@@ -70,7 +70,7 @@ def prose(words: str) -> Markup:
 
 def symbol(expression: Basic) -> Markup:
     """One symbol, within a line."""
-    return mathml(latex(expression))
+    return mathml(rf"\displaystyle {latex(expression)}")
 
 
 def display(formulas: Sequence[Basic], relation: str = "=") -> Markup:

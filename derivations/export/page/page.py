@@ -136,7 +136,8 @@ def page(outcomes: Sequence[Outcome], parts: Sequence[Part], command: str, made:
         style_hashes=Markup(_HASHES),
         equations=[equation_view(outcome, outcomes) for outcome in outcomes],
         totals={
-            "proved": sum(outcome.verdict.is_proved for outcome in outcomes),
+            "proved": sum(one.verdict.is_proved and not one.assuming for one in outcomes),
+            "assuming": sum(one.verdict.is_proved and bool(one.assuming) for one in outcomes),
             "expected": expected_text(sum(check.is_expected for check in checks)),
             "proofs": sum(check.kind == "proof" for check in checks),
             "witnesses": sum(check.kind == "witness" for check in checks),

@@ -22,6 +22,21 @@ def depths(premises: Mapping[Number, Sequence[Number]]) -> dict[Number, int]:
     return found
 
 
+def direct(premises: Mapping[Number, Sequence[Number]]) -> dict[Number, list[Number]]:
+    """Leave premises out that others rest on, given premises first.
+
+    >>> direct({1: [], 2: [1], 3: [1, 2]})
+    {1: [], 2: [1], 3: [2]}
+    """
+    below: dict[Number, set[Number]] = {}
+    for number, rests_on in premises.items():
+        below[number] = set(rests_on).union(*(below[one] for one in rests_on))
+    return {
+        number: [one for one in rests_on if not any(one in below[other] for other in rests_on)]
+        for number, rests_on in premises.items()
+    }
+
+
 def proof_graph(outcomes: Sequence[Outcome]) -> Markup:
     """The graph; each node is a link to its equation."""
     premises = {o.derivation.number: [p.number for p in o.derivation.premises] for o in outcomes}
@@ -35,7 +50,7 @@ def proof_graph(outcomes: Sequence[Outcome]) -> Markup:
     }
     curves = [
         _curve(places[one], places[number], upwards=place % 2 == 1)
-        for place, (number, rests_on) in enumerate(premises.items())
+        for place, (number, rests_on) in enumerate(direct(premises).items())
         for one in rests_on
     ]
     nodes = []
@@ -54,8 +69,7 @@ def proof_graph(outcomes: Sequence[Outcome]) -> Markup:
         Markup('<path class="edge" d="M{:.1f} {:.1f}Q{:.1f} {:.1f} {:.1f} {:.1f}"/>').format(*curve)
         for curve in curves
     ]
-    # a curve turns where it is half-way between its middle point and the chord
-    heights = [(y0 + 2 * y1 + y2) / 4 for _, y0, _, y1, _, y2 in curves]
+    heights = [_turn(y0, y1, y2) for _, y0, _, y1, _, y2 in curves]
     heights += [y for _, y in places.values()]
     edge = _RADIUS + 5
     top, width = min(heights) - edge, (len(columns) - 1) * _COLUMN + 2 * edge
@@ -85,6 +99,13 @@ def _curve(
     first = _towards(x0, y0, x, y, _RADIUS + 1)
     last = _towards(x1, y1, x, y, _RADIUS + 3)
     return *first, x, y, *last
+
+
+def _turn(y0: float, y1: float, y2: float) -> float:
+    """Height at which a quadratic curve turns; where it does not, that of its start."""
+    bend = y0 - 2 * y1 + y2
+    share = (y0 - y1) / bend if bend else 0.0
+    return y0 - (y0 - y1) * share if 0 < share < 1 else y0
 
 
 def _towards(x: float, y: float, to_x: float, to_y: float, by: float) -> tuple[float, float]:

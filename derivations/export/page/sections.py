@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from pathlib import Path
 
+from ..tables import with_command
 from .html import number
 from .parts import Data, Figure, Part, Table, csv_data
 
@@ -53,7 +54,6 @@ def cost_part(notice: Notice = lambda _: None) -> Part:
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.run import read_scene
     from force_diffusion.numeric.studies.cost.cost import cost
-    from force_diffusion.numeric.studies.cost.table import csv_rows
 
     command = f"force-diffusion cost {SCENE.name} --out cost"
     found = cost(read_scene(SCENE), lambda way: notice(f"cost: {way}"))
@@ -94,7 +94,7 @@ def cost_part(notice: Notice = lambda _: None) -> Part:
             Table(
                 "Ways to the answer, from the largest error to the smallest",
                 rows,
-                csv_data("cost.csv", csv_rows(found.data(), command)),
+                csv_data("cost.csv", with_command(found.files()["cost.csv"], command)),
             ),
         ),
         files=(Data(SCENE.name, SCENE.read_text(encoding="utf-8"), "text/plain"),),
@@ -105,16 +105,14 @@ def stability_part(notice: Notice = lambda _: None) -> Part:
     """How accurate the engine is where it is hard to be, and what that costs."""
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.studies.stability.stability import (
-        FILES,
         FLOATS,
         TABLES,
-        csv_rows,
         stability,
     )
 
     command = "force-diffusion stability --out stability"
     found = stability(notice)
-    files = csv_rows(found.data(), command)
+    files = found.files()
     title = "The cost of stability"
     (svg,) = style.images(found.plot, "stability", title, command, ("svg",)).values()
     worst = max(row["error"] for row in found.rows(FLOATS) if row["error"] is not None)
@@ -149,8 +147,8 @@ def stability_part(notice: Notice = lambda _: None) -> Part:
                     {key: value for key, value in row.items() if key not in LEFT_OUT}
                     for row in table.shown(found.rows(name))
                 ],
-                csv_data(file, files[file]),
+                csv_data(table.file, with_command(files[table.file], command)),
             )
-            for (name, table), file in zip(TABLES.items(), FILES.values(), strict=True)
+            for name, table in TABLES.items()
         ),
     )

@@ -9,25 +9,22 @@ in float64; nothing here is proved.
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from fractions import Fraction
-from functools import cached_property
 from itertools import count, islice
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from ... import tables
 from ...arithmetic.errors import ForceDiffusionError
-from ...arithmetic.systems import Array
-from ...figures.library import drawing
+from ...figures.specification import Picture
 from ...mechanics.problem import Problem
 from ...mechanics.work import Work
 from ...planning.planner import plan
 from ...scene.scene import Scene
 from ...scene.sections import Ask, BulkLoad, Disorder, Effects, Packing, SurfaceLoad
 from ...unilateral import UnfinishedError
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
+from ..study import Study
+from .cascade_plot import picture
 
 Protocol = Literal["linear-programs", "event-driven"]
 LOADS = {"surface": SurfaceLoad, "bulk": BulkLoad}
@@ -36,6 +33,7 @@ JUST = Fraction(1, 10**6)
 # Forces that change by more than these shares of the mean force are counted, and beads that move
 # further than this, in units of r.
 CHANGES, MOVED = (0.01, 0.1), 1e-3
+SHARES = ("of_critical", "layer", "forces_1", "forces_10", "moved", "new", "events")
 HEAD = (
     "One contact pulls by a millionth of the load, and opens; means over packings, ± two "
     "standard errors.\nShares: forces that changed by more than 1 % and 10 % of the mean, beads "
@@ -70,53 +68,56 @@ class Cascade:
 
 
 @dataclass(frozen=True)
-class CascadeStudy:
+class CascadeStudy(Study):
     """What opened contacts changed, packing by packing; which did not come to rest, and why."""
 
     cascades: tuple[Cascade, ...]
     protocol: str
     left_out: tuple[str, ...] = ()
+    name = "cascade"
 
     def rows(self) -> list[tables.Row]:
         """A row a packing, ready for a data frame."""
         return [asdict(one) for one in self.cascades]
 
-    @cached_property
-    def arrays(self) -> dict[str, Array]:
-        """The columns, each of shape (packings,)."""
-        return tables.columns_of(self.rows())
-
     def summary(self) -> list[tables.Row]:
         """Mean and standard error of each share, by load and height."""
-        return [_summed(group) for group in self._groups()]
-
-    def _groups(self) -> Iterator[list[Cascade]]:
-        for load, height in dict.fromkeys((one.load, one.height) for one in self.cascades):
-            yield [one for one in self.cascades if (one.load, one.height) == (load, height)]
+        groups: dict[tuple[Any, ...], list[Cascade]] = {}
+        for one in self.cascades:
+            groups.setdefault((one.load, one.height, one.width), []).append(one)
+        return [
+            {"load": load, "height": height, "width": width, "packings": len(group)}
+            | _summed(group)
+            for (load, height, width), group in groups.items()
+        ]
 
     def data(self) -> dict[str, Any]:
         """Give what JSON can hold."""
         return {"protocol": self.protocol, "summary": self.summary(), "packings": self.rows()}
 
-    def plot(self) -> "Figure":
-        """Draw the shares over the height. Needs matplotlib (the extra ``plots``)."""
-        with drawing():
-            from .cascade_plot import draw
-
-            return draw(self.summary())
+    def picture(self) -> Picture:
+        """Say what is drawn: the shares over the height."""
+        return picture(self.summary())
 
     def __str__(self) -> str:
         """Give the summary as a table."""
-        return "\n".join([HEAD, *tables.text_table(self._shown()), *self.left_out])
-
-    def _shown(self) -> list[tables.Row]:
-        return [
+        shown = [
             {name: row[name] for name in ("load", "height", "width", "packings")}
             | {name: f"{row[name]:.3f} ± {2 * row[f'{name}_error']:.3f}" for name in SHARES}
             for row in self.summary()
         ]
+        return "\n".join([HEAD, *tables.text_table(shown), *self.left_out])
 
     __repr__ = __str__
+
+
+def _summed(group: Sequence[Cascade]) -> tables.Row:
+    row: tables.Row = {}
+    for name in SHARES:
+        values = np.array([getattr(one, name) for one in group], dtype=float)
+        row[name] = float(values.mean())
+        row[f"{name}_error"] = float(values.std(ddof=1) / np.sqrt(len(values)))
+    return row
 
 
 def cascade(
@@ -186,23 +187,25 @@ def _opened(load: str, height: int, number: int, protocol: Protocol) -> Cascade 
     """Find σ, open the contact, and compare."""
     from ...unilateral import balanced, settle, start
 
+    def begun(std: Fraction) -> Any:
+        """Give the packing with all contacts bilateral; no contacts where there is none."""
+        grains, supports, overlaps = start(_problem(load, height, number, std, protocol), 0)
+        return grains, None if overlaps else supports
+
     low, high = Fraction(0), Fraction(1, 2)
     while high - low > JUST / 10 * high:
-        middle = (low + high) / 2
-        middle = middle.limit_denominator(10**12)
-        problem = _problem(load, height, number, middle, protocol)
-        grains, supports, overlaps = start(problem, 0)
-        if supports is not None and not overlaps and balanced(grains, supports).min() > 0:
+        middle = ((low + high) / 2).limit_denominator(10**12)
+        grains, supports = begun(middle)
+        if supports is not None and balanced(grains, supports).min() > 0:
             low = middle
         else:
             high = middle
     std = high * (1 + JUST)
-    problem = _problem(load, height, number, std, protocol)
-    grains, supports, overlaps = start(problem, 0)
-    if supports is None or overlaps:
+    grains, supports = begun(std)
+    if supports is None:
         return None
     before = balanced(grains, supports)
-    settled = settle(problem, 0, Work())
+    settled = settle(_problem(load, height, number, std, protocol), 0, Work())
     if settled is None:
         return None
     after = balanced(settled.grains, settled.contacts, settled.backbone)
@@ -223,18 +226,3 @@ def _opened(load: str, height: int, number: int, protocol: Protocol) -> Cascade 
         new=sum(pair not in old for pair in new) / len(new),
         events=settled.events,
     )  # fmt: skip
-
-
-SHARES = ("of_critical", "layer", "forces_1", "forces_10", "moved", "new", "events")
-
-
-def _summed(group: Sequence[Cascade]) -> tables.Row:
-    first = group[0]
-    row: tables.Row = {
-        "load": first.load, "height": first.height, "width": first.width, "packings": len(group),
-    }  # fmt: skip
-    for name in SHARES:
-        values = np.array([getattr(one, name) for one in group], dtype=float)
-        row[name] = float(values.mean())
-        row[f"{name}_error"] = float(values.std(ddof=1) / np.sqrt(len(values)))
-    return row

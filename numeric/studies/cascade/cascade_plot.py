@@ -1,10 +1,8 @@
-"""The figure of cascades. Needs matplotlib (the extra ``plots``)."""
+"""The figure of cascades."""
 
 from typing import Any
 
-from matplotlib.figure import Figure
-
-from ...figures import style
+from ...figures import specification as spec
 
 SHARES = {
     "forces_1": "forces changed by more than 1 % of the mean",
@@ -14,25 +12,19 @@ SHARES = {
 }
 
 
-def draw(summary: list[dict[str, Any]]) -> Figure:
+def picture(summary: list[dict[str, Any]]) -> spec.Picture:
     """Draw one panel a load: shares over M, with bars of two standard errors."""
-    loads = list(dict.fromkeys(row["load"] for row in summary))
-    figure = style.figure(style.PAGE, 2.9)
-    panels = figure.subplots(1, len(loads), sharey=True, squeeze=False)[0]
-    for axes, load in zip(panels, loads, strict=True):
+    panels = []
+    for load in dict.fromkeys(row["load"] for row in summary):
         rows = [row for row in summary if row["load"] == load]
+        heights = [row["height"] for row in rows]
+        elements: list[spec.Element] = []
         for number, (name, words) in enumerate(SHARES.items()):
-            colour, marker = style.series(number)
-            axes.errorbar(
-                [row["height"] for row in rows],
-                [row[name] for row in rows],
-                [2 * row[f"{name}_error"] for row in rows],
-                color=colour, marker=marker, ms=3.5, capsize=2, linewidth=0.8, label=words,
-            )  # fmt: skip
-        axes.set_title(f"{load} load", loc="left")
-        axes.set_xlabel("height $M$")
-        axes.set_ylim(0, 1)
-        axes.set_xticks([row["height"] for row in rows])
-    panels[0].set_ylabel("share")
-    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
-    return figure
+            shares, bars = ([row[n] for row in rows] for n in (name, f"{name}_error"))
+            elements += [
+                spec.Line(heights, shares, number, width=0.8),
+                spec.Points(heights, shares, number, words, [2 * bar for bar in bars]),
+            ]
+        x_axis, y_axis = spec.Axis("height $M$", ticks=heights), spec.Axis("share", 0, 1)
+        panels.append(spec.Panel(elements, x_axis, y_axis, f"{load} load", "below", columns=2))
+    return spec.Picture(panels, 2.9, page=True, share="y")

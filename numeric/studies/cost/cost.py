@@ -2,32 +2,32 @@
 
 Errors are relative to the largest |change| of the answer, and are distances from a reference. For
 one packing the reference is certified: balls enclose it, and their radius is added to every error.
-For an ensemble (see ``ensemble``) it is estimated. Times and memory are measurements.
+For an ensemble (see ``of_profile``) it is estimated. Times and memory are measurements.
 """
 
-from collections.abc import Callable, Iterator
-from decimal import Decimal
+from collections.abc import Iterator
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
-from ...arithmetic.errors import UndecidedError
-from ...arithmetic.systems import FLOAT64, LONGDOUBLE, NumberSystem
-from ...disorder.radii import RadiusError
+import flint
+
+from ...arithmetic.systems import FLOAT64, LONGDOUBLE, Array, NumberSystem, largest_of
 from ...mechanics.problem import Route
-from ...mechanics.sweep import NotStandingError, UnbuildableError
 from ...planning import planner
-from ...planning.plan import Skipped
+from ...planning.plan import Plan, Skipped
 from ...quantities.base import Table, first_order_std
-from ...scene.checks import refuse
-from ...scene.scene import Scene
+from ...scene.scene import Scene, refuse
 from ...scene.sections import SceneError
+from ..distances import FAILURES, answer, changes
 from .of_profile import study_ensemble
-from .reference import BEYOND, CertifiedReference, IncomparableError
+from .reference import BEYOND, certified
 from .rows import Reference, Way, marked
 from .table import CostStudy
-from .ways import Notice, answer, measured, systems, why_not_plain, with_geometry
+from .ways import Notice, measured, systems, why_not_plain, with_geometry
 
-_FAILURES = (UnbuildableError, UndecidedError, NotStandingError, RadiusError, IncomparableError)
+DEVIATIONS, PLAIN = "exact, deviation form", "exact, plain form"
+LINE_SUMS = "first-order line sums"
 
 
 def cost(scene: Scene, notice: Notice = lambda _: None) -> CostStudy:
@@ -68,48 +68,43 @@ def _study_one(scene: Scene, notice: Notice) -> CostStudy:
     one = scene.model_copy(update={"ask": scene.ask.model_copy(update={"realisations": 1})})
     plan = planner.plan(one, BEYOND)
     notice("reference")
-    true = CertifiedReference(plan)
-    nothing = Decimal(0)
+    true = certified(one)
     rows: list[Way] = []
     skipped = list(_never(scene))
-    exact = plan.problem.route == Route.EXACT
 
     def measure(
-        way: str, system: NumberSystem, work: Callable[[], Table], model: CertifiedReference | None
+        way: str, system: NumberSystem, of: Plan, meant: Array | None = None, **how: bool
     ) -> None:
+        def judged(table: Table) -> dict[str, Any]:
+            found = changes(table)
+            radii = [value.rad() for value in found if isinstance(value, flint.arb)]
+            bound = true.relative(largest_of(radii)) if radii else None
+            return true.errors(found, meant) | {"certified_bound": bound}
+
         notice(f"{way}, {system.name}")
         try:
-            table, costs = measured(work, system)
-            error, bound = true.error(table), true.bound(table)
-            rounding = error if model is None else model.error(table, true.largest)
-        except _FAILURES as failed:
+            rows.append(measured(way, system, partial(answer, of, system, [0], **how), judged))
+        except FAILURES as failed:
             skipped.append(Skipped(f"{way}, {system.name}", str(failed)))
-            return
-        wrong = nothing if model is None else true.error(model.table)
-        rows.append(Way(way, system.name, None, error, wrong, rounding, None, bound, **costs))
 
-    if exact:
-        if scene.effects.stop_at_tension:
-            skipped.append(Skipped("first-order line sums", "they do not stop at tension"))
-        else:
-            linear = planner.plan(with_geometry(one, "first-order"), BEYOND)
-            model = CertifiedReference(linear)
-            name = "first-order line sums"
-            measure(name, FLOAT64, partial(answer, linear, FLOAT64, [0]), model)
+    own = DEVIATIONS
+    if plan.problem.route != Route.EXACT:
+        own = LINE_SUMS
+        skipped.append(Skipped(DEVIATIONS, "the scene asks for the first-order theory"))
+    elif scene.effects.stop_at_tension:
+        skipped.append(Skipped(LINE_SUMS, "they do not stop at tension"))
     else:
-        reason = "the scene asks for the first-order theory"
-        skipped.append(Skipped("exact, deviation form", reason))
-    own = "exact, deviation form" if exact else "first-order line sums"
+        first = with_geometry(one, "first-order")
+        measure(LINE_SUMS, FLOAT64, planner.plan(first, BEYOND), certified(first).best)
     why = why_not_plain(plan)
     if why is not None:
-        skipped.append(Skipped("exact, plain form", why))
+        skipped.append(Skipped(PLAIN, why))
     for system in systems():
-        measure(own, system, partial(answer, plan, system, [0]), None)
+        measure(own, system, plan)
         if why is None:
-            work = partial(answer, plan, system, [0], plainly=True)
-            measure("exact, plain form", system, work, None)
+            measure(PLAIN, system, plan, plainly=True)
     what = "the first realisation" if scene.ask.realisations > 1 else "the packing"
-    reference = Reference("certified", what, true.system.name, true.radius)
+    reference = Reference("certified", what, true.system.name, true.relative(true.radius))
     return CostStudy(scene.ask.quantity, reference, marked(rows), tuple(skipped))
 
 

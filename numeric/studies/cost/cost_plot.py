@@ -1,38 +1,29 @@
 """The plot of a study of cost: error against time, both logarithmic, the Pareto front named.
 
-Colour and marker tell ways apart, lines join the digits of one family of arithmetic. Needs
-matplotlib (the extra ``plots``).
+Colour and marker tell ways apart, lines join the digits of one family of arithmetic.
 """
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
+from itertools import groupby
 from typing import Any
 
-import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patheffects import withStroke
-from matplotlib.text import Text
-from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
-from matplotlib.transforms import Bbox
-
 from ...arithmetic.errors import printable
-from ...figures import style
+from ...figures import specification as spec
 from .rows import Reference, Way
 
+# Decades of error beyond which the axis is one of √digits.
 WIDE = 60
-"""Decades of error beyond which the axis is one of √digits."""
-
-WAYS = {
-    "exact, deviation form": (style.BLUE, "o"),
-    "exact, plain form": (style.VERMILLION, "s"),
-    "first-order line sums": (style.GREEN, "^"),
-    "Monte Carlo, exact": (style.BLUE, "o"),
-    "Monte Carlo, first-order": (style.GREEN, "^"),
-    "exact finite-M formula": (style.PURPLE, "D"),
-    "printed asymptotic formula": (style.ORANGE, "v"),
+POWERS = (0, -5, -15, -30, -50, -100, -200, -300)
+SERIES = {
+    "exact, deviation form": 0,
+    "Monte Carlo, exact": 0,
+    "exact, plain form": 1,
+    "first-order line sums": 2,
+    "Monte Carlo, first-order": 2,
+    "exact finite-M formula": 3,
+    "printed asymptotic formula": 4,
 }
 DASHES: Mapping[str, tuple[str, Any]] = {
     "hardware": ("float64, long double", "-"),
@@ -41,57 +32,44 @@ DASHES: Mapping[str, tuple[str, Any]] = {
 }
 
 
-def draw(
+def picture(
     title: str, ways: Sequence[Way], reference: Reference, sampling_floor: Decimal | None
-) -> Figure:
+) -> spec.Picture:
     """Draw log10 of error against log10 of seconds; digits may lie beyond a float's range."""
-    figure = style.figure(style.PAGE, 4.6)
-    axes = figure.subplots()
     rows = [row for row in ways if row.error and not _in_vain(row, ways)]
-    floor = [math.log10(sampling_floor)] if sampling_floor else []
-    style.powers_of_ten(axes, "x", [_x(row) for row in rows], 0.06)
-    levels = [_y(row) for row in rows] + floor
-    style.powers_of_ten(axes, "y", levels, 0.06)
-    stretched = max(levels) - min(levels) > WIDE
-    if stretched:
-        _stretch(axes, min(levels), max(levels))
-    lines = _lines(rows)
-    for (way, family), line in lines.items():
-        colour, marker = WAYS[way]
-        x, y = [_x(row) for row in line], [_y(row) for row in line]
-        axes.plot(x, y, ls=DASHES[family][1], color=colour, lw=0.9, zorder=2)
-        for row in line:
-            spread = [math.log10(row.seconds_min), math.log10(row.seconds_max)]
-            axes.plot(spread, [_y(row)] * 2, color=colour, lw=0.8, alpha=0.35, zorder=1)
-            face = colour if row.pareto else "white"
-            axes.plot(_x(row), _y(row), marker, color=colour, mfc=face, ms=4, mew=0.8, zorder=3)
-    for level in floor:
-        axes.axhline(level, color="0.3", ls=":", lw=0.8, zorder=1)
-    axes.set_xlabel("processor time (s): median; pale: from the fastest to the slowest run")
-    axes.set_ylabel(
-        "measured error / largest |change|" + (", spaced by √digits" if stretched else "")
+    floor = [float(sampling_floor.log10())] if sampling_floor else []
+    powers = [float(row.error.log10()) for row in rows]
+    y_name = "measured error / largest |change|"
+    stretched = max(powers, default=0) - min(powers, default=0) > WIDE
+    y_axis = spec.powers_of_ten(y_name, powers + floor)
+    if stretched:  # the few digits of hardware get as much room as the many of big numbers
+        low, high = _root(1.15 * min(powers)), _root(max(*powers, 0) + 1)
+        ticks = {_root(power): f"$10^{{{power}}}$" for power in POWERS if _root(power) >= low}
+        y_axis = spec.Axis(f"{y_name}, spaced by √digits", low, high, ticks=ticks)
+    places = {
+        row: (math.log10(row.seconds), _root(power) if stretched else power)
+        for row, power in zip(rows, powers, strict=True)
+    }
+    x_axis = spec.powers_of_ten(
+        "processor time (s): median; thin: from the fastest to the slowest run",
+        [x for x, _ in places.values()],
     )
     name = printable(title).replace("$", r"\$")  # no formula
-    axes.set_title(f"{name}; reference {reference.kind}, radius {reference.radius:.1e}", loc="left")
-    figure.legend(handles=_keys(lines, bool(floor)), loc="outside lower center", ncols=3)
-    figure.draw_without_rendering()  # lays out, so that labels know where points are
-    _name(axes, rows)
-    return figure
+    panel = spec.Panel(
+        [
+            *(list(_drawn(line, places)) for line in lines(rows)),
+            list(_names(places, x_axis, y_axis)),
+            list(_keys(rows)),
+            [spec.Rule("y", level, ":", "0.3", "standard error of sampling") for level in floor],
+        ],
+        x_axis, y_axis, title=f"{name}; reference {reference.kind}, radius {reference.radius:.1e}",
+        legend="below", columns=3,
+    )  # fmt: skip
+    return spec.Picture([panel], 4.6, page=True)
 
 
-def _stretch(axes: Axes, low: float, high: float) -> None:
-    """Give the few digits of hardware as much room as the many of big numbers."""
-    axes.set_yscale(
-        "function",
-        functions=(
-            lambda y: np.sign(y) * np.sqrt(np.abs(y)),
-            lambda root: np.sign(root) * root**2,
-        ),
-    )
-    axes.set_ylim(low * 1.15, max(high, 0) + 1)
-    axes.yaxis.set_major_locator(FixedLocator([0, -5, -15, -30, -50, -100, -200, -300]))
-    axes.yaxis.set_minor_locator(NullLocator())
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda power, _: f"$10^{{{power:.0f}}}$"))
+def _root(power: float) -> float:
+    return math.copysign(math.sqrt(abs(power)), power)
 
 
 def _in_vain(row: Way, rows: Sequence[Way]) -> bool:
@@ -105,94 +83,65 @@ def _in_vain(row: Way, rows: Sequence[Way]) -> bool:
     )
 
 
-def _x(row: Way) -> float:
-    return math.log10(row.seconds)
-
-
-def _y(row: Way) -> float:
-    return float(row.error.log10())
-
-
 def _family(row: Way) -> str:
     return next((name for name in DASHES if row.arithmetic.startswith(name)), "hardware")
 
 
-def _lines(rows: list[Way]) -> dict[tuple[str, str], list[Way]]:
-    """Collect the rows that a line joins: one way in one family of arithmetic, by size or error."""
-    found: dict[tuple[str, str], list[Way]] = {}
-    for row in rows:
-        found.setdefault((row.way, _family(row)), []).append(row)
-    for line in found.values():
-        line.sort(key=lambda row: row.realisations or 0)  # ensembles by their size
-    return found
+def lines(rows: Sequence[Way]) -> list[list[Way]]:
+    """Collect rows that a line joins: a way in one family of arithmetic, by size, or by error."""
+
+    def joined(row: Way) -> tuple[str, str]:
+        return row.way, _family(row)
+
+    ordered = sorted(rows, key=lambda row: (joined(row), row.realisations or 0, -row.error))
+    return [list(line) for _, line in groupby(ordered, joined)]
 
 
-def _keys(lines: Mapping[tuple[str, str], list[Way]], floor: bool) -> list[Line2D]:
+def _drawn(line: list[Way], places: Mapping[Way, tuple[float, float]]) -> Iterator[spec.Element]:
+    """Draw a line, its points, and how their times scatter."""
+    series, dashes = SERIES[line[0].way], DASHES[_family(line[0])][1]
+    xs, ys = zip(*(places[row] for row in line), strict=True)
+    if len(line) > 1:
+        yield spec.Line(xs, ys, series, dashes)
+    for row in line:
+        x, y = places[row]
+        spread = math.log10(row.seconds_min), math.log10(row.seconds_max)
+        yield spec.Line(spread, (y, y), series, width=0.3)
+        yield spec.Points([x], [y], series, size=4, filled=row.pareto)
+
+
+def _names(
+    places: Mapping[Way, tuple[float, float]], x_axis: spec.Axis, y_axis: spec.Axis
+) -> Iterator[spec.Words]:
+    """Name the points of the front, and the sizes of ensembles, but where names would overlap.
+
+    Names stand to the lower left, where by its definition nothing lies beside the front.
+    """
+    (left, right), (low, high) = ((axis.low or 0, axis.high or 0) for axis in (x_axis, y_axis))
+    taken: list[tuple[float, float, int]] = []
+    for row, (x, y) in places.items():
+        side = 1 if row.way == "Monte Carlo, exact" else -1
+        if (row.pareto or row.realisations) and not any(
+            side == other
+            and abs(x - a) < 0.09 * (right - left)
+            and abs(y - b) < 0.04 * (high - low)
+            for a, b, other in taken
+        ):
+            taken.append((x, y, side))
+            align = "left" if side > 0 else "right", "top"
+            yield spec.Words(x, y, _short(row), SERIES[row.way], align, (4 * side, 0), 7)
+
+
+def _keys(rows: Sequence[Way]) -> Iterator[spec.Element]:
     """Explain markers, then lines, then what is filled."""
-    ways = [way for way in WAYS if any(way == drawn for drawn, _ in lines)]
-    keys = [
-        Line2D([], [], color=WAYS[way][0], marker=WAYS[way][1], mfc="white", ls="", ms=4, label=way)
-        for way in ways
-    ]
-    joined = {family for (_, family), line in lines.items() if len(line) > 1}
+    for way, series in SERIES.items():
+        if any(row.way == way for row in rows):
+            yield spec.Points(series=series, name=way, size=4)
+    joined = {_family(line[0]) for line in lines(rows) if len(line) > 1}
     for family, (name, dashes) in DASHES.items():
         if family in joined and len(joined) > 1:
-            keys.append(Line2D([], [], color="0.3", ls=dashes, lw=0.9, label=name))
-    keys.append(Line2D([], [], color="0.3", marker="o", ls="", ms=4, label="filled: Pareto front"))
-    if floor:
-        keys.append(Line2D([], [], color="0.3", ls=":", lw=0.8, label="standard error of sampling"))
-    return keys
-
-
-def _name(axes: Axes, rows: list[Way]) -> None:
-    """Name the points of the front, and the sizes of ensembles, beside or below them."""
-    taken = [box for row in rows for box in _around(axes, row)]
-    canvas: Any = axes.figure.canvas
-    for row in sorted((row for row in rows if row.pareto or row.realisations), key=_x):
-        note = axes.annotate(
-            _short(row), (_x(row), _y(row)), xytext=(-6, 0), textcoords="offset points",
-            fontsize=7, color=WAYS[row.way][0], va="center", zorder=4,
-            path_effects=[withStroke(linewidth=1.5, foreground="white")],
-            arrowprops={"arrowstyle": "-", "color": "0.5", "lw": 0.4, "shrinkA": 0, "shrinkB": 2},
-        )  # fmt: skip
-        note.set_in_layout(False)
-        spots = [
-            (side * reach, up, "right" if side < 0 else "left")
-            for reach in (6, 12, 20, 30, 45)
-            for up in (0, -6, 6, -12, -18, -26, 12, -36)
-            for side in (-1, 1)
-        ]
-        if any(_fits(note, spot, canvas, axes.bbox, taken) for spot in spots):
-            taken.append(Text.get_window_extent(note, canvas.get_renderer()))
-        else:
-            note.remove()  # the table has it
-
-
-def _around(axes: Axes, row: Way) -> tuple[Bbox, Bbox]:
-    """Give what the marker takes, and the line of its times."""
-    x, y = axes.transData.transform((_x(row), _y(row)))
-    left, right = (
-        axes.transData.transform((math.log10(seconds), _y(row)))[0]
-        for seconds in (row.seconds_min, row.seconds_max)
-    )
-    return (
-        Bbox.from_extents(x - 4, y - 4, x + 4, y + 4),
-        Bbox.from_extents(left, y - 1, right, y + 1),
-    )
-
-
-def _fits(
-    note: Any, spot: tuple[int, int, str], canvas: Any, inside: Bbox, taken: list[Bbox]
-) -> bool:
-    """Put a label at a spot and say whether it hides nothing there."""
-    note.set_position(spot[:2])
-    note.set_horizontalalignment(spot[2])
-    note.update_positions(canvas.get_renderer())  # of the arrow it has, and of the text
-    box = Text.get_window_extent(note, canvas.get_renderer())
-    return bool(
-        inside.x0 <= box.x0 and box.x1 <= inside.x1 and inside.y0 <= box.y0 and box.y1 <= inside.y1
-        and not any(box.overlaps(other) for other in taken)
-    )  # fmt: skip
+            yield spec.Line(dashes=dashes, name=name)
+    yield spec.Points(name="filled: Pareto front", size=4, filled=True)
 
 
 def _short(row: Way) -> str:

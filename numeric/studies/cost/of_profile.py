@@ -7,10 +7,11 @@ correction. A scene that asks for the first-order theory needs no correction.
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from decimal import Decimal
 from fractions import Fraction
 from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -23,16 +24,15 @@ from ...arithmetic.systems import (
     BigFloat,
     NumberSystem,
     array,
-    largest_of,
 )
 from ...planning import planner
 from ...planning.plan import Plan, Skipped
 from ...quantities.base import Table
 from ...scene.scene import Scene
-from .reference import decimal, exactly
+from ..distances import Enclosed, answer, exactly
 from .rows import Reference, Way, marked
 from .table import CostStudy
-from .ways import Notice, answer, measured, systems, with_geometry
+from .ways import Notice, measured, systems, with_geometry
 
 # Realisations that the correction and the scatter are estimated from: at least, at most.
 LEAST, MOST = 8, 64
@@ -42,32 +42,73 @@ EXACT = Balls(1200)
 
 def study_ensemble(scene: Scene, notice: Notice) -> CostStudy:
     """Measure every way to σ_f. Raises ``SceneError`` and what the sweeps raise."""
-    reference = _EstimatedReference(scene, notice)
-    linear = reference.plans["first-order"]
+    plans = _plans(scene)
+    linear = plans["first-order"]
+    notice("reference")
+    means, true, reference, sampled = _estimated(scene, plans)
     rows: list[Way] = []
     for way, printed in (("printed asymptotic formula", True), ("exact finite-M formula", False)):
-        meant = formula(linear, printed, EXACT)
-        model = reference.off(meant, reference.best)
+        meant = formula(linear, True, EXACT) if printed else means["first-order"]
         for system in systems():
             notice(f"{way}, {system.name}")
-            found, costs = measured(partial(formula, linear, printed, system), system)
-            error, rounding = reference.off(found, reference.best), reference.off(found, meant)
-            rows.append(Way(way, system.name, None, error, model, rounding, None, None, **costs))
-    for name in reference.plans if scene.effects.geometry == "exact" else ["first-order"]:
-        rounding = reference.rounding(name)
-        mean = reference.mean[name]
-        model = reference.off(mean, reference.best)
-        for n in sizes(scene.ask.realisations):
-            way = f"Monte Carlo, {name}"
-            notice(f"{way}, {n} realisations")
-            plan = reference.plans[name]
-            table, costs = measured(partial(answer, plan, FLOAT64, range(n)), FLOAT64)
+            work = partial(formula, linear, printed, system)
+            rows.append(measured(way, system, work, partial(true.errors, meant=meant)))
+    for name, plan in plans.items():
+        rounding, mean = _rounding(plan, true), means[name]
+
+        def judged(
+            table: Table, rounding: Decimal = rounding, mean: Array = mean
+        ) -> dict[str, Any]:
             std = _both_branches(table, "std")
-            error, sampling = reference.off(std, reference.best), reference.off(std, mean)
-            parts = model, rounding, sampling
-            rows.append(Way(way, FLOAT64.name, n, error, *parts, None, **costs))
-    skipped = tuple(_skipped(scene))
-    return CostStudy("profile", reference.reference, marked(rows), skipped, reference.floor)
+            own = {"rounding_error": rounding, "sampling_error": true.off(std, mean)}
+            return true.errors(std, mean) | own
+
+        for size in sizes(scene.ask.realisations):
+            notice(f"Monte Carlo, {name}, {size} realisations")
+            sampled_by = partial(answer, plan, FLOAT64, range(size))
+            rows.append(measured(f"Monte Carlo, {name}", FLOAT64, sampled_by, judged, size))
+    return CostStudy("profile", reference, marked(rows), tuple(_skipped(scene)), sampled)
+
+
+def _estimated(
+    scene: Scene, plans: Mapping[str, Plan]
+) -> tuple[dict[str, Array], Enclosed, Reference, Decimal]:
+    """Estimate σ_f, from packings that no row uses, in units of the load.
+
+    Gives what each Monte Carlo converges to, shape (M,), and what the scene asks for; what is said
+    of that; and the standard error of the scene's own ensemble, relative to the largest σ_f.
+    """
+    geometry, n = scene.effects.geometry, scene.ask.realisations
+    first = formula(plans["first-order"], False, EXACT)
+    apart = range(n, n + min(max(n, LEAST), MOST))
+    scatter = {name: _scatter(plan, apart) for name, plan in plans.items()}
+    means, residual = {"first-order": first}, np.zeros(len(first))
+    if geometry == "exact":
+        squares, firsts = scatter["exact"], scatter["first-order"]
+        ratio = squares.mean(axis=0) / firsts.mean(axis=0)
+        with EXACT.active():
+            factors = [EXACT.from_float(float(root)) for root in np.sqrt(ratio)]
+            means["exact"] = first * np.array(factors, object)
+        residual = _standard_error(squares - ratio * firsts) / squares.mean(axis=0)
+    true = Enclosed(means[geometry], EXACT)
+    share = np.array([float(v) for v in true.best]) / float(true.largest)
+    spread = scatter[geometry]
+    floor = _standard_error(spread) / spread.mean(axis=0) * math.sqrt(len(apart) / n)
+    what = "exact first-order σ_f"
+    if geometry == "exact":
+        off = true.off(first)
+        what += f", nonlinear correction up to {off:.1E} from {len(apart)} realisations"
+    # Of the root of a mean square, relative to σ_f, the standard error is half of the square's.
+    radius, sampled = (Decimal(f"{(share * one / 2).max():.4E}") for one in (residual, floor))
+    return means, true, Reference("estimated", what, EXACT.name, radius), sampled
+
+
+def _plans(scene: Scene) -> dict[str, Plan]:
+    """Plan the theories that are compared, without a tolerance."""
+    free = {"tolerance": None, "certified": False}
+    asked = scene.model_copy(update={"ask": scene.ask.model_copy(update=free)})
+    names = ("first-order", "exact") if scene.effects.geometry == "exact" else ("first-order",)
+    return {name: planner.plan(with_geometry(asked, name)) for name in names}
 
 
 def sizes(realisations: int) -> list[int]:
@@ -122,64 +163,23 @@ def _both_branches(table: Table, name: str) -> Array:
     return np.asarray(np.sqrt(squares.reshape(-1, 2).mean(axis=1)))
 
 
-class _EstimatedReference:
-    """The estimated reference; arrays have shape (M,), in units of the load.
+def _scatter(plan: Plan, realisations: Sequence[int]) -> Array:
+    """Give the mean square of the change, by realisation and layer; shape (n, M)."""
+    squares = []
+    for k in realisations:
+        table = answer(plan, FLOAT64, [k])
+        std, mean = _both_branches(table, "std"), _both_branches(table, "mean_change")
+        squares.append(std**2 + mean**2)
+    return np.stack(squares)
 
-    ``mean`` holds what each Monte Carlo converges to, ``best`` what the scene asks for, ``floor``
-    the standard error of the scene's own ensemble, relative to the largest σ_f.
-    """
 
-    def __init__(self, scene: Scene, notice: Notice) -> None:
-        asked = scene.model_copy(
-            update={"ask": scene.ask.model_copy(update={"tolerance": None, "certified": False})}
-        )
-        self.plans = {
-            name: planner.plan(with_geometry(asked, name)) for name in ("first-order", "exact")
-        }
-        notice("reference")
-        first = formula(self.plans["first-order"], False, EXACT)
-        n = scene.ask.realisations
-        apart = range(n, n + min(max(n, LEAST), MOST))
-        linear = self._scatter("first-order", apart)
-        exact = self._scatter("exact", apart) if scene.effects.geometry == "exact" else linear
-        ratio = exact.mean(axis=0) / linear.mean(axis=0)
-        with EXACT.active():
-            factors = [EXACT.from_float(float(root)) for root in np.sqrt(ratio)]
-            self.mean = {"first-order": first, "exact": first * np.array(factors, object)}
-            self.best = self.mean[scene.effects.geometry]
-            self.largest = largest_of(exactly(v) for v in self.best)
-        share = np.array([float(v) for v in self.best]) / float(self.largest)
-        root = math.sqrt(len(apart))
-        # Standard errors of √ratio and of the root of a mean square, each relative to σ_f.
-        residual = (exact - ratio * linear).std(axis=0, ddof=1) / linear.mean(axis=0) / ratio
-        radius = float((share * residual / 2).max()) / root
-        scatter = exact.std(axis=0, ddof=1) / exact.mean(axis=0)
-        self.floor = Decimal(f"{float((share * scatter / 2).max()) / math.sqrt(n):.4E}")
-        what = "exact first-order σ_f"
-        if scene.effects.geometry == "exact":
-            change = self.off(first, self.best)
-            what += f", nonlinear correction up to {change:.1E} from {len(apart)} realisations"
-        self.reference = Reference("estimated", what, EXACT.name, Decimal(f"{radius:.4E}"))
+def _standard_error(values: Array) -> Array:
+    """Give the standard error of the mean over the first axis."""
+    return np.asarray(values.std(axis=0, ddof=1) / math.sqrt(len(values)))
 
-    def _scatter(self, name: str, realisations: Sequence[int]) -> Array:
-        """Give the mean square of the change, by realisation and layer; shape (n, M)."""
-        squares = []
-        for k in realisations:
-            table = answer(self.plans[name], FLOAT64, [k])
-            std, mean = _both_branches(table, "std"), _both_branches(table, "mean_change")
-            squares.append(std**2 + mean**2)
-        return np.stack(squares)
 
-    def off(self, found: Array, meant: Array) -> Decimal:
-        """Give the largest |difference| over layers, relative to the largest σ_f."""
-        with EXACT.active():
-            pairs = zip(found, meant, strict=True)
-            apart = largest_of(abs(exactly(a) - exactly(b)) for a, b in pairs)
-            return decimal((apart / self.largest).upper())
-
-    def rounding(self, name: str) -> Decimal:
-        """Estimate the rounding error of σ_f, from one realisation with a longer significand."""
-        longer: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
-        return self.off(
-            *(answer(self.plans[name], s, [0]).numbers["std"] for s in (FLOAT64, longer))
-        )
+def _rounding(plan: Plan, true: Enclosed) -> Decimal:
+    """Estimate the rounding error of σ_f, from one realisation with a longer significand."""
+    longer: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
+    near, far = (answer(plan, system, [0]).numbers["std"] for system in (FLOAT64, longer))
+    return true.off(near, np.array([exactly(value) for value in far]))

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 from decimal import Decimal
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, kw_only=True)
 class Way:
     """One way to the answer. Errors are relative to the largest |change|; None: does not apply.
 
@@ -21,12 +21,12 @@ class Way:
 
     way: str
     arithmetic: str
-    realisations: int | None
+    realisations: int | None = None
     error: Decimal
-    model_error: Decimal | None
-    rounding_error: Decimal | None
-    sampling_error: Decimal | None
-    certified_bound: Decimal | None
+    model_error: Decimal
+    rounding_error: Decimal
+    sampling_error: Decimal | None = None
+    certified_bound: Decimal | None = None
     seconds: float
     seconds_min: float
     seconds_max: float

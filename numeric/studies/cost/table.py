@@ -1,14 +1,15 @@
-"""The result of a study of cost: a row a way, arrays, plain data, the table for a terminal."""
+"""The result of a study of cost: a row a way, plain data, the table for a terminal."""
 
 from dataclasses import asdict, dataclass
 from decimal import ROUND_CEILING, Context, Decimal
-from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ... import tables
-from ...arithmetic.systems import Array
-from ...figures.library import drawing
+from ...figures.library import drawn
+from ...figures.specification import Picture
 from ...planning.plan import Skipped
+from ..study import Study
+from .cost_plot import picture
 from .rows import Reference, Way
 
 if TYPE_CHECKING:
@@ -18,14 +19,11 @@ MEMORY = (
     "tracemalloc: what Python and NumPy allocate; with big numbers a lower bound (≥), since their "
     "limbs are allocated elsewhere"
 )
-SHOWN = (
-    "way", "arithmetic", "realisations", "error", "model_error", "rounding_error",
-    "sampling_error", "certified_bound", "seconds", "seconds_min", "seconds_max", "runs",
-)  # fmt: skip
+SAMPLED = "Standard error of the scene's own ensemble"
 
 
 @dataclass(frozen=True)
-class CostStudy:
+class CostStudy(Study):
     """All ways to one answer, from the largest measured error to the smallest.
 
     ``ways`` are measurements, ``reference`` is what errors are measured against, ``skipped`` says
@@ -38,6 +36,7 @@ class CostStudy:
     ways: tuple[Way, ...]
     skipped: tuple[Skipped, ...]
     sampling_floor: Decimal | None = None
+    name = "cost"
 
     def rows(self) -> list[tables.Row]:
         """One row a way, ready for a data frame; the columns are those of ``Way``.
@@ -47,54 +46,77 @@ class CostStudy:
         """
         return [tables.plain(asdict(way)) for way in self.ways]
 
-    @cached_property
-    def arrays(self) -> dict[str, Array]:
-        """The columns of ``rows``, each of shape (ways,); NaN where a number does not apply."""
-        return tables.columns_of(self.rows())
-
     def data(self) -> dict[str, Any]:
         """Give it as JSON can hold it; errors are decimal strings, smaller than floats may be."""
         return {
             "quantity": self.quantity,
             "errors_relative_to": "the largest |change| of the answer",
-            "reference": _plain(asdict(self.reference)),
-            "sampling_floor": _number(self.sampling_floor),
+            "reference": _shortened(asdict(self.reference)),
+            "sampling_floor": None if self.sampling_floor is None else short(self.sampling_floor),
             "peak_memory": MEMORY,
-            "rows": [_plain(asdict(way)) for way in self.ways],
+            "rows": [_shortened(asdict(way)) for way in self.ways],
             "skipped": [{"way": s.effect, "reason": s.reason} for s in self.skipped],
         }
+
+    def files(self) -> dict[str, list[tables.Row]]:
+        """Give the rows as decimals, each with the reference behind it."""
+        data = self.data()
+        reference = data["reference"]
+        common = {
+            "quantity": self.quantity,
+            "reference": reference["kind"],
+            "reference_radius": reference["radius"],
+            "sampling_floor": data["sampling_floor"],
+        }
+        return {"cost.csv": [row | common for row in data["rows"]]}
+
+    def picture(self, title: str = "") -> Picture:
+        """Say what is drawn: error against time, both logarithmic."""
+        name = f"{title}: {self.quantity}" if title else self.quantity
+        return picture(name, self.ways, self.reference, self.sampling_floor)
 
     def plot(self, title: str = "") -> "Figure":
         """Draw error against time, both logarithmic, with the Pareto front named.
 
         Needs matplotlib (the extra ``plots``). Raises ``MissingLibraryError``.
         """
-        with drawing():
-            from .cost_plot import draw
-
-            name = f"{title}: {self.quantity}" if title else self.quantity
-            return draw(name, self.ways, self.reference, self.sampling_floor)
+        return drawn(self.picture(title))
 
     def __str__(self) -> str:
         """Give the table; * marks the Pareto front."""
-        return "\n".join(_lines(self.data()))
+        floor = self.sampling_floor
+        return "\n".join(
+            [
+                f"Ways to '{self.quantity}', measured errors relative to the largest |change|; "
+                "* Pareto front of measured error and least time",
+                *tables.text_table(list(map(_shown, self.data()["rows"]))),
+                self._told(),
+                *([] if floor is None else [f"{SAMPLED}: {short(floor)}"]),
+                f"Peak memory by {MEMORY}",
+                "Does not apply",
+                *([f"  {s.effect}: {s.reason}" for s in self.skipped] or ["  nothing"]),
+            ]
+        )
+
+    def _told(self) -> str:
+        own = self.reference
+        radius = short(own.radius)
+        return f"Reference: {own.what}, {own.kind}, radius {radius} ({own.arithmetic})"
 
     def _repr_html_(self) -> str:
         """Show the table in a notebook."""
-        shown = "way", "arithmetic", "realisations", "error", "certified_bound", "seconds", "pareto"
-        rows = [{name: row[name] for name in shown} for row in self.data()["rows"]]
-        *_, reference = (line for line in str(self).splitlines() if line.startswith("Reference"))
-        return tables.html_table(rows, [reference])
+        return tables.html_table(list(map(_shown, self.data()["rows"])), [self._told()])
 
 
-def _plain(values: dict[str, Any]) -> dict[str, Any]:
-    return {name: _number(value) for name, value in values.items()}
+def _shortened(values: dict[str, Any]) -> dict[str, Any]:
+    """Give decimals as strings, and floats to four digits."""
 
+    def shortened(one: Any) -> Any:
+        if isinstance(one, Decimal):
+            return short(one)
+        return float(f"{one:.4g}") if isinstance(one, float) else one
 
-def _number(value: Any) -> Any:
-    if isinstance(value, Decimal):
-        return short(value)
-    return float(f"{value:.4g}") if isinstance(value, float) else value
+    return {name: shortened(one) for name, one in values.items()}
 
 
 def short(value: Decimal) -> str:
@@ -107,43 +129,8 @@ def short(value: Decimal) -> str:
     return f"{up:.2e}" if value else "0"
 
 
-def csv_rows(data: dict[str, Any], command: str) -> list[dict[str, Any]]:
-    """Give the rows for a CSV file; each ends with the reference and the command behind it."""
-    reference = data["reference"]
-    common = {
-        "quantity": data["quantity"],
-        "reference": reference["kind"],
-        "reference_radius": reference["radius"],
-        "sampling_floor": data["sampling_floor"],
-        "command": command,
-    }
-    return [{**row, **common} for row in data["rows"]]
-
-
-def _shown(row: dict[str, Any]) -> tables.Row:
+def _shown(row: tables.Row) -> tables.Row:
     """Give what text shows of a row."""
-    kilobytes = f"{row['peak_bytes'] / 1e3:.0f}"
-    return {
-        " ": "*" if row["pareto"] else " ",
-        **{name: row[name] for name in SHOWN},
-        "peak_kB": f"≥{kilobytes}" if row["peak_is_bound"] else kilobytes,
-    }
-
-
-def _lines(data: dict[str, Any]) -> list[str]:
-    result = [
-        f"Ways to '{data['quantity']}', measured errors relative to the largest |change|; "
-        "* Pareto front of measured error and least time",
-        *tables.text_table([_shown(row) for row in data["rows"]]),
-    ]
-    reference = data["reference"]
-    result.append(
-        f"Reference: {reference['what']}, {reference['kind']}, radius {reference['radius']} "
-        f"({reference['arithmetic']})"
-    )
-    if data["sampling_floor"] is not None:
-        result.append(f"Standard error of the scene's own ensemble: {data['sampling_floor']}")
-    result.append(f"Peak memory by {data['peak_memory']}")
-    result.append("Does not apply")
-    result += [f"  {s['way']}: {s['reason']}" for s in data["skipped"]] or ["  nothing"]
-    return result
+    *own, peak, bound, best = row
+    kilobytes = f"{'≥' * row[bound]}{row[peak] / 1e3:.0f}"
+    return {" ": "*" if row[best] else " ", **{n: row[n] for n in own}, "peak_kB": kilobytes}

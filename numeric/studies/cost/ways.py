@@ -2,18 +2,16 @@
 
 import math
 import tracemalloc
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from statistics import median
 from typing import Any, TypeVar
 
 from ...arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
 from ...mechanics.problem import Route
-from ...mechanics.work import Work
 from ...planning.plan import Plan
-from ...quantities.answer import answer as whole_answer
-from ...quantities.base import Table
 from ...scene.scene import Scene
 from ..timing import in_turn
+from .rows import Way
 
 T = TypeVar("T")
 Notice = Callable[[str], None]
@@ -37,37 +35,34 @@ def with_geometry(scene: Scene, geometry: str) -> Scene:
     return scene.model_copy(update={"effects": effects})
 
 
-def answer(
-    plan: Plan, system: NumberSystem, realisations: Sequence[int], *, plainly: bool = False
-) -> Table:
-    """Answer a plan's question for some realisations, and nothing beside it.
-
-    Raises what the sweeps raise for a packing that can't be built, or not be decided.
-    """
-    problem, work = plan.problem, Work(repeating=True)  # what is physical was judged before
-    return whole_answer(plan.quantity, problem, realisations, system, work, plainly=plainly).table
-
-
-def measured(work: Callable[[], T], system: NumberSystem) -> tuple[T, dict[str, Any]]:
-    """Run once, tracing memory, as a warm-up; then several times by the processor's clock.
-
-    Gives the result, and of the work, in this arithmetic, what ``Way`` has of seconds and memory.
-    """
+def measured(
+    way: str,
+    system: NumberSystem,
+    work: Callable[[], T],
+    judged: Callable[[T], dict[str, Any]],
+    realisations: int | None = None,
+) -> Way:
+    """Run once, tracing memory, as a warm-up, and judge; then run several times by the clock."""
     tracemalloc.start()
     try:
         result = work()
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
+    errors = judged(result)
     (seconds,) = in_turn(work)
-    return result, {
-        "seconds": median(seconds),
-        "seconds_min": min(seconds),
-        "seconds_max": max(seconds),
-        "runs": len(seconds),
-        "peak_bytes": peak,
-        "peak_is_bound": system not in (FLOAT64, LONGDOUBLE),
-    }
+    return Way(
+        way=way,
+        arithmetic=system.name,
+        realisations=realisations,
+        **errors,
+        seconds=median(seconds),
+        seconds_min=min(seconds),
+        seconds_max=max(seconds),
+        runs=len(seconds),
+        peak_bytes=peak,
+        peak_is_bound=system not in (FLOAT64, LONGDOUBLE),
+    )
 
 
 def why_not_plain(plan: Plan) -> str | None:

@@ -29,8 +29,5 @@ def closed_form_rows() -> Iterator[ClosedFormRow]:
                 at = j if name.endswith("variance") else j / height
                 exact = form(Fraction(height), Fraction(at), phi, Fraction(1), Fraction(1))
                 rounded = form(float(height), float(at), float(phi), 1.0, 1.0)
-                yield ClosedFormRow(name, height, j, _relative(rounded, exact))
-
-
-def _relative(rounded: float, exact: Fraction) -> float:
-    return float(f"{float(abs(Fraction(rounded) - exact) / exact):.3g}")
+                error = float(abs(Fraction(rounded) - exact) / exact)
+                yield ClosedFormRow(name, height, j, float(f"{error:.3g}"))

@@ -6,25 +6,24 @@ addition, and only the small nonlinear part can grow, which it does where the th
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
 from ...arithmetic.errors import UndecidedError
-from ...arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem
-from ...disorder.radii import DrawnRadii, rows_of
-from ...lattice.layers import whole
+from ...arithmetic.systems import MOST_BITS, Balls
 from ...mechanics.sweep import NotStandingError, UnbuildableError
-from ...theory.critical_height import critical_height
+from ...theory.expected import critical_height
+from ..distances import Enclosed, answer, changes
 from ..timing import usually
-from .forms import SEED, bits_lost, changes, deviation_form, plain_form, relative_radius
+from .strips import bits_lost, strip
 
 DIGITS = 50
 GOAL = math.ceil(DIGITS * math.log2(10))
 SPARE = 8  # bits, so that a loss that differs a little from trial to trial is covered at once
 WIDTH = 16
-N_X = Fraction(3, 4)
+SPACING = Fraction(3)
 POSITIONS, LINE_SUMS = "positions", "line sums"
 FIRST_GUESS = {POSITIONS: 3, LINE_SUMS: 0}  # bits lost a layer: where the search begins
 
@@ -39,7 +38,7 @@ class Strip:
 
 
 @dataclass(frozen=True)
-class Enclosed:
+class Enclosure:
     """A strip's changes, enclosed to 50 digits: the bits it took, those that were lost, the time.
 
     ``error`` is the largest radius, relative to the largest |change|. All are None where there is
@@ -67,38 +66,30 @@ def strips() -> Iterator[Strip]:
                     yield Strip(form, height, Fraction(1, 10**exponent))
 
 
-def enclose(strip: Strip) -> Enclosed:
+def enclose(of: Strip) -> Enclosure:
     """Find the precision that leaves 50 digits, and time it there."""
-    rows = whole(WIDTH, strip.height).rows
-    radii = DrawnRadii("uniform", strip.relative_std, SEED, WIDTH)
-    std, highest = float(strip.relative_std), critical_height(strip.relative_std)
-    row = partial(Enclosed, strip.form, strip.height, WIDTH, std, float(f"{highest:.4g}"))
-    bits = GOAL + SPARE + FIRST_GUESS[strip.form] * strip.height
+    plan = strip(of.height, WIDTH, of.relative_std, SPACING)
+    std, highest = float(of.relative_std), critical_height(of.relative_std)
+    row = partial(Enclosure, of.form, of.height, WIDTH, std, float(f"{highest:.4g}"))
+    bits = GOAL + SPARE + FIRST_GUESS[of.form] * of.height
     while bits <= MOST_BITS:
-        system = Balls(bits)
-        with system.active():
-            solve = partial(_solved, strip.form, rows_of(radii, rows, [0], system), system)
-            try:
-                values, seconds = usually(solve)
-            except (UndecidedError, NotStandingError):
-                bits *= 2
-                continue
-            except UnbuildableError as failed:
-                return row(note=str(failed))
-            radius = relative_radius(values)
-            lost = bits_lost(radius, bits)
-            if lost is None:
-                bits *= 2
-                continue
-            enough = GOAL + math.ceil(lost) + SPARE
-            if lost + GOAL <= bits <= 1.25 * enough:
-                error, taken = float(f"{float(radius):.3g}"), float(f"{seconds:.3g}")
-                return row(bits, round(lost, 1), error, taken)
-            bits = enough
+        system, lost = Balls(bits), None
+        try:
+            table, seconds = usually(
+                partial(answer, plan, system, [0], plainly=of.form == POSITIONS)
+            )
+            found = Enclosed(changes(table), system)
+            lost = bits_lost(found)
+        except (UndecidedError, NotStandingError):
+            pass  # too few bits
+        except UnbuildableError as failed:
+            return row(note=str(failed))
+        if lost is None:
+            bits *= 2
+            continue
+        enough = GOAL + math.ceil(lost) + SPARE
+        if lost + GOAL <= bits <= 1.25 * enough:
+            error = found.relative(found.radius)
+            return row(bits, lost, float(f"{error:.3g}"), float(f"{seconds:.3g}"))
+        bits = enough
     return row(note=f"not enclosed: up to {MOST_BITS} bits are tried")
-
-
-def _solved(form: str, rho: Sequence[Array], system: NumberSystem) -> Array:
-    if form == POSITIONS:
-        return plain_form(N_X, rho, system)
-    return changes(deviation_form(N_X, rho, system)[1])

@@ -3,20 +3,19 @@
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import asdict, dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ... import tables
 from ...arithmetic.errors import ForceDiffusionError
 from ...arithmetic.systems import Array
-from ...figures.library import drawing
+from ...figures.specification import Picture
+from ..study import Study
 from .closed import ClosedFormRow, closed_form_rows
-from .enclosures import DIGITS, Enclosed, enclose, strips
+from .enclosures import DIGITS, Enclosure, enclose, strips
 from .floats import Comparison, cases, measure
+from .stability_plot import picture
 
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-Measured = Comparison | Enclosed | ClosedFormRow
+Measured = Comparison | Enclosure | ClosedFormRow
 FLOATS, ENCLOSURES, CLOSED_FORMS = "rows", "enclosures", "closed_forms"
 
 
@@ -58,27 +57,27 @@ TABLES = {
         _worst,
     ),
 }
-FILES = {name: table.file for name, table in TABLES.items()}
 
 
 @dataclass(frozen=True)
-class StabilityStudy:
+class StabilityStudy(Study):
     """Three tables of measurements, by name.
 
     "rows": both forms in float64 against enclosures of all contact forces (``floats.Comparison``).
-    "enclosures": bits that balls lose, in positions and in line sums (``enclosures.Enclosed``).
+    "enclosures": bits that balls lose, in positions and in line sums (``enclosures.Enclosure``).
     "closed_forms": Eqs. 13 and 14 in float64 against exact rationals (``closed.ClosedFormRow``).
     Errors are relative to the largest |change| of a contact force.
     """
 
     measured: dict[str, tuple[Measured, ...]]
+    name = "stability"
 
     def rows(self, table: str = FLOATS) -> list[tables.Row]:
         """The rows of one table, ready for a data frame; None: there is no such number."""
         return [asdict(row) for row in self.measured[table]]
 
     @cached_property
-    def arrays(self) -> dict[str, dict[str, Array]]:
+    def arrays(self) -> dict[str, dict[str, Array]]:  # type: ignore[override]  # of three tables
         """The columns of each table, each of shape (rows,); NaN where there is no number."""
         return {table: tables.columns_of(self.rows(table)) for table in self.measured}
 
@@ -87,26 +86,25 @@ class StabilityStudy:
         found = {table: self.rows(table) for table in self.measured}
         return {"errors_relative_to": "the largest |change|", **found}
 
-    def plot(self) -> "Figure":
-        """Draw errors and lost bits, and the times they cost.
+    def files(self) -> dict[str, list[tables.Row]]:
+        """Give the rows of each CSV file by its name."""
+        return {TABLES[table].file: self.rows(table) for table in self.measured}
 
-        Needs matplotlib (the extra ``plots``). Raises ``MissingLibraryError``, and
-        ``ForceDiffusionError`` where the first two tables were not measured.
+    def picture(self) -> Picture:
+        """Say what is drawn: errors and lost bits, and the times they cost.
+
+        Raises ``ForceDiffusionError`` where the first two tables were not measured.
         """
         if not {FLOATS, ENCLOSURES} <= set(self.measured):
             raise ForceDiffusionError(f'the figure needs the tables "{FLOATS}" and "{ENCLOSURES}"')
-        with drawing():
-            from .stability_plot import draw
-
-            return draw(self.rows(FLOATS), self.rows(ENCLOSURES))
+        return picture(self.rows(FLOATS), self.rows(ENCLOSURES))
 
     def __str__(self) -> str:
         """Give the tables."""
-        return "\n\n".join("\n".join(self._lines(name)) for name in self.measured)
-
-    def _lines(self, name: str) -> list[str]:
-        table = TABLES[name]
-        return [table.title, *tables.text_table(table.shown(self.rows(name)))]
+        return "\n\n".join(
+            "\n".join([TABLES[name].title, *tables.text_table(TABLES[name].shown(self.rows(name)))])
+            for name in self.measured
+        )
 
     def _repr_html_(self) -> str:
         """Show the tables in a notebook."""
@@ -116,11 +114,11 @@ class StabilityStudy:
 
 
 def stability(
-    notice: Callable[[str], None] = lambda _: None, *, only: Collection[str] = tuple(FILES)
+    notice: Callable[[str], None] = lambda _: None, *, only: Collection[str] = tuple(TABLES)
 ) -> StabilityStudy:
     """Measure what stability costs: errors, lost bits and times with and without it.
 
-    Takes about 40 s; ``only`` names the tables to be measured. ``notice`` is told of
+    Takes about a minute; ``only`` names the tables to be measured. ``notice`` is told of
     every row that is measured. Raises ``ForceDiffusionError`` for a table that there is not.
 
     >>> import force_diffusion as fd
@@ -132,21 +130,13 @@ def stability(
         told = f"stability takes a function that is told words, not {type(notice).__name__}"
         raise TypeError(told)
     for name in only:
-        if name not in FILES:
-            raise ForceDiffusionError(f'there is no table "{name}"; there are {", ".join(FILES)}')
+        if name not in TABLES:
+            raise ForceDiffusionError(f'there is no table "{name}"; there are {", ".join(TABLES)}')
     found: dict[str, tuple[Measured, ...]] = {}
-    for name, table in TABLES.items():
-        if name not in only:
-            continue
+    for name in (name for name in TABLES if name in only):
         rows = []
-        for row in table.measured():
+        for row in TABLES[name].measured():
             rows.append(row)
-            notice(f"{table.file}: row {len(rows)}")
+            notice(f"{TABLES[name].file}: row {len(rows)}")
         found[name] = tuple(rows)
     return StabilityStudy(found)
-
-
-def csv_rows(data: dict[str, Any], command: str) -> dict[str, list[dict[str, Any]]]:
-    """Give the rows of each CSV file; each ends with the command behind it."""
-    own = {"command": command}
-    return {file: [row | own for row in data[name]] for name, file in FILES.items()}

@@ -1,142 +1,114 @@
 """The figure of the cost of stability: errors and lost bits above, the times they cost below.
 
-Needs matplotlib (the extra ``plots``). Markers and lines say the same as colours.
+Markers and lines say the same as colours.
 """
 
 from collections.abc import Iterator
-from itertools import pairwise
 from math import log10
 from typing import Any
 
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.ticker import FixedLocator, NullLocator
+import numpy as np
 
-from ...figures import style
+from ...figures import specification as spec
 from .enclosures import DIGITS, LINE_SUMS, POSITIONS
 
-PLAIN, DEVIATION = style.VERMILLION, style.BLUE
+DEVIATION, PLAIN = 0, 1  # series
 LEAST = 1e-30  # of σ/r: below it nothing changes any more
-FORMS = ((POSITIONS, PLAIN, "s", "--"), (LINE_SUMS, DEVIATION, "o", "-"))
+FORMS = ((POSITIONS, PLAIN, "--"), (LINE_SUMS, DEVIATION, "-"))
 Rows = list[dict[str, Any]]
 
 
-def draw(floats: Rows, enclosures: Rows) -> Figure:
+def picture(floats: Rows, enclosures: Rows) -> spec.Picture:
     """Draw four panels: float64 on the left, balls on the right; times below."""
-    figure = style.figure(style.PAGE, 5.2)
-    (errors, lost), (ratios, seconds) = figure.subplots(
-        2, 2, sharex="col", gridspec_kw={"height_ratios": (5, 3)}
-    )
     rows = [r for r in floats if r["group"] == "disorder" and r["relative_std"] >= LEAST]
-    _errors(errors, rows)
-    _ratios(ratios, rows)
     balls = [row for row in enclosures if row["bits_lost"] is not None]
-    _lost(lost, balls)
-    _seconds(seconds, balls)
-    for words in [one for axes in figure.axes for one in axes.texts]:
-        words.set_in_layout(False)  # they stand at data, which may lie outside of an axis
-    return figure
+    panels = [_errors(rows), _lost(balls), _ratios(rows), _seconds(balls)]
+    return spec.Picture(panels, 5.2, page=True, mosaic="ab;cd", rows=(5, 3))
 
 
-def _heights(rows: Rows) -> list[int]:
-    return sorted({row["height"] for row in rows})
+def _by_height(rows: Rows) -> Iterator[tuple[int, bool, Rows]]:
+    """Give the rows of each height, and whether it is the larger one."""
+    heights = sorted({row["height"] for row in rows})
+    for height in heights:
+        yield height, height > heights[0], [row for row in rows if row["height"] == height]
 
 
-def _errors(axes: Axes, rows: Rows) -> None:
-    axes.set_title("float64: largest error of the contact forces", loc="left")
-    marks = dict(zip(_heights(rows), ("white", None), strict=False))
-    for key, colour, marker, dashes in (
-        ("plain_error", PLAIN, "s", "--"),
-        ("error", DEVIATION, "o", "-"),
+def _std_axis(rows: Rows) -> spec.Axis:
+    return spec.powers_of_ten("σ/r", [log10(row["relative_std"]) for row in rows])
+
+
+def _errors(rows: Rows) -> spec.Panel:
+    elements: list[spec.Element] = [
+        spec.Rule("y", 0, ":", name="no digit is left above"),
+    ]
+    for key, words, series, dashes in (
+        ("plain_error", "plain form", PLAIN, "--"),
+        ("error", "deviation form", DEVIATION, "-"),
     ):
-        for height, fill in marks.items():
-            here = [row for row in rows if row["height"] == height and row[key]]
-            x = [log10(row["relative_std"]) for row in here]
-            y = [log10(row[key]) for row in here]
-            face = colour if fill is None else fill
-            axes.plot(x, y, dashes, marker=marker, color=colour, markerfacecolor=face, ms=3.5)
-    style.powers_of_ten(axes, "x", [log10(row["relative_std"]) for row in rows], 0.03)
-    style.powers_of_ten(axes, "y", [-17.0, *(log10(row["plain_error"]) for row in rows)], 0.06)
-    axes.axhline(0, color="0.5", linewidth=0.8, linestyle=":")
-    axes.text(-2, 0.2, "no digit left above", fontsize=7.5, color="0.35", ha="right")
-    axes.text(-20.5, 5.2, "plain form", fontsize=7.5, color=PLAIN)
-    axes.text(-20.5, -14.3, "deviation form", fontsize=7.5, color=DEVIATION)
-    few, many = min(marks), max(marks)
-    axes.text(
-        0.02, 0.35, f"open: M = {few}\nfilled: M = {many}", fontsize=7.5, color="0.25",
-        transform=axes.transAxes,
-    )  # fmt: skip
-    axes.set_ylabel("error / largest |change|")
+        for height, larger, own in _by_height(rows):
+            here = [row for row in own if row[key]]
+            x, y = ([log10(row[name]) for row in here] for name in ("relative_std", key))
+            elements += [
+                spec.Line(x, y, series, dashes),
+                spec.Points(x, y, series, f"{words}, $M={height}$", filled=larger),
+            ]
+    y_axis = spec.powers_of_ten(
+        "error / largest |change|", [-17.0, *(log10(row["plain_error"]) for row in rows)]
+    )
+    title = "float64: largest error of the contact forces"
+    return spec.Panel(elements, _std_axis(rows), y_axis, title)
 
 
-def _ratios(axes: Axes, rows: Rows) -> None:
-    axes.set_title("their time: deviation form / plain form", loc="left")
-    for height, face in zip(_heights(rows), ("white", "0.2"), strict=False):
-        here = [r for r in rows if r["height"] == height and r["plain_seconds"] and r["seconds"]]
+def _ratios(rows: Rows) -> spec.Panel:
+    elements: list[spec.Element] = [spec.Rule("y", 1, ":", name="as long as the plain form")]
+    for height, larger, own in _by_height(rows):
+        here = [row for row in own if row["plain_seconds"] and row["seconds"]]
         x = [log10(row["relative_std"]) for row in here]
         y = [row["seconds"] / row["plain_seconds"] for row in here]
-        axes.plot(x, y, "D", color="0.2", markerfacecolor=face, markersize=3.2)
-    axes.set_ylim(0, 4)  # the ratio is one number; what scatters is the machine
-    axes.axhline(1, color="0.5", linewidth=0.8, linestyle=":")
-    axes.text(-2, 1.08, "as long as the plain form", fontsize=7.5, color="0.35", ha="right")
-    axes.set_ylabel("ratio of seconds")
-    axes.set_xlabel("σ/r")
+        elements.append(spec.Points(x, y, DEVIATION, f"$M={height}$", filled=larger))
+    # the ratio is one number; what scatters is the machine
+    y_axis = spec.Axis("ratio of seconds", 0, 4)
+    title = "their time: deviation form / plain form"
+    return spec.Panel(elements, _std_axis(rows), y_axis, title, columns=3)
 
 
-def _curves(axes: Axes, rows: Rows, key: str) -> Iterator[tuple[str, str, Rows]]:
-    """Draw a column over the height, a curve for each form and σ/r; give form, colour and rows."""
-    for form, colour, marker, dashes in FORMS:
+def _curves(rows: Rows, key: str) -> Iterator[tuple[int, Rows, list[spec.Element]]]:
+    """Draw a column over the height, a curve for each form and σ/r; give series and rows, too."""
+    for form, series, dashes in FORMS:
         own = sorted((row for row in rows if row["form"] == form), key=lambda row: row["height"])
-        for std in {row["relative_std"] for row in own}:
+        for number, std in enumerate(sorted({row["relative_std"] for row in own})):
             here = [row for row in own if row["relative_std"] == std]
-            x, y = [row["height"] for row in here], [row[key] for row in here]
-            axes.plot(x, y, dashes, marker=marker, color=colour, ms=3.2, mfc="white")
-            yield form, colour, here
+            x, y = ([row[name] for row in here] for name in ("height", key))
+            points = spec.Points(x, y, series, "" if number else form)
+            yield series, here, [spec.Line(x, y, series, dashes), points]
 
 
-def _lost(axes: Axes, rows: Rows) -> None:
-    axes.set_title("balls: bits lost in all", loc="left")
-    for form, colour, here in _curves(axes, rows, "bits_lost"):
-        if form == LINE_SUMS:
-            last = here[-1]
-            axes.annotate(
-                f"σ/r = {last['relative_std']:.0e}".replace("e-0", "e-"),
-                (last["height"], last["bits_lost"]), xytext=(6, 0),
-                textcoords="offset points", fontsize=7.5, color=colour, va="center",
-            )  # fmt: skip
-            _mark_critical(axes, here)
-    axes.set_xscale("log", base=2)
-    axes.set_yscale("log")
-    axes.set_xlim(3.4, 4100)
-    axes.set_ylim(4, 5000)
-    axes.text(7, 400, "positions:\nabout 3 bits a layer", fontsize=7.5, color=PLAIN)
-    axes.text(3.9, 11, "line sums", fontsize=7.5, color=DEVIATION)
-    axes.text(
-        0.99, 0.02, "filled diamond: M* = (σ/r)$^{-2/3}$", fontsize=7.5, color="0.25", ha="right",
-        transform=axes.transAxes,
-    )  # fmt: skip
-    axes.set_ylabel("bits")
+def _lost(rows: Rows) -> spec.Panel:
+    elements: list[spec.Element] = []
+    for series, here, drawn in _curves(rows, "bits_lost"):
+        elements += drawn
+        if series == PLAIN:
+            continue
+        bits, highest, last = [r["bits_lost"] for r in here], here[0]["critical_height"], here[-1]
+        words = f"σ/r = {last['relative_std']:.0e}".replace("e-0", "e-")
+        place = last["height"], last["bits_lost"]
+        elements.append(spec.Words(*place, words, series, ("left", "center"), (6, 0)))
+        heights = [row["height"] for row in here]
+        if heights[0] <= highest <= heights[-1]:  # M*, on the curve
+            lies = np.exp(np.interp(np.log(highest), np.log(heights), np.log(bits)))
+            elements.append(spec.Points([highest], [lies], 3, size=4.5, filled=True))
+    elements.append(spec.Points(series=3, name="$M^*=(σ/r)^{-2/3}$", size=4.5, filled=True))
+    y_axis = spec.Axis("bits", 4, 5000, log=True)
+    return spec.Panel(elements, _height_axis(rows), y_axis, "balls: bits lost in all")
 
 
-def _mark_critical(axes: Axes, rows: Rows) -> None:
-    """Put M* on the curve, if it lies on it."""
-    highest = rows[0]["critical_height"]
-    for a, b in pairwise(rows):
-        if a["height"] <= highest <= b["height"]:
-            share = log10(highest / a["height"]) / log10(b["height"] / a["height"])
-            bits = a["bits_lost"] ** (1 - share) * b["bits_lost"] ** share
-            axes.plot(highest, bits, "D", color="black", markersize=4.5, zorder=5)
-            return
+def _height_axis(rows: Rows) -> spec.Axis:
+    name = f"layers $M$ (strips of {rows[0]['width']} beads a layer)"
+    return spec.Axis(name, 3.4, 4100, log=True, ticks=(4, 16, 64, 256, 1024))
 
 
-def _seconds(axes: Axes, rows: Rows) -> None:
-    axes.set_title(f"the time of {DIGITS} certified digits", loc="left")
-    list(_curves(axes, rows, "seconds"))
-    axes.set_yscale("log")
-    axes.set_ylabel("seconds")
-    axes.set_xlabel(f"layers M (strips of {rows[0]['width']} beads a layer)")
-    axes.xaxis.set_major_locator(FixedLocator([4, 16, 64, 256, 1024]))
-    axes.xaxis.set_minor_locator(NullLocator())
-    axes.xaxis.set_major_formatter(lambda value, _: f"{value:.0f}")
-    axes.text(0.03, 0.86, "positions", fontsize=7.5, color=PLAIN, transform=axes.transAxes)
-    axes.text(0.03, 0.74, "line sums", fontsize=7.5, color=DEVIATION, transform=axes.transAxes)
+def _seconds(rows: Rows) -> spec.Panel:
+    elements = [drawn for *_, drawn in _curves(rows, "seconds")]
+    y_axis = spec.Axis("seconds", log=True)
+    title = f"the time of {DIGITS} certified digits"
+    return spec.Panel(elements, _height_axis(rows), y_axis, title)

@@ -112,7 +112,7 @@ def test_the_latex_of_exact_forms_says_where_they_hold(form: Any, columns: int) 
 
 def test_where_an_exact_form_holds_is_read_at_a_glance() -> None:
     assert fd.equation(13).exact("surface").latex().splitlines()[-2] == (
-        r"&\quad \text{for } j = M - 1 \text{ and } M \geq  3 \text{, where } z = j/M"
+        r"&\quad \text{for } j = M - 1 \text{ and } M \geq  3, \text{ where } z = j/M"
     )
 
 

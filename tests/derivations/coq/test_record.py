@@ -6,9 +6,10 @@ from dataclasses import replace
 import pytest
 from force_diffusion.derivations.coq import record
 from force_diffusion.derivations.coq.record import Certificate, Change, Changes, Verdict, recorded
+from force_diffusion.derivations.coq.statements import STATED
 from force_diffusion.derivations.export.document import finding, section_latex
 from force_diffusion.derivations.export.manifest import Manifest
-from force_diffusion.derivations.framework.catalogue import paper
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation, Outcome
 from force_diffusion.symbolic import symbols as sy
@@ -26,15 +27,15 @@ def other_than_printed(number: int) -> Derivation:
     return replace(derivation, printed=(equation(printed.lhs, times(2, printed.rhs)),))
 
 
-@pytest.mark.parametrize("number", paper())
-def test_every_equation_is_on_record_as_it_is_printed(number: int) -> None:
+@pytest.mark.parametrize("number", STATED)
+def test_every_equation_is_on_record_as_it_is_printed(number: Number) -> None:
     """If this fails, ask Coq again: CONTRIBUTING.md says how."""
     assert str(fd.equation(number).coq) == "accepted by Coq 8.16.1"
 
 
 def test_the_record_holds_mutants_of_every_equation() -> None:
     said = record._record()["equations"]
-    assert [one["number"] for one in said] == list(paper())
+    assert [one["number"] for one in said] == list(STATED)
     for one in said:
         assert one["changes"]["stated"] > 5
         assert all(change["equivalent"] for change in one["changes"]["accepted"])
@@ -82,10 +83,10 @@ def test_lists_and_documents_say_so(
     assert "Coq: accepted." in section_latex(load(13), found)
     assert "Coq: not on record." in section_latex(load(13), found.model_copy(update={"coq": None}))
     assert "accepted by Coq 8.16.1" in shown("show", "13")
-    assert shown("list").count("accepted ") == len(paper())
+    assert shown("list").count("accepted ") == len(STATED)
     monkeypatch.setattr(record, "_theory_now", lambda: "0" * 64)
     assert "has changed since" in shown("show", "13")
-    assert shown("list").count("stale ") == len(paper())
+    assert shown("list").count("stale ") == len(STATED)
 
 
 def test_verdicts_in_words() -> None:

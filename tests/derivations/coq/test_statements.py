@@ -143,6 +143,39 @@ def test_the_load_is_the_one_that_the_derivation_names(load_of: str, words: str)
     assert f"({words.replace('M', '1000000%Z').replace('f_load', '5')})" in made.companions[0].proof
 
 
+def test_the_mirror_image_of_a_bead_is_entered_by_the_other_force() -> None:
+    made = {one.name: one.proposition for one in coq.statements(load(8))}
+    entered = "near (fun e => f_{} F site_r site_s e = 0 /\\ f_{} F site_r site_s e <> 0)"
+    assert entered.format("minus", "plus") in made["equation_8_part_1"]
+    assert entered.format("plus", "minus") in made["equation_8_part_1_mirrored"]
+
+
+def test_a_force_is_divided_by_a_load_that_is_positive() -> None:
+    for part, (positive, other) in enumerate((("plus", "minus"), ("minus", "plus"))):
+        made = coq.statement(load("B1"), part)
+        assert f"  0 < L_{positive} ->" in made.hypotheses
+        assert f"0 < L_{other}" not in made.proposition
+        assert "L_minus = t * L_plus" in made.proposition
+
+
+def test_of_the_other_branch_the_inverse_ratio_is_stated() -> None:
+    forms = {one.name: one.conclusion for one in coq.statements(load("B2"))}
+    of_plus, of_minus = (forms[f"equation_B2_part_{part}_exact"] for part in (1, 2))
+    assert "f_plus F i j e) f" in of_plus
+    assert "expect L f = L_plus" in of_plus
+    assert "f_minus F i j e) f" in of_minus
+    assert "expect L f = L_minus" in of_minus
+    assert "12 * IZR M * (IZR j ^ 2) * (t ^ 2)" in of_plus
+    assert "12 * IZR M * (IZR j ^ 2) / t ^ 2" in of_minus
+
+
+def test_two_contacts_of_one_diagonal_are_stated_on_its_domain() -> None:
+    made = coq.statement(load("B12"), 0)
+    assert {"(j >= 2)%Z", "(j <= l - 2)%Z", "(l <= M - 2)%Z"} < set(made.about)
+    assert "f_plus F (i - j + l) l e) g" in made.conclusion
+    assert "(Z.abs i + 2 * M + 2 <= W)%Z" in made.proposition
+
+
 def test_a_change_of_the_ranges_changes_the_statement() -> None:
     narrower = replace(load(11), where=Where.of(sy.j >= 0, sy.j < sy.M - 1))
     assert "(j < M - 1)%Z" in coq.statement(narrower, 0).proposition

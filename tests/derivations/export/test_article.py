@@ -17,6 +17,7 @@ from force_diffusion.derivations.export.article import (
 )
 from force_diffusion.derivations.export.quoted import quoted
 from force_diffusion.derivations.framework.catalogue import THEOREMS
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.numeric.figures.names import FIGURES
 
 import force_diffusion as fd
@@ -80,6 +81,19 @@ def test_every_exact_form_is_in_the_appendix(whole: str) -> None:
         for case in eq.cases:
             body = eq.exact(case).latex(2).partition("\\quad \\text{for")[0]
             assert body in appendix
+
+
+@pytest.mark.parametrize("label", own_equations())
+def test_no_two_forms_are_for_the_same_places(label: str) -> None:
+    eq = load(label)
+    said: dict[tuple[sympy.Expr, str], sympy.Expr] = {}
+    for form in (eq.exact() if eq.exact else {}).values():
+        places = [(form.validity, form.expression)]
+        places += [(one.where, one.expression) for one in form.missed]
+        for where, value in places:
+            assert where
+            before = said.setdefault((form.quantity, where), value)
+            assert sympy.cancel(before - value) == 0, (form.quantity, where)
 
 
 def test_the_page_has_the_same() -> None:

@@ -3,12 +3,15 @@
 import re
 from dataclasses import replace
 
+import pytest
 from force_diffusion.derivations.export.document import (
     document,
     finding,
     statement_latex,
 )
 from force_diffusion.derivations.export.prose import prose_latex
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
@@ -87,7 +90,31 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
     assert prose_latex("at M* ∝ (σ/r)^(−2/3),") == r"at $M^{*} \propto  (\sigma /r)^{-2/3}$,"
     assert prose_latex("r = 2^-498") == "$r = 2^{-498}$"
     assert prose_latex("f_load") == r"$f^{\mathrm{load}}$"
+    assert prose_latex("(as min(t, 1/t)^(2/3)).") == r"(as $\operatorname{min}(t,1/t)^{2/3}$)."
+    assert prose_latex("[a₁/((2b + c)κ²)]^(1/3), if a + b is even") == (
+        r"$[a_{1}/((2b + c)\kappa ^{2})]^{1/3}$, if $a + b$ is even"
+    )
+    assert prose_latex("N = ½[l − (k − i)], a √(l + j)/M") == (
+        r"$N = \frac{1}{2}[l -$ $(k - i)]$, a $\sqrt{l+j}/M$"
+    )
+    assert prose_latex("σ_yy(flux) is a length") == r"$\sigma _{yy}^{\mathrm{flux}}$ is a length"
     assert prose_latex("unknown ☃").endswith(r"\text{[snowman]}$")
+
+
+@pytest.mark.parametrize("number", modules())
+def test_no_power_or_root_of_the_words_is_left_open(number: int | str) -> None:
+    derivation = load(number)
+    words = [
+        *derivation.remarks,
+        *derivation.assumptions,
+        *map(str, derivation.equivalent.values()),
+    ]
+    words += [step.reason for step in derivation.steps()]
+    words += [told for _, told in derivation.symbols]
+    for one in words:
+        written = prose_latex(one)
+        assert "^(" not in written, written
+        assert r"\surd" not in written, written
 
 
 def test_powers_of_ten_are_set_as_such() -> None:

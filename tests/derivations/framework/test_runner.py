@@ -133,7 +133,7 @@ def test_an_equivalent_mutant_is_listed_with_its_proof() -> None:
     assert counts["equivalent"] == counts["made"] > 0
     assert outcome.verdict is Verdict.PROVED
     assert outcome_text(outcome).count("equivalent rewriting: ") == counts["made"]
-    assert outcome_text(outcome).count(". for a reason. said so") == counts["made"]
+    assert outcome_text(outcome).count(". for a reason; said so") == counts["made"]
 
 
 def test_an_equivalent_mutant_that_is_not_listed_is_a_fault_of_the_checker() -> None:

@@ -28,7 +28,7 @@ from force_diffusion.numeric.mechanics.small_packing import solve as solve_small
 from force_diffusion.numeric.mechanics.sweep import Forces, sweep_down
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.plan import Plan
-from force_diffusion.numeric.theory.critical_height import critical_height
+from force_diffusion.numeric.theory.expected import critical_height
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -16,7 +16,7 @@ from force_diffusion.numeric.planning.plan import Candidate, Plan
 from force_diffusion.numeric.run import run
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene.sections import SceneError
-from force_diffusion.numeric.studies.cost import ways
+from force_diffusion.numeric.studies import distances
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -51,7 +51,7 @@ def reference(sections: dict[str, dict[str, Any]]) -> Outcome:
 
 def recounted(bins: list[dict[str, Any]], plan: Plan) -> list[int]:
     """Count the true changes into the printed bins; of realisations that are alike, all of them."""
-    table = ways.answer(plan, plan.system, range(plan.problem.realisations))
+    table = distances.answer(plan, plan.system, range(plan.problem.realisations))
     values = [midpoint(value) for value in table.numbers["change"]]
     edges = [(Fraction(row["low"]), Fraction(row["high"])) for row in bins]
     alike = (plan.scene.ask.realisations or 1) // plan.problem.realisations

@@ -8,14 +8,17 @@ from typing import Any
 import flint
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
+from force_diffusion.numeric.figures.specification import Points
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.studies import timing
 from force_diffusion.numeric.studies.cost.cost import cost
-from force_diffusion.numeric.studies.cost.reference import BEYOND, decimal
+from force_diffusion.numeric.studies.cost.cost_plot import lines
+from force_diffusion.numeric.studies.cost.reference import BEYOND
 from force_diffusion.numeric.studies.cost.rows import Way, marked, pareto
-from force_diffusion.numeric.studies.cost.table import CostStudy, csv_rows
-from force_diffusion.numeric.studies.cost.ways import answer, systems, why_not_plain
+from force_diffusion.numeric.studies.cost.table import CostStudy
+from force_diffusion.numeric.studies.cost.ways import systems, why_not_plain
+from force_diffusion.numeric.studies.distances import answer, decimal
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -234,8 +237,7 @@ def test_the_data_say_how_they_came_about() -> None:
     assert set(data["rows"][0]) == {field.name for field in fields(Way)}
     assert data["reference"]["kind"] == "certified"
     assert "tracemalloc" in data["peak_memory"]
-    for row in csv_rows(data, "force-diffusion cost x.toml"):
-        assert row["command"] == "force-diffusion cost x.toml"
+    for row in found.files()["cost.csv"]:
         assert row["reference_radius"] == data["reference"]["radius"]
     text = str(found)
     for skip in data["skipped"]:
@@ -263,19 +265,16 @@ def test_arrays_rows_and_decimals_say_the_same() -> None:
 
 def test_a_line_joins_ensembles_by_their_size() -> None:
     """Errors of ensembles scatter: by error, a line would go back and forth in time."""
-    plot = pytest.importorskip("force_diffusion.numeric.studies.cost.cost_plot")
-    nothing: dict[str, Any] = dict.fromkeys(
-        ("model_error", "rounding_error", "sampling_error", "certified_bound")
-    )
+    nothing = {"model_error": Decimal(0), "rounding_error": Decimal(0)}
     rows = [
         Way(
-            "Monte Carlo", "float64", N, Decimal(error), **nothing,
-            seconds=N / 100, seconds_min=0.1, seconds_max=9.0, runs=3,
+            way="Monte Carlo", arithmetic="float64", realisations=N, error=Decimal(error),
+            **nothing, seconds=N / 100, seconds_min=0.1, seconds_max=9.0, runs=3,
             peak_bytes=1, peak_is_bound=False,
         )
         for N, error in ((40, "0.01"), (10, "0.02"), (160, "0.03"))
     ]  # fmt: skip
-    (line,) = plot._lines(rows).values()
+    (line,) = lines(rows)
     assert [row.realisations for row in line] == [10, 40, 160]
 
 
@@ -287,3 +286,19 @@ def test_a_clock_that_did_not_tick_tells_a_time(monkeypatch: pytest.MonkeyPatch)
     assert all(row.seconds > 0 for row in study.ways)
     pytest.importorskip("matplotlib")
     assert study.plot("of a still clock").axes
+
+
+def test_the_picture_has_all_of_the_front_within_its_axes() -> None:
+    found = cost(scene(basic(2, 4)))
+    (panel,) = found.picture("a scene").panels
+    elements = [
+        one for part in panel.elements for one in (part if isinstance(part, list) else [part])
+    ]
+    points = [one for one in elements if isinstance(one, Points) and len(one.x)]
+    assert sum(one.filled for one in points) == sum(way.pareto for way in found.ways)
+    for one in points:
+        for axis, (value,) in ((panel.x, one.x), (panel.y, one.y)):
+            assert axis.low is not None
+            assert axis.high is not None
+            assert axis.low < value < axis.high
+            assert axis.ticks

@@ -7,28 +7,23 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, UndecidedError
 from force_diffusion.numeric.arithmetic.systems import Balls
-from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
-from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.studies import timing
+from force_diffusion.numeric.studies.distances import answer
 from force_diffusion.numeric.studies.stability import enclosures
 from force_diffusion.numeric.studies.stability import stability as study
 from force_diffusion.numeric.studies.stability.closed import closed_form_rows
 from force_diffusion.numeric.studies.stability.enclosures import (
     LINE_SUMS,
     POSITIONS,
-    Enclosed,
+    Enclosure,
     Strip,
     enclose,
     strips,
 )
 from force_diffusion.numeric.studies.stability.floats import Case, Comparison, cases, measure
-from force_diffusion.numeric.studies.stability.forms import (
-    changes,
-    deviation_form,
-    plain_form,
-)
 from force_diffusion.numeric.studies.stability.stability import stability
-from force_diffusion.numeric.theory.critical_height import critical_height
+from force_diffusion.numeric.studies.stability.strips import strip
+from force_diffusion.numeric.theory.expected import critical_height
 
 UNIT = 2.0**-53  # of float64: one unit in the last place is at most 2 of these
 
@@ -51,7 +46,7 @@ def rows(group: str) -> list[Comparison]:
 
 
 @cache
-def enclosed(form: str, height: int, relative_std: str) -> Enclosed:
+def enclosed(form: str, height: int, relative_std: str) -> Enclosure:
     return enclose(Strip(form, height, Fraction(relative_std)))
 
 
@@ -105,12 +100,6 @@ def test_beyond_the_critical_height_accuracy_is_reported() -> None:
     bits = [row.ball_bits_lost for row in beyond]
     assert all(a is not None for a in bits)
     assert max(a for a in bits if a is not None) > 200  # exponential, and seen
-
-
-def test_units_change_no_digit() -> None:
-    small, one, large = rows("units")
-    for other in (small, large):
-        assert (other.error, other.plain_error) == (one.error, one.plain_error)
 
 
 def test_where_nothing_is_left_it_is_said() -> None:
@@ -182,19 +171,6 @@ def test_fifty_digits_are_left_and_hardly_more_bits_taken(form: str, height: int
     assert needed <= found.bits <= 1.25 * (needed + enclosures.SPARE + 1)
 
 
-def test_both_forms_enclose_the_same_forces() -> None:
-    """Two evaluations that share no formula: every pair of balls has to overlap."""
-    system, std = Balls(256), Fraction(1, 1000)
-    with system.active():
-        rho = rows_of(DrawnRadii("uniform", std, 1, 5), whole(5, 6).rows, [0], system)
-        n_x = Fraction(3, 4)
-        own = changes(deviation_form(n_x, rho, system)[1])
-        for a, b in zip(own, plain_form(n_x, rho, system), strict=True):
-            assert a.overlaps(b)
-            assert a.rad() < 1e-60  # small, so that overlapping says something
-            assert b.rad() < 1e-60
-
-
 def test_what_can_not_be_enclosed_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
     falls = enclose(Strip(LINE_SUMS, 512, Fraction(1, 100)))
     assert falls.bits_lost is None
@@ -207,12 +183,9 @@ def test_what_can_not_be_enclosed_is_said(monkeypatch: pytest.MonkeyPatch) -> No
 
 def test_wide_balls_are_undecided_not_unbuildable() -> None:
     """At 60 bits nothing is left of 64 layers in positions; the packing stands all the same."""
-    system = Balls(60)
-    with system.active():
-        radii = DrawnRadii("uniform", Fraction(1, 10**4), 1, 16)
-        rho = rows_of(radii, whole(16, 64).rows, [0], system)
-        with pytest.raises(UndecidedError):
-            plain_form(Fraction(3, 4), rho, system)
+    plan = strip(64, 16, Fraction(1, 10**4), Fraction(3))
+    with pytest.raises(UndecidedError):
+        answer(plan, Balls(60), [0], plainly=True)
 
 
 def test_the_table_goes_beyond_the_critical_height_in_both_forms() -> None:

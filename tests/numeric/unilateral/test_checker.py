@@ -64,6 +64,8 @@ def test_what_stands_is_proved() -> None:
     verdict = said(pile())
     assert verdict.proved
     assert verdict.smallest_force == pytest.approx(5 / 8)
+    assert verdict.smallest_gap == pytest.approx(1)  # of those that it measures
+    assert said(more("3", "7.75")).smallest_gap == pytest.approx(0.25)  # of radii 2.5 and 1
     assert said(third_base_bead("3", "-5")).proved
     for bead in (more(), more(load="-0.0e5"), more("3", "0.5", radius="0.4")):
         assert said(bead).proved, bead

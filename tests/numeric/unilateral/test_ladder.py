@@ -1,13 +1,14 @@
 """What finds packings where linear programs from the deposited one don't, and what is said else."""
 
+import sys
 from typing import Any
 
 import numpy as np
 import pytest
 from force_diffusion.numeric.planning.planner import plan
-from force_diffusion.numeric.unilateral import UnfinishedError, interior_path, relaxation
+from force_diffusion.numeric.unilateral import UnfinishedError, relaxation
 from force_diffusion.numeric.unilateral.grains import Grains
-from force_diffusion.numeric.unilateral.interior_path import MOST_STEPS, follow
+from force_diffusion.numeric.unilateral.interior_path import HELD, MOST_STEPS, _Stiffness, follow
 from force_diffusion.numeric.unilateral.starts import dropped, in_pockets, start
 
 import force_diffusion as fd
@@ -16,6 +17,7 @@ from tests.numeric.unilateral.test_unilateral import strip
 PROGRAMS = "linear programs from the deposited packing"
 DROPPED = "beads dropped one by one"
 POCKETS = "pockets of the base"
+PATH = "the end of an interior path"
 
 
 def leaning(
@@ -59,7 +61,7 @@ def test_programs_that_start_from_a_stretched_lattice_say_so() -> None:
 def test_an_interior_path_ends_lower_than_programs_from_the_deposited_packing() -> None:
     """It did in three packings that were compared, by 4 to 24 % of the fall."""
     path = strip(std=0.03, seed=3, protocol="interior-path").run()
-    assert rung(path) == "linear programs from the end of an interior path"
+    assert rung(path) == PATH
     (lower,) = path.answer.networks
     (higher,) = strip(std=0.03, seed=3, protocol="linear-programs").run().answer.networks
     heights = [float((n.x * n.frame.load).sum()) for n in (lower, higher)]  # less the energy
@@ -70,26 +72,64 @@ def test_an_interior_path_keeps_all_gaps_open_and_lowers_the_load() -> None:
     problem = plan(strip(std=0.03, protocol="interior-path")).problem
     found, _, _ = start(problem, 0)
     energies: list[float] = []
+    gaps: list[float] = []
 
     def looked(step: int) -> None:
         energies.append(found.energy())
-        assert found.gaps(found.near(0.1)).min() > 0
+        gaps.append(found.gaps(found.near(0.1)).min())
 
-    follow(found, looked)
+    pairs, order = follow(found, looked)
     assert len(energies) < MOST_STEPS
     assert energies[-1] < energies[0]
-    gaps = np.sort(found.gaps(found.near(0.1)))
-    assert gaps[200] < 1e-5  # of some 250 contacts
+    # open until they are linear, and then to rounding and to what bends within the last moves
+    assert min(gaps[:-20]) > 0
+    assert min(gaps) > -1e-12
+    sizes = np.sort(order)
+    jumps = sizes[1:] / sizes[:-1]
+    first = int(np.argmax(jumps))
+    assert sizes[first] < 1 < sizes[first + 1]
+    assert jumps[first] > 1e6  # contacts and others are told apart
+    touching = pairs[order > 1]
+    assert len(touching) == 2 * len(np.setdiff1d(touching, np.arange(found.fixed)))
+
+
+@pytest.mark.parametrize(
+    ("protocol", "package"), [("interior-path", "cvxopt"), ("linear-programs", "highspy")]
+)
+def test_a_solver_that_is_not_installed_is_asked_for(
+    protocol: str, package: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(
+        fd.ForceDiffusionError, match=rf"{package}: pip install .force-diffusion\[unilateral\]"
+    ):
+        strip(protocol=protocol).run()
+
+
+def test_the_stiffness_is_solved() -> None:
+    """Against NumPy, with the matrix written out, for two stiffnesses of one list of pairs."""
+    problem = plan(strip(std=0.03, width=4)).problem
+    found, _, _ = start(problem, 0)
+    pairs = found.near(0.5)
+    stiffness, random = _Stiffness(pairs, found), np.random.default_rng(7)
+    A = found.jacobian(pairs).toarray()
+    for _ in range(2):
+        k, right = random.uniform(1, 2, len(pairs)), random.standard_normal(found.unknowns)
+        full = A.T @ np.diag(k) @ A + HELD * np.eye(found.unknowns)
+        move = stiffness.solved(found.directions(pairs), k, right)
+        np.testing.assert_allclose(full @ move, right, atol=1e-10)
 
 
 def test_where_rounding_ends_an_interior_path_programs_go_on(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    def singular(*_: Any, **__: Any) -> None:
-        raise RuntimeError("Factor is exactly singular")
+    def singular(*_: Any) -> None:
+        raise ArithmeticError("not positive definite")
 
-    monkeypatch.setattr(interior_path, "splu", singular)
-    (network,) = strip(std=0.03, protocol="interior-path").run().answer.networks
+    monkeypatch.setattr(_Stiffness, "solved", singular)
+    outcome = strip(std=0.03, protocol="interior-path").run()
+    assert rung(outcome) == f"linear programs from {PATH}"
+    (network,) = outcome.answer.networks
     assert 0 < network.events < 100  # programs alone
 
 
