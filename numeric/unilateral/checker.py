@@ -1,10 +1,11 @@
 """A check of packings that shares nothing with what found them: no solver, no lattice, no module.
 
-A file holds radii, loads, centres and contacts. By Krawczyk's operator in balls, with an inverse
-whose norm a factorisation of AᵀA bounds, an exact packing is shown to touch at these contacts
-within a distance ρ of the centres; its forces are enclosed and shown to be positive, and all other
-gaps too, those between beads of the base included. No other bead bears a load, radii are positive,
-and no bead lies below the base.
+A file holds radii, loads, centres and contacts. Where contacts aren't closed to rounding, the
+centres are improved by Newton's steps, in balls. By Krawczyk's operator, with an inverse whose norm
+a factorisation of AᵀA bounds, an exact packing is then shown to touch at these contacts within a
+distance ρ of the centres in the file; its forces are enclosed and shown to be positive, and all
+other gaps too, those between beads of the base included. No other bead bears a load, radii are
+positive, and no bead lies below the base.
 Then the packing is a strict local minimum of the load's energy in the coordinates of the beads
 that contacts hold. Of all others it is shown that they touch nothing, and not how far they could
 go. A contact that bears no force, and beads that touch without one, can't be proved: no enclosure
@@ -32,6 +33,8 @@ BITS = 256
 LARGEST = 1e100  # of all numbers: beyond, products of floats end
 LARGEST_FILE = 100_000_000
 OPEN = 1e-5  # of gaps of contacts: no inverse of a Jacobian has a norm below a quarter
+CLOSED = 1e-12  # of gaps of contacts: up to here centres are improved by Newton's steps
+FAR = 1e-6  # of an exact packing, from the centres of the file
 UNPROVABLE = "(of beads that touch without force nothing can be proved)"
 Number = Annotated[str, Field(pattern=r"^-?[0-9]{1,400}(\.[0-9]{1,400})?(e-?[0-9]{1,4})?$")]
 Bead = Annotated[int, Field(ge=0)]
@@ -224,28 +227,40 @@ class _Proof:
             return no(
                 f"beads {pair[0]} and {pair[1]} overlap, or are not shown to be apart " + UNPROVABLE
             )
-        rows, columns, values = self.jacobian(flint.arb(0))
-        middle = [float(value.mid()) for value in values]
-        n = len(gaps)
-        A = csc_array((middle, (rows, columns)), shape=(n, n))
-        try:
-            factors = splu(A)
-        except RuntimeError:
-            return no("the Jacobian of the gaps is singular: the packing is not rigid")
+        n, moved, before = len(gaps), 0.0, np.inf
+        while True:
+            rows, columns, values = self.jacobian(flint.arb(0))
+            middle = [float(value.mid()) for value in values]
+            A = csc_array((middle, (rows, columns)), shape=(n, n))
+            try:
+                factors = splu(A)
+            except RuntimeError:
+                return no("the Jacobian of the gaps is singular: the packing is not rigid")
+            if worst < CLOSED or not worst < before / 2:
+                break
+            newton = factors.solve(np.array([-float(gap.mid()) for gap in gaps]))
+            moved, before = moved + float(abs(newton).max()) * (1 + 1e-9), worst
+            if not moved < FAR:
+                return no(f"the contacts are open or overlap by up to {worst:.2g}")
+            self.move(newton)
+            gaps = [self.gap(a, b) for a, b in self.contacts.tolist()]
+            worst = _largest(gaps)
+        if moved:
+            least, pair = self.smallest_gap()
         sigma = _least_singular_value(A, factors)
         if not sigma > 0:
             return no("the Jacobian of the gaps is too near to a singular one")
         root = n**0.5 * (1 + 1e-9)  # of a vector: its length is at most this times its largest
         step = root * worst / sigma * (1 + 1e-9)  # at least |A⁻¹ g|
-        if not step < 1e-6:
+        if not moved + step < FAR:
             return no(f"the contacts are open or overlap by up to {worst:.2g}")
         within = 2 * step + 1e-60
         *_, values = self.jacobian(flint.arb(0, within))
         spread = [_upper(value - m) for value, m in zip(values, middle, strict=True)]
         change = float(np.linalg.norm(spread)) * (1 + 1e-9)  # of the Jacobian, over the box
-        moved = root * change / sigma * (1 + 1e-9)
-        if not (step + moved * within < within and change < sigma / 2):
-            return no(f"Krawczyk's operator does not map the box into itself: {moved:.2g}")
+        factor = root * change / sigma * (1 + 1e-9)
+        if not (step + factor * within < within and change < sigma / 2):
+            return no(f"Krawczyk's operator does not map the box into itself: {factor:.2g}")
         forces, error = self.forces(factors, root / (sigma - change) * (1 + 1e-9))
         smallest = float((forces * (1 - 1e-15) - error).min())  # they are rounded
         if not smallest > 0:
@@ -263,7 +278,12 @@ class _Proof:
             return no(
                 f"beads {pair[0]} and {pair[1]} overlap, or are not shown to be apart " + UNPROVABLE
             )
-        return Verdict(True, "", n, rattlers, within, smallest, gap)
+        return Verdict(True, "", n, rattlers, (moved + within) * (1 + 1e-9), smallest, gap)
+
+    def move(self, step: Any) -> None:
+        """Move the beads that contacts hold."""
+        for bead, column in self.column.items():
+            self.x[bead] = [(self.x[bead][k] + float(step[column + k])).mid() for k in (0, 1)]
 
     def forces(self, factors: Any, norm: float) -> tuple[Any, float]:
         """Give forces, and a bound on their error: the largest residual over the box times norm.

@@ -206,6 +206,30 @@ def test_the_packings_to_be_changed_are_proved(kind: str) -> None:
     assert (verdict.rattlers > 0) == (kind == "rattlers")
 
 
+@pytest.mark.parametrize("decimals", [7, 8, 9])
+def test_centres_known_to_some_decimals_are_enough(decimals: int) -> None:
+    """As those of programs whose discs are soft: more beads, and more decimals are lost."""
+    outcome = fd.Scene(
+        packing=fd.Packing(height=6, width=12, allow_images=True),
+        disorder=fd.Disorder(kind="uniform", relative_std=0.03, seed=1),
+        effects=fd.Effects(contacts="unilateral", protocol="linear-programs"),
+        ask=fd.Ask(quantity="contact_forces"),
+    ).run()
+    (packing,) = outcome.packings()["packings"]
+    exact = [list(centre) for centre in packing["centres"]]
+    packing["centres"][packing["fixed"] :] = [
+        [f"{float(v):.{decimals}f}" for v in centre] for centre in exact[packing["fixed"] :]
+    ]
+    verdict = said(packing)
+    assert verdict.proved, verdict
+    assert verdict.within is not None
+    lost = [
+        abs(float(a) - float(b))
+        for a, b in zip(np.ravel(exact), np.ravel(packing["centres"]), strict=True)
+    ]
+    assert max(lost) <= verdict.within < 3 * max(lost)
+
+
 amounts = st.builds(
     lambda sign, digits, power: f"{sign}{digits}e{power}",
     st.sampled_from(["", "-"]),
