@@ -44,21 +44,27 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def _leaves_out(config: pytest.Config) -> bool:
     """Whether long tests are left out: neither files are named nor is the profile that of CI.
 
-    Of a test that is marked ``long(sample=8)`` eight cases are run nevertheless.
+    Of a test that is marked ``long(sample=8)`` eight cases are run nevertheless. Of one that is
+    marked ``long(share=3)`` the profile of CI runs a third of the cases, those that the seed says.
     """
     by_default = config.args_source is pytest.Config.ArgsSource.TESTPATHS
     return by_default and config.getoption("--hypothesis-profile") in {None, "quick"}
 
 
 def pytest_report_header(config: pytest.Config) -> str | None:
-    if not _leaves_out(config):
-        return None
-    return "long tests: some of them; all with --hypothesis-profile=ci, or where files are named"
+    if _leaves_out(config):
+        return "long tests: some; more with --hypothesis-profile=ci, all where files are named"
+    if config.getoption("--hypothesis-profile") == "ci":
+        return "long tests: of some a share of their cases, drawn by the seed"
+    return None
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    if not _leaves_out(config):
+    of_ci = config.getoption("--hypothesis-profile") == "ci"
+    if not _leaves_out(config) and not of_ci:
         return
+    drawn = str(config.getoption("--hypothesis-seed"))
+    seed = int(drawn) if drawn.isdecimal() else 0
     cases: dict[str, list[pytest.Item]] = defaultdict(list)
     for item in items:
         if item.get_closest_marker("long"):
@@ -66,9 +72,14 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     left_out: set[pytest.Item] = set()
     for every in cases.values():
         mark = every[0].get_closest_marker("long")
-        sample = min(mark.kwargs.get("sample", 0) if mark else 0, len(every))
-        # evenly spaced, in the order of the cases
-        kept = {place * len(every) // sample for place in range(sample)}
+        wanted = mark.kwargs if mark else {}
+        if of_ci:
+            share = wanted.get("share", 1)
+            kept = set(range(seed % share, len(every), share))
+        else:
+            sample = min(wanted.get("sample", 0), len(every))
+            # evenly spaced, in the order of the cases
+            kept = {place * len(every) // sample for place in range(sample)}
         left_out |= {item for place, item in enumerate(every) if place not in kept}
     config.hook.pytest_deselected(items=list(left_out))
     items[:] = [item for item in items if item not in left_out]

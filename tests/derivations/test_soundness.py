@@ -204,7 +204,7 @@ def test_an_order_that_fails_at_one_place_is_refuted_by_values() -> None:
     assert "j = M/2" in found.note
 
 
-@pytest.mark.long
+@pytest.mark.long(share=3)
 @pytest.mark.parametrize("number", modules())
 def test_the_whole_corpus(number: int | str) -> None:
     """Nothing false is proved; all that is true is."""

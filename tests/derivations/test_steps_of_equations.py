@@ -128,7 +128,7 @@ def test_a_step_follows_from_premises_and_earlier_steps(derivation: Derivation) 
     assert printed_at
 
 
-@pytest.mark.long
+@pytest.mark.long(share=3)
 @every_equation
 def test_a_changed_step_is_not_proved(derivation: Derivation) -> None:
     for place, step in enumerate(derivation.steps(), start=1):

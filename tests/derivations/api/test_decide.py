@@ -173,7 +173,7 @@ def test_what_has_a_value_and_is_not_read_is_undecided(number: int, candidate: s
 FORMS = [(n, case) for n in NUMBERS for case in fd.equation(n).cases]
 
 
-@pytest.mark.long(sample=2)
+@pytest.mark.long(sample=2, share=3)
 @pytest.mark.parametrize(("number", "case"), FORMS)
 def test_an_exact_form_is_decided_on_its_own(number: int | str, case: str) -> None:
     form = fd.equation(number).exact(case)
