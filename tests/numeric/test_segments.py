@@ -166,7 +166,7 @@ def true_error(plan: Plan) -> float:
         return max(float(abs(b - a).upper()) for b, a in pairs) / largest
 
 
-@pytest.mark.long(sample=1)
+@pytest.mark.long(sample=1, share=3)
 @pytest.mark.parametrize("name", CASES)
 def test_the_stated_error_covers_the_true_one(name: str) -> None:
     for seed, std in product(range(10), ("=1e-8", "=1e-3")):
@@ -174,7 +174,7 @@ def test_the_stated_error_covers_the_true_one(name: str) -> None:
         assert true_error(made) <= run(cut(made, 6)).accuracy.error_bound, (seed, std)
 
 
-@pytest.mark.long
+@pytest.mark.long(share=3)
 @pytest.mark.parametrize("layers", [2, 8, 40])
 @pytest.mark.parametrize("name", CASES)
 def test_the_error_is_that_of_the_sweep_in_memory(name: str, layers: int) -> None:
