@@ -12,11 +12,12 @@ from functools import cached_property, lru_cache, partial
 from typing import Any, TypeVar, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
-from ..arithmetic.systems import Array
 from .branch import Axis, AxisContact, Branch, Contact, Direction, Site
 
 T = TypeVar("T")
+Array = NDArray[Any]
 
 
 def lowest_column(j: int) -> int:

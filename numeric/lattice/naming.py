@@ -8,9 +8,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arithmetic.systems import Array
 from .branch import Direction, Site, bead_names, direction, directions
-from .layers import Layer, bead_of, site_of
+from .layers import Array, Layer, bead_of, site_of
 
 _NONE = np.empty(0, dtype=np.int64)
 
