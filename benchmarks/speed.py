@@ -21,7 +21,7 @@ import numpy as np
 from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
 from force_diffusion.numeric.mechanics import plain
-from force_diffusion.numeric.planning.methods import initial_bits
+from force_diffusion.numeric.planning.planner import initial_bits
 from measuring import Line, in_turn, program
 from peers import (
     CSweep,

@@ -27,7 +27,7 @@ from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import checkpoint
 from force_diffusion.numeric.run.checkpoint import CheckpointError
-from force_diffusion.numeric.text import strings
+from force_diffusion.numeric.tables import strings
 from pyarrow import parquet
 
 import force_diffusion as fd

@@ -262,7 +262,7 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     from force_diffusion.numeric.figures.library import KINDS
     from force_diffusion.numeric.run.outcome import outcome_lines
     from force_diffusion.numeric.scene.scene import refuse
-    from force_diffusion.numeric.text import csv_bytes
+    from force_diffusion.numeric.tables import csv_bytes
 
     scene, name = fd.read_scene(path), path.stem
     refuse("figures", scene)

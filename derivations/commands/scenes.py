@@ -194,7 +194,7 @@ def cost(
     overwrite: Overwrite = False,
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
-    from force_diffusion.numeric.scene.source import source_of
+    from force_diffusion.numeric.scene.scene import source_of
 
     command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
     names = ["cost.json", "cost.csv", *images("cost")]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.figures.library import KINDS
-from force_diffusion.numeric.text import csv_bytes
+from force_diffusion.numeric.tables import csv_bytes
 
 from ..export import answers
 from ..export.answers import Format
@@ -49,7 +49,7 @@ def warn(scene: Path, plan: "Plan") -> None:
 
 def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[str, Any]:
     """Say also which scene file it was, and the command that answered it."""
-    from force_diffusion.numeric.scene.source import sha256
+    from force_diffusion.numeric.scene.scene import sha256
 
     found = {**source, "file": scene.name, "sha256": {"scene": sha256(scene), **source["sha256"]}}
     return found if command is None else {"command": command, **found}

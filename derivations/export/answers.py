@@ -14,7 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import Array
-from force_diffusion.numeric.text import csv_bytes, json_rows, strings
+from force_diffusion.numeric.tables import csv_bytes, json_rows, strings
 
 
 class Format(StrEnum):

@@ -12,20 +12,15 @@ from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import MOST_BITS, Balls, largest_of, midpoint
 from ..mechanics.sweep import NotStandingError
 from ..mechanics.work import Work
-from ..planning.methods import initial_bits
 from ..planning.plan import CERTIFY, Plan
+from ..planning.planner import initial_bits
 from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
 from ..theory.expected import critical_height
-from .accuracy import Accuracy, ToleranceError
+from .accuracy import Accuracy, ToleranceError, most_digits
 
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 PRINTED = 20
-
-
-def most_digits(system: Balls) -> int:
-    """Give the digits to which even an exact number is printed."""
-    return int(system.bits * 0.30103) + 1
 
 
 def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:

@@ -20,14 +20,8 @@ from ..arithmetic.systems import (
 )
 from ..mechanics.kept import Kept
 from ..mechanics.work import ESTIMATE, Work
-from ..planning.methods import (
-    PRINTED,
-    SAFETY,
-    UNSEEN,
-    merging,
-    usual_units,
-)
 from ..planning.plan import Plan
+from ..planning.planner import PRINTED, SAFETY, UNSEEN, merging, usual_units
 from ..quantities.answer import Answer, answer
 from ..quantities.base import Table
 from .accuracy import Accuracy

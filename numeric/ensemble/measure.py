@@ -16,8 +16,7 @@ import numpy as np
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import PerBranch
-from ..lattice.layers import Region
-from ..lattice.naming import Block
+from ..lattice.layers import Block, Region
 from ..mechanics.engine import compiles
 from ..mechanics.problem import Problem, Route
 from ..planning.plan import Plan

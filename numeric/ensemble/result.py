@@ -7,13 +7,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..accuracy.digits import known_digits, of_errors
+from ..accuracy.accuracy import known_digits, of_errors
 from ..arithmetic.systems import Array
 from ..lattice.branch import direction
 from ..quantities.base import RATIO, SCATTER_OF
-from ..scene.source import source_of
-from ..tables import Row, html_table, rows_of
-from ..text import rows_of_text, significant, text_of
+from ..scene.scene import source_of
+from ..tables import Row, html_table, rows_of, rows_of_text, significant, text_of
 from .estimates import Estimates
 
 if TYPE_CHECKING:
@@ -142,7 +141,7 @@ class Ensemble(Estimates):
 
     @cached_property
     def text(self) -> dict[str, Array]:
-        """The columns as text, see ``numeric.text``: digits that another sample would have, too."""
+        """The columns as text (``tables``): digits that another sample would have, too."""
         return self._text_of(self.arrays)
 
     def _text_of(self, columns: dict[str, Array]) -> dict[str, Array]:

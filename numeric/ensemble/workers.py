@@ -23,7 +23,7 @@ from typing import Any
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.machine import memory_limit, share_cores, take_one_core
 from ..arithmetic.processes import end_with_parent, without_interrupts
-from ..scene.source import program_version
+from ..scene.scene import program_version
 from .measure import Measurement
 from .sums import Block, from_bytes, measured
 

@@ -13,7 +13,6 @@ from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
-from .methods import Method
 
 # Bytes of a bead of balls, a packing whose rows are listed, and a line of a file; measured, rounded
 # up. The rest is the interpreter with its libraries.
@@ -123,13 +122,13 @@ def division(widest: int, height: int, dimension: int, limit: int) -> Division:
 
 def by_segments(
     problem: Problem,
-    method: Method,
+    system: NumberSystem,
     scene: Scene,
     tolerance: Fraction | None,
     limit: int = _MANY,
 ) -> tuple[Problem, Division] | None:
     """Give the problem swept by segments, in so many bytes if that can be; None if it can't."""
-    exact = problem.route == Route.EXACT and method.system is FLOAT64
+    exact = problem.route == Route.EXACT and system is FLOAT64
     if not (exact and has_segments(scene, tolerance)):
         return None
     found = division(problem.region.widest, problem.region.top, problem.dimension, limit)
@@ -139,7 +138,7 @@ def by_segments(
 def divided(
     quantity: Quantity,
     problem: Problem,
-    method: Method,
+    system: NumberSystem,
     tolerance: Fraction | None,
     needed: int,
     limit: int,
@@ -152,7 +151,7 @@ def divided(
     """
     cut = None
     if needed > limit or problem.region.beads > QUICKER:
-        cut = by_segments(problem, method, quantity.scene, tolerance, limit)
+        cut = by_segments(problem, system, quantity.scene, tolerance, limit)
     if cut is None:
         return problem, needed, ""
     why = f"{size(needed)} of memory that was not used before take longer"

@@ -6,8 +6,9 @@ from functools import cached_property
 from importlib.util import find_spec
 from typing import Any
 
+from ..arithmetic.carried import Pairs
 from ..arithmetic.decimals import bound_string, short
-from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
 from ..mechanics.engine import worth_compiling
 from ..mechanics.images import sees_images
@@ -24,7 +25,6 @@ from ..theory.expected import (
     expected_tension_of_spheres,
 )
 from .memory import size
-from .methods import Method
 
 CERTIFY = "certify"
 # How plans call the way to the numbers.
@@ -36,6 +36,30 @@ ALGORITHMS = {
     Route.UNILATERAL: "beads move until no contact pulls",
 }
 _WHOLE = "spheres are always swept in whole layers"
+
+
+@dataclass(frozen=True)
+class Method:
+    """An arithmetic, and how the error of its answer becomes known.
+
+    In float64 and pairs, sweeps of the first ``repeated`` realisations carry their errors, and
+    ``longer`` holds both together; what is longer still is repeated in ``longer``. None stands for
+    balls, which certify.
+    """
+
+    system: NumberSystem
+    longer: NumberSystem | None = None
+    repeated: int = 0
+
+    @property
+    def certified(self) -> bool:
+        """Whether the error is a rigorous bound."""
+        return isinstance(self.system, Balls)
+
+    @property
+    def carries(self) -> bool:
+        """Whether sweeps carry their own errors."""
+        return self.system is FLOAT64 or isinstance(self.system, Pairs)
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,7 @@ from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
-from ..lattice.layers import Rows, full_layer
-from ..lattice.naming import Naming
+from ..lattice.layers import Naming, Rows, full_layer
 from ..mechanics.loads import LoadSpec
 from ..scene.files import TableError, read_array, read_loads, read_radii
 from ..scene.scene import Scene

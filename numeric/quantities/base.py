@@ -18,8 +18,7 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import ORDER, PerBranch, per_direction
-from ..lattice.layers import LazyRows, Region, Rows, pick, standing_on_base, whole
-from ..lattice.naming import Block, Naming
+from ..lattice.layers import Block, LazyRows, Naming, Region, Rows, pick, standing_on_base, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route, Solved

@@ -8,8 +8,7 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array
 from ..lattice import regions
 from ..lattice.branch import Contact
-from ..lattice.layers import Region, Rows
-from ..lattice.naming import Block
+from ..lattice.layers import Block, Region, Rows
 from ..mechanics import first_order
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved

@@ -6,8 +6,7 @@ from functools import lru_cache, partial
 import numpy as np
 
 from ..arithmetic.systems import Array
-from ..lattice.layers import Layer, Region, full_layer
-from ..lattice.naming import Block
+from ..lattice.layers import Block, Layer, Region, full_layer
 from ..mechanics.problem import Problem, Solved
 from .base import (
     Columns,

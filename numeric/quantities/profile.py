@@ -9,8 +9,7 @@ import numpy as np
 from ..arithmetic.decimals import decimal_string
 from ..arithmetic.systems import Array, NumberSystem, as_floats
 from ..lattice.branch import Direction
-from ..lattice.layers import Region, full_layer
-from ..lattice.naming import Block
+from ..lattice.layers import Block, Region, full_layer
 from ..mechanics.problem import Problem, Solved
 from ..statistics.moments import Moments, Scatter, unit_near
 from .base import (

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..accuracy.accuracy import Accuracy
-from ..accuracy.digits import printed
+from ..accuracy.accuracy import Accuracy, printed
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import AxisContact, Contact
@@ -17,10 +16,9 @@ from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.work import ESTIMATE, Work
 from ..planning.plan import Plan, plan_lines
 from ..quantities.answer import Answer
-from ..scene.source import source_of
+from ..scene.scene import source_of
 from ..statistics import bins
-from ..tables import SHOWN, Row, html_table, rows_of
-from ..text import rows_of_text, text_of
+from ..tables import SHOWN, Row, html_table, rows_of, rows_of_text, text_of
 from ..theory.expected import critical_height
 from ..unilateral import Network
 
@@ -122,7 +120,7 @@ class Outcome:
 
     @cached_property
     def text(self) -> dict[str, Array]:
-        """The columns of the answer as text, see ``numeric.text``: decimals with known digits."""
+        """The columns of the answer as text, see ``numeric.tables``: decimals with known digits."""
         if self.answer.bins is not None:
             rows = bins.printed(self.answer.bins)
             return {name: text_of([row[name] for row in rows]) for name in ("low", "high", "count")}

@@ -22,8 +22,8 @@ from ..planning.plan import Choice, Plan
 from ..planning.planner import plan
 from ..quantities.answer import Answer
 from ..scene import reading, scene
+from ..scene.scene import files_read, program_version, source_of
 from ..scene.sections import SceneError
-from ..scene.source import files_read, program_version, source_of
 from .checkpoint import Checkpoint, opened
 from .outcome import Missed, Outcome
 

@@ -15,8 +15,7 @@ from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.foreign import ForeignFileError, opened, read_numbers
 from ..arithmetic.systems import Array
 from ..lattice.branch import Site, axis_names, bead_names
-from ..lattice.layers import full_layer, site_of
-from ..lattice.naming import Naming
+from ..lattice.layers import Naming, full_layer, site_of
 from .sections import radii_array
 
 Bead = tuple[int, ...]

@@ -176,7 +176,7 @@ def test_segments_find_what_they_can_and_say_what_stays_open(
         ask=fd.Ask(quantity="profile"),
     )
     whole = plan(asked)
-    parts = memory.by_segments(whole.problem, whole.method, whole.scene, None)
+    parts = memory.by_segments(whole.problem, whole.system, whole.scene, None)
     assert parts is not None
     try:
         found = run(whole).physical

@@ -103,7 +103,7 @@ def sections(name: str, **disorder: Any) -> dict[str, dict[str, Any]]:
 
 
 def cut(made: Plan, layers: int, every: int = 1) -> Plan:
-    found = memory.by_segments(made.problem, made.method, made.scene, None)
+    found = memory.by_segments(made.problem, made.system, made.scene, None)
     assert found is not None
     return replace(made, problem=replace(found[0], segment=layers, every=every))
 

@@ -17,7 +17,7 @@ from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError, rows
 from force_diffusion.numeric.lattice.branch import Branch, Contact, per_direction
 from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
 from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
-from force_diffusion.numeric.mechanics import engine, gaps, sweep
+from force_diffusion.numeric.mechanics import engine, physicality, sweep
 from force_diffusion.numeric.mechanics.problem import Solved
 from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
@@ -164,7 +164,7 @@ def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed:
     compiled = passes.told(phi, region, rho[:, :1], block, deposition.most)
     usual = outcome(sweep.deposit, phi, region, rows_in(region, rho, carried=False), FLOAT64)
     layers = range(region.top + 1)
-    a, b = gaps.gaps(compiled, layers), gaps.gaps(usual, layers)
+    a, b = physicality.gaps(compiled, layers), physicality.gaps(usual, layers)
     assert a == b
 
 

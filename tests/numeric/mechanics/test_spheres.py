@@ -26,7 +26,7 @@ from force_diffusion.numeric.lattice.branch import PerAxis
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics.any_dimension import force_weights, together
 from force_diffusion.numeric.mechanics.engine import packings
-from force_diffusion.numeric.mechanics.gaps import by_distance, gaps
+from force_diffusion.numeric.mechanics.physicality import by_distance, gaps
 from force_diffusion.numeric.mechanics.sweep import (
     NotStandingError,
     SolvedPacking,

@@ -14,7 +14,7 @@ from force_diffusion.numeric.lattice.layers import Layer
 from force_diffusion.numeric.mechanics import first_order
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning import methods
+from force_diffusion.numeric.planning import planner
 from force_diffusion.numeric.planning.memory import float_bead
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import run
@@ -257,7 +257,7 @@ def test_clocks_do_not_overlap(geometry: str, quantity: str, tolerance: str | No
 
 def test_precisions_that_failed_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
     sections = basic(quantity="contact", at=[2, 2, "+"], tolerance="=1e-40")
-    monkeypatch.setattr(methods, "initial_bits", lambda tolerance, height: 24)
+    monkeypatch.setattr(planner, "initial_bits", lambda tolerance, height: 24)
     plan = planned(sections)
     outcome = run(plan)
     passes = outcome.work.arithmetic

@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from force_diffusion.numeric import text
+from force_diffusion.numeric import tables
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -26,7 +26,7 @@ def test_numbers_are_those_of_python(pairs: list[tuple[float, int]]) -> None:
     values = np.array([value for value, _ in pairs], dtype=np.float64)
     digits = np.array([count for _, count in pairs], dtype=np.int64)
     expected = [f"{value:.{count}g}" for value, count in pairs]
-    assert text.strings(text.significant(values, digits)) == expected
+    assert tables.strings(tables.significant(values, digits)) == expected
 
 
 @pytest.mark.parametrize("count", [0, 1, 8191, 8192, 8193, 30_000])
@@ -34,8 +34,10 @@ def test_blocks_are_put_together(count: int) -> None:
     values = np.random.default_rng(5).normal(0, 1e-3, count)
     digits = np.random.default_rng(6).integers(1, 18, count)
     expected = [f"{v:.{d}g}" for v, d in zip(values.tolist(), digits.tolist(), strict=True)]
-    assert text.strings(text.significant(values, digits)) == expected
-    assert text.strings(text.text_of(np.arange(count) - 7)) == [str(k - 7) for k in range(count)]
+    assert tables.strings(tables.significant(values, digits)) == expected
+    assert tables.strings(tables.text_of(np.arange(count) - 7)) == [
+        str(k - 7) for k in range(count)
+    ]
 
 
 @given(st.lists(st.tuples(st.integers(-(10**12), 10**12), st.sampled_from("+-"), st.floats())))
@@ -43,15 +45,17 @@ def test_rows_are_those_of_the_libraries(rows: list[tuple[int, str, float]]) -> 
     names = ["i", "branch", "force"]
     columns = {name: [row[n] for row in rows] for n, name in enumerate(names)}
     written = {
-        "i": text.text_of(np.array(columns["i"], dtype=np.int64)),
-        "branch": text.text_of(columns["branch"]),
-        "force": text.significant(np.array(columns["force"], dtype=float), np.full(len(rows), 17)),
+        "i": tables.text_of(np.array(columns["i"], dtype=np.int64)),
+        "branch": tables.text_of(columns["branch"]),
+        "force": tables.significant(
+            np.array(columns["force"], dtype=float), np.full(len(rows), 17)
+        ),
     }
-    file = csv.DictReader(io.StringIO(text.csv_bytes(written).decode()))
+    file = csv.DictReader(io.StringIO(tables.csv_bytes(written).decode()))
     read = list(file)
     assert file.fieldnames == names  # also where there is no row
     same = [{"i": int(r["i"]), "branch": r["branch"], "force": float(r["force"])} for r in read]
-    objects = json.loads(b"[" + text.json_rows(written, ["i"]) + b"]")
+    objects = json.loads(b"[" + tables.json_rows(written, ["i"]) + b"]")
     for found in (same, [one | {"force": float(one["force"])} for one in objects]):
         assert len(found) == len(rows)
         for one, (i, branch, force) in zip(found, rows, strict=True):
