@@ -7,7 +7,6 @@ from dataclasses import asdict
 from force_diffusion.symbolic.kernel.decisions import in_words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import column_width, latex_body
-
 from sympy import Basic
 
 from ..coq.record import recorded

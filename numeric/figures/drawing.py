@@ -123,7 +123,7 @@ def _colour(colour: spec.Colour) -> str:
 
 def _line(axes: Axes, one: spec.Line) -> Iterable[Artist]:
     colour = _colour(one.colour)
-    alone: Any = {"marker": "_", "ms": 6, "mew": 0.9} if len(one.x) == 1 else {}
+    alone: Any = {"marker": "_", "ms": 7, "mew": 0.9, "clip_on": False} if len(one.x) == 1 else {}
     drawn = axes.plot(
         one.x, one.y, *one.z, color=colour, ls=one.dashes, lw=one.width, label=one.name or None,
         **alone,
