@@ -40,12 +40,12 @@ def draw(picture: spec.Picture) -> Figure:
         width_ratios=picture.columns,
         per_subplot_kw=projections,
     )
+    if len(letters) > 1:
+        style.letter([found[letter] for letter in letters])
     below: dict[Any, Artist] = {}
     for letter, panel in zip(letters, picture.panels, strict=True):
         axes = found[letter]
         keys = _draw(axes, panel)
-        if len(letters) > 1:
-            axes.set_title(f"({letter})", loc="left", pad=4)
         if panel.legend == "below":
             below |= {key.get_label(): key for key in keys}
         elif panel.legend and keys:

@@ -72,7 +72,11 @@ def panel(load: str, found: list[spec.Comparison]) -> spec.Panel:
             spec.Rule("y", 0),
         ],
         spec.RELATIVE_HEIGHT,
-        spec.Axis(r"$(\langle f\rangle/f_{0}-1)\,/\,[M(\sigma_{\delta r}/r)^2]$"),
+        spec.Axis(
+            r"$(\langle f\rangle/f_{0}-1)\,/\,[M(\sigma_{\delta r}/r)^2]$"
+            if load == "surface"
+            else ""
+        ),
         title=f"{load} load",
         legend="upper left",
     )

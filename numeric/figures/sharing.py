@@ -7,12 +7,10 @@ as fractions: they have no error. The curves are Eq. B15, which is linear in t =
 from fractions import Fraction
 from itertools import product
 
-import numpy as np
-
 from .. import closed_forms
 from . import specification as spec
 from .packings import Notice, Options
-from .stress import BULK, DIRECTIONS, HEIGHT, Direction, cosine, enlarged, over_height, row
+from .stress import DIRECTIONS, HEIGHT, Direction, cosine, drawn, enlarged, row
 
 ZERO, ONE = Fraction(0), Fraction(1)
 CASES = list(product(DIRECTIONS, "+-"))
@@ -51,14 +49,11 @@ def figure(o: Options) -> spec.Figure:
         for (n, sign), values in found.items()
         for j, (value, exact) in enumerate(zip(values, theory(n, sign), strict=True))
     ]
-    z, dashes = np.arange(HEIGHT) / HEIGHT, {"+": "-", "-": ":"}
+    dashes = {"+": "-", "-": ":"}
     panel = spec.Panel(
         [
             *(
-                (
-                    *spec.in_parts(z, over_height(theory(n, sign)), BULK, c, dashes[sign]),
-                    spec.Points(z, over_height(found[n, sign]), c, name(n, sign)),
-                )
+                drawn(found[n, sign], theory(n, sign), c, name(n, sign), dashes[sign])
                 for c, (n, sign) in enumerate(CASES)
             ),
             spec.Line(name="exact, $L^+$"),

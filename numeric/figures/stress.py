@@ -79,14 +79,18 @@ def measured(load: str, n: Direction, notice: Notice) -> list[Fraction]:
     return found
 
 
-def over_height(values: list[Fraction]) -> list[float]:
-    """Give them over M."""
-    return [float(value) / HEIGHT for value in values]
+def drawn(
+    found: list[Fraction], theory: list[Fraction], colour: int, name: str, dashes: str = "-"
+) -> list[spec.Element]:
+    """Draw coefficients and closed forms by layer, both over M."""
+    z = np.arange(HEIGHT) / HEIGHT
+    points, curve = (np.array(values, dtype=float) / HEIGHT for values in (found, theory))
+    return [*spec.in_parts(z, curve, BULK, colour, dashes), spec.Points(z, points, colour, name)]
 
 
 def panel(load: str, found: dict[tuple[str, Direction], list[Fraction]]) -> spec.Panel:
     """Shifts over M under one load, a colour a direction."""
-    z, fine = np.arange(HEIGHT) / HEIGHT, np.linspace(0, 1, 101)
+    fine = np.linspace(0, 1, 101)
     elements: list[spec.Element] = []
     for c, n in enumerate(DIRECTIONS):
         phi = float(cosine(n))
@@ -94,8 +98,7 @@ def panel(load: str, found: dict[tuple[str, Direction], list[Fraction]]) -> spec
         name = rf"$\phi={phi:g}$, Taylor coefficients"
         elements += [
             spec.Line(fine, 4 * limit / (1 - phi**2) ** 2, c, "--"),
-            *spec.in_parts(z, over_height(theory(load, n)), BULK, c),
-            spec.Points(z, over_height(found[load, n]), c, name),
+            *drawn(found[load, n], theory(load, n), c, name),
         ]
     return spec.Panel(
         [
