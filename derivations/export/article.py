@@ -48,9 +48,11 @@ _HEADINGS = "title", "section", "subsection"
 _QUOTE = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
 _IMAGE = re.compile(r"^!\[([^]]*)\]\((\w+)\)\n\n", re.MULTILINE)
 _MADE = re.compile(r"^(> |)```(\{(?:statement|step|exact-forms)\}.*)\n(?:> |)```$", re.MULTILINE)
-_BEFORE_DISPLAY = re.compile(r"\n\n(?=\\renewcommand\{\\theequation\}|\\begin\{equation\*\})")
+_BEFORE_DISPLAY = re.compile(r"\n\n(?=\\setcounter\{equation\}|\\begin\{equation\*\})")
 _DASHES = re.compile(r"^[|-]+$", re.MULTILINE)
-_LABEL = re.compile(r"\b(B\d+)\b")
+_LABEL = re.compile(r"(?<!fig:)\b(B\d+)\b")
+_FIGURES = re.compile(r"\bFigs?\.~(?:(?:, | and )?B\d+)+")
+_STATED = re.compile(r"\{statement\} (B\d+)")
 
 
 class ArticleError(ForceDiffusionError, ValueError):
@@ -115,13 +117,13 @@ def own_equations() -> list[str]:
     return [label for theorem in THEOREMS for label in theorem.cases]
 
 
-def _filled(markdown: str, run: str) -> str:
-    """Put numbers in; ``run`` is said of the derivations that were run."""
+def _filled(markdown: str, **said: str) -> str:
+    """Put numbers in, and what is ``said`` of the derivations that were run and of names."""
 
     def value(found: re.Match[str]) -> str:
         words = found[1].strip()
         try:
-            return run if words == "run" else quoted(words)
+            return said[words] if words in said else quoted(words)
         except LookupError:
             raise ArticleError(f"the article quotes '{words}', which nothing computes") from None
 
@@ -135,7 +137,7 @@ def page(markdown: str) -> str:
         "This page derives nothing: `force-diffusion derive` does, `derive T4` all equations of a "
         "theorem, and `show B1 --as steps` prints the steps of one."
     )
-    filled = _filled(markdown, run)
+    filled = _filled(markdown, run=run, naming="those beyond them are B1, B2 and so on")
     filled = _IMAGE.sub(
         lambda one: f"![{one[1]}](../figures/{FIGURES[one[2]].file}.png)\n\n**Figure {one[2]}.** ",
         filled,
@@ -184,7 +186,7 @@ def _forms(derivation: Derivation, columns: int) -> str:
     exact = derivation.exact() if derivation.exact else {}
     for name, form in exact.items():
         line = Eq(form.quantity, form.expression, evaluate=False)
-        said += [f"`{name}`:\n\n", _placed(line, form.validity, columns)]
+        said += [f"`{derivation.number} {name}`:\n\n", _placed(line, form.validity, columns)]
         if form.missed:
             said.append("but in its place\n\n")
         said += [
@@ -207,15 +209,23 @@ def article(markdown: str, plates: Mapping[str, Plate], run: str) -> str:
     ``run`` is said of the derivations that were run.
     """
     figures_of(markdown)
-    body = _BEFORE_DISPLAY.sub("\n", _Writer(plates).written(_filled(markdown, run)))
+    first = 1 + max(number for number in modules() if isinstance(number, int))
+    numbers = {label: first + place for place, label in enumerate(_STATED.findall(markdown))}
+    naming = f"ours go on from {first}"
+    filled = _filled(markdown, run=run, naming=naming)
+    body = _BEFORE_DISPLAY.sub("\n", _Writer(plates, numbers).written(filled))
     return f"{_HEAD}{body}\n\\end{{document}}\n"
 
 
 @dataclass
 class _Writer:
-    """Markdown as LaTeX: a method for each construct, and an error for any other."""
+    """Markdown as LaTeX: a method for each construct, and an error for any other.
+
+    ``numbers``: of the equations beyond the paper, in the order of the text.
+    """
 
     plates: Mapping[str, Plate]
+    numbers: Mapping[str, int]
     section: str = ""
 
     def written(self, markdown: str) -> str:
@@ -251,7 +261,8 @@ class _Writer:
             return before
         if title.startswith("Appendix: "):
             title = title.removeprefix("Appendix: ")
-            before += "\\label{end}\\appendix\n"
+            before += "\\label{end}\\appendix\n\\setcounter{figure}{0}\n"
+            before += "\\renewcommand{\\thefigure}{A\\arabic{figure}}\n"
         return f"{before}\\{_HEADINGS[level - 1]}{{{title[:1].upper()}{title[1:]}}}\n"
 
     def _paragraph(self, node: Node) -> str:
@@ -263,10 +274,10 @@ class _Writer:
             raise ArticleError(f"figure {name} has no caption below it, in italics")
         plate = self.plates[name]
         kind = "figure*" if plate.wide else "figure"
-        found = " ".join(prose_latex(sentence(line)) for line in plate.says)
+        found = " ".join(_referring(sentence(line)) for line in plate.says)
         return (
-            f"\\begin{{{kind}}}\n\\renewcommand{{\\thefigure}}{{{name}}}\n\\centering\n"
-            f"\\includegraphics{{{plate.file}}}\n\\caption{{{self._all(parts[0])} {found}}}\n"
+            f"\\begin{{{kind}}}\n\\centering\n\\includegraphics{{{plate.file}}}\n"
+            f"\\caption{{{self._all(parts[0])} {found}}}\n\\label{{fig:{name}}}\n"
             f"\\end{{{kind}}}\n"
         )
 
@@ -274,8 +285,7 @@ class _Writer:
         return self._all(node)
 
     def _text(self, node: Node) -> str:
-        words = prose_latex(node.content).replace("Eq. ", "Eq.~").replace("Eqs. ", "Eqs.~")
-        return _LABEL.sub(r"\\ref{eq:fd\1}", words)
+        return _referring(node.content)
 
     def _softbreak(self, _: Node) -> str:
         return "\n"
@@ -320,7 +330,8 @@ class _Writer:
             return self._captioned(self.written(more).strip(), node.content)
         if kind == "{statement}" and (number := number_of(more)):
             shown = statement_latex(load(number), COLUMNS)
-            return f"\\renewcommand{{\\theequation}}{{{number}}}\n{shown}"
+            place = number if isinstance(number, int) else self.numbers[number]
+            return f"\\setcounter{{equation}}{{{place - 1}}}\n{shown}"
         return self.written(_made(node.info, COLUMNS))
 
     def _captioned(self, caption: str, markdown: str) -> str:
@@ -348,6 +359,13 @@ class _Writer:
 
     def _tr(self, node: Node) -> str:
         return " & ".join(self._all(cell) for cell in node.children) + " \\\\[2pt]\n"
+
+
+def _referring(words: str) -> str:
+    """Words as LaTeX, with the numbers of the figures and equations that they name."""
+    latex = re.sub(r"\b(Eqs?|Figs?)\. ", r"\1.~", prose_latex(words))
+    latex = _FIGURES.sub(lambda found: _LABEL.sub(r"\\ref{fig:\1}", found[0]), latex)
+    return _LABEL.sub(r"\\ref{eq:fd\1}", latex)
 
 
 def _image(node: Node) -> str:

@@ -7,6 +7,7 @@ from dataclasses import asdict
 from force_diffusion.symbolic.kernel.decisions import in_words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import column_width, latex_body
+from sympy import Basic
 
 from ..coq.record import recorded
 from ..framework.record import Derivation, Outcome
@@ -38,6 +39,7 @@ _HEAD = r"""\documentclass[10pt]{article}
 \displaywidowpenalty=10000
 \setcounter{secnumdepth}{0} % equations have numbers, their sections have none
 \renewcommand{\labelitemi}{$\bullet$}
+\allowdisplaybreaks
 \makeatletter\@beginparpenalty=10000\makeatother % no page ends between a heading and its list
 \newcommand{\heading}[1]{\par\vskip 0pt plus 4\baselineskip\penalty-200
   \vskip 0pt plus -4\baselineskip\smallskip\noindent\textbf{#1}\par\nobreak}
@@ -125,16 +127,22 @@ def _steps(derivation: Derivation, verdicts: list[str]) -> str:
             items.append(f"{reason}: Eq.~({derivation.number}). {follows}")
             continue
         relation = RELATIONS[relation_of(derivation, step)]
-        shown = latex_body([step.formula], relation, room=380.0)
-        items.append(f"{prose_latex(step.reason)}\n\\[\n{shown}\n\\]\n{follows}")
+        items.append(f"{prose_latex(step.reason)}\n{_shown(step.formula, relation)}{follows}")
     return _list("enumerate", items)
+
+
+def _shown(formula: Basic, relation: str) -> str:
+    """A display without a number; a page may end between its lines."""
+    body = latex_body([formula], relation, room=380.0)
+    lines = body.removeprefix("\\begin{aligned}\n").removesuffix("\n\\end{aligned}")
+    return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
 
 
 def _refuted(derivation: Derivation) -> str:
     """Printed statements that do not hold; they are in no fragment."""
     return "".join(
         f"\\par {prose_latex(sentence(one.reading))}\n"
-        f"\\[\n{latex_body([one.formula], RELATIONS[one.relation], room=380.0)}\n\\]\n"
+        f"{_shown(one.formula, RELATIONS[one.relation])}"
         for one in derivation.refuted
     )
 

@@ -62,7 +62,7 @@ THEOREMS = (
         "T8",
         "any dimension",
         "t8_any_dimension",
-        ("B11", "B13", "B14", "B20", "B24", "B25"),
+        ("B11", "B20", "B13", "B14", "B24", "B25"),
     ),
     Theorem("T9", "response in three dimensions", "t9_spheres_response", ("B19",)),
 )

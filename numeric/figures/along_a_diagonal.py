@@ -70,7 +70,7 @@ def figure(o: Options) -> spec.Figure:
             *found.drawn(z, c, f"lower contact at $z={j}/{HEIGHT}$", unit=UNIT, rows=rows),
         ]
     panel += [
-        spec.Line(name=f"Eq. (B12), exact at $M={HEIGHT}$"),
+        spec.Line(name=f"exact at $M={HEIGHT}$"),
         spec.Line(name=r"its leading order, $M\to\infty$", dashes="--"),
     ]
     return spec.Figure(
@@ -80,7 +80,9 @@ def figure(o: Options) -> spec.Figure:
                     panel,
                     spec.Axis(r"height of the upper contact $z^\prime$", 0, 1),
                     spec.Axis(
-                        r"covariance $/\,\langle f\rangle^2M^3(\sigma/r)^2(1-\phi^2)^{-2}$", 0, 2.6
+                        r"cov. $/\,[\langle f\rangle^2M^3(\sigma_{\delta r}/r)^2(1-\phi^2)^{-2}]$",
+                        0,
+                        2.6,
                     ),
                     legend="upper right",
                 )

@@ -248,7 +248,7 @@ def _ratio(found: Sequence[Height]) -> spec.Panel:
     return spec.Panel(
         [spec.Rule("y", 0), *(one.over_theory(c) for c, one in enumerate(found))],
         spec.RELATIVE_HEIGHT,
-        spec.Axis(r"sim./exact $-\,1$ (%)", -widest, widest),
+        spec.Axis("deviation (%)", -widest, widest),
     )
 
 

@@ -64,13 +64,13 @@ def figure(o: Options) -> spec.Figure:
     forces = spec.Axis(r"$(f_{ij}-\langle f\rangle)\,/\,\sigma_f(0)$", -2.3, 2.3, ticks=ticks)
     panels = [
         spec.Panel(left, displaced, spec.RELATIVE_HEIGHT),
-        spec.Panel(right, forces, spec.Axis(low=0, high=1), legend="below", columns=3),
+        spec.Panel(right, forces, spec.Axis(low=0, high=1), legend="below", columns=2),
     ]
     geometry = zip(range(M + 1), x.tolist(), y.tolist(), strict=True)
     columns = (z[:-1], force, printed, brownian)
     widths = zip(range(M), *(column.tolist() for column in columns), strict=True)
     return spec.Figure(
-        spec.Picture(panels, 2.75, share="y"),
+        spec.Picture(panels, 2.85, share="y"),
         tables={
             "figure2_geometry": spec.table("j sigma_x_over_sigma_r sigma_y_over_sigma_r", geometry),
             "figure2_forces": spec.table("j z exact_finite_M printed brownian", widths),

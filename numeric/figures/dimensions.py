@@ -42,7 +42,7 @@ def figure(o: Options) -> spec.Figure:
     ratios = {d: float(found[d][0] / leading[d][0]) for d in DIMENSIONS}
     panel = spec.Panel(
         [
-            spec.Line(name="Eq. (B11), leading order"),
+            spec.Line(name="leading order"),
             *(
                 (
                     spec.Line(fine, printed(d, fine) / unit, c),

@@ -78,7 +78,7 @@ def figure(o: Options) -> spec.Figure:
     rms = r"$\sigma_f/\langle f\rangle$, r.m.s. over layers"
     panel = spec.Panel(
         [
-            *(spec.Line(fine, curves[b], b, name=f"$f^{s}$, Eq. (B2)") for b, s in enumerate("+-")),
+            *(spec.Line(fine, curves[b], b, name=f"$f^{s}$, theory") for b, s in enumerate("+-")),
             *(
                 found.points(ANGLES, b, f"$f^{s}$, simulated", rows=halves[b])
                 for b, s in enumerate("+-")

@@ -40,12 +40,12 @@ def draw(picture: spec.Picture) -> Figure:
         width_ratios=picture.columns,
         per_subplot_kw=projections,
     )
+    if len(letters) > 1:
+        style.letter([found[letter] for letter in letters])
     below: dict[Any, Artist] = {}
     for letter, panel in zip(letters, picture.panels, strict=True):
         axes = found[letter]
         keys = _draw(axes, panel)
-        if len(letters) > 1:
-            axes.set_title(f"({letter})", loc="left", pad=4)
         if panel.legend == "below":
             below |= {key.get_label(): key for key in keys}
         elif panel.legend and keys:
@@ -123,7 +123,7 @@ def _colour(colour: spec.Colour) -> str:
 
 def _line(axes: Axes, one: spec.Line) -> Iterable[Artist]:
     colour = _colour(one.colour)
-    alone: Any = {"marker": "_", "ms": 6, "mew": 0.9} if len(one.x) == 1 else {}
+    alone: Any = {"marker": "_", "ms": 7, "mew": 0.9, "clip_on": False} if len(one.x) == 1 else {}
     drawn = axes.plot(
         one.x, one.y, *one.z, color=colour, ls=one.dashes, lw=one.width, label=one.name or None,
         **alone,

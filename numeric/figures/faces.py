@@ -127,7 +127,7 @@ def figure(o: Options) -> spec.Figure:
     row, q = np.array([(row, q) for _, q, row in BEADS]).T
     panel = spec.Panel(
         [
-            spec.Line(q[:FACE], face.theory / PAPER_STD, 0, name="Eq. (B19), exact"),
+            spec.Line(q[:FACE], face.theory / PAPER_STD, 0, name="exact first order"),
             face.points(q[:FACE], 0, "face of the cone", unit=PAPER_STD),
             *(
                 spec.Points(

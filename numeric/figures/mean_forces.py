@@ -24,6 +24,8 @@ LOADS = {
     "bulk": ("B6", BulkLoad, closed_forms.bulk_mean_shift),
 }
 CASES = list(product(SPACINGS, LOADS))
+BULK = slice(2, HEIGHT - 1)
+"""Layers of Eqs. B5 and B6; those beside base and surface have values of their own."""
 
 
 def theory(load: str, height: int, spacing: Fraction) -> Array:
@@ -60,17 +62,21 @@ def panel(load: str, found: list[spec.Comparison]) -> spec.Panel:
     phis = [cosine(spacing) for spacing in SPACINGS]
     return spec.Panel(
         [
-            spec.Line(name=f"Eq. ({LOADS[load][0]}), exact at $M={HEIGHT}$"),
+            spec.Line(name=f"exact at $M={HEIGHT}$"),
             spec.Line(name=r"$M\to\infty$", dashes="--"),
             *(spec.Line(fine, leading(load, fine, phi), c, "--") for c, phi in enumerate(phis)),
             *(
-                one.drawn(z, c, rf"$\phi={phi:g}$, simulated", unit=HEIGHT)
+                one.drawn(z, c, rf"$\phi={phi:g}$, simulated", unit=HEIGHT, bulk=BULK)
                 for c, (one, phi) in enumerate(zip(found, phis, strict=True))
             ),
             spec.Rule("y", 0),
         ],
         spec.RELATIVE_HEIGHT,
-        spec.Axis(r"$(\langle f\rangle/f_{0}-1)\,/\,M(\sigma_{\delta r}/r)^2$"),
+        spec.Axis(
+            r"$(\langle f\rangle/f_{0}-1)\,/\,[M(\sigma_{\delta r}/r)^2]$"
+            if load == "surface"
+            else ""
+        ),
         title=f"{load} load",
         legend="upper left",
     )

@@ -64,18 +64,18 @@ def figure(o: Options) -> spec.Figure:
     found = [simulated(o, spacing) for spacing in SPACINGS]
     panel = spec.Panel(
         [
-            spec.Line(name="Eq. (B9)"),
+            spec.Line(name="exact second order"),
             *(
-                one.drawn(OFFSETS, c, rf"$\phi={cosine(spacing):g}$, simulated")
+                one.drawn(
+                    OFFSETS, c, rf"$\phi={cosine(spacing):g}$, simulated", bulk=slice(1, None)
+                )
                 for c, (one, spacing) in enumerate(zip(found, SPACINGS, strict=True))
             ),
             spec.Rule("y", 0),
             *(spec.Rule("x", leg, dashes=":") for leg in (-REACH, REACH)),
         ],
         spec.Axis(r"$i-k$ of a contact $f^{+}$ inside of the cone"),
-        spec.Axis(
-            r"$\langle f^{+}\rangle/(f^{\rm load}/2n_y)\;/\;(\sigma_{\delta r}/r)^2$", -2.3, 3
-        ),
+        spec.Axis(r"$2n_y\langle f^{+}\rangle\,/\,[f^{\rm load}(\sigma_{\delta r}/r)^2]$", -2.3, 3),
         legend="upper center",
     )
     places = [(float(s), cosine(s), int(offset)) for s in SPACINGS for offset in OFFSETS]

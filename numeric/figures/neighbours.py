@@ -66,7 +66,7 @@ def figure(o: Options) -> spec.Figure:
     """σ of the mean over N, on logarithmic axes."""
     found, every, count = simulated(o), np.array(WINDOWS), len(WINDOWS)
     halves = slice(0, count), slice(count, None)
-    names = ("contacts of one branch, Eq. (B7)", "beads, vertical force, Eq. (B8)")
+    names = ("contacts of one branch", "beads, vertical force")
     panel = spec.Panel(
         [
             *(

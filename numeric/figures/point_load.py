@@ -139,7 +139,7 @@ def figure(o: Options) -> spec.Figure:
     highest = float(found.variance[APEX - 2 == LAYER][1])
     panels = [
         cone(centres, found.mean, apex, r"$\langle p\rangle\,/\,f^{\rm load}$", side, 0.5),
-        cone(centres, found.variance, apex, VARIANCE, side, highest),
+        cone(centres, found.variance, apex, r"$\sigma^2(p)$, unit of (c)", side, highest),
         _cuts(found),
     ]
     tables = {"figure4": found.table(), "figure4_cuts": cuts}

@@ -7,13 +7,10 @@ as fractions: they have no error. The curves are Eq. B15, which is linear in t =
 from fractions import Fraction
 from itertools import product
 
-import numpy as np
-
 from .. import closed_forms
-from ..mechanics import taylor
 from . import specification as spec
 from .packings import Notice, Options
-from .stress import DIRECTIONS, HEIGHT, Direction, cosine, over_height
+from .stress import DIRECTIONS, HEIGHT, Direction, cosine, drawn, enlarged, row
 
 ZERO, ONE = Fraction(0), Fraction(1)
 CASES = list(product(DIRECTIONS, "+-"))
@@ -30,16 +27,11 @@ def theory(n: Direction, sign: str) -> list[Fraction]:
 
 def measured(n: Direction, sign: str, notice: Notice) -> list[Fraction]:
     """The same from the order ε² of exact packings, summed over the bead that is enlarged."""
-    width, found = 2 * HEIGHT + 3, [ZERO] * HEIGHT
-    across = -n[0] if sign == "+" else n[0]
-    loads = {(i, HEIGHT): (across, -n[1]) for i in range(HEIGHT % 2, 2 * width, 2)}
-    for source in range(HEIGHT + 1):
-        notice(f"figure B15, φ = {cosine(n)}, load along n{sign}: radii of layer {source}")
-        rho = {(source % 2, source): ONE}
-        solved = taylor.solve(width, HEIGHT, n=n, rho=rho, loads=loads, order=2)
+    found, across = [ZERO] * HEIGHT, -n[0] if sign == "+" else n[0]
+    what = f"figure B15, φ = {cosine(n)}, load along n{sign}"
+    for _, solved in enlarged(n, (across, -n[1]), (HEIGHT,), notice, what):
         for j in range(HEIGHT):
-            forces = (solved.force(i, j, "+") for i in range(j % 2, 2 * width, 2))
-            found[j] += sum((force[2] for force in forces), ZERO)
+            found[j] += sum((solved.force(*site, "+")[2] for site in row(j)), ZERO)
     return found
 
 
@@ -57,18 +49,15 @@ def figure(o: Options) -> spec.Figure:
         for (n, sign), values in found.items()
         for j, (value, exact) in enumerate(zip(values, theory(n, sign), strict=True))
     ]
-    z, dashes = np.arange(HEIGHT) / HEIGHT, {"+": "-", "-": ":"}
+    dashes = {"+": "-", "-": ":"}
     panel = spec.Panel(
         [
             *(
-                (
-                    spec.Line(z, over_height(theory(n, sign)), c, dashes[sign]),
-                    spec.Points(z, over_height(found[n, sign]), c, name(n, sign)),
-                )
+                drawn(found[n, sign], theory(n, sign), c, name(n, sign), dashes[sign])
                 for c, (n, sign) in enumerate(CASES)
             ),
-            spec.Line(name="Eq. (B15), $L^+$"),
-            spec.Line(name="Eq. (B15), $L^-$", dashes=":"),
+            spec.Line(name="exact, $L^+$"),
+            spec.Line(name="exact, $L^-$", dashes=":"),
             spec.Rule("y", 0),
         ],
         spec.RELATIVE_HEIGHT,

@@ -69,6 +69,19 @@ class Line:
     z: Any = ()
 
 
+def in_parts(x: Any, y: Any, bulk: slice, colour: Colour, dashes: Any = "-") -> list[Line]:
+    """Draw a curve through the bulk, and a dash wherever beside it a place has a value of its own.
+
+    >>> [len(one.x) for one in in_parts([0, 1, 2, 3], [5, 1, 2, 3], slice(1, None), 0)]
+    [3, 1]
+    """
+    inside, beside = range(len(x))[bulk], set(range(len(x))).difference(range(len(x))[bulk])
+    return [
+        Line(np.take(x, some), np.take(y, some), colour, dashes)
+        for some in (inside, *([at] for at in sorted(beside)))
+    ]
+
+
 @dataclass(frozen=True)
 class Points:
     """What was found at (x, y), with error bars: half-widths, or those below and above."""
@@ -272,11 +285,18 @@ class Comparison:
         return Points(x, found / unit, series, name, np.array([found - low, high - found]) / unit)
 
     def drawn(
-        self, x: Any, series: int, name: str = "", *, unit: float = 1.0, rows: Any = ...
+        self,
+        x: Any,
+        series: int,
+        name: str = "",
+        *,
+        unit: float = 1.0,
+        rows: Any = ...,
+        bulk: slice = slice(None),
     ) -> list[Element]:
-        """Give theory as a line, and what was simulated."""
-        line = Line(x, self.theory[rows] / unit, series)
-        return [line, self.points(x, series, name, unit=unit, rows=rows)]
+        """Give theory as a line, ``in_parts``, and what was simulated."""
+        lines = in_parts(x, self.theory[rows] / unit, bulk, series)
+        return [*lines, self.points(x, series, name, unit=unit, rows=rows)]
 
     def columns(self, name: str = "", unit: float = 1.0) -> Table:
         """Give columns of a CSV file, over ``unit``: what was simulated, its band, theory."""

@@ -72,7 +72,7 @@ def figure(o: Options) -> spec.Figure:
     fine, unit = np.linspace(0, 1, 101), [PAPER_STD * case.height**1.5 for case in CASES]
     panel = spec.Panel(
         [
-            spec.Line(name="Eqs. (B13), (B14), exact"),
+            spec.Line(name="exact at finite $M$"),
             spec.Line(name=r"$M\to\infty$", dashes="--"),
             *(
                 one.drawn(case.z, c, f"{case.load}, $M={case.height}$", unit=unit[c])

@@ -4,6 +4,7 @@ The points are Taylor coefficients of exact, nonlinear packings, one bead enlarg
 as fractions: they have no error. The curves are Eqs. B10 and B17.
 """
 
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from itertools import product
 
@@ -23,6 +24,9 @@ LOADS = {
     "bulk": ("B17", closed_forms.bulk_stress_ratio_shift),
 }
 """Equation and closed form of each load."""
+BULK = slice(2, HEIGHT - 1)
+"""Layers of both equations; those beside base and surface have values of their own."""
+WIDTH = 2 * HEIGHT + 3
 Direction = tuple[Fraction, Fraction]
 CASES: list[tuple[str, Direction]] = list(product(LOADS, DIRECTIONS))
 
@@ -38,20 +42,33 @@ def theory(load: str, n: Direction) -> list[Fraction]:
     return [LOADS[load][1](HEIGHT, j, cosine(n), one, one) for j in range(HEIGHT)]
 
 
+def row(j: int) -> list[tuple[int, int]]:
+    """The beads of layer j."""
+    return [(i, j) for i in range(j % 2, 2 * WIDTH, 2)]
+
+
+def enlarged(
+    n: Direction, force: Direction, loaded: Iterable[int], notice: Notice, what: str
+) -> Iterator[tuple[tuple[int, int], taylor.TaylorPacking]]:
+    """Solve packings to the order ε² in which one bead is larger, one of each layer; and say which.
+
+    ``force``: on each bead of the layers that are ``loaded``.
+    """
+    loads = {site: force for j in loaded for site in row(j)}
+    for source in range(HEIGHT + 1):
+        notice(f"{what}: radii of layer {source}")
+        bead = (source % 2, source)
+        yield bead, taylor.solve(WIDTH, HEIGHT, n=n, rho={bead: Fraction(1)}, loads=loads, order=2)
+
+
 def measured(load: str, n: Direction, notice: Notice) -> list[Fraction]:
     """The same from the order ε² of exact packings, summed over the bead that is enlarged."""
-    width, system = 2 * HEIGHT + 3, Series(2)
+    system, found = Series(2), [Fraction(0)] * HEIGHT
     loaded = range(1, HEIGHT + 1) if load == "bulk" else (HEIGHT,)
-    sites = ((i, j) for j in loaded for i in range(j % 2, 2 * width, 2))
-    loads = dict.fromkeys(sites, (Fraction(0), -2 * n[1]))
-    found = [Fraction(0)] * HEIGHT
-    for source in range(HEIGHT + 1):
-        notice(f"figure B10, {load} load, φ = {cosine(n)}: radii of layer {source}")
-        bead = (source % 2, source)
-        solved = taylor.solve(width, HEIGHT, n=n, rho={bead: Fraction(1)}, loads=loads, order=2)
-        for j, i in product(range(HEIGHT), range(0, 2 * width, 2)):
-            site = i + j % 2, j
-            upper = (site[0] + 1) % (2 * width), j + 1
+    what = f"figure B10, {load} load, φ = {cosine(n)}"
+    for bead, solved in enlarged(n, (Fraction(0), -2 * n[1]), loaded, notice, what):
+        for i, j in (site for layer in range(HEIGHT) for site in row(layer)):
+            site, upper = (i, j), ((i + 1) % (2 * WIDTH), j + 1)
             with system.active():
                 length = system.series([Fraction(2), Fraction(bead in (site, upper))])
                 push = system.series(solved.force(*site, "+")) * length
@@ -62,14 +79,18 @@ def measured(load: str, n: Direction, notice: Notice) -> list[Fraction]:
     return found
 
 
-def over_height(values: list[Fraction]) -> list[float]:
-    """Give them over M."""
-    return [float(value) / HEIGHT for value in values]
+def drawn(
+    found: list[Fraction], theory: list[Fraction], colour: int, name: str, dashes: str = "-"
+) -> list[spec.Element]:
+    """Draw coefficients and closed forms by layer, both over M."""
+    z = np.arange(HEIGHT) / HEIGHT
+    points, curve = (np.array(values, dtype=float) / HEIGHT for values in (found, theory))
+    return [*spec.in_parts(z, curve, BULK, colour, dashes), spec.Points(z, points, colour, name)]
 
 
 def panel(load: str, found: dict[tuple[str, Direction], list[Fraction]]) -> spec.Panel:
     """Shifts over M under one load, a colour a direction."""
-    z, fine = np.arange(HEIGHT) / HEIGHT, np.linspace(0, 1, 101)
+    fine = np.linspace(0, 1, 101)
     elements: list[spec.Element] = []
     for c, n in enumerate(DIRECTIONS):
         phi = float(cosine(n))
@@ -77,12 +98,11 @@ def panel(load: str, found: dict[tuple[str, Direction], list[Fraction]]) -> spec
         name = rf"$\phi={phi:g}$, Taylor coefficients"
         elements += [
             spec.Line(fine, 4 * limit / (1 - phi**2) ** 2, c, "--"),
-            spec.Line(z, over_height(theory(load, n)), c),
-            spec.Points(z, over_height(found[load, n]), c, name),
+            *drawn(found[load, n], theory(load, n), c, name),
         ]
     return spec.Panel(
         [
-            spec.Line(name=f"Eq. ({LOADS[load][0]}), exact at $M={HEIGHT}$"),
+            spec.Line(name=f"exact at $M={HEIGHT}$"),
             spec.Line(name=r"$M\to\infty$", dashes="--"),
             *elements,
             spec.Rule("y", 0),

@@ -25,6 +25,10 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         """A fraction."""
         return rf"\frac{{{over}}}{{{under}}}"
 
+    def is_tall(self, factor: Expr) -> bool:
+        """Whether a factor holds a fraction."""
+        return r"\frac" in self._print(factor)
+
     def set_brackets(self, inner: str) -> str:
         """Round, then square, then braces, from the inside out; braces also around sums."""
         flat = _SUBSCRIPT.sub("", inner)

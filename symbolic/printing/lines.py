@@ -6,7 +6,8 @@ that no line is overfull, which the compilation of the document checks.
 """
 
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import partial
 
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 
@@ -119,6 +120,8 @@ _BRACE = r"\biggl\{"
 _NO_FACTOR = _BINARY | {r"\propto", r"\left", "("}
 # A line is broken at an outer place if that leaves no more than this share of it empty.
 _EMPTY = 0.45
+# A factor alone is no last line: with what stands before it at least this share is to be filled.
+_LONE = 0.28
 
 
 def folded(source: str, room: float) -> list[str]:
@@ -130,7 +133,7 @@ def folded(source: str, room: float) -> list[str]:
     \times (f - g) \biggr]
     """
     source = split_fraction(source, room)
-    places = list(_breaks(source))
+    places, product = list(_breaks(source)), (*_FACTOR, _BRACE)
     lines = []
     start, lead = 0, ""
     while width(lead + source[start:]) > room:
@@ -138,15 +141,22 @@ def folded(source: str, room: float) -> list[str]:
         found = [(d, at) for d, at in found if width(lead + source[start:at]) <= room]
         if not found:  # nowhere
             break
-        enough = (1 - _EMPTY) * room
-        good = [(d, at) for d, at in found if width(lead + source[start:at]) > enough] or found
-        least = min(depth for depth, _ in good)
-        at = max(at for depth, at in good if depth == least)
+        best = partial(_best, sizes={at: width(lead + source[start:at]) for _, at in found})
+        at = best(found, room)
+        if source.startswith(product, at) and width(source[at:]) < _LONE * room:
+            company = [(d, at) for d, at in found if width(source[at:]) >= _LONE * room]
+            at = best(company or found, room)
         lines.append(lead + source[start:at].rstrip())
-        product = source[at:].startswith((*_FACTOR, _BRACE))
-        start, lead = at, r"\times " if product else ""
+        start, lead = at, r"\times " if source.startswith(product, at) else ""
         room -= 0 if len(lines) > 1 else 10  # of \quad
     return [_sized(line) for line in (*lines, lead + source[start:])]
+
+
+def _best(places: Sequence[tuple[float, int]], room: float, sizes: Mapping[int, float]) -> int:
+    """Where a line ends best: far out, if it is then filled well enough, and far to the right."""
+    good = [(d, at) for d, at in places if sizes[at] > (1 - _EMPTY) * room] or places
+    least = min(depth for depth, _ in good)
+    return max(at for depth, at in good if depth == least)
 
 
 def split_fraction(source: str, room: float) -> str:

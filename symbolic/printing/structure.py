@@ -112,6 +112,10 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
     def set_root(self, inner: str) -> str:
         """A square root."""
 
+    def is_tall(self, factor: Expr) -> bool:
+        """Whether a factor would make a third storey of the fraction in whose numerator it is."""
+        return False
+
     def set_group(self, product: str) -> str:
         """A product within a product, with something after it."""
         return product
@@ -162,7 +166,7 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
                 over.append(factor)
         if under:
             # a person writes the fraction first, then what it multiplies
-            beside = [f for f in over if is_operand(f) or isinstance(f, Mul)]
+            beside = [f for f in over if is_operand(f) or isinstance(f, Mul) or self.is_tall(f)]
             over = [f for f in over if f not in beside]
         if not under:
             return self._side_by_side(over)

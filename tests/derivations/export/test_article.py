@@ -45,7 +45,7 @@ def test_every_equation_is_stated_once_below_its_theorem() -> None:
 
 
 def test_every_theorem_is_in_the_table() -> None:
-    rows = re.findall(r"^\| (T\d): (.*) \((B.*)\) \|.*\| (B\d+) \|$", source(), re.MULTILINE)
+    rows = re.findall(r"^\| (T\d): (.*) \((B.*)\) \|.*\| Fig\. (B\d+) \|$", source(), re.MULTILINE)
     assert [row[:3] for row in rows] == [
         (one.name, one.title, ", ".join(one.cases)) for one in THEOREMS
     ]
@@ -62,6 +62,23 @@ def test_it_refers_to_what_is_there(whole: str) -> None:
     assert set(labels.values()) == {1}
     assert {f"eq:fd{label}" for label in own_equations()} <= set(labels)
     assert set(re.findall(r"\\ref\{(.*?)\}", whole)) <= set(labels)
+
+
+def test_figures_and_equations_are_in_the_order_of_the_text(whole: str) -> None:
+    drawn = re.findall(r"\\label\{fig:(\w+)\}", whole)
+    assert drawn == figures_of(source())
+    text, _, appendix = whole.partition("\\appendix")
+    cited = list(dict.fromkeys(re.findall(r"\\ref\{fig:(\w+)\}", text)))
+    beyond = re.findall(r"\\label\{fig:(\w+)\}", appendix)
+    assert [name for name in cited if name not in beyond] + beyond == drawn
+    assert [name for name in cited if name in beyond] == beyond
+    numbers = re.findall(r"\\setcounter\{equation\}\{(\d+)\}", whole)
+    assert list(map(int, numbers)) == [12, 13, 15, *range(16, 16 + len(own_equations()))]
+
+
+def test_names_of_equations_are_for_the_program_alone(whole: str) -> None:
+    said = re.sub(r"\\(?:ref|label|includegraphics|texttt)\{.*?\}", "", whole)
+    assert not re.findall(r"\bB\d+\b", said)
 
 
 def test_nothing_is_left_of_the_source(whole: str) -> None:

@@ -63,14 +63,14 @@ def test_figure_b7_has_labels_on_both_axes() -> None:
 
 def test_lines_of_figure_b12_are_in_its_legend() -> None:
     (axes,) = drawn(along_a_diagonal.figure(FEW).picture).axes
-    assert len([name for name in names(axes) if "Eq. (B12)" in name or "leading" in name]) == 2
+    assert len([name for name in names(axes) if "exact" in name or "leading" in name]) == 2
 
 
 def test_lines_of_figure_b15_are_in_its_legend(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sharing, "measured", lambda n, sign, _: sharing.theory(n, sign))
     figure = drawn(sharing.figure(Options()).picture)
     found = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert len([name for name in found if "Eq. (B15)" in name]) == 2
+    assert len([name for name in found if "exact" in name]) == 2
     page = figure.bbox
     box = figure.legends[0].get_window_extent()
     assert page.x0 <= box.x0
