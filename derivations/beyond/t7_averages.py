@@ -338,7 +338,7 @@ def steps() -> Lines:
 OF_LOADS = (
     (f_load, "each of the loads, downwards"),
     (l, "layer of the loaded beads, j that of the beads whose p is averaged"),
-    (p, "steps along n⁺ from the first load down to the first bead"),
+    (p, "steps along n⁺ from the first load down to the first bead (p is no force there)"),
     (q, "steps along n⁻"),
     *usual(sigma, r, phi),
 )

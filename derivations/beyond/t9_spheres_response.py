@@ -337,7 +337,7 @@ DERIVATION = Derivation(
         (f_load, "the load on one bead, downwards"),
         (l, "layer of the loaded bead, j that of the bead below the contact"),
         (q, "steps along that contact's own vector, from the leg where its path turns"),
-        (p, "steps down the leg"),
+        (p, "steps down the leg (p is no force there)"),
         *usual(sigma, r),
         (phi, "mutual dot product of the three base vectors, −1/3 < φ < ½"),
     ),

@@ -52,7 +52,6 @@ _BEFORE_DISPLAY = re.compile(r"\n\n(?=\\setcounter\{equation\}|\\begin\{equation
 _DASHES = re.compile(r"^[|-]+$", re.MULTILINE)
 _LABEL = re.compile(r"(?<!fig:)\b(B\d+)\b")
 _FIGURES = re.compile(r"\bFigs?\.~(?:(?:, | and )?B\d+)+")
-_STATED = re.compile(r"\{statement\} (B\d+)")
 
 
 class ArticleError(ForceDiffusionError, ValueError):
@@ -113,7 +112,7 @@ def article_and_figures(
 
 
 def own_equations() -> list[str]:
-    """Give the labels of all equations beyond the paper, theorem by theorem."""
+    """Give the labels of all equations beyond the paper, in the order in which they are stated."""
     return [label for theorem in THEOREMS for label in theorem.cases]
 
 
@@ -210,7 +209,7 @@ def article(markdown: str, plates: Mapping[str, Plate], run: str) -> str:
     """
     figures_of(markdown)
     first = 1 + max(number for number in modules() if isinstance(number, int))
-    numbers = {label: first + place for place, label in enumerate(_STATED.findall(markdown))}
+    numbers = {label: first + place for place, label in enumerate(own_equations())}
     naming = f"ours go on from {first}"
     filled = _filled(markdown, run=run, naming=naming)
     body = _BEFORE_DISPLAY.sub("\n", _Writer(plates, numbers).written(filled))
@@ -221,7 +220,7 @@ def article(markdown: str, plates: Mapping[str, Plate], run: str) -> str:
 class _Writer:
     """Markdown as LaTeX: a method for each construct, and an error for any other.
 
-    ``numbers``: of the equations beyond the paper, in the order of the text.
+    ``numbers``: of the equations beyond the paper.
     """
 
     plates: Mapping[str, Plate]

@@ -50,6 +50,13 @@ def test_only_packages_of_the_recommended_set() -> None:
     }
 
 
+def test_a_page_may_end_within_a_long_step() -> None:
+    text = document([(load(14), finding(run(fakes.PREMISE)))])
+    assert r"\allowdisplaybreaks" in text
+    assert max(one.count("\\\\\n") for one in text.split(r"\begin{align*}")) > 10
+    assert r"\begin{aligned}" not in text
+
+
 def test_a_step_that_gives_the_printed_equation_refers_to_it() -> None:
     text = written()
     assert r"\item Add the two radii: Eq.~(1)." in text

@@ -201,6 +201,23 @@ def test_a_broken_product_keeps_all_its_brackets() -> None:
         assert "(φ + 1)" in whole or r"(\phi + 1)" in whole
 
 
+def test_no_fraction_has_three_storeys() -> None:
+    unit = power(sy.sigma / sy.r, 2)
+    assert latex(times(1 + sy.j, unit, power(sy.M, -1))) == (
+        r"\frac{j + 1}{M} \left( \frac{\sigma_{\delta r}}{r} \right)^{2}"
+    )
+    assert latex(times(terms(sy.j, sy.z / sy.r), power(sy.M, -1))) == (
+        r"\frac{1}{M} \left( j + \frac{z}{r} \right)"
+    )
+    assert text(times(1 + sy.j, unit, power(sy.M, -1))).count("/") == 2
+
+
+def test_no_line_is_a_lone_factor() -> None:
+    first, last = folded(r"a = \frac{1}{b} (c + d) (e + f) (g)^2", 110)
+    assert last.startswith(r"\times (e + f) (g)^2")
+    assert first == r"a = \frac{1}{b} (c + d)"
+
+
 def test_a_broken_fraction_shows_no_stand_in() -> None:
     product = times(sigma**2 / (2 * r), terms(*(DeltaR(i + k, j) for k in range(9))))
     for lines in (text_lines(product, room=40), latex_lines(product, room=120.0)):
