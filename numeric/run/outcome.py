@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..accuracy.accuracy import Accuracy, printed
+from ..accuracy import Accuracy, printed
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import AxisContact, Contact
