@@ -35,7 +35,6 @@ from .planning.planner import PRINTED, SAFETY, UNSEEN, initial_bits, merging, us
 from .quantities.answer import Answer, answer
 from .quantities.base import RATIO, SCATTER_OF, Table
 from .tables import significant, text_of
-from .theory.expected import critical_height
 
 CARRIED = "estimated, as the sweep carried it, not certified"
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
@@ -140,7 +139,7 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
             break
         system = Balls(min(2 * system.bits, MOST_BITS))
     message = f"the tolerance can't be reached: {why}, and more than {MOST_BITS} are not tried"
-    highest = critical_height(spread)
+    highest = plan.critical_height
     if problem.height > highest / 2:
         message += (
             f"; the height is {problem.height}, and the theory holds well below "

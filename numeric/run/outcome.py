@@ -19,7 +19,6 @@ from ..quantities.answer import Answer
 from ..scene.scene import source_of
 from ..statistics import bins
 from ..tables import SHOWN, Row, html_table, rows_of, rows_of_text, text_of
-from ..theory.expected import critical_height
 from ..unilateral import Network
 
 if TYPE_CHECKING:
@@ -236,7 +235,7 @@ class Outcome:
 
 def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     """Say whether an exact packing is one that beads could make."""
-    highest = critical_height(plan.problem.radii.relative_std())
+    highest = plan.critical_height
     pulls = found.tensile + found.undecided_signs
     problem, gap = plan.problem, found.smallest_gap
     width, height = problem.width, problem.height
