@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[1]
-FLOORS, ARROWS = 8, 90
+FLOORS, ARROWS = 8, 81
 
 
 @cache

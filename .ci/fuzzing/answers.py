@@ -19,7 +19,7 @@ from typing import Any
 import commands
 import numpy as np
 import questions
-from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.decimals import short
 from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT
 from force_diffusion.numeric.arithmetic.systems import as_ball, midpoint

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..accuracy.accuracy import known_digits, of_errors
+from ..accuracy import known_digits, of_errors
 from ..arithmetic.systems import Array
 from ..lattice.branch import direction
 from ..quantities.base import RATIO, SCATTER_OF

@@ -164,7 +164,7 @@ class Rows(Sequence[Layer]):
             count = np.minimum(count, width)
         return cls(first, count)
 
-    @property
+    @cached_property
     def beads(self) -> int:
         """How many there are."""
         return int(self.counts.sum())
@@ -230,12 +230,12 @@ class Region:
     rows: Rows
     dimension: int = 2
 
-    @property
+    @cached_property
     def top(self) -> int:
         """The highest layer."""
         return len(self.rows) - 1
 
-    @property
+    @cached_property
     def beads(self) -> int:
         """How many beads the region holds."""
         return int(self.starts[-1])

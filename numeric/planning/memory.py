@@ -74,6 +74,7 @@ def memory(
         beads * each
         + quantity.answer_rows(region, realisations) * row
         + listed * LISTED
+        + quantity.kept(region, realisations)
         + len(region.rows) * (PLAN_LAYER + SOLVED_LAYER)
         + INTERPRETER
     )

@@ -193,6 +193,11 @@ class Plan:
         plus, minus = map(float, problem.load.strength(problem.n_x, FLOAT64).unit)
         return expected_tension(problem.height, problem.width, phi, std, load.kind, (plus, minus))
 
+    @cached_property
+    def critical_height(self) -> float:
+        """M*, where contacts begin to pull; infinite where radii are equal."""
+        return critical_height(self.problem.radii.relative_std())
+
     @property
     def notes(self) -> list[str]:
         """What should be known before an answer is used."""
@@ -218,7 +223,7 @@ class Plan:
                 f"the mean of the given radii differs from packing.radius by {radii.mean:.3g} r: "
                 f"changes, σ/r = {short(spread)} and M* are about packing.radius"
             )
-        highest = critical_height(spread)
+        highest = self.critical_height
         if self.tension is None and self.quantity.needs_forces and problem.height > highest:
             notes.append(
                 f"the height M = {problem.height} is above M* = {highest:.3g}, where forces "

@@ -204,6 +204,10 @@ class Quantity(ABC):
         """Bound what gathering so many realisations at once takes beside them, counted in beads."""
         return 0
 
+    def kept(self, region: Region, realisations: int) -> int:
+        """Bound the bytes of what is kept of all realisations until the last is gathered."""
+        return 0
+
     # How it is gathered
 
     @property

@@ -21,6 +21,9 @@ from .base import (
     slope,
 )
 
+# Bytes of a number of one realisation while standard errors are made; measured.
+SCATTERED = 100
+
 
 class Response(ContactQuantity):
     """The contacts within a point load's cone: one packing, or mean and std over realisations.
@@ -38,6 +41,11 @@ class Response(ContactQuantity):
         if self.layers is not None:
             beads = sum(region.rows[j + 1].count for j in self.layers if j < region.top)
         return len(self.branches) * beads
+
+    def kept(self, region: Region, realisations: int) -> int:
+        """The scatter of both components, of which standard errors are made in the end."""
+        several = realisations if realisations > 1 else 0
+        return 2 * self.answer_rows(region, 1) * several * SCATTERED
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start with no realisation."""
@@ -130,13 +138,12 @@ class _Responses(Gatherer):
 
     def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
         """Take in realisations, one after the other."""
-        for number in range(len(realisations)):
-            one = solved if len(realisations) == 1 else solved.one(number)
-            self.last = self.quantity.both(self.problem, one, 1, layers)
-            if self.problem.realisations > 1:
-                both = np.concatenate(self.last[2:], axis=1)
-                self.moments.add(both)
-                self.scatter.add(*_squared(both))
+        self.last = self.quantity.both(self.problem, solved, len(realisations), layers)
+        if self.problem.realisations > 1:
+            both = np.concatenate(self.last[2:], axis=1)
+            for one in both:
+                self.moments.add(one[None])
+            self.scatter.add(*_squared(both))
 
     def table(self) -> Table:
         """One row a contact."""

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ..accuracy.accuracy import Accuracy, printed
+from ..accuracy import Accuracy, printed
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import AxisContact, Contact
@@ -19,7 +19,6 @@ from ..quantities.answer import Answer
 from ..scene.scene import source_of
 from ..statistics import bins
 from ..tables import SHOWN, Row, html_table, rows_of, rows_of_text, text_of
-from ..theory.expected import critical_height
 from ..unilateral import Network
 
 if TYPE_CHECKING:
@@ -236,7 +235,7 @@ class Outcome:
 
 def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     """Say whether an exact packing is one that beads could make."""
-    highest = critical_height(plan.problem.radii.relative_std())
+    highest = plan.critical_height
     pulls = found.tensile + found.undecided_signs
     problem, gap = plan.problem, found.smallest_gap
     width, height = problem.width, problem.height

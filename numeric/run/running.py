@@ -12,9 +12,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from ..accuracy.accuracy import Accuracy, ToleranceError
-from ..accuracy.enclosed import enclosed
-from ..accuracy.repeated import repeated, shortfall
+from ..accuracy import Accuracy, ToleranceError, enclosed, repeated, shortfall
 from ..arithmetic.decimals import exact, parse
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work

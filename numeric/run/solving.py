@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..accuracy.accuracy import Accuracy
+from ..accuracy import Accuracy
 from ..arithmetic.named import system_of
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import Axis, axis_names

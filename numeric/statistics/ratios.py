@@ -35,9 +35,9 @@ def moments(counts: Array, totals: Array, squares: Array) -> tuple[Array, Array,
     values = np.stack([counts, totals, squares]).astype(np.float64)
     with np.errstate(all="ignore"):  # of numbers beyond floats nothing is known
         means = values.mean(axis=1)
-        off = values - means[:, None]
-        rows, columns = np.triu_indices(3)
-        products = (off[rows] * off[columns]).sum(axis=1)
+        values -= means[:, None]
+        pairs = zip(*np.triu_indices(3), strict=True)  # one after the other: there may be many
+        products = np.stack([(values[a] * values[b]).sum(axis=0) for a, b in pairs])
         return from_products(len(counts), (counts > 0).sum(axis=0), means, products)
 
 

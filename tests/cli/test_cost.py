@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from force_diffusion.derivations.export.manifest import read_manifest
-from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.studies import timing
 
 import force_diffusion as fd

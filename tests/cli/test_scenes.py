@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.accuracy import ToleranceError
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main

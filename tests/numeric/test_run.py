@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError

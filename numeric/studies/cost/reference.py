@@ -2,8 +2,7 @@
 
 from fractions import Fraction
 
-from ...accuracy.accuracy import ToleranceError
-from ...accuracy.enclosed import enclosed
+from ...accuracy import ToleranceError, enclosed
 from ...arithmetic.systems import Balls
 from ...mechanics.work import Work
 from ...planning import planner

@@ -7,7 +7,7 @@ from typing import Any
 import flint
 import numpy as np
 import pytest
-from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import (
     FLOAT64,
     Balls,

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.carried import PAIRS
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, midpoint
 from force_diffusion.numeric.planning import sources
@@ -239,7 +239,7 @@ def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> No
 def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
     """The next way answers, and the outcome says why the first did not."""
     plan = planned(basic(tolerance="=1e-9"))
-    monkeypatch.setattr("force_diffusion.numeric.accuracy.repeated.PRINTED", 10**9)
+    monkeypatch.setattr("force_diffusion.numeric.accuracy.PRINTED", 10**9)
     assert plan.choice is not None
     (way,) = (c for c in plan.choice.candidates if c.arithmetic == "float64")
     outcome = run(only(plan, way))

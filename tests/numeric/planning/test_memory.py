@@ -21,6 +21,7 @@ SCENES = {
     "base reactions": "packing = {height = 10, width = 250}\n"
     'ask = {quantity = "base_reactions", realisations = 250}',
     "response": POINT + 'ask = {quantity = "response"}',
+    "responses": POINT + 'ask = {quantity = "response", realisations = 40}',
     "ordered response": POINT + 'ask = {quantity = "response"}\neffects = {geometry = "ordered"}',
     "contact": "packing = {height = 5}\n"
     'ask = {quantity = "contact", at = [0, 0, "+"], realisations = 50_000}',

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.planning.planner import plan

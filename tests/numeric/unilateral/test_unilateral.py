@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.accuracy.accuracy import ToleranceError
+from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.quantities.base import Quantity
 from force_diffusion.numeric.unilateral import event_driven
 from force_diffusion.numeric.unilateral.grains import Grains

@@ -1,0 +1,460 @@
+"""How accurate an answer is: enclosed by balls, or estimated; and numbers with the digits known.
+
+Answers in balls are certified: bits are added until the enclosure is small enough. Numbers of
+float64 are corrected by the errors that their sweep carried and rounded once; what is stated is
+what that rounding left. Other arithmetics are repeated, in balls, which know their error.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+import flint
+import numpy as np
+
+from .arithmetic.decimals import short
+from .arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
+from .arithmetic.systems import (
+    FLOAT64,
+    MOST_BITS,
+    Array,
+    Balls,
+    NumberSystem,
+    as_ball,
+    as_floats,
+    largest_of,
+    midpoint,
+)
+from .mechanics.kept import Kept
+from .mechanics.sweep import NotStandingError
+from .mechanics.work import ESTIMATE, Work
+from .planning.plan import CERTIFY, Plan
+from .planning.planner import PRINTED, SAFETY, UNSEEN, initial_bits, merging, usual_units
+from .quantities.answer import Answer, answer
+from .quantities.base import RATIO, SCATTER_OF, Table
+from .tables import significant, text_of
+
+CARRIED = "estimated, as the sweep carried it, not certified"
+# A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
+CUT_OFF = 20
+# An estimated bound is twice what was measured or more: a number within half of it is printed as 0,
+# which is then off by its size and by its own error, together no more than the bound.
+SWALLOWED = 2
+
+
+@dataclass(frozen=True)
+class Accuracy:
+    """Error of the answer's small columns, relative to the largest entry of them.
+
+    ``certified``: a rigorous bound (balls). Otherwise it is estimated, from errors that the sweep
+    carried, or from a second solution with a longer significand. ``bits_lost``: bits of the
+    arithmetic that the answer lacks. A bound below what a float can hold is a fraction.
+    """
+
+    error_bound: float | Fraction
+    certified: bool
+    arithmetic: str
+    bits_lost: float
+    note: str = ""
+
+    def within(self, tolerance: Fraction) -> bool:
+        """Say whether the error is at most as large."""
+        bound = self.error_bound
+        return math.isfinite(bound) and Fraction(bound) <= tolerance
+
+    @property
+    def still(self) -> str:
+        """Say how large the error still is."""
+        if not math.isfinite(self.error_bound):
+            return "nothing is left of the answer"
+        return f"the error is still {short(Fraction(self.error_bound))}"
+
+
+class ToleranceError(ForceDiffusionError, ArithmeticError):
+    """The asked tolerance can't be reached; the message says why."""
+
+    exit_status = NOT_REACHED
+
+
+def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
+    """Judge an answer in balls; ``floor`` is the size below which a change counts as zero."""
+    values = [value for name in table.small for value in table.numbers[name]]
+    if not all(value.is_finite() for value in values):
+        return Accuracy(math.inf, True, system.name, float(system.bits))
+    largest = largest_of(value.abs_lower() for value in values)
+    radius = largest_of(value.rad() for value in values)
+    if radius == 0 and largest == 0:
+        return Accuracy(0.0, True, system.name, 0.0)
+    note = ""
+    if not largest > 0:
+        if not floor:
+            return Accuracy(math.inf, True, system.name, float(system.bits))
+        largest = system.number(floor)
+        note = "no change can be told from zero; the error is relative to σ/r instead"
+    ratio = (radius / largest).upper()
+    lost = 0.0
+    if ratio > 0:
+        lost = max(system.bits + float(ratio.log() / flint.arb.const_log2()), 0.0)
+    printed = ratio * CUT_OFF + flint.arb(10) ** (1 - most_digits(system))
+    return Accuracy(_up(printed), True, system.name, round(lost, 1), note)
+
+
+def _up(value: Any) -> float | Fraction:
+    """Round a small positive ball up to a float; below the range of floats, to a fraction."""
+    upper = midpoint(value.upper())
+    if upper < Fraction(1, 10**300):
+        return upper
+    return float(upper) * (1 + 1e-15) if upper < 10**300 else math.inf
+
+
+def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
+    """Raise the precision until the enclosure is small enough.
+
+    Gives the plan with the precision that was. Raises ``ToleranceError``, which says why more bits
+    do not help.
+    """
+    problem, spread = plan.problem, plan.problem.radii.relative_std()
+    floor = spread * (plan.scene.load.magnitude if problem.needs_forces else 1)
+    system = plan.system
+    assert isinstance(system, Balls)
+    if system.bits > MOST_BITS:
+        raise ToleranceError(
+            f"the tolerance can't be reached: {short(plan.tolerance or floor)} at height "
+            f"{problem.height} needs {system.bits} bits or more, and {MOST_BITS} are "
+            f"the most; ask for about {_least_tolerance(problem.height)} at best"
+        )
+    while True:
+        try:
+            found = answer(plan.quantity, problem, range(problem.realisations), system, work)
+            with work.timed(CERTIFY), system.active():
+                accuracy = of_balls(found.table, system, floor)
+            if plan.tolerance is None or accuracy.within(plan.tolerance):
+                return replace(plan, method=replace(plan.method, system=system)), found, accuracy
+            why = f"at {system.bits} bits {accuracy.still}"
+        except (UndecidedError, NotStandingError) as error:
+            why = f"at {system.bits} bits: {error}"
+        if system.bits == MOST_BITS:
+            break
+        system = Balls(min(2 * system.bits, MOST_BITS))
+    message = f"the tolerance can't be reached: {why}, and more than {MOST_BITS} are not tried"
+    highest = plan.critical_height
+    if problem.height > highest / 2:
+        message += (
+            f"; the height is {problem.height}, and the theory holds well below "
+            f"M* = (σ/r)^(-2/3) = {highest:.3g}"
+        )
+    raise ToleranceError(message)
+
+
+def _least_tolerance(height: int) -> str:
+    """Give the power of ten that the highest precision starts with, at this height."""
+    digits = MOST_BITS - initial_bits(Fraction(1), height)
+    return f"1e-{int(digits * 0.30102)}"
+
+
+def repeated(plan: Plan, work: Work, kept: Kept | None = None) -> tuple[Answer, Accuracy]:
+    """Answer, and say how large the error is: as sweeps carried it, or a repeat measured it.
+
+    ``kept``: what an earlier run has kept of a sweep by segments.
+    """
+    quantity, problem, method = plan.quantity, plan.problem, plan.method
+    longer = method.longer
+    assert longer is not None
+    few = range(method.repeated)
+    if method.carries and len(few) >= problem.realisations:
+        beside = longer if plan.system is FLOAT64 else None
+        found = answer(quantity, problem, few, plan.system, work, longer=beside, kept=kept)
+        with longer.active():
+            return found, of_carried(found, plan)
+    found = answer(quantity, problem, range(problem.realisations), plan.system, work)
+    part = replace(problem, realisations=len(few))
+    with work.repeat(ESTIMATE):
+        table = found.table
+        if len(few) < problem.realisations:
+            table = answer(quantity, part, few, plan.system, work).table
+        if plan.system is FLOAT64:
+            right = answer(quantity, part, few, FLOAT64, work, longer=longer)
+            again = right.table if right.exact is None else right.exact
+        else:
+            again = answer(quantity, part, few, longer, work).table
+        with longer.active():
+            return found, of_repeat(table, again, found.table, plan)
+
+
+def of_carried(found: Answer, plan: Plan) -> Accuracy:
+    """State the error of an answer whose sweeps carried it, from the table that holds both."""
+    apart: Fraction | None = Fraction(0)
+    if found.left is not None:
+        apart = Fraction(found.left) if math.isfinite(found.left) else None
+    elif found.exact is not None:
+        apart = _farthest(found.table, found.exact, plan.system)
+    return _unknown(plan.system) if apart is None else stated(found, apart, plan)
+
+
+def stated(found: Answer, apart: Fraction, plan: Plan) -> Accuracy:
+    """State the error of an answer whose sweeps carried it.
+
+    ``apart`` is what one rounding left; to it comes what the carried errors leave out themselves
+    (``Sizes.unseen``).
+    """
+    system, table = plan.system, found.table
+    largest = max((_largest(table.numbers[name]) for name in table.small), default=Fraction(0))
+    unseen = _unseen(found, plan, largest)
+    if unseen is None:
+        return _unknown(system)
+    if not largest:
+        exact = not apart and not found.sizes.changed and not found.sizes.moved
+        return _of_zeros(plan, CARRIED, exact=exact)
+    ratio = (apart + unseen) / largest
+    if plan.tolerance is not None:
+        ratio = PRINTED * max(ratio, Fraction(1, 2**system.bits))
+    lost = max(system.bits + _log2(ratio), 0.0) if ratio else 0.0
+    return Accuracy(_bound(ratio), False, system.name, round(lost, 1), CARRIED)
+
+
+def _unseen(found: Answer, plan: Plan, largest: Fraction) -> Fraction | None:
+    """Give what carried errors leave out, in the unit of the answer; None where that is no number.
+
+    It is doubled for sums of a few numbers. Gathering them in the longer arithmetic rounds, too,
+    relative to the terms that changes are sums of, σ/r times the forces (positions: the radius): a
+    change that is left over where these cancel may be far smaller.
+    """
+    scene, longer = plan.scene, plan.method.longer
+    assert longer is not None
+    force, moved = found.sizes.unseen(scene.packing.height)
+    if not math.isfinite(force + moved):
+        return None
+    if plan.problem.needs_forces:
+        size = Fraction(force) * scene.load.magnitude
+        scale = max(Fraction(found.sizes.force), Fraction(1)) * scene.load.magnitude
+    else:
+        size = Fraction(moved * float(1 / plan.problem.n_x)) * scene.packing.radius
+        scale = scene.packing.radius
+    terms = max(largest, scale * plan.problem.radii.relative_std())
+    rounding: Fraction = usual_units(longer, 1) * terms / 2**longer.bits
+    unseen: Fraction = 2 * size + rounding
+    return unseen
+
+
+def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:
+    """Say why an estimated answer does not meet the tolerance; an empty string where it does."""
+    if not accuracy.within(tolerance):
+        return accuracy.still if accuracy.bits_lost else accuracy.note
+    if found.bins:
+        edges = [found.bins[0][0], *(high for _, high, _ in found.bins)]
+        if edge_in_doubt(found.table, edges, accuracy):
+            return "a change lies within its error of the edge of a bin"
+    return ""
+
+
+def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
+    """Estimate the error of a whole answer, as printed.
+
+    ``table`` and ``again`` are the solutions of the repeated realisations, in the arithmetic of the
+    plan and in the longer one.
+    """
+    method = plan.method
+    assert method.longer is not None
+    unit = Fraction(1, 2**method.system.bits)
+    apart = _farthest(table, again, method.longer)
+    if apart is None:
+        return _unknown(method.system)
+    largest = max((_largest(whole.numbers[name]) for name in whole.small), default=Fraction(0))
+    if not largest:
+        return _of_zeros(plan, "estimated, not certified", exact=not apart)
+    seen = method.repeated >= plan.problem.realisations
+    factor = SAFETY if seen else UNSEEN
+    ratio = max(factor * apart / largest, 4 * unit)
+    ratio += merging(method, plan.problem.realisations) * unit
+    lost = max(method.system.bits + _log2(ratio), 0.0)
+    of_all = f"{method.repeated} of {plan.problem.realisations} realisations"
+    note = f"estimated, not certified, from {of_all}"
+    printed = ratio if plan.tolerance is None else PRINTED * ratio
+    return Accuracy(_bound(printed), False, method.system.name, round(lost, 1), note)
+
+
+def _unknown(system: NumberSystem) -> Accuracy:
+    """Say that an error is not finite."""
+    return Accuracy(math.inf, False, system.name, float(system.bits))
+
+
+def _of_zeros(plan: Plan, note: str, *, exact: bool) -> Accuracy:
+    """State the error where every change is zero; ``exact``: as far as was seen."""
+    if exact and plan.tolerance is None:
+        return Accuracy(0.0, False, plan.system.name, 0.0, note)
+    note = "every change is zero here, and only balls can tell whether that is exact"
+    return Accuracy(math.inf, False, plan.system.name, 0.0, note)
+
+
+def _farthest(table: Table, other: Table, system: NumberSystem) -> Fraction | None:
+    """Bound how far small columns of two tables are apart; None where a number is not finite."""
+    found = Fraction(0)
+    for name in table.small:
+        one = _apart(table.numbers[name], other.numbers[name], system)
+        if one is None:
+            return None
+        found = max(found, one)
+    return found
+
+
+def _apart(values: Any, longer: Any, system: NumberSystem) -> Fraction | None:
+    """Bound the largest distance of two columns; None where a number is not finite."""
+    if not len(values):
+        return Fraction(0)
+    if longer.dtype != object:
+        worst = np.abs(longer - values).max()
+        return Fraction(*worst.as_integer_ratio()) if np.isfinite(worst) else None
+    worst_ball = Fraction(0)
+    try:
+        for value, ball in zip(values, longer, strict=True):
+            distance = abs(as_ball(value) - as_ball(ball)).upper()
+            if not distance.is_finite():
+                return None
+            worst_ball = max(worst_ball, midpoint(distance))
+    except (ValueError, OverflowError):  # not a number, or infinite
+        return None
+    return worst_ball
+
+
+def _largest(values: Any) -> Fraction:
+    if not len(values):
+        return Fraction(0)
+    if values.dtype != object:
+        most = np.abs(values).max()
+        return Fraction(*most.as_integer_ratio()) if np.isfinite(most) else Fraction(0)
+    return max(abs(midpoint(as_ball(value))) for value in values)
+
+
+def edge_in_doubt(table: Table, edges: Sequence[Fraction], accuracy: Accuracy) -> bool:
+    """Say whether a change lies within its error of the edge of a bin: counts may be off."""
+    values = table.numbers["change"]
+    largest = _largest(values)
+    # bins are counted in float64, whatever the arithmetic
+    error = Fraction(accuracy.error_bound) * largest + largest / 2**52
+    sorted_values = np.sort(np.array([float(v) for v in values]))
+    for edge in edges:
+        near = np.searchsorted(sorted_values, float(edge))
+        for value in sorted_values[max(near - 1, 0) : near + 1].tolist():
+            if abs(Fraction(value) - edge) <= error:
+                return True
+    return False
+
+
+def _bound(ratio: Fraction) -> float | Fraction:
+    """Round up to a float; below the range of floats, keep the fraction."""
+    return ratio if ratio < Fraction(1, 10**300) else float(ratio) * (1 + 1e-15)
+
+
+def _log2(value: Fraction) -> float:
+    shift = value.numerator.bit_length() - value.denominator.bit_length()
+    return shift + math.log2(value / Fraction(2) ** shift)
+
+
+def most_digits(system: Balls) -> int:
+    """Give the digits to which even an exact number is printed."""
+    return int(system.bits * 0.30103) + 1
+
+
+def printed(
+    table: Table, accuracy: Accuracy, system: NumberSystem, *, sampled: bool
+) -> dict[str, Array]:
+    """Give the number columns as text (see ``tables``), each number with the digits that are known.
+
+    Standard errors stand beside their columns, with three digits, and nothing where they are not
+    known. ``sampled``: whether to leave out digits that would be others in another sample.
+    """
+    numbers: dict[str, Array] = {}
+    for name, column in table.numbers.items():
+        sampling = _of_sampling(table, name) if sampled else 0.0
+        if system is FLOAT64 or np.any(sampling):  # what scatters needs no more than a float has
+            error = _of_arithmetic(table, name, accuracy)
+            numbers[name] = known_digits(as_floats(column), error, sampling)
+        elif isinstance(system, Balls):
+            most = most_digits(system)
+            numbers[name] = text_of([_ball_string(v, most) for v in column])
+        else:
+            numbers[name] = text_of(_long_strings(table, name, accuracy, system))
+        if name in table.errors:
+            numbers[f"{name}_error"] = of_errors(table.errors[name])
+    return numbers
+
+
+def of_errors(errors: Array) -> Array:
+    """Write standard errors with three digits; nothing where there is none."""
+    text = significant(errors, np.full(len(errors), 3))
+    text[~np.isfinite(errors)] = 0
+    return text
+
+
+def _of_arithmetic(table: Table, name: str, accuracy: Accuracy) -> Array | float:
+    """Give the absolute error of a column, but for how it would scatter."""
+    small = [as_floats(abs(table.numbers[k])) for k in table.small]
+    largest = max((float(one.max(initial=0)) for one in small), default=0)
+    bound = float(accuracy.error_bound) * largest if math.isfinite(accuracy.error_bound) else np.inf
+    return bound / _over(table, name)
+
+
+def _of_sampling(table: Table, name: str) -> Array | float:
+    """Give the standard errors of a column, 0 where they are not known."""
+    errors = table.errors.get(name if name in table.errors else SCATTER_OF.get(name, ""))
+    return 0.0 if errors is None else np.nan_to_num(errors, posinf=np.inf) / _over(table, name)
+
+
+def _over(table: Table, name: str) -> Array | float:
+    """The error of σ_f/⟨f⟩ is that of σ_f over ⟨f⟩, since ⟨f⟩ is known far better."""
+    return abs(as_floats(table.numbers["mean"])) if name == RATIO else 1.0
+
+
+def _long_strings(table: Table, name: str, accuracy: Accuracy, system: NumberSystem) -> list[str]:
+    """Print numbers that a float can't hold, two digits beyond their error."""
+    error, unit = flint.arb(0), flint.arb((1, 1 - system.bits))
+    for small in table.small:
+        for value in table.numbers[small]:
+            error = error.max(abs(as_ball(value)))
+    bound = Fraction(accuracy.error_bound)
+    error = error * flint.arb(flint.fmpq(bound.numerator, bound.denominator))
+    scales = table.numbers["mean"] if name == RATIO else [1.0] * table.rows
+    exact = map(as_ball, table.numbers[name])
+    return [
+        _two_beyond(value, error / abs(as_ball(scale)) + abs(value) * unit)
+        for value, scale in zip(exact, scales, strict=True)
+    ]
+
+
+def _two_beyond(value: Any, error: Any) -> str:
+    if not SWALLOWED * abs(value) > error:
+        return "0"
+    # powers of two, from which the digits follow within one
+    digits = (_power(value) - _power(error)) * 0.30103
+    return str(value.str(math.ceil(digits) + 3, radius=False))
+
+
+def _power(value: Any) -> int:
+    mantissa, exponent = value.mid().man_exp()
+    return int(mantissa).bit_length() + int(exponent)
+
+
+def _ball_string(value: Any, most: int) -> str:
+    if value.contains(0):
+        return "0"
+    return str(value.str(most, radius=False))
+
+
+def known_digits(column: Array, error: Array | float, sampling: Array | float = 0.0) -> Array:
+    """Write float64 as text, up to two digits beyond its absolute errors.
+
+    A number that the ``error`` of its arithmetic swallows is 0; ``sampling`` swallows none.
+    """
+    size = np.abs(column)
+    with np.errstate(all="ignore"):
+        off = error + size * 2.0**-52
+        known = np.isfinite(column) & (SWALLOWED * size > off)
+        # two digits beyond the error: cutting the rest off adds at most a twentieth of it
+        seen = np.floor(np.log10(np.maximum(off, sampling)))
+        digits = np.floor(np.log10(size)) - seen + 2
+    digits = np.where(known, np.clip(digits, 1, 17), 1).astype(np.int64)
+    text = significant(np.where(known | ~np.isfinite(column), column, 0.0), digits)
+    text[np.isnan(column)] = 0
+    return text

@@ -1,1 +1,0 @@
-"""How accurate an answer is: enclosed by balls, or estimated from a repeat."""
