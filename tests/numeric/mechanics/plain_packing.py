@@ -19,6 +19,13 @@ def stepped(bead: Bead, axis: int, count: int) -> Bead:
     return (*bead[:axis], bead[axis] + count, *bead[axis + 1 :])
 
 
+def _determinant(vectors: list[Any]) -> Any:
+    matrix = mpmath.matrix(len(vectors))
+    for a, vector in enumerate(vectors):
+        matrix[a, :] = vector.T
+    return mpmath.det(matrix)
+
+
 class PlainPacking:
     """Spheres of any dimension, r = 1, periodic in the first d − 1 numbers of a bead."""
 
@@ -58,7 +65,19 @@ class PlainPacking:
         return self._at[own] + moved
 
     def _rest(self, bead: Bead, here: Any) -> Any:
+        """Of the two places at these distances, the one on the same side as in the ordered packing.
+
+        In a flat packing Newton's method may find the other one, unless it starts higher.
+        """
         supports = [stepped(bead, a, -1) for a in range(self.d)]
+        side = mpmath.sign(_determinant(self.n))
+        for lift in (0, 1, 3):
+            found = self._touching(bead, supports, here + lift * sum(self.n, 0 * here))
+            if mpmath.sign(_determinant([found - self.at(one) for one in supports])) == side:
+                return found
+        raise ArithmeticError("the bead comes to rest below its supports")
+
+    def _touching(self, bead: Bead, supports: list[Bead], here: Any) -> Any:
         for _ in range(60):
             jacobian, wrong = mpmath.matrix(self.d), mpmath.matrix(self.d, 1)
             for a, support in enumerate(supports):

@@ -14,7 +14,7 @@ from force_diffusion.numeric.lattice.branch import per_direction
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import local
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError, deposit, sweep_down
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from tests.numeric.mechanics.plain_packing import PlainPacking
@@ -48,6 +48,7 @@ def solved(
 
 
 @given(CASES)
+@example((4, 2, 1, Fraction(-279, 931), -1.25, 2230237))  # flat: rests above or below its supports
 def test_positions_and_forces_are_those_of_first_principles(
     case: tuple[int, int, int, Fraction, float, int],
 ) -> None:
