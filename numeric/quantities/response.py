@@ -22,7 +22,7 @@ from .base import (
 )
 
 # Bytes of a number of one realisation while standard errors are made; measured.
-SCATTERED = 100
+SCATTERED = 90
 
 
 class Response(ContactQuantity):
