@@ -138,7 +138,7 @@ CELLS = [
 ]
 
 
-@pytest.mark.long(sample=12)
+@pytest.mark.long(sample=12, share=3)
 @pytest.mark.parametrize(("command", "quantity", "kind", "load", "said"), CELLS)
 def test_a_cell_is_answered_or_refused_as_the_table_says(
     command: str,

@@ -126,6 +126,7 @@ NOT_REFUTED = {8: 1, 9: 1, 10: 1, 12: 100, 15: 100}
 what is said of whole sums of squares or of all layers together."""
 
 
+@pytest.mark.long(share=3)
 @pytest.mark.parametrize("number", STATED)
 def test_mutants_are_proved_false(coq: CoqFolder, number: Number) -> None:
     """The printed equation is asked about with them, and accepted."""
@@ -157,6 +158,7 @@ def test_another_exact_variance_is_proved_false(coq: CoqFolder, number: int) -> 
     assert [changes[at][0] for at, word in said.items() if word is not Answer.REFUTED] == []
 
 
+@pytest.mark.long(share=3)
 @pytest.mark.parametrize("number", [8, 9, 10, 11])
 def test_mutants_of_mirror_images_are_proved_false(coq: CoqFolder, number: int) -> None:
     image = mirror_image(load(number))
