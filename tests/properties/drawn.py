@@ -1,4 +1,5 @@
-"""What Hypothesis draws: small packings of discs; they shrink to few beads and equal radii."""
+"""Packings of discs: small ones that Hypothesis draws, which shrink to few beads and equal radii;
+and one that is always the same."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
@@ -68,6 +69,18 @@ class Drawn:
     def _places(self, layers: range) -> Iterator[tuple[int, int]]:
         packing = solved(self, mp.mpf(0)).packing
         return (place(site) for layer in layers for site in packing.sites(layer))
+
+
+def fixed_packing(load: str) -> Drawn:
+    """A packing that is always the same: no two of its radii are equal, and no δr is zero.
+
+    It is so wide that no cone below a bead meets its own images. A cubic number modulo a prime of
+    the form 3q + 2 is that of one number only, and no differences along a line vanish.
+    """
+    width, height = 8, 6
+    rho = (number**3 % 113 for number in range(1, width * (height + 1) + 1))
+    cosine, r, weight = Fraction(1, 7), Fraction(3, 4), Fraction(5, 3)
+    return Drawn(cosine, width, height, r, tuple(rho), load, weight, (3, 5))
 
 
 @lru_cache(maxsize=64)  # all lines of an equation, and all of its changes, see the same packings

@@ -4,7 +4,7 @@ import sympy
 from force_diffusion.symbolic.symbols import k, l
 from hypothesis import given
 
-from tests.properties.drawn import Drawn, packings
+from tests.properties.drawn import Drawn, fixed_packing, packings
 from tests.properties.orders import holds_to_first_order, is_identity, printed
 
 LOADED = packings("point", "surface", "bulk")
@@ -19,7 +19,7 @@ def split(equation: sympy.Eq, drawn: Drawn) -> None:
     holds_to_first_order(equation, drawn, [{k: drawn.at[0], l: drawn.at[1]}])
 
 
-CHECKS = {6: (balanced, LOADED), 7: (split, LOADED)}
+CHECKS = {6: (balanced, [fixed_packing("point")]), 7: (split, [fixed_packing("point")])}
 
 
 @given(LOADED)

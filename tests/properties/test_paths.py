@@ -6,7 +6,7 @@ import sympy
 from force_diffusion.symbolic.symbols import i, j, k, l, n, site_r, site_s
 from hypothesis import given
 
-from tests.properties.drawn import Drawn, packings, solved
+from tests.properties.drawn import Drawn, fixed_packing, packings, solved
 from tests.properties.orders import STRENGTHS, At, falls, holds_to_first_order, printed
 from tests.properties.reading import steps_to
 
@@ -47,9 +47,9 @@ def round_a_corner(equation: sympy.Eq, drawn: Drawn) -> None:
 
 
 CHECKS = {
-    8: (through_a_bead, ENTERING),
-    9: (down_a_line, BELOW_ONE_LOAD),
-    10: (round_a_corner, BELOW_ONE_LOAD),
+    8: (through_a_bead, [fixed_packing("contact")]),
+    9: (down_a_line, [fixed_packing("contact"), fixed_packing("point")]),
+    10: (round_a_corner, [fixed_packing("contact"), fixed_packing("point")]),
 }
 
 
