@@ -299,35 +299,10 @@ def response(
     return spec.Picture([left, _chains(plan, _contacts(plan, rows), forces, what)], 2.9, page=True)
 
 
-def base_reactions(
-    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
-) -> spec.Picture:
-    """Draw what the base bears along it: forces above, their changes, if there are any, below."""
-    rows = of_first(columns)
-    panels = [
-        spec.Panel(
-            [
-                spec.Points(rows["i"], rows[name + side], c, f"${side}$")
-                for c, side in enumerate("xy")
-            ],
-            spec.Axis("bead $i$ of the base" if name == names[-1] else ""),
-            spec.Axis("reaction of the base" if name == "f" else "its change"),
-            legend="below",
-            columns=2,
-        )
-        for names in [["f", "change_"] if "change_x" in rows else ["f"]]
-        for name in names
-    ]
-    if len(panels) == 1:
-        return spec.Picture(panels, 2.5)
-    return spec.Picture(panels, 3.7, mosaic="a;b", share="x")
-
-
 DRAWN: dict[str, Callable[[Plan, Columns, Columns, Sequence[Network]], spec.Picture]] = {
     "contact_forces": contact_forces,
     "positions": positions,
     "profile": profile,
     "histogram": histogram,
     "response": response,
-    "base_reactions": base_reactions,
 }

@@ -257,10 +257,6 @@ class Region:
         upper = self.bead(layer, column)
         return AxisContact(lower_bead(upper, branch, self.side), Axis(branch))
 
-    def above(self, values: Array, source: Layer, layer: Layer, axis: int, zero: Any) -> Array:
-        """Read the values of the row above at x + e_axis; what it lacks reads ``zero``."""
-        return self.moved(values, source, layer, self.step(axis, 1), zero)
-
     def here(self, values: Array, source: Layer, layer: Layer) -> Array:
         """Read the values of a row at the sites of a part of it."""
         return values if source == layer else pick(values, source, layer, self.width)

@@ -9,63 +9,48 @@ stand on images. There the triangle below a loaded bead (k, l) ends at k − l a
 from collections.abc import Iterable
 from itertools import combinations, pairwise
 
-from ..lattice.branch import Branch, Contact, Site
+from ..lattice.branch import Contact, Site
 from ..lattice.layers import full_layer
 from . import first_order
 from .loads import LoadSpec
 from .problem import Problem, Route
 
 
-def sees_images(problem: Problem, lowest_layer: int) -> bool:
-    """Say whether any row of the answer differs, with radii in general, from the slab's.
-
-    ``lowest_layer``: of the beads that are asked about (1: by the contacts below them).
-    """
-    if problem.dimension > 2:
-        return _of_spheres(problem, lowest_layer)
+def sees_images(problem: Problem) -> bool:
+    """Say whether any row of the answer differs, with radii in general, from the slab's."""
     width, load, contact = problem.width, problem.load, problem.contact
-    if width is None:
+    if width is None or problem.route == Route.ORDERED:
         return False
+    if problem.dimension > 2:
+        return _of_spheres(problem)
     if not problem.needs_forces:
         tip = problem.height if problem.site is None else problem.site[1]
-        return problem.route != Route.ORDERED and tip >= width
-    on_base = lowest_layer == 0
-    if problem.route == Route.ORDERED:  # both rays of a load may end on one base bead
-        return on_base and any(j and j % width == 0 for _, j in load.loaded or [])
+        return tip >= width
     if problem.route == Route.EXACT:
         if contact is not None:
             return _exact([contact.upper], load, width, contact.upper[1])
-        sites = full_layer(lowest_layer, width).sites()  # W of them, more than a memory holds
-        return _exact(((i, lowest_layer) for i in sites), load, width, lowest_layer)
+        sites = full_layer(1, width).sites()  # W of them, more than a memory holds
+        return _exact(((i, 1) for i in sites), load, width, 1)
     if contact is not None:
-        return _first_order(contact.upper, [contact], load, width)
-    highest = _highest(load)
-    if not on_base:  # the contact straight below the highest load is the first to see images
-        return width <= highest
-    beads = [0] if load.loaded is None else full_layer(0, width).sites()
-    return width <= highest + 1 and any(
-        _first_order((i, 0), [Contact(i, 0, branch) for branch in Branch], load, width)
-        for i in beads
-    )
+        return _first_order(contact, load, width)
+    return width <= _highest(load)  # the contact straight below the highest load is the first
 
 
-def _of_spheres(problem: Problem, lowest_layer: int) -> bool:
+def _of_spheres(problem: Problem) -> bool:
     """Say whether any row of the answer differs, with radii in general, from that of W → ∞.
 
-    Above a bead of layer J its loads span M − J columns, and below these there are M more. To first
-    order one contact depends on lines down from its own, M − J columns, and beside these.
+    Above a bead of layer 1 its loads span M − 1 columns, and below these there are M more. To first
+    order one contact depends on lines down from its own, M − 1 columns, and beside these.
     """
     width, loaded = problem.side, problem.load.loaded
     height = problem.region.top
-    if problem.route == Route.ORDERED:
-        return lowest_layer == 0 and any(j and j % width == 0 for _, j in loaded or [])
     if not problem.needs_forces:
         return height >= width
     if loaded is not None and len(loaded) == 1:
         return width <= height
-    if problem.route == Route.FIRST_ORDER and lowest_layer == 1:
+    if problem.route == Route.FIRST_ORDER:
         return width <= min(height + 1, 2 * height - 1)
-    return width <= 2 * height - lowest_layer
+    return width <= 2 * height - 1
 
 
 def _highest(load: LoadSpec) -> int:
@@ -129,11 +114,11 @@ def _overlap(runs: list[tuple[int, int]], width: int) -> bool:
     return any(left[1] >= right[0] for left, right in pairwise([*home, around]))
 
 
-def _first_order(apex: Site, contacts: Iterable[Contact], load: LoadSpec, width: int) -> bool:
-    """Look at the diagonals that decide some contacts, and at the loads above their ``apex``."""
-    if _above(apex, load, width) is None:
+def _first_order(contact: Contact, load: LoadSpec, width: int) -> bool:
+    """Look at the diagonals that decide a contact, and at the loads above it."""
+    if _above(contact.upper, load, width) is None:
         return True
-    lines = [line for contact in contacts for line in first_order.lines_read(contact, load)]
+    lines = first_order.lines_read(contact, load)
     return any(_coincide(a, b, 2 * width) for a, b in combinations(lines, 2))
 
 

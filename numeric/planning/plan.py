@@ -169,7 +169,7 @@ class Plan:
     def sees_images(self) -> bool:
         """Whether the answer is that of the periodic strip, and not of the slab."""
         unilateral = self.problem.route == Route.UNILATERAL
-        return unilateral or sees_images(self.problem, self.quantity.lowest_layer)
+        return unilateral or sees_images(self.problem)
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:

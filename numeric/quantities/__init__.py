@@ -4,7 +4,6 @@ from collections.abc import Callable, Mapping
 
 from ..scene.scene import Scene
 from .base import Quantity
-from .base_reactions import BaseReactions
 from .contact import ContactForce
 from .contact_forces import ContactForces
 from .contacts_that_open import NETWORK_QUANTITIES
@@ -20,7 +19,6 @@ QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
     "profile": Profile,
     "histogram": histogram_of,
     "response": Response,
-    "base_reactions": BaseReactions,
 }
 
 

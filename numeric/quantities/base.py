@@ -122,8 +122,6 @@ class Quantity(ABC):
     needs_forces: ClassVar[bool] = True
     plain: ClassVar[bool] = False
     """Whether it can be gathered from a packing that was solved in the plain form."""
-    lowest_layer: ClassVar[int] = 1
-    """Of the beads whose upper contacts, or for 1 whose lower contacts, are looked at."""
     merged: ClassVar[bool] = False
     """Whether realisations are merged into one set of rows."""
     statistics: ClassVar[bool] = False

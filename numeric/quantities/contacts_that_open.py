@@ -199,32 +199,6 @@ class NetworkPositions(NetworkQuantity):
         )
 
 
-class NetworkBase(NetworkQuantity):
-    """The force with which the base holds each of its beads, own load included."""
-
-    name = "base_reactions"
-
-    def answer_rows(self, region: Region, realisations: int) -> int:
-        """One a bead of the base."""
-        return (self.width or 0) * realisations
-
-    def listed(self, problem: Problem, network: Network, system: NumberSystem) -> Table:
-        """Give a row a bead of the base, from left to right."""
-        pushes = network.pushes()
-        held = -network.frame.load[: network.width]
-        for (_, lower), push in zip(network.pairs, pushes, strict=True):
-            if lower < network.width:
-                held[lower] = held[lower] + push
-        return Table(
-            {
-                "i": np.array([2 * q for q in range(network.width)]),
-                "j": np.zeros(network.width, dtype=int),
-            },
-            {"fx": held[:, 0], "fy": held[:, 1]},
-            ("fx", "fy"),
-        )
-
-
 class NetworkHistogram(NetworkQuantity):
     """All contact forces, counted into bins: P(f)."""
 
@@ -340,6 +314,5 @@ NETWORK_QUANTITIES: dict[str, type[NetworkQuantity]] = {
         NetworkProfile,
         NetworkHistogram,
         NetworkResponse,
-        NetworkBase,
     )
 }

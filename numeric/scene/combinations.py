@@ -16,7 +16,6 @@ QuantityName = Literal[
     "profile",
     "histogram",
     "response",
-    "base_reactions",
 ]
 QUANTITIES: tuple[str, ...] = get_args(QuantityName)
 COMMANDS = ("run", "ensemble", "figures", "cost")
@@ -60,10 +59,6 @@ _OF_NETWORKS = ("contact", "histogram", "profile", "response")
 _IN_THREE = "in three dimensions and more"
 _ENDLESS = "is required: an infinite slab has infinitely many of these"
 _IN_OPEN = 'has no meaning with contacts = "unilateral": beads move, exactly, until none pulls'
-
-_ON_BASE = {"based": _YES, "pressure": _NO}
-_FORCES = ("contact", "contact_forces", "histogram", "response")
-_UNMOVED = "bears on no contact that is asked for: there is nothing to gather"
 
 TABLE = (
     Refusal(
@@ -162,11 +157,7 @@ TABLE = (
         '"contact_forces"',
     ),
     Refusal(
-        {
-            "load": ("surface", "bulk"),
-            "quantity": ("contact_forces", "base_reactions"),
-            "slab": _YES,
-        },
+        {"load": ("surface", "bulk"), "quantity": ("contact_forces",), "slab": _YES},
         "packing.width",
         _ENDLESS,
     ),
@@ -211,16 +202,6 @@ TABLE = (
         "ask.quantity",
         'only a "histogram" has bins that reach',
     ),
-    Refusal({**_ON_BASE, "layers": _YES}, "ask.layers", "no layer lies below a load on the base"),
-    Refusal(
-        {**_ON_BASE, "command": ("ensemble", "figures"), "quantity": _FORCES}, "load.at", _UNMOVED
-    ),
-    Refusal(
-        {**_ON_BASE, "command": ("figures",), "contacts": _OPEN, "quantity": ("profile",)},
-        "load.at",
-        _UNMOVED,
-    ),
-    Refusal({**_ON_BASE, "command": ("cost",), "quantity": _but("positions")}, "load.at", _UNMOVED),
     Refusal(
         {"command": ("figures",), "quantity": ("contact",)},
         "ask.quantity",
@@ -251,7 +232,6 @@ PLAIN: dict[str, Any] = {
     "slab": False,
     "drawn": True,
     "load": "surface",
-    "based": False,
     "leaning": False,
     "pressure": False,
     "contacts": "bilateral",
@@ -319,7 +299,6 @@ def guide() -> str:
 _SAID = {
     "slab": "no `packing.width`",
     "drawn": "radii of a file",
-    "based": "a load on the base",
     "leaning": "`load.angle_deg`",
     "pressure": "`load.pressure`",
     "stop": "`stop_at_tension`",

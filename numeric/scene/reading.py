@@ -87,8 +87,8 @@ def parse_scene(
     Traceback (most recent call last):
     ...
     force_diffusion.numeric.scene.sections.SceneError: ask.quantity = "profle": must be one of \
-"contact", "contact_forces", "positions", "profile", "histogram", "response", "base_reactions"; \
-did you mean "profile"?
+"contact", "contact_forces", "positions", "profile", "histogram", "response"; did you mean \
+"profile"?
     """
     dots = sum(line.count(".") for line in _lines_with_keys(text))
     if dots > MOST_DOTS:

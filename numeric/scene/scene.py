@@ -89,7 +89,6 @@ def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bo
         slab=packing.width is None,
         drawn=scene.disorder is not None and scene.disorder.kind not in {"file", "given"},
         load=load.kind,
-        based=load.at is not None and load.at[-1:] == [0],
         leaning=bool(load.angle_deg),
         pressure=bool(load.pressure),
         contacts=effects.contacts,
@@ -250,8 +249,9 @@ def _check_load(load: Load, packing: Packing) -> None:
 
 
 def _check_load_site(packing: Packing, at: Any) -> None:
-    if not 0 <= at[-1] <= packing.height:  # above all, as a bead there would be
-        raise SceneError("load.at", at, f"j must be from 0 to {packing.height}, the surface")
+    if not 1 <= at[-1] <= packing.height:
+        allowed = f"j must be from 1, above the base, to {packing.height}, the surface"
+        raise SceneError("load.at", at, allowed)
     (_check_site if packing.dimension == 2 else _check_bead)(packing, "load.at", at, packing.height)
 
 

@@ -32,9 +32,7 @@ OTHER_LOADS: dict[str, dict[str, Any]] = {
     "leaning": {"kind": "surface", "angle_deg": 7},
     "point": {"kind": "point", "at": "top"},
     "leaning point": {"kind": "point", "at": "top", "angle_deg": -9},
-    "on the base": {"kind": "point", "at": "base"},
     "beside a pressure": {"kind": "point", "at": "top", "pressure": "=0.5"},
-    "on the base beside a pressure": {"kind": "point", "at": "base", "pressure": "=0.5"},
     "of a file": {"kind": "file", "file": "loads.csv"},
 }
 # What else a scene may say, as a section and its keys, and the features that these are.
@@ -54,7 +52,7 @@ def scene(quantity: str, kind: str, load: str = "", said: str = "") -> str:
     """A tiny packing, of which this is asked."""
     own = KINDS[kind]
     spheres = own.get("dimension") == 3
-    top, base = ([0, 0, 2], [0, 0, 0]) if spheres else ([0, 2], [0, 0])
+    top = [0, 0, 2] if spheres else [0, 2]
     contact = [0, 0, 0, "1"] if spheres else [0, 0, "+"]
     usual = {"kind": "point", "at": "top"} if quantity == "response" else {"kind": "surface"}
     sections: dict[str, dict[str, Any]] = {
@@ -70,7 +68,7 @@ def scene(quantity: str, kind: str, load: str = "", said: str = "") -> str:
     if said:
         section, keys, _ = SAID[said]
         sections[section] = dict(keys) if section == "disorder" else sections[section] | keys
-    places = {"top": top, "base": base, "place": top if quantity == "positions" else contact}
+    places = {"top": top, "place": top if quantity == "positions" else contact}
     return toml(
         {
             section: {
@@ -116,7 +114,6 @@ def features(quantity: str, kind: str, load: str, said: str) -> dict[str, Any]:
         keys = OTHER_LOADS[load]
         found |= {
             "load": keys["kind"],
-            "based": keys.get("at") == "base",
             "leaning": "angle_deg" in keys,
             "pressure": "pressure" in keys,
         }
@@ -215,21 +212,6 @@ def test_an_ensemble_of_any_kind_is_asked_until(
         assert status == 2
     else:
         assert status == 0 or (status, "is known to" in capsys.readouterr().err) == (3, True)
-
-
-@pytest.mark.parametrize("quantity", ["response", "contact_forces", "histogram"])
-@pytest.mark.parametrize("kind", ["discs", "spheres"])
-def test_an_ensemble_of_a_load_on_the_base_is_refused_in_words(
-    quantity: str, kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "scene.toml"
-    path.write_text(scene(quantity, kind, "on the base"))
-    assert main(["run", str(path)]) == 0
-    words = ["--realisations", "3", "--workers", "1"]
-    reach = ["--reach", "1"] if quantity == "histogram" else []
-    capsys.readouterr()
-    assert main(["ensemble", str(path), *words, *reach]) == 2
-    assert "bears on no contact that is asked for" in capsys.readouterr().err
 
 
 @pytest.mark.long(sample=3)

@@ -181,9 +181,9 @@ def test_scenes_without_an_ensemble(tmp_path: Path, capsys: pytest.CaptureFixtur
     ):
         status, _, err = call(capsys, ROOT / "scenes" / f"{name}.toml")
         assert (status, says in err) == (2, True)
-    status, _, err = call(capsys, ROOT / "scenes" / "leaning.toml", "--realisations", 9)
+    status, _, err = call(capsys, ROOT / "scenes" / "settled.toml", "--realisations", 9)
     assert status == 2
-    assert 'ask.quantity = "base_reactions"' in err
+    assert 'ask.quantity = "positions"' in err
     path = tmp_path / "wild.toml"
     path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 9'))
     status, _, err = call(capsys, path)

@@ -45,9 +45,7 @@ def test_run_writes_packings_that_are_proved_again(
 
 
 @pytest.mark.long(sample=4)
-@pytest.mark.parametrize(
-    "quantity", ["contact_forces", "positions", "profile", "histogram", "base_reactions"]
-)
+@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "profile", "histogram"])
 def test_figures_of_a_scene(quantity: str, tmp_path: Path) -> None:
     scene, out = tmp_path / "scene.toml", tmp_path / "out"
     scene.write_text(SCENE.replace("contact_forces", quantity))

@@ -22,7 +22,6 @@ ASKED = {
     "contact": "quantity = 'contact'\nat = [0, 0, '+']\n",
     "contact_forces": "quantity = 'contact_forces'\n",
     "positions": "quantity = 'positions'\n",
-    "base_reactions": "quantity = 'base_reactions'\n",
     "profile": "quantity = 'profile'\n",
     "histogram": "quantity = 'histogram'\nbins = 2\n",
     "response": "quantity = 'response'\n",

@@ -178,7 +178,7 @@ def test_images_are_seen_exactly_where_the_region_needs_more_width(
     assert planned(sections).sees_images is sees
 
 
-@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "base_reactions"])
+@pytest.mark.parametrize("quantity", ["contact_forces", "positions"])
 def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
     """Each realisation of a batch is bit for bit the one solved alone."""
     plan = planned(basic(4, 9, quantity=quantity, realisations=5))
@@ -241,7 +241,7 @@ def test_standard_errors_cover_what_other_seeds_give() -> None:
         assert np.abs(spread / said - 1).max() < 0.45
 
 
-@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "base_reactions", "profile"])
+@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "profile"])
 def test_rows_are_sorted_as_numbers(quantity: str) -> None:
     asked = {} if quantity == "profile" else {"realisations": 2}
     rows = answer(basic(12, 14, quantity=quantity, **asked)).rows()
@@ -295,7 +295,7 @@ def test_lengths_scaled_by_a_power_of_two_change_no_bit(tmp_path: Path, power: i
     assert answers[0].accuracy == answers[1].accuracy
 
 
-@given(st.integers(-498, 498), st.sampled_from(["contact_forces", "profile", "base_reactions"]))
+@given(st.integers(-498, 498), st.sampled_from(["contact_forces", "profile"]))
 def test_units_change_no_bit(power: int, quantity: str) -> None:
     """r and s scaled by the same power of two: the dimensionless answer is bitwise the same."""
     factor = Fraction(2) ** power
@@ -319,25 +319,6 @@ def decimal(value: Fraction) -> str:
     return f"={head}.{tail}"
 
 
-@given(st.integers(1, 5), st.integers(-60, 60), st.integers(0, 50))
-def test_the_base_bears_the_load(height: int, angle: int, seed: int) -> None:
-    """Balance of the whole packing, certified: the base's forces add up to minus the load."""
-    width = height + 1
-    sections = basic(height, width, quantity="base_reactions", tolerance="=1e-20")
-    sections["disorder"]["seed"] = seed
-    sections["load"] = {"kind": "bulk", "angle_deg": angle}
-    rows = answer(sections).decimals()
-    import mpmath
-
-    mp = mpmath.MPContext()
-    mp.dps = 40
-    beads = width * (height + 1)
-    theta = mp.mpf(angle) * mp.pi / 180
-    # 1e-15 is far above the printed digits' rounding and far below any one force.
-    assert abs(sum(mp.mpf(r["fy"]) for r in rows) - beads * mp.cos(theta)) < 1e-15
-    assert abs(sum(mp.mpf(r["fx"]) for r in rows) + beads * mp.sin(theta)) < 1e-15
-
-
 def test_a_load_file_of_one_bead_is_a_point_load(tmp_path: Path) -> None:
     (tmp_path / "loads.csv").write_text("i,j,fx,fy\n4,4,0,-2.0\n")
     sections = basic(6, 14)
@@ -351,7 +332,7 @@ def test_a_load_file_of_one_bead_is_a_point_load(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    "quantity", ["contact_forces", "base_reactions", "profile", "histogram", "response", "contact"]
+    "quantity", ["contact_forces", "profile", "histogram", "response", "contact"]
 )
 @pytest.mark.parametrize("tolerance", [None, "=1e-25", "=1e-40"])
 def test_forces_come_back_in_the_unit_of_the_load(quantity: str, tolerance: str | None) -> None:
@@ -479,8 +460,6 @@ def test_the_sweep_stops_at_tension() -> None:
     assert Fraction(named["force"]) < 0
     assert min(r["j"] for r in stopped.decimals()) == j
     assert j > 0
-    sections["ask"] = {"quantity": "base_reactions", "tolerance": "=1e-12"}
-    assert not answer(sections).decimals()  # no force came down to the base
     assert everything.physical is not None
     assert everything.physical.tensile == len(pulling) > 0
 
@@ -521,16 +500,6 @@ def test_theory_turns_into_that_of_a_load_straight_down() -> None:
             found.append([float(row["first_order_std"]) for row in rows])
         assert found[1] == pytest.approx(found[0], rel=1e-9)
         assert found[2] == pytest.approx(found[0], rel=1e-9)
-
-
-def test_a_slab_carries_single_loads(tmp_path: Path) -> None:
-    """Loads far from each other, negative columns, tilted: the base bears them."""
-    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n-4,4,0.5,-2\n7,3,0,-1\n2,0,0,-3\n")
-    sections = basic(5, None, quantity="base_reactions", tolerance="=1e-25")
-    sections["load"] = {"kind": "file", "file": "loads.csv"}
-    rows = answer(sections, tmp_path).decimals()
-    assert abs(sum(Fraction(r["fx"]) for r in rows) + Fraction(1, 2)) < Fraction(1, 10**20)
-    assert abs(sum(Fraction(r["fy"]) for r in rows) - 6) < Fraction(1, 10**20)
 
 
 def test_a_tolerance_out_of_reach_says_why() -> None:

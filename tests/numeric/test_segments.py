@@ -42,10 +42,6 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
         "ask": {"quantity": "profile"},
     },
     "profile, point load": {"packing": STRIP, "load": POINT, "ask": {"quantity": "profile"}},
-    "base": {"packing": STRIP, "ask": {"quantity": "base_reactions"}},
-    "base of a slab": {
-        "packing": {"height": 19}, "load": POINT, "ask": {"quantity": "base_reactions"},
-    },
     "response": {
         "packing": STRIP, "load": POINT, "ask": {"quantity": "response", "layers": [16, 0, 9, 8]},
     },
@@ -90,7 +86,6 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
     "spheres, one position": {
         "packing": SPHERES, "ask": {"quantity": "positions", "at": [1, 2, 5]},
     },
-    "spheres, base": {"packing": SPHERES, "ask": {"quantity": "base_reactions"}},
     "spheres, contact": {
         "packing": SPHERES, "ask": {"quantity": "contact", "at": [1, 2, 3, "2"]},
     },
@@ -183,7 +178,7 @@ def test_the_error_is_that_of_the_sweep_in_memory(name: str, layers: int) -> Non
         alike(run(cut(made, layers)), run(made))
 
 
-@pytest.mark.parametrize("name", ["profile", "histogram", "base", "spheres, response"])
+@pytest.mark.parametrize("name", ["profile", "histogram", "spheres, response"])
 def test_one_segment_is_the_small_case(name: str) -> None:
     """Nothing is done twice, and the error is as exact as in memory."""
     made = planned(sections(name))

@@ -22,23 +22,6 @@ import force_diffusion as fd
 from tests.numeric.spheres import columns, drawn, scene
 
 
-@pytest.mark.parametrize("kind", ["surface", "bulk"])
-def test_the_base_bears_the_load(kind: Any) -> None:
-    load = fd.Load(kind=kind, magnitude=2.5)
-    found = scene("base_reactions", height=4, width=5, load=load).run().arrays
-    total = 2.5 * 25 * (1 if kind == "surface" else 5)
-    assert found["fz"].sum() == pytest.approx(total, rel=1e-14)
-    assert abs(found["fx"].sum()) + abs(found["fy"].sum()) < 1e-13 * total
-    assert abs(found["change_z"]).max() > 1e-3
-
-
-def test_a_point_load_comes_down_to_the_base() -> None:
-    load = fd.PointLoad(at=(1, 1, 3))
-    found = scene("base_reactions", height=3, width=5, load=load).run().arrays
-    forces = [found[name].sum() for name in ("fx", "fy", "fz")]
-    assert np.abs(np.array(forces) - (0, 0, 1)).max() < 1e-14
-
-
 def test_a_response_has_vertical_forces_that_sum_to_the_load() -> None:
     load = fd.PointLoad(at=(1, 1, 3))
     found = scene("response", height=3, width=5, load=load).run().arrays
@@ -68,14 +51,13 @@ def test_one_contact_and_one_bead_are_those_of_all() -> None:
 
 
 @pytest.mark.long(sample=1)
-@pytest.mark.parametrize("quantity", ["profile", "positions", "base_reactions"])
+@pytest.mark.parametrize("quantity", ["profile", "positions"])
 @pytest.mark.parametrize(("geometry", "height"), [("exact", 2), ("first-order", 3)])
 def test_images_are_seen_where_a_wider_packing_differs(
     quantity: str, geometry: str, height: int
 ) -> None:
     """Which beads matter is tried one by one; images matter where two of them are W apart."""
     M, wide = height, 4 * height + 1
-    lowest = 1 if quantity == "profile" else 0
     rng = np.random.default_rng(1)
     rho = [1e-3 * rng.uniform(-1, 1, (wide, wide)) for _ in range(M + 1)]
     phi, linear = Fraction(1, 5), geometry == "first-order"
@@ -89,14 +71,7 @@ def test_images_are_seen_where_a_wider_packing_differs(
             if quantity == "positions":
                 return np.asarray([sum(abs(c[M][0]) for _, c in placed.c)])
             forces = sweep_down(placed, region.rows, PerAxis(on, on, on), linear=linear)
-            change = [g[1] for _, g in forces.change]
-            if lowest:
-                return np.asarray([g[0] for g in change])
-            total = 0.0
-            for a, (_, dn) in enumerate(placed.dn):
-                own = change[a] + sum(np.abs(x) for x in dn[1])
-                total += region.above(own, region.rows[1], region.rows[0], a, 0.0)[0]
-            return np.asarray([total])
+            return np.asarray([g[1][0] for _, g in forces.change])
 
     before = asked(rho)
     matter: list[set[tuple[int, int, int]]] = [set() for _ in before]
@@ -312,15 +287,6 @@ def test_the_response_to_a_point_load_sees_images_where_its_cone_meets_itself(
     assert not scene("response", height=height, width=wide, load=load).explain().sees_images
 
 
-@pytest.mark.parametrize(("at", "width"), [(2, 2), (4, 2), (3, 2), (3, 3), (0, 2)])
-def test_rays_of_an_ordered_packing_may_meet_on_the_base(at: int, width: int) -> None:
-    load = fd.PointLoad(at=(0, 0, at))
-    asked = scene("base_reactions", height=4, width=width, load=load, geometry="ordered")
-    found = asked.run().arrays["fz"]
-    bearing = sum(float(force) > 0 for force in found)
-    assert asked.explain().sees_images == (bearing < 3 and at > 0)
-
-
 def beads(width: int, height: int) -> Iterator[tuple[int, int, int]]:
     return product(range(width), range(width), range(height + 1))
 
@@ -386,7 +352,7 @@ def test_a_file_of_loads_is_what_it_lists(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("quantity", "at"),
-    [("contact_forces", None), ("profile", None), ("histogram", None), ("base_reactions", None),
+    [("contact_forces", None), ("profile", None), ("histogram", None),
      ("contact", (1, 1, 1, "1"))],
 )  # fmt: skip
 @pytest.mark.parametrize("geometry", ["exact", "first-order"])
@@ -403,14 +369,6 @@ def test_a_file_without_loads_is_known_to_load_nothing(
     assert found.accuracy.certified
     for name in ("force", "change", "mean", "std", "fz", "change_z"):
         assert not any(float(f) for f in found.arrays.get(name, ()))
-
-
-def test_a_load_at_an_angle_comes_down_to_the_base() -> None:
-    """Straight down less a push along x, in the ordered packing and in an exact one."""
-    load = fd.PointLoad(at=(1, 1, 3), angle_deg=30, magnitude=2)
-    found = scene("base_reactions", height=3, width=5, load=load).run().arrays
-    forces = [found[name].sum() for name in ("fx", "fy", "fz")]
-    assert np.abs(np.array(forces) - (-1, 0, np.sqrt(3))).max() < 1e-14
 
 
 def test_no_theory_is_said_of_loads_at_an_angle() -> None:

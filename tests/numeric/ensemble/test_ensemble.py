@@ -114,8 +114,8 @@ def test_wrong_arguments(arguments: dict[str, Any], says: str) -> None:
 def test_what_a_scene_and_a_file_may_be_wrong_in(tmp_path: Path) -> None:
     with pytest.raises(SceneError, match=r"ask\.realisations = 1: an ensemble has from 2"):
         fd.ensemble(scene(PROFILE))
-    with pytest.raises(SceneError, match="base_reactions"):
-        fd.ensemble(scene({**PROFILE, "ask": {"quantity": "base_reactions"}}), 9)
+    with pytest.raises(SceneError, match="positions"):
+        fd.ensemble(scene({**PROFILE, "ask": {"quantity": "positions"}}), 9)
     with pytest.raises(ArgumentError, match=r"reach = -1.*positive"):
         fd.ensemble(scene(CASES["histogram of all"]), 9, reach=-1)
     (tmp_path / "other").write_text("something else")

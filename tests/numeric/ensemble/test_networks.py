@@ -164,7 +164,7 @@ def test_damaged_sums_are_refused() -> None:
             from_bytes(damaged, m)
 
 
-@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "base_reactions"])
+@pytest.mark.parametrize("quantity", ["contact_forces", "positions"])
 def test_what_has_no_statistics_is_refused(quantity: str) -> None:
     with pytest.raises(fd.SceneError, match=r"ask\.quantity"):
         fd.ensemble(strip(quantity), 2)

@@ -130,7 +130,7 @@ def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
 def test_many_contacts_see_images_where_any_one_does(
     geometry: str, quantity: str, load: str
 ) -> None:
-    for width, height, layer in product(range(1, 9), (1, 2, 4), (0, 1, 4)):
+    for width, height, layer in product(range(1, 9), (1, 2, 4), (1, 2, 4)):
         if layer > height:
             continue
         sections = basic(height, width, quantity=quantity)
@@ -147,18 +147,17 @@ def test_many_contacts_see_images_where_any_one_does(
 
 def test_what_is_seen_does_not_depend_on_how_a_load_is_written(tmp_path: Path) -> None:
     (tmp_path / "loads.csv").write_text("i,j,fx,fy\n6,6,0,-1\n")
-    for width, quantity in product((3, 5, 6, 7, 10), ("contact_forces", "base_reactions")):
-        for geometry in ("exact", "first-order"):
-            sections = basic(6, width, quantity=quantity)
-            sections["packing"]["allow_images"] = True
-            sections["effects"] = {"geometry": geometry}
-            at = [6 % (2 * width), 6]
-            (tmp_path / "loads.csv").write_text(f"i,j,fx,fy\n{at[0]},6,0,-1\n")
-            sections["load"] = {"kind": "file", "file": "loads.csv"}
-            file = planned(sections, tmp_path).sees_images
-            sections["load"] = {"kind": "point", "at": at}
-            assert file == planned(sections).sees_images
-            assert file == (width <= 6) or quantity == "base_reactions"
+    for width, geometry in product((3, 5, 6, 7, 10), ("exact", "first-order")):
+        sections = basic(6, width)
+        sections["packing"]["allow_images"] = True
+        sections["effects"] = {"geometry": geometry}
+        at = [6 % (2 * width), 6]
+        (tmp_path / "loads.csv").write_text(f"i,j,fx,fy\n{at[0]},6,0,-1\n")
+        sections["load"] = {"kind": "file", "file": "loads.csv"}
+        file = planned(sections, tmp_path).sees_images
+        sections["load"] = {"kind": "point", "at": at}
+        assert file == planned(sections).sees_images
+        assert file == (width <= 6)
 
 
 def test_loads_far_apart_do_not_see_the_beads_between_them(tmp_path: Path) -> None:

@@ -373,11 +373,9 @@ def test_products_of_words_are_exact_whatever_the_processor() -> None:
     [
         (d, q)
         for d in (2, 3, 4)
-        for q in (
-            "contact_forces", "positions", "profile", "histogram", "base_reactions", "response",
-        )
+        for q in ("contact_forces", "positions", "profile", "histogram", "response")
     ],
-)  # fmt: skip
+)
 def test_an_answer_stays_when_the_next_one_takes_its_memory(
     dimension: int, quantity: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -412,7 +410,7 @@ def test_an_answer_stays_when_the_next_one_takes_its_memory(
     assert not np.array_equal(first[small], second[small], equal_nan=True)
 
 
-@pytest.mark.parametrize("quantity", ["profile", "contact_forces", "histogram", "base_reactions"])
+@pytest.mark.parametrize("quantity", ["profile", "contact_forces", "histogram"])
 @pytest.mark.parametrize("stop", [False, True])
 def test_an_answer_is_the_same_whether_the_compiler_is_loaded_or_not(
     quantity: str, stop: bool, monkeypatch: pytest.MonkeyPatch

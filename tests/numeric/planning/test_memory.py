@@ -18,8 +18,6 @@ POINT = 'packing = {height = 260}\nload = {kind = "point", at = [0, 260]}\n'
 SCENES = {
     "contact forces": 'packing = {height = 100, width = 350}\nask = {quantity = "contact_forces"}',
     "positions": 'packing = {height = 200, width = 350}\nask = {quantity = "positions"}',
-    "base reactions": "packing = {height = 10, width = 250}\n"
-    'ask = {quantity = "base_reactions", realisations = 250}',
     "response": POINT + 'ask = {quantity = "response"}',
     "responses": POINT + 'ask = {quantity = "response", realisations = 40}',
     "ordered response": POINT + 'ask = {quantity = "response"}\neffects = {geometry = "ordered"}',
@@ -34,8 +32,6 @@ SCENES = {
     'load = {kind = "point", at = [0, 20]}\nask = {quantity = "profile"}',
     "profiles below a point": "packing = {height = 20, width = 3_000}\n"
     'load = {kind = "point", at = [0, 20]}\nask = {quantity = "profile", realisations = 400}',
-    "base reactions below a point": "packing = {height = 20, width = 60_000}\n"
-    'load = {kind = "point", at = [0, 20]}\nask = {quantity = "base_reactions"}',
     "balls": 'packing = {height = 40, width = 90}\nask = {quantity = "contact_forces", '
     "tolerance = 1e-30}",
 }

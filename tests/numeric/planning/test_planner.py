@@ -161,7 +161,7 @@ def _weights(
 
 
 def test_without_disorder_nothing_is_swept() -> None:
-    for quantity in ("contact_forces", "profile", "base_reactions", "positions", "histogram"):
+    for quantity in ("contact_forces", "profile", "positions", "histogram"):
         sections = basic(quantity=quantity)
         del sections["disorder"]
         outcome = answer(sections)

@@ -61,7 +61,7 @@ def test_a_file_that_is_no_scene_is_named(tmp_path: Path, capsys: Any) -> None:
 
 
 def test_a_load_above_the_packing_is_told_so() -> None:
-    with pytest.raises(fd.SceneError, match="j must be from 0 to 4, the surface"):
+    with pytest.raises(fd.SceneError, match="j must be from 1, above the base, to 4, the surface"):
         fd.Scene(
             packing=fd.Packing(height=4, width=8),
             load=fd.PointLoad(at=(3, 8)),

@@ -196,7 +196,7 @@ def test_dots_are_counted_wherever_they_make_tables(start: str) -> None:
 
 
 def test_a_slab_has_no_list_of_everything() -> None:
-    for quantity in ("contact_forces", "positions", "profile", "histogram", "base_reactions"):
+    for quantity in ("contact_forces", "positions", "profile", "histogram"):
         with pytest.raises(SceneError, match=r"packing\.width"):
             scene(basic(4, None, quantity=quantity))
 

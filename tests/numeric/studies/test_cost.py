@@ -132,7 +132,6 @@ LOADS: tuple[dict[str, Any], ...] = (
         {"quantity": "contact", "at": [1, 1, "-"]},
         {"quantity": "positions"},
         {"quantity": "positions", "at": [2, 4]},
-        {"quantity": "base_reactions"},
         {"quantity": "response"},
     ],
 )

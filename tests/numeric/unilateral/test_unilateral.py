@@ -290,9 +290,6 @@ def test_every_question_is_answered(relaxed: fd.Outcome) -> None:
     total = float(sum(network.forces[1:], network.forces[0]))
     profile = strip("profile", protocol=protocol).run().arrays
     assert (profile["mean"].astype(float) * profile["samples"]).sum() == pytest.approx(total)
-    base = strip("base_reactions", protocol=protocol).run().arrays
-    assert base["fy"].astype(float).sum() == pytest.approx(16)  # the load of W beads
-    assert base["fx"].astype(float).sum() == pytest.approx(0, abs=1e-12)
     counts = strip("histogram", protocol=protocol).run().arrays["count"]
     assert counts.sum() == len(network.forces)
     row = relaxed.rows()[5]
