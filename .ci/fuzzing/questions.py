@@ -25,7 +25,6 @@ GOOD = {
     "load.kind": ['"surface"', '"bulk"', '"point"', '"file"'],
     "load.magnitude": ["1", "1e-60", "3.7", "1e60", "1e400"],
     "load.angle_deg": ["0", "10", "-29", "60", "95", "-180"],
-    "load.pressure": ["0", "0.5", "1"],
     "load.at": ["[0, 0, 3]", "[0, 4]", "[1, 1]", "[0, 0]", "[0, 2]"],
     "effects.geometry": ['"ordered"', '"exact"', '"first-order"'],
     "effects.contacts": ['"unilateral"', '"bilateral"'],

@@ -12,7 +12,7 @@ from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
-from ..lattice.layers import Naming, Rows, full_layer
+from ..lattice.layers import Naming, Rows
 from ..mechanics.loads import LoadSpec
 from ..scene.files import TableError, read_array, read_loads, read_radii
 from ..scene.scene import Scene
@@ -28,7 +28,7 @@ WAY_OUT = "give run a tolerance: balls, its arithmetic, have no such limit"
 
 
 def load_of(scene: Scene) -> LoadSpec:
-    """Give the load; one beside a pressure as loads on single beads. Raises ``TableError``."""
+    """Give the load. Raises ``TableError``."""
     load, packing = scene.load, scene.packing
     naming, top, d = Naming(packing.dimension, packing.width), packing.height, packing.dimension
     at = None if load.at is None else naming.site(load.at)
@@ -41,13 +41,7 @@ def load_of(scene: Scene) -> LoadSpec:
             height=top,
             dimension=d,
         )
-    if not load.pressure or at is None:
-        return LoadSpec(load.kind, top, naming.row, load.angle_deg, at, single, d)
-    assert naming.row is not None
-    level, down = (Fraction(0),) * (d - 1), -Fraction(load.pressure) / load.magnitude
-    single = {(i, top): (*level, down) for i in full_layer(top, naming.row).sites()}
-    single[at] = (*level, single.get(at, level)[-1] - 1)
-    return LoadSpec("file", top, naming.row, single=single, dimension=d)
+    return LoadSpec(load.kind, top, naming.row, load.angle_deg, at, single, d)
 
 
 def _of_array(values: Array, origin: Fraction, radius: Fraction) -> ArrayRadii:
@@ -145,7 +139,7 @@ def refuse_beyond_floats(scene: Scene, radii: Radii, load: LoadSpec) -> None:
         if size and not (least <= size <= MOST and least <= size * unit <= MOST):
             bead = Naming(load.dimension, scene.packing.width).bead(site)
             raise SceneError(
-                "load.file" if scene.load.file else "load.pressure",
-                scene.load.file or scene.load.pressure,
+                "load.file",
+                scene.load.file,
                 f"the load on bead {bead} is {short(size)} times load.magnitude, which {allowed()}",
             )

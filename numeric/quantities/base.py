@@ -152,7 +152,7 @@ class Quantity(ABC):
         """The highest layer that is solved where layers are whole: of the load, or as asked."""
         load, at = self.scene.load, self.scene.ask.at
         if self.needs_forces:
-            at = None if load.pressure else load.at
+            at = load.at
         return self.height if at is None else int(at[self.naming.dimension - 1])
 
     def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
@@ -189,7 +189,7 @@ class Quantity(ABC):
             return (self.top + 1) * (self.width or 0)
         layers = self.height + 1
         beads = layers * (self.width or layers)
-        if self.scene.load.at is not None and not self.scene.load.pressure:
+        if self.scene.load.at is not None:
             top = int(self.scene.load.at[1])
             layers, beads = top + 1, regions.triangle_beads(top)
         return beads if self.width is None else min(beads, self.width * layers)

@@ -53,8 +53,7 @@ class SingleContact(ContactQuantity):
 
     def most_beads(self) -> int:
         """Bound the beads to be solved."""
-        point = self.scene.load.at is not None and not self.scene.load.pressure
-        if point or self.by_layers:
+        if self.scene.load.at is not None or self.by_layers:
             return super().most_beads()
         beads = regions.contact_beads(self.contact.j, self.height)
         return beads if self.width is None else min(beads, self.width * (self.height + 1))

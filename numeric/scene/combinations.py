@@ -72,21 +72,6 @@ TABLE = (
         'is required with contacts = "unilateral": beads move in a periodic strip',
     ),
     Refusal(
-        {"load": _load_but("point"), "pressure": _YES},
-        "load.pressure",
-        'comes beside kind = "point"',
-    ),
-    Refusal(
-        {"leaning": _YES, "pressure": _YES},
-        "load.pressure",
-        "comes beside a point load straight down: give a file of loads for others",
-    ),
-    Refusal(
-        {"pressure": _YES, "slab": _YES},
-        "load.pressure",
-        "needs packing.width: the surface of a slab has no end",
-    ),
-    Refusal(
         {"leaning": _YES, "load": ("file",)}, "load.angle_deg", 'has no meaning with kind = "file"'
     ),
     Refusal(
@@ -149,12 +134,6 @@ TABLE = (
         {"load": _load_but("point"), "quantity": ("response",)},
         "load.kind",
         'must be "point" for quantity = "response"',
-    ),
-    Refusal(
-        {"pressure": _YES, "quantity": ("response",)},
-        "load.pressure",
-        'must be 0 for quantity = "response", which is that to the point load alone: ask for '
-        '"contact_forces"',
     ),
     Refusal(
         {"load": ("surface", "bulk"), "quantity": ("contact_forces",), "slab": _YES},
@@ -233,7 +212,6 @@ PLAIN: dict[str, Any] = {
     "drawn": True,
     "load": "surface",
     "leaning": False,
-    "pressure": False,
     "contacts": "bilateral",
     "geometry": "exact",
     "stop": False,
@@ -300,7 +278,6 @@ _SAID = {
     "slab": "no `packing.width`",
     "drawn": "radii of a file",
     "leaning": "`load.angle_deg`",
-    "pressure": "`load.pressure`",
     "stop": "`stop_at_tension`",
     "at": "`ask.at`",
     "layers": "`ask.layers`",

@@ -90,7 +90,6 @@ def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bo
         drawn=scene.disorder is not None and scene.disorder.kind not in {"file", "given"},
         load=load.kind,
         leaning=bool(load.angle_deg),
-        pressure=bool(load.pressure),
         contacts=effects.contacts,
         geometry=effects.geometry,
         stop=effects.stop_at_tension,
@@ -244,8 +243,6 @@ def _check_load(load: Load, packing: Packing) -> None:
         _check_load_site(packing, load.at)
     elif load.at is not None:
         raise SceneError("load.at", load.at, 'needs kind = "point"')
-    if load.pressure < 0:
-        raise SceneError("load.pressure", load.pressure, "must not be negative")
 
 
 def _check_load_site(packing: Packing, at: Any) -> None:
@@ -278,7 +275,7 @@ def _check_layers(ask: Ask, load: Load, height: int) -> None:
     """Check the layers that a response or a histogram is asked of."""
     if ask.layers is None:
         return
-    top = height if load.at is None or load.pressure else int(load.at[-1])
+    top = height if load.at is None else int(load.at[-1])
     if not ask.layers or len(set(ask.layers)) < len(ask.layers):
         raise SceneError("ask.layers", ask.layers, "must be one layer or several, each once")
     if not all(0 <= j < top for j in ask.layers):

@@ -247,7 +247,6 @@ class Load(Section):
     ``kind``: "surface" (on every bead of layer M), "bulk" (on every bead), "point" (on the bead
     ``at`` = (k, l)) or "file" (``file`` lists i, j, fx, fy; of spheres p, q, j, fx, fy, fz, beads
     being (p, q, j) everywhere). ``magnitude`` is the load on a bead.
-    ``pressure`` is a load straight down on every bead of the surface, beside a point load.
     """
 
     section = "load"
@@ -255,7 +254,6 @@ class Load(Section):
     magnitude: Number = Fraction(1)
     angle_deg: Number = Fraction(0)
     at: Bead | None = None
-    pressure: Number = Fraction(0)
     file: str | None = None
 
 

@@ -32,7 +32,6 @@ OTHER_LOADS: dict[str, dict[str, Any]] = {
     "leaning": {"kind": "surface", "angle_deg": 7},
     "point": {"kind": "point", "at": "top"},
     "leaning point": {"kind": "point", "at": "top", "angle_deg": -9},
-    "beside a pressure": {"kind": "point", "at": "top", "pressure": "=0.5"},
     "of a file": {"kind": "file", "file": "loads.csv"},
 }
 # What else a scene may say, as a section and its keys, and the features that these are.
@@ -115,7 +114,6 @@ def features(quantity: str, kind: str, load: str, said: str) -> dict[str, Any]:
         found |= {
             "load": keys["kind"],
             "leaning": "angle_deg" in keys,
-            "pressure": "pressure" in keys,
         }
     return found | (SAID[said][2] if said else {})
 

@@ -113,9 +113,9 @@ def test_beads_touch_their_three_supports() -> None:
 @pytest.mark.usefixtures("digits")
 @pytest.mark.parametrize(
     "load", [fd.SurfaceLoad(), fd.BulkLoad(), fd.PointLoad(at=(1, 2, 2)),
-             fd.PointLoad(at=(0, 1, 1), pressure=0.5), fd.BulkLoad(angle_deg=20),
+             fd.BulkLoad(angle_deg=20),
              fd.PointLoad(at=(1, 2, 2), angle_deg=-70), fd.Load(kind="file", file="loads.csv")],
-    ids=["surface", "bulk", "point", "point and pressure", "bulk, 20°", "point, −70°", "file"],
+    ids=["surface", "bulk", "point", "bulk, 20°", "point, −70°", "file"],
 )  # fmt: skip
 def test_forces_solve_the_balance_of_all_beads_at_once(load: fd.Load, tmp_path: Path) -> None:
     """A dense linear system, three equations a bead, of the positions alone."""
@@ -142,8 +142,6 @@ def test_forces_solve_the_balance_of_all_beads_at_once(load: fd.Load, tmp_path: 
         if load.kind == "point":
             pressed = bead == tuple(load.at)
         b[row[bead]], b[row[bead] + 2] = -pressed * mpmath.sin(angle), pressed * mpmath.cos(angle)
-        if load.pressure and bead[2] == height:
-            b[row[bead] + 2] += mpmath.mpf(1) / 2
         for k in range(3 if load.kind == "file" else 0):
             b[row[bead] + k] = -listed.get(bead, (0, 0, 0))[k]
     solved = mpmath.lu_solve(A, b)

@@ -181,14 +181,18 @@ def test_contacts_that_are_none_make_no_file(contact: list[int]) -> None:
 @cache
 def found(kind: str) -> str:
     """Packings that ``run`` proved, as JSON: with and without rattlers."""
-    load = fd.PointLoad(at=[0, 4], pressure=0.01) if kind == "rattlers" else fd.SurfaceLoad()
-    outcome = fd.Scene(
-        packing=fd.Packing(height=4, width=6, allow_images=True),
-        disorder=fd.Disorder(kind="uniform", relative_std=0.04, seed=2),
-        load=load,
-        effects=fd.Effects(contacts="unilateral"),
-        ask=fd.Ask(quantity="contact_forces"),
-    ).run()
+    with TemporaryDirectory() as folder:
+        rows = ["i,j,fx,fy", "0,4,0,-1.01", *(f"{i},4,0,-0.01" for i in range(2, 12, 2))]
+        Path(folder, "loads.csv").write_text("\n".join(rows))
+        rattling = fd.Load(kind="file", file="loads.csv")
+        outcome = fd.Scene(
+            packing=fd.Packing(height=4, width=6, allow_images=True),
+            disorder=fd.Disorder(kind="uniform", relative_std=0.04, seed=2),
+            load=rattling if kind == "rattlers" else fd.SurfaceLoad(),
+            effects=fd.Effects(contacts="unilateral"),
+            ask=fd.Ask(quantity="contact_forces"),
+            folder=Path(folder),
+        ).run()
     return json.dumps(outcome.packings()["packings"][0])
 
 

@@ -38,6 +38,13 @@ def strip(
     )
 
 
+def pressed(load: float, folder: Path) -> fd.Load:
+    """Give a load of 1 on bead (0, 8) of the surface, beside a ``load`` on each of its beads."""
+    rows = [f"{i},8,0,{-load - (not i)!r}" for i in range(0, 32, 2)]
+    (folder / "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows]))
+    return fd.Load(kind="file", file=str(folder / "loads.csv"))
+
+
 @pytest.fixture(scope="module", params=PROTOCOLS)
 def relaxed(request: pytest.FixtureRequest) -> fd.Outcome:
     return strip(protocol=request.param).run()
@@ -266,10 +273,10 @@ def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(
 
 
 @pytest.mark.long
-def test_under_no_pressure_to_speak_of_beads_are_no_equilibrium() -> None:
+def test_under_no_load_to_speak_of_beads_are_no_equilibrium(tmp_path: Path) -> None:
     """The load sinks to the base; it was called a strict minimum with all others in the air."""
     with pytest.raises(UnfinishedError, match="bears a load, and no contact holds it"):
-        strip(load=fd.PointLoad(at=[0, 8], pressure=1e-12)).run()
+        strip(load=pressed(1e-12, tmp_path)).run()
 
 
 @pytest.mark.parametrize("width", [3, 4])
@@ -413,23 +420,22 @@ def proved(outcome: fd.Outcome, folder: Path) -> bool:
 
 @pytest.mark.long
 @pytest.mark.parametrize(
-    ("protocol", "pressure"),
+    ("protocol", "surface"),
     [("linear-programs", 0.1), ("linear-programs", 10), ("event-driven", 10)],
 )
-def test_a_point_load_on_pressure(protocol: str, pressure: float, tmp_path: Path) -> None:
-    """Under little pressure the load sinks and pushes beads aside, which become rattlers."""
-    load = fd.PointLoad(at=[0, 8], pressure=pressure)
-    outcome = strip(load=load, protocol=protocol).run()
+def test_a_point_load_beside_a_surface_load(protocol: str, surface: float, tmp_path: Path) -> None:
+    """Where the surface bears little, the load sinks and pushes beads aside: they rattle."""
+    outcome = strip(load=pressed(surface, tmp_path), protocol=protocol).run()
     (network,) = outcome.answer.networks
     assert network.events > 0
     height = float(network.x[8 * 16, 1])
-    assert (height < 5) if pressure < 1 else (10 < height < 11)  # deposited at 10.6
-    assert (len(network.rattlers) > 10) == (pressure < 1)
+    assert (height < 5) if surface < 1 else (10 < height < 11)  # deposited at 10.6
+    assert (len(network.rattlers) > 10) == (surface < 1)
     assert proved(outcome, tmp_path)
     base = -network.frame.load[:16, 1].astype(float)  # each carries its own load
     np.add.at(base, network.pairs[:, 1][network.pairs[:, 1] < 16],
               network.pushes()[network.pairs[:, 1] < 16, 1].astype(float))  # fmt: skip
-    assert base.sum() == pytest.approx(1 + 16 * pressure)
+    assert base.sum() == pytest.approx(1 + 16 * surface)
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)
@@ -481,10 +487,10 @@ def test_a_motion_that_gets_stuck_ends(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.long
-def test_contacts_that_stop_being_independent_are_no_answer() -> None:
-    """Beads under almost no pressure are pushed aside until two contacts hold the same."""
+def test_contacts_that_stop_being_independent_are_no_answer(tmp_path: Path) -> None:
+    """Beads that bear next to nothing are pushed aside until two contacts hold the same."""
     with pytest.raises(UnfinishedError, match="independent"):
-        strip(load=fd.PointLoad(at=[0, 8], pressure=0.01), protocol="event-driven").run()
+        strip(load=pressed(0.01, tmp_path), protocol="event-driven").run()
 
 
 @pytest.mark.parametrize("protocol", PROTOCOLS)
@@ -518,10 +524,9 @@ def test_an_inclined_load_on_a_larger_strip(tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_rattlers_touch_nothing() -> None:
+def test_rattlers_touch_nothing(tmp_path: Path) -> None:
     """Beads that lost a load above them, or a support: each has room on all sides."""
-    load = fd.PointLoad(at=[0, 8], pressure=0.1)
-    (network,) = strip(load=load).run().answer.networks
+    (network,) = strip(load=pressed(0.1, tmp_path)).run().answer.networks
     assert len(network.rattlers)
     assert not np.isin(network.rattlers, network.pairs).any()
     x, radii = network.x.astype(float), network.frame.radii.astype(float)
