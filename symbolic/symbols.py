@@ -139,6 +139,20 @@ class ForceMinus(SiteFunction):
     branch = "-"
 
 
+class VerticalPlus(SiteFunction):
+    """p⁺_ij = e_y·(n⁺ + δn⁺_ij) f⁺_ij: the vertical component of a contact's force."""
+
+    latex_head, text_head, in_code = "p", "p", "p_plus"
+    branch = "+"
+
+
+class VerticalMinus(SiteFunction):
+    """p⁻_ij = e_y·(n⁻ + δn⁻_ij) f⁻_ij: the vertical component of a contact's force."""
+
+    latex_head, text_head, in_code = "p", "p", "p_minus"
+    branch = "-"
+
+
 TURNS = {ForcePlus: DeltaNPlus, ForceMinus: DeltaNMinus}
 """The force of a contact, and how that contact turns."""
 

@@ -26,6 +26,11 @@ class NotExactError(ValueError):
 LAYER = sympy.Dummy("layer", integer=True)
 """The layer of a site on a line sum; a generator of its own, never part of an equation."""
 
+SITE = tuple(sympy.Dummy(f"site_{axis}", integer=True) for axis in (1, 2, 3))
+"""A site: how many steps along each base vector lead to it from the origin."""
+SOURCE = tuple(sympy.Dummy(f"source_{axis}", integer=True) for axis in (1, 2, 3))
+"""Another one, over which is summed."""
+
 
 class Domain:
     """A field ℚ(generators) and the way into it from SymPy.
@@ -388,5 +393,5 @@ UNKNOWNS = (
 )
 """What stands for unknown numbers while two sides are compared: positive ones, and any."""
 
-FIELD = Domain((LAYER, *INDICES, *PARAMETERS, d, *UNKNOWNS[0], *UNKNOWNS[1]))
+FIELD = Domain((LAYER, *SITE, *SOURCE, *INDICES, *PARAMETERS, d, *UNKNOWNS[0], *UNKNOWNS[1]))
 """The field of all the paper's symbols, and of some unknown numbers, used by linear forms."""

@@ -1,0 +1,211 @@
+"""Statistics of what is linear in the radii: means, variances and covariances as closed forms.
+
+The radii are independent, of mean zero and variance σ². A form Σ w(x) δr_x with an ordered value has
+that value as its mean, and σ² Σ w(x)² as its variance. The weights are those that theorems give
+quantities in the radii, put in one after the other. They are polynomials on sets of sites and
+indices, so a moment is a polynomial on each of a few sets of indices: its closed form.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+
+import sympy
+
+from .. import sets
+from .. import symbols as sy
+from ..algebra.exact import FIELD, SOURCE, NotExactError, RationalFunction
+from ..as_printed import equation
+from ..forms import NUMBER, Form, Known, Reader, Straightening, Value
+from ..notation import by_name
+from ..printing.text import text
+from ..second_order import RADII, SHIFT, Jet, Means, covariance
+from ..weights import Weights
+from .rules import Rule
+from .theorem import NotProvedError, Theorem, check, made
+from .where import Where
+
+_SQUARE = FIELD.generator(sy.sigma) ** 2
+
+
+# what theorems say of quantities
+
+
+@lru_cache(maxsize=64)
+def _known(facts: tuple[Theorem, ...], kind: type[Form]) -> Mapping[type, tuple[Known, ...]]:
+    """Quantities in the radii; forces by way of directions, and these of positions.
+
+    Raises:
+        NotProvedError: a theorem does not say what one quantity of a bead is.
+    """
+    if kind is Jet:
+        return Means(_known(facts, Form)).jets()
+    found: dict[type, tuple[Known, ...]] = {}
+    left = [one for one in facts]
+    while left:
+        open_ones = {_about(one) for one in left}
+        ready = [one for one in left if not open_ones & _held(one)]
+        if not ready:
+            raise NotProvedError("theorems that are put in rest on one another in a circle")
+        values = [(_about(one), _said(one, found)) for one in ready]
+        for quantity, value in values:
+            found[quantity] = (*found.get(quantity, ()), value)
+        left = [one for one in left if one not in ready]
+    return found
+
+
+def _about(theorem: Theorem) -> type:
+    return type(theorem.solved[0])
+
+
+def _held(theorem: Theorem) -> set[type]:
+    return {type(quantity) for quantity in theorem.solved[1].atoms(sy.SiteFunction)}
+
+
+def _said(theorem: Theorem, known: Mapping[type, tuple[Known, ...]]) -> Known:
+    """What a theorem says of a quantity, by the coordinates of the quantity's bead."""
+    about, value = theorem.solved
+    reader = Reader(sets.EVERYTHING, Straightening.of(theorem.where.even), known)
+    reader = reader.within(*theorem.where.relations)
+    site = zip(SOURCE, reader.site(*about.args), strict=False)
+    here = sets.where(*(sympy.Eq(symbol, at, evaluate=False) for symbol, at in site))
+    loading, points = theorem.where.loading, reader.points & here
+    named = set().union(*(one.free_symbols for one in loading.place)) if loading else set()
+    bound = [symbol for symbol in theorem.where.indices if symbol not in named]
+    read = reader.read(value)
+    forms = read if isinstance(read, tuple) else (read,)
+    return Known(
+        sets.without(points, *bound),
+        tuple(form.on(points).without(*bound).merged() for form in forms),
+    )
+
+
+# moments
+
+
+@dataclass(frozen=True, eq=False)
+class Statistics(Reader):
+    """Reads numbers, and moments of what is linear in the radii.
+
+    Attributes:
+        facts: the theorems that give quantities in the radii.
+    """
+
+    facts: tuple[Theorem, ...] = ()
+
+    @classmethod
+    def on(cls, where: Where, facts: Iterable[Theorem]) -> "Statistics":
+        """Those on a domain.
+
+        Raises:
+            NotProvedError: a theorem is of other packings or loads.
+        """
+        facts = tuple(dict.fromkeys(facts))
+        for one in facts:
+            same = one.where.loading in (None, where.loading)
+            if one.where.dimension != where.dimension or one.where.limit or not same:
+                raise NotProvedError(f"{text(one.solved[0])} is known of other packings or loads")
+        empty = cls(sets.EVERYTHING, Straightening.of(where.even), facts=facts)
+        return empty.within(*where.relations)  # type: ignore[return-value]
+
+    def read(self, expression: sympy.Expr) -> Value:
+        """A number; moments are worked out."""
+        if isinstance(expression, sy.Moment):
+            return Form({NUMBER: self.moment(expression)})
+        return super().read(expression)
+
+    def moment(self, moment: sy.Moment) -> Weights:
+        """A moment, as a function of the indices.
+
+        Raises:
+            NotExactError: what it is of is not linear, or not given by the radii.
+        """
+        if isinstance(moment, sy.Shift):
+            form = self._in_radii(moment.args[0], Jet)
+            return form.parts.get(SHIFT, Weights()).scaled(_SQUARE)
+        forms = [self._in_radii(one, Form) for one in moment.args]
+        if isinstance(moment, sy.Mean):
+            return forms[0].parts.get(NUMBER, Weights())
+        if isinstance(moment, sy.Variance | sy.Covariance):
+            return covariance(forms[0], forms[-1]).scaled(_SQUARE)
+        raise NotExactError(f"{text(moment)} is not worked out")
+
+    def _in_radii(self, expression: sympy.Expr, kind: type[Form]) -> Form:
+        reader = Reader(
+            self.points, self.straight, _known(self.facts, kind), kind, linear=kind is Form
+        )
+        form = reader.number(expression).on(self.points).merged()
+        if strange := {*form.parts} - {NUMBER, RADII, SHIFT}:
+            raise NotExactError(f"{min(strange)} is not given by the radii")
+        return form
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A part of a closed form.
+
+    Attributes:
+        where: its domain, as relations of indices.
+        value: the form there.
+    """
+
+    where: tuple[sympy.Basic, ...]
+    value: RationalFunction
+
+
+@dataclass(frozen=True, eq=False)
+class ClosedForm:
+    """A number that is a function of indices, by pieces; the largest comes first."""
+
+    weights: Weights
+    points: sets.Set
+    straight: Straightening
+
+    @classmethod
+    def of(cls, expression: sympy.Expr, where: Where, facts: Iterable[Theorem]) -> "ClosedForm":
+        """An expression in moments on a domain."""
+        reader = Statistics.on(where, facts)
+        weights = reader.number(expression).parts.get(NUMBER, Weights())
+        return cls(weights.on(reader.points), reader.points, reader.straight)
+
+    @cached_property
+    def pieces(self) -> tuple[Piece, ...]:
+        """Disjoint convex pieces that cover the domain; several may have one value."""
+        found = []
+        left = self.points
+        back = {symbol: FIELD.from_sympy(one) for symbol, one in self.straight.back.items()}
+        for whole, value in self.weights.formulas():
+            left = left - whole
+            for part in sets.parts(whole):
+                found.append(Piece(self._relations(part), value.substitute(back)))
+        for part in sets.parts(left):
+            found.append(Piece(self._relations(part), FIELD.zero))
+        return tuple(found)
+
+    def _relations(self, part: sets.Set) -> tuple[sympy.Basic, ...]:
+        equations, bounds = sets.conditions(part, self.points)
+        zero = (sympy.Eq(self._whole(form), 0, evaluate=False) for form in equations)
+        return (*zero, *(sympy.Ge(self._whole(form), 0, evaluate=False) for form in bounds))
+
+    def _whole(self, form: sets.Row) -> sympy.Expr:
+        """A form in the old indices, without fractions."""
+        value = sympy.Add(*(n * s for s, n in form[0].items()), form[1])
+        value = sympy.expand(value.xreplace(self.straight.back))
+        return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
+
+
+def moment(*facts: Theorem) -> Rule:
+    """Both sides are the same on all of the domain, moments worked out."""
+
+    def rule(formula: sympy.Eq, where: Where) -> Theorem:
+        check(formula, where)
+        try:
+            left, right = (Statistics.on(where, facts).number(side) for side in formula.args)
+            same = (left - right).on(Statistics.on(where, facts).points).is_zero()
+        except NotExactError as reason:
+            raise NotProvedError(str(reason)) from None
+        if not same:
+            raise NotProvedError("the moments of both sides differ")
+        return made(formula, where, "moment", facts)
+
+    return rule

@@ -1,0 +1,363 @@
+"""Sets of whole numbers: which sites and indices a statement is about. All are made here.
+
+isl does the arithmetic (islpy). It compares sets of different spaces without complaint, so there is
+one space here: every index of the paper, the coordinates of a site, and those of a second site.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from functools import lru_cache
+from math import gcd
+from typing import Any
+
+import islpy as isl
+import sympy
+
+from .algebra.exact import FIELD, SITE, SOURCE, NotExactError, RationalFunction
+from .symbols import INDICES
+
+Set = Any  # islpy's Set, which ships no types
+Row = tuple[dict[sympy.Symbol, int], int]
+"""A whole-number form: the factor of each symbol, and a constant."""
+
+DIMENSIONS = (*INDICES, *SITE, *SOURCE)
+_PLACE = {symbol: place for place, symbol in enumerate(DIMENSIONS)}
+_NAMES = [f"x{place}" for place in range(len(DIMENSIONS))]
+_SPACE = isl.Space.create_from_names(isl.DEFAULT_CONTEXT, set=_NAMES)
+_LOCAL = isl.LocalSpace.from_space(_SPACE)
+_DIM = isl.dim_type.set
+EVERYTHING: Set = isl.Set.universe(_SPACE)
+NOTHING: Set = isl.Set.empty(_SPACE)
+_MOST = 2**62  # isl takes machine integers
+
+
+class OpenSumError(NotExactError):
+    """A sum over a set has no closed form of this kind, as its bounds have to be rounded."""
+
+
+@lru_cache(maxsize=4096)
+def row(form: sympy.Expr) -> Row:
+    """A form in indices with whole factors.
+
+    Raises:
+        NotExactError: it is not affine, holds another symbol, or a number too large for isl.
+    """
+    factors: dict[sympy.Symbol, int] = {}
+    constant = 0
+    for term, factor in sympy.expand(form).as_coefficients_dict().items():
+        if not isinstance(factor, sympy.Integer) or abs(int(factor)) > _MOST:
+            raise NotExactError(f"{form} does not have whole factors of a usual size")
+        if term == 1:
+            constant = int(factor)
+        elif term in _PLACE:
+            factors[term] = int(factor)
+        else:
+            raise NotExactError(f"{form} is not affine in the indices")
+    return factors, constant
+
+
+def _constraint(form: Row, equation: bool) -> Any:
+    make = isl.Constraint.equality_alloc if equation else isl.Constraint.inequality_alloc
+    found = make(_LOCAL).set_constant_val(isl.Val(form[1]))
+    for symbol, factor in form[0].items():
+        found = found.set_coefficient_val(_DIM, _PLACE[symbol], isl.Val(factor))
+    return found
+
+
+def _not_negative(relation: sympy.Basic) -> tuple[sympy.Expr, bool]:
+    """What is at least 0 where a relation holds, and whether it is 0 there."""
+    left, right = relation.args
+    if isinstance(relation, sympy.Eq):
+        return left - right, True
+    if isinstance(relation, sympy.Ge | sympy.Gt):
+        return left - right - int(isinstance(relation, sympy.Gt)), False
+    if isinstance(relation, sympy.Le | sympy.Lt):
+        return right - left - int(isinstance(relation, sympy.Lt)), False
+    raise NotExactError(f"{relation} is no relation between whole numbers")
+
+
+def where(*relations: sympy.Basic) -> Set:
+    """The points at which all relations between whole numbers hold.
+
+    Raises:
+        NotExactError: one of them is not affine.
+    """
+    found = isl.BasicSet.universe(_SPACE)
+    for relation in relations:
+        if relation == sympy.true:
+            continue
+        if relation == sympy.false:
+            return NOTHING
+        form, equation = _not_negative(relation)
+        found = found.add_constraint(_constraint(row(form), equation))
+    return found.to_set()
+
+
+def even(form: sympy.Expr) -> Set:
+    """The points at which a form is even."""
+    whole = where(sympy.Eq(form - 2 * SOURCE[0], 0, evaluate=False))
+    if SOURCE[0] in row(form)[0]:
+        raise NotExactError(f"{SOURCE[0]} is not free in {form}")
+    return without(whole, SOURCE[0])
+
+
+def without(points: Set, *symbols: sympy.Symbol) -> Set:
+    """The same, whatever some symbols are: their projection."""
+    for symbol in symbols:
+        points = points.eliminate(_DIM, _PLACE[symbol], 1)
+    return points
+
+
+def at(points: Set, image: Mapping[sympy.Symbol, sympy.Expr]) -> Set:
+    """The points that an affine map takes into a set.
+
+    Raises:
+        NotExactError: the map is not affine.
+    """
+    return points.preimage_multi_aff(_map(tuple(image.items())))
+
+
+@lru_cache(maxsize=1024)
+def _map(image: tuple[tuple[sympy.Symbol, sympy.Expr], ...]) -> Any:
+    found = isl.MultiAff.identity(_SPACE.map_from_set())
+    for symbol, value in image:
+        factors, constant = row(value)
+        form = isl.Aff.zero_on_domain(_LOCAL).set_constant_val(isl.Val(constant))
+        for other, factor in factors.items():
+            form = form.set_coefficient_val(isl.dim_type.in_, _PLACE[other], isl.Val(factor))
+        found = found.set_aff(_PLACE[symbol], form)
+    return found
+
+
+# what a set is made of
+
+
+def parts(points: Set) -> list[Set]:
+    """Convex parts of a set, no two of which share a point."""
+    return [part.to_set() for part in points.make_disjoint().get_basic_sets()]
+
+
+def rows(part: Set) -> tuple[list[Row], list[Row]]:
+    """Forms that are 0, and that are at least 0, on a convex set.
+
+    Raises:
+        OpenSumError: the set holds a condition on remainders.
+    """
+    (basic,) = part.get_basic_sets()
+    found: tuple[list[Row], list[Row]] = ([], [])
+    for one in basic.get_constraints():
+        if any(not _number(one, isl.dim_type.div, n).is_zero() for n in range(_divisions(one))):
+            raise OpenSumError(f"{part} holds a remainder")
+        found[0 if one.is_equality() else 1].append(_row(one))
+    return found
+
+
+def _divisions(constraint: Any) -> int:
+    return int(constraint.dim(isl.dim_type.div))
+
+
+def _number(constraint: Any, kind: Any, place: int) -> Any:
+    return constraint.get_coefficient_val(kind, place)
+
+
+def _row(constraint: Any) -> Row:
+    numbers = (_number(constraint, _DIM, place).to_python() for place in range(len(DIMENSIONS)))
+    factors = {symbol: n for symbol, n in zip(DIMENSIONS, numbers, strict=True) if n}
+    return factors, constraint.get_constant_val().to_python()
+
+
+def fixed(points: Set) -> dict[sympy.Symbol, RationalFunction]:
+    """Symbols that the equations of a set fix, by those that they leave free.
+
+    A polynomial in what is left that is zero on all of the set is zero, unless the set is finite in
+    some direction.
+    """
+    return {symbol: polynomial(value) for symbol, value in _fixed(points).items()}
+
+
+def _fixed(points: Set) -> dict[sympy.Symbol, tuple[dict[sympy.Symbol, sympy.Rational], Any]]:
+    """The same as forms, by elimination: sites first, then the last index."""
+    forms = []
+    for one in points.affine_hull().get_constraints():
+        divided = (_number(one, isl.dim_type.div, n).is_zero() for n in range(_divisions(one)))
+        if one.is_equality() and all(divided):
+            factors, constant = _row(one)
+            forms.append(({s: sympy.Rational(n) for s, n in factors.items()}, constant))
+    solved: dict[sympy.Symbol, Any] = {}
+    while forms:
+        factors, constant = forms.pop()
+        if not factors:
+            continue
+        symbol = max(factors, key=_PLACE.__getitem__)
+        scale = -factors.pop(symbol)
+        value = {s: n / scale for s, n in factors.items()}, sympy.Rational(constant) / scale
+        forms = [_with(form, symbol, value) for form in forms]
+        solved = {s: _with(form, symbol, value) for s, form in solved.items()}
+        solved[symbol] = value
+    return solved
+
+
+def _with(form: Any, symbol: sympy.Symbol, value: Any) -> Any:
+    """A form with the value of a symbol put in."""
+    factors, constant = form
+    if symbol not in factors:
+        return form
+    scale, total = factors[symbol], {s: n for s, n in factors.items() if s != symbol}
+    for other, n in value[0].items():
+        total[other] = total.get(other, 0) + scale * n
+    return {s: n for s, n in total.items() if n}, constant + scale * value[1]
+
+
+def polynomial(form: tuple[Mapping[sympy.Symbol, Any], Any]) -> RationalFunction:
+    """A form as an element of the field."""
+    total = FIELD.constant(sympy.Rational(form[1]))
+    for symbol, factor in form[0].items():
+        total = total + FIELD.generator(symbol) * FIELD.constant(sympy.Rational(factor))
+    return total
+
+
+Range = tuple[Set, RationalFunction, RationalFunction]
+"""Where a symbol takes every whole value between two bounds, and these."""
+
+
+def ranges(points: Set, symbol: sympy.Symbol) -> Iterator[Range]:
+    """For what other values a symbol runs between which bounds, each point once.
+
+    Raises:
+        OpenSumError: it does not take every whole value between bounds, or has none.
+    """
+    for part in parts(points):
+        equations, inequalities = rows(part)
+        shadow = without(part, symbol)
+        held = next((form for form in equations if symbol in form[0]), None)
+        if held is not None:
+            value = _bound(held, symbol, 0)
+            yield shadow, value, value
+            continue
+        lows, highs = (
+            list(_bounds(part, shadow, inequalities, symbol, sign)) for sign in (1, -1)
+        )
+        for there, low in lows:
+            for here, high in highs:
+                if not there.is_disjoint(here):
+                    yield there & here, low, high
+
+
+def given(part: Set, symbol: sympy.Symbol) -> RationalFunction | None:
+    """What a convex set says that a symbol is, by the others; None if the symbol does not matter.
+
+    Raises:
+        OpenSumError: the symbol matters, and is not given by the others.
+    """
+    held = next((form for form in rows(part)[0] if symbol in form[0]), None)
+    if held is not None:
+        return _bound(held, symbol, 0)
+    if not without(part, symbol).is_subset(part):
+        raise OpenSumError(f"{symbol} is not given by the others")
+    return None
+
+
+def _bound(form: Row, symbol: sympy.Symbol, rest: int) -> RationalFunction:
+    """What a symbol is where a form that holds it is ``rest``."""
+    factors = {s: n for s, n in form[0].items() if s != symbol}
+    return polynomial((factors, form[1] - rest)) / FIELD.constant(-form[0][symbol])
+
+
+def _bounds(
+    part: Set, shadow: Set, forms: Iterable[Row], symbol: sympy.Symbol, sign: int
+) -> Iterator[tuple[Set, RationalFunction]]:
+    """The least (sign 1) or largest (−1) values of a symbol, and where each of them is that.
+
+    At the least value some form c·symbol + …, c > 0, is less than c: for each of these remainders,
+    where it is reached, the value is known.
+    """
+    for form in forms:
+        for rest in range(sign * form[0].get(symbol, 0)):
+            reached = part.add_constraint(_constraint((form[0], form[1] - rest), True))
+            there = without(reached, symbol) & shadow
+            if not there.is_empty():
+                yield there, _bound(form, symbol, rest)
+                shadow = shadow - there
+                if shadow.is_empty():
+                    return
+    raise OpenSumError(f"{symbol} has no bound")
+
+
+# points, and how a set is written
+
+
+def contains(part: Set, values: Mapping[sympy.Symbol, int]) -> bool:
+    """Whether a point is in a convex set; symbols without a value must not matter."""
+    equations, inequalities = rows(part)
+
+    def value(form: Row) -> int:
+        return form[1] + sum(n * values[symbol] for symbol, n in form[0].items())
+
+    return all(value(one) == 0 for one in equations) and all(
+        value(one) >= 0 for one in inequalities
+    )
+
+
+def sample(part: Set) -> dict[sympy.Symbol, int]:
+    """A point of a set that is not empty."""
+    point = part.sample_point()
+    return {
+        symbol: point.get_coordinate_val(_DIM, place).to_python()
+        for symbol, place in _PLACE.items()
+    }
+
+
+def joined(pieces: Iterable[Set]) -> Set:
+    """The union of sets, in as few convex parts as isl and a look at their hull find."""
+    whole = NOTHING
+    for one in pieces:
+        whole = whole | one
+    whole = whole.coalesce()
+    if whole.n_basic_set() > 1:
+        hull = whole.simple_hull().to_set()
+        if hull.is_subset(whole):
+            return hull
+    return whole
+
+
+def conditions(part: Set, context: Set) -> tuple[list[Row], list[Row]]:
+    """The fewest forms, 0 or at least 0, that tell a convex set from the rest of a context.
+
+    Raises:
+        OpenSumError: the set holds a condition on remainders.
+    """
+    part = part & context
+    equations, _ = rows(part.affine_hull().to_set())
+    equations = _needed(sorted(equations, key=_length), context)
+    inside = context
+    for one in equations:
+        inside = inside.add_constraint(_constraint(one, True))
+    bounds = rows(part.simple_hull().gist(inside.simple_hull()).to_set())[1]
+    bounds = sorted(bounds, key=_length, reverse=True)
+    for one in tuple(bounds):
+        others = [other for other in bounds if other is not one]
+        if _with_bounds(inside, others).is_subset(part):
+            bounds = others
+    if not _with_bounds(inside, bounds).is_equal(part):
+        raise OpenSumError(f"{part} is not written by forms")
+    return equations, bounds[::-1]
+
+
+def _needed(equations: Iterable[Row], context: Set) -> list[Row]:
+    """Equations that the context and those before them do not imply."""
+    found = []
+    for one in equations:
+        more = context.add_constraint(_constraint(one, True))
+        if not context.is_subset(more):
+            found.append(one)
+            context = more
+    return found
+
+
+def _with_bounds(points: Set, bounds: Iterable[Row]) -> Set:
+    for one in bounds:
+        points = points.add_constraint(_constraint(one, False))
+    return points
+
+
+def _length(form: Row) -> tuple[int, int]:
+    return len(form[0]), sum(abs(factor) for factor in form[0].values())

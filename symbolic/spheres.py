@@ -1,0 +1,88 @@
+"""Contact forces to first order in d = 2 or 3 dimensions, as weights on sites.
+
+Every bead rests on d others, along base vectors n^a of equal mutual dot product φ, and the base is
+flat. A bead is named by its steps along the base vectors; their sum is its layer. Contacts fix
+n^a·δx as a line sum,
+
+    L_a(x) = Σ [δr(y) + δr(y − e_a)],  over the beads y from x down along n^a to layer 1,
+
+and so a contact from x along n^c turns by 2r n^a·δn^c = L_a(x + e_c) − L_a(x) − φ(δr_x + δr_(x+e_c))
+for a ≠ c, while n^c·δn^c = 0. With the reciprocal vectors b^a the balance of bead x along b^a says
+that the contact below along n^a carries what comes in from above along n^a, and
+
+    b^a·Σ_c [F_c δn^c(x) − F_c δn^c(x − e_c)],
+
+F_c being the ordered forces. Summed along the contact's line up to the load this is its force.
+"""
+
+from collections.abc import Sequence
+from functools import lru_cache
+
+import sympy
+
+from . import sets
+from .algebra.exact import FIELD, SITE, SOURCE, RationalFunction
+from .forms import NUMBER, Form, Known
+from .second_order import RADII
+from .symbols import n, phi, r
+from .weights import Weights
+
+_UPWARDS = sets.where(n >= 1)
+
+
+def reciprocal(dimension: int) -> tuple[RationalFunction, RationalFunction]:
+    """b^a·b^a and b^a·b^c."""
+    own, cross = 1 + (dimension - 2) * phi, -phi
+    below = (1 - phi) * (1 + (dimension - 1) * phi)
+    return FIELD.from_sympy(own / below), FIELD.from_sympy(cross / below)
+
+
+@lru_cache(maxsize=8)
+def turns(dimension: int) -> tuple[tuple[Weights, ...], ...]:
+    """n^a·δn^c of the contact from bead ``SOURCE`` along n^c, by a and c."""
+    beads, sites = SOURCE[:dimension], SITE[:dimension]
+    half = FIELD.from_sympy(1 / (2 * r))
+    cosine = FIELD.generator(phi)
+
+    def radius(axis: int | None = None) -> Weights:
+        place = (bead + int(number == axis) for number, bead in enumerate(beads))
+        return Weights.of(*map(_is, sites, place))
+
+    def line_sum(axis: int) -> Weights:
+        down = dict(zip(sites, beads, strict=True)) | {sites[axis]: beads[axis] - n}
+        run = [_is(site, place) for site, place in down.items()]
+        layer = sympy.Add(*sites)
+        both = Weights.of(*run, n >= 0, layer >= 1) + Weights.of(*run, n >= 1, layer >= 0)
+        return both.summed(n)
+
+    def turn(a: int, c: int) -> Weights:
+        if a == c:
+            return Weights()
+        line = line_sum(a)
+        rest = (radius() + radius(c)).scaled(cosine)
+        return (line.at({beads[c]: beads[c] + 1}) - line - rest).scaled(half).merged()
+
+    axes = range(dimension)
+    return tuple(tuple(turn(a, c) for c in axes) for a in axes)
+
+
+def forces(ordered: Sequence[Weights], axis: int) -> Known:
+    """The force of the contact from a bead along n^axis; ``ordered`` gives F_c by the bead."""
+    dimension = len(ordered)
+    own, cross = reciprocal(dimension)
+    beads = SOURCE[:dimension]
+    gained = Weights()
+    for c, force in enumerate(ordered):
+        carried = Weights()
+        for a in range(dimension):
+            turned = turns(dimension)[a][c].scaled(own if a == axis else cross)
+            carried = carried + turned.times(force)
+        carried = carried.merged()
+        gained = gained + carried - carried.at({beads[c]: beads[c] - 1})
+    upwards = gained.merged().at({beads[axis]: beads[axis] + n}).on(_UPWARDS)
+    weights = upwards.summed(n).merged()
+    return Known(sets.EVERYTHING, (Form({NUMBER: ordered[axis], RADII: weights}),))
+
+
+def _is(symbol: sympy.Symbol, value: sympy.Expr) -> sympy.Basic:
+    return sympy.Eq(symbol, value, evaluate=False)

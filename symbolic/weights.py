@@ -1,0 +1,206 @@
+"""Weights on sites: what is linear in the deviations of the radii, as polynomials on integer sets.
+
+A form Σ w(x) δr_x is its function w of the sites x, and of the indices i, j, M, … that it is
+written in. Such a function is a sum of pieces: a set of sites and indices, and a polynomial that
+counts there. Sums and products of forms are sums and products of pieces, cases split and join by
+themselves, and two forms are the same where no piece of their difference is left.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import sympy
+from numpy.typing import NDArray as Array
+
+from . import sets
+from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_polynomial
+from .sets import Set
+
+Fixed = Mapping[sympy.Symbol, RationalFunction]
+
+Piece = tuple[Set, RationalFunction]
+
+_NUMBERS = {
+    symbol: 0.37 + 0.61803 * number % 1 for number, symbol in enumerate(FIELD.generators)
+}
+"""Numbers for symbols, no two of them alike."""
+
+
+@dataclass(frozen=True)
+class Weights:
+    """A sum of pieces; they may share points."""
+
+    pieces: tuple[Piece, ...] = ()
+
+    @classmethod
+    def of(cls, *relations: sympy.Basic, value: RationalFunction = FIELD.one) -> "Weights":
+        """A value where all of some relations hold, and 0 elsewhere."""
+        return cls(((sets.where(*relations), value),))
+
+    def __add__(self, other: "Weights") -> "Weights":
+        return Weights((*self.pieces, *other.pieces))
+
+    def __sub__(self, other: "Weights") -> "Weights":
+        return self + other.scaled(FIELD.constant(-1))
+
+    def scaled(self, factor: RationalFunction) -> "Weights":
+        """The same, times a factor."""
+        if factor.is_zero():
+            return Weights()
+        return Weights(tuple((points, value * factor) for points, value in self.pieces))
+
+    def times(self, other: "Weights") -> "Weights":
+        """The product at each point."""
+        return Weights(
+            tuple(
+                (points & there, value * factor)
+                for points, value in self.pieces
+                for there, factor in other.pieces
+                if not points.is_disjoint(there)
+            )
+        )
+
+    def on(self, points: Set) -> "Weights":
+        """The same on a set, and 0 elsewhere."""
+        found = ((there & points, value) for there, value in self.pieces)
+        return Weights(tuple((there, value) for there, value in found if not there.is_empty()))
+
+    def at(self, image: Mapping[sympy.Symbol, sympy.Expr]) -> "Weights":
+        """The same at other indices.
+
+        Raises:
+            NotExactError: these are not affine.
+        """
+        numbers = {symbol: sets.polynomial(sets.row(one)) for symbol, one in image.items()}
+        return Weights(
+            tuple(
+                (sets.at(points, image), value.substitute(numbers)) for points, value in self.pieces
+            )
+        )
+
+    def summed(self, *symbols: sympy.Symbol) -> "Weights":
+        """Σ over all values of some symbols.
+
+        Raises:
+            OpenSumError: that has no closed form.
+        """
+        pieces = self.pieces
+        for symbol in symbols:
+            pieces = tuple(
+                (there, sum_polynomial(value, symbol, low, high))
+                for points, value in pieces
+                for there, low, high in sets.ranges(points, symbol)
+            )
+        return Weights(pieces)
+
+    def without(self, *symbols: sympy.Symbol) -> "Weights":
+        """The same in terms of other symbols, which give these on every piece.
+
+        Raises:
+            OpenSumError: they do not.
+        """
+        pieces = self.pieces
+        for symbol in symbols:
+            found = []
+            for points, value in pieces:
+                for part in sets.parts(points):
+                    at = sets.given(part, symbol)
+                    if at is None and value.holds(symbol):
+                        raise sets.OpenSumError(f"{symbol} is not given by the others")
+                    held = {} if at is None else {symbol: at}
+                    found.append((sets.without(part, symbol), value.substitute(held)))
+            pieces = tuple(found)
+        return Weights(pieces)
+
+    def cells(self) -> "Weights":
+        """The same in pieces that share no point."""
+        found: list[Piece] = []
+        for points, value in self.pieces:
+            found = list(_laid_over(found, points, value))
+        return Weights(tuple(found))
+
+    def merged(self) -> "Weights":
+        """The same in few convex pieces that share no point, none of which is 0.
+
+        A cell belongs to another one's piece if the polynomial of that is also right on it.
+        """
+        return Weights(
+            tuple(
+                (part, value) for whole, value in self.formulas() for part in sets.parts(whole)
+            )
+        )
+
+    def formulas(self) -> list[Piece]:
+        """The same as few polynomials, each on a set of its own; where it is 0 is left out."""
+        cells = [
+            (sets.fixed(part), part, value)
+            for points, value in self.cells().pieces
+            for part in sets.parts(points)
+        ]
+        cells.sort(key=lambda cell: len(cell[0]))
+        places = np.array([_place(part) for _, part, _ in cells])
+        groups = [(FIELD.zero, [], np.zeros(len(cells)))]
+        for number, (held, part, value) in enumerate(cells):
+            own = float(_numbers(value, places[number : number + 1])[0])
+            for polynomial, members, numbers in groups:
+                if _is_near(numbers[number], own) and _agree(polynomial, value, held):
+                    members.append(part)
+                    break
+            else:
+                polynomial = value.substitute(held)
+                groups.append((polynomial, [part], _numbers(polynomial, places)))
+        return [(sets.joined(members), polynomial) for polynomial, members, _ in groups[1:]]
+
+    def is_zero(self) -> bool:
+        """Whether it is 0 everywhere."""
+        return not self.formulas()
+
+
+def _place(part: Set) -> list[float]:
+    """A point of a set, and numbers for all other symbols: where two functions may differ."""
+    values = dict(_NUMBERS)
+    values.update(sets.sample(part))
+    return [values[symbol] for symbol in FIELD.generators]
+
+
+def _numbers(function: RationalFunction, places: Array[np.float64]) -> Array[np.float64]:
+    """The values of a function at places; infinite where it has none."""
+    with np.errstate(all="ignore"):
+        return _values(function.numerator, places) / _values(function.denominator, places)
+
+
+def _values(polynomial: Polynomial, places: Array[np.float64]) -> Array[np.float64]:
+    total = np.zeros(len(places))
+    for powers, factor in polynomial.to_dict().items():
+        held = [number for number, power in enumerate(powers) if power]
+        powers = [int(powers[number]) for number in held]
+        total += float(factor.p) / float(factor.q) * np.prod(places[:, held] ** powers, axis=1)
+    return total
+
+
+def _is_near(one: float, other: float) -> bool:
+    """Whether two values may be the same number, rounded; what is not finite may be anything."""
+    return not abs(one - other) > 1e-6 * max(abs(one), abs(other), 1e-6)
+
+
+def _agree(one: RationalFunction, other: RationalFunction, held: Fixed) -> bool:
+    """Whether two functions are the same where some symbols are given by the others."""
+    try:
+        return (one - other).substitute(held).is_zero()
+    except NotExactError:  # a divisor vanishes there
+        return False
+
+
+def _laid_over(pieces: Iterable[Piece], points: Set, value: RationalFunction) -> Iterator[Piece]:
+    """Pieces that share no point, with one more added to them."""
+    for there, other in pieces:
+        if there.is_disjoint(points):
+            yield there, other
+            continue
+        yield there & points, value + other
+        if not there.is_subset(points):
+            yield there - points, other
+        points = points - there
+    if not points.is_empty():
+        yield points, value

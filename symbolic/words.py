@@ -1,0 +1,62 @@
+"""Relations between whole numbers as a person writes them: "2 ≤ j ≤ M − 2", "j = M − 1"."""
+
+from collections.abc import Iterable, Sequence
+
+import sympy
+
+from .printing.latex import latex
+from .printing.text import text
+from .symbols import M, N, i, j, k, l, m, n, p, q, site_r, site_s
+
+_ALONE = (N, p, q, n, m, i, site_r, j, k, site_s, l, M)
+"""Which symbol stands alone, the first that can."""
+
+Chain = tuple[sympy.Expr, ...]
+"""Sides of a chain of relations, lower bound, symbol, upper bound; None where there is no bound."""
+
+
+def alone(form: sympy.Expr) -> tuple[sympy.Symbol, sympy.Expr, int]:
+    """A symbol of a form c·symbol + rest with c = ±1, −rest/c, and c; any c where there is none."""
+    factors = sympy.expand(form).as_coefficients_dict()
+    held = [symbol for symbol in _ALONE if factors.get(symbol)]
+    symbol = next((one for one in held if abs(factors[one]) == 1), held[0])
+    factor = factors[symbol]
+    return symbol, sympy.expand(symbol - form / factor), 1 if factor > 0 else -1
+
+
+def equations(relations: Iterable[sympy.Basic]) -> list[sympy.Eq]:
+    """Equations form = 0, each solved for one symbol, which the others do not hold."""
+    left = [relation.lhs for relation in relations if isinstance(relation, sympy.Eq)]
+    found: dict[sympy.Symbol, sympy.Expr] = {}
+    while left:
+        symbol, value, _ = min(map(alone, left), key=lambda one: len(one[1].free_symbols))
+        left = [sympy.expand(form.xreplace({symbol: value})) for form in left]
+        left = [form for form in left if form != 0]
+        found = {one: sympy.expand(at.xreplace({symbol: value})) for one, at in found.items()}
+        found[symbol] = value
+    return [sympy.Eq(symbol, found[symbol], evaluate=False) for symbol in _ALONE if symbol in found]
+
+
+def bounds(relations: Sequence[sympy.Basic]) -> list[tuple[list[sympy.Expr], sympy.Symbol, list[sympy.Expr]]]:
+    """Lower bounds, symbol and upper bounds of forms that are at least 0."""
+    found: dict[sympy.Symbol, tuple[list[sympy.Expr], list[sympy.Expr]]] = {}
+    for relation in relations:
+        if isinstance(relation, sympy.Eq):
+            continue
+        symbol, bound, sign = alone(relation.lhs - relation.rhs)
+        found.setdefault(symbol, ([], []))[0 if sign > 0 else 1].append(bound)
+    return [(low, symbol, high) for symbol, (low, high) in found.items()]
+
+
+def in_words(relations: Sequence[sympy.Basic], tex: bool = False) -> str:
+    """Relations as text, or as LaTeX: equations first, then what lies between bounds."""
+    shown, at_most, at_least = (latex, r" \leq ", r" \geq ") if tex else (text, " ≤ ", " ≥ ")
+    parts = [f"{shown(one.lhs)} = {shown(one.rhs)}" for one in equations(relations)]
+    for low, symbol, high in bounds(relations):
+        if len(low) == 1 and high:
+            parts.append(at_most.join(map(shown, (low[0], symbol, high[0]))))
+            high = high[1:]
+        else:
+            parts += [f"{shown(symbol)}{at_least}{shown(one)}" for one in low]
+        parts += [f"{shown(symbol)}{at_most}{shown(one)}" for one in high]
+    return ", ".join(parts)
