@@ -1,0 +1,146 @@
+"""Operations of integer sets, against brute force over all points of a box."""
+
+from itertools import product
+
+import pytest
+import sympy
+from force_diffusion.symbolic import sets
+from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError
+from force_diffusion.symbolic.symbols import M, i, j
+from hypothesis import given
+from hypothesis import strategies as st
+from sympy import Eq, Ge, Le
+
+SYMBOLS = (i, j, M)
+LOW, HIGH = -1, 3
+BOX = tuple(product(range(LOW, HIGH + 1), repeat=3))
+IN_BOX = [
+    kind(symbol, bound, evaluate=False)  # SymPy knows that M > 0
+    for symbol in SYMBOLS
+    for kind, bound in ((Ge, LOW), (Le, HIGH))
+]
+POINTS = {
+    point: sets.where(*(Eq(s, n, evaluate=False) for s, n in zip(SYMBOLS, point, strict=True)))
+    for point in BOX
+}
+SIGNS = {Eq: int.__eq__, Ge: int.__ge__, Le: int.__le__}
+
+factors = st.integers(-2, 2)
+forms = st.builds(
+    lambda a, b, c, d: a * i + b * j + c * M + d, factors, factors, factors, st.integers(-3, 3)
+)
+relations = st.builds(
+    lambda kind, form: kind(form, 0, evaluate=False), st.sampled_from(list(SIGNS)), forms
+)
+several = st.lists(relations, max_size=4)
+
+
+def value(form, point):
+    return int(form.xreplace(dict(zip(SYMBOLS, map(sympy.Integer, point), strict=True))))
+
+
+def holds(relation, point):
+    return SIGNS[relation.func](value(relation.lhs, point), 0)
+
+
+def points_of(points):
+    """The points of the box that lie in a set, one by one."""
+    return {point for point, here in POINTS.items() if not points.is_disjoint(here)}
+
+
+def expected(given_relations):
+    return {point for point in BOX if all(holds(one, point) for one in given_relations)}
+
+
+@given(several)
+def test_a_set_holds_the_points_at_which_its_relations_hold(given_relations):
+    assert points_of(sets.where(*given_relations)) == expected(given_relations)
+
+
+@given(several, several)
+def test_a_union_is_the_same_in_disjoint_parts_and_joined(first, second):
+    whole = sets.where(*first, *IN_BOX) | sets.where(*second, *IN_BOX)
+    wanted = expected(first) | expected(second)
+    parts = [points_of(part) for part in sets.parts(whole)]
+    assert set().union(*parts) == wanted
+    assert sum(map(len, parts)) == len(wanted)
+    assert points_of(sets.joined(sets.parts(whole))) == wanted
+
+
+@given(several)
+def test_a_projection_leaves_out_one_symbol(given_relations):
+    shadow = {(a, c) for a, _, c in expected(given_relations)}
+    flat = sets.without(sets.where(*given_relations, *IN_BOX), j)
+    assert points_of(flat) == {
+        (a, b, c) for a, b, c in BOX if (a, c) in shadow
+    }
+
+
+@given(several, forms)
+def test_a_map_is_put_in(given_relations, form):
+    moved = sets.at(sets.where(*given_relations), {j: form})
+    assert points_of(moved) == {
+        (a, b, c)
+        for a, b, c in BOX
+        if all(holds(one, (a, value(form, (a, b, c)), c)) for one in given_relations)
+    }
+
+
+@given(forms)
+def test_even_forms(form):
+    assert points_of(sets.even(form)) == {p for p in BOX if value(form, p) % 2 == 0}
+
+
+@given(several)
+def test_ranges_reach_every_value_once(given_relations):
+    points = sets.where(*given_relations, *IN_BOX)
+    found = []
+    for there, low, high in sets.ranges(points, j):
+        for a, b, c in points_of(there):
+            if b == 0:  # the set does not depend on j
+                at = {i: a, M: c}
+                first, last = (one.at(_all(at)) for one in (low, high))
+                assert first.denominator == last.denominator == 1
+                found += [(a, n, c) for n in range(int(first), int(last) + 1)]
+    assert sorted(found) == sorted(expected(given_relations))
+
+
+def _all(at):
+    from fractions import Fraction
+
+    return {generator: Fraction(at.get(generator, 0)) for generator in FIELD.generators}
+
+
+@given(several)
+def test_what_is_fixed_is_so_at_every_point(given_relations):
+    points = sets.where(*given_relations)
+    for symbol, held in sets.fixed(points).items():
+        for point in points_of(points):
+            at = dict(zip(SYMBOLS, point, strict=True))
+            assert held.at(_all(at)) == at[symbol]
+
+
+@given(several, several)
+def test_conditions_tell_a_part_from_the_rest_of_its_context(given_relations, around):
+    context = sets.where(*around, *IN_BOX)
+    for part in sets.parts(sets.where(*given_relations) & context):
+        try:
+            equations, bounds = sets.conditions(part, context)
+        except sets.OpenSumError:  # a remainder, which equations of the context leave
+            continue
+        told = [Eq(_form(one), 0, evaluate=False) for one in equations]
+        told += [Ge(_form(one), 0, evaluate=False) for one in bounds]
+        assert points_of(sets.where(*told) & context) == points_of(part)
+        for left_out in told:
+            others = [one for one in told if one is not left_out]
+            assert points_of(sets.where(*others) & context) != points_of(part)
+
+
+def _form(row):
+    return sympy.Add(*(n * symbol for symbol, n in row[0].items()), row[1])
+
+
+@pytest.mark.parametrize("form", [i * j, i / 2, i + sympy.Symbol("q"), i + 2**63])
+def test_what_is_no_whole_affine_form_is_refused(form):
+    with pytest.raises(NotExactError):
+        sets.where(Ge(form, 0, evaluate=False))
