@@ -319,27 +319,49 @@ def joined(pieces: Iterable[Set]) -> Set:
     return whole
 
 
-def conditions(part: Set, context: Set) -> tuple[list[Row], list[Row]]:
-    """The fewest forms, 0 or at least 0, that tell a convex set from the rest of a context.
+Conditions = tuple[list[Row], list[Row]]
+"""Forms that are 0, and that are at least 0."""
+
+
+def conditions(whole: Set, context: Set) -> list[Conditions]:
+    """The fewest forms that tell a part of a context from the rest; any of several may hold.
 
     Raises:
-        OpenSumError: the set holds a condition on remainders.
+        OpenSumError: the part holds a condition on remainders.
     """
-    part = part & context
-    equations, _ = rows(part.affine_hull().to_set())
-    equations = _needed(sorted(equations, key=_length), context)
-    inside = context
-    for one in equations:
-        inside = inside.add_constraint(_constraint(one, True))
-    bounds = rows(part.simple_hull().gist(inside.simple_hull()).to_set())[1]
-    bounds = sorted(bounds, key=_length, reverse=True)
-    for one in tuple(bounds):
-        others = [other for other in bounds if other is not one]
-        if _with_bounds(inside, others).is_subset(part):
-            bounds = others
-    if not _with_bounds(inside, bounds).is_equal(part):
-        raise OpenSumError(f"{part} is not written by forms")
-    return equations, bounds[::-1]
+    found: list[Conditions] = []
+    left = whole & context
+    for part in parts(whole & context):
+        if part.is_disjoint(left):
+            continue
+        equations, bounds = rows(part.affine_hull().to_set())[0], rows(part)[1]
+        equations = _needed(sorted(equations, key=_length), context)
+        forms = [*sorted(bounds, key=_length, reverse=True), *reversed(equations)]
+        for one in tuple(forms):
+            fewer = [form for form in forms if form is not one]
+            if _inside(context, fewer, equations).is_subset(whole):
+                forms = fewer
+        left = left - _inside(context, forms, equations)
+        found.append(
+            (
+                [form for form in equations if form in forms],
+                [form for form in reversed(forms) if form not in equations],
+            )
+        )
+    if not left.is_empty() or not all(_both(context, one).is_subset(whole) for one in found):
+        raise OpenSumError(f"{whole} is not written by forms")
+    return found
+
+
+def _inside(points: Set, forms: Iterable[Row], equations: Iterable[Row]) -> Set:
+    """The points at which some forms are 0, as those of ``equations`` are, or at least 0."""
+    for one in forms:
+        points = points.add_constraint(_constraint(one, one in equations))
+    return points
+
+
+def _both(points: Set, told: Conditions) -> Set:
+    return _inside(points, (*told[0], *told[1]), told[0])
 
 
 def _needed(equations: Iterable[Row], context: Set) -> list[Row]:
@@ -351,12 +373,6 @@ def _needed(equations: Iterable[Row], context: Set) -> list[Row]:
             found.append(one)
             context = more
     return found
-
-
-def _with_bounds(points: Set, bounds: Iterable[Row]) -> Set:
-    for one in bounds:
-        points = points.add_constraint(_constraint(one, False))
-    return points
 
 
 def _length(form: Row) -> tuple[int, int]:

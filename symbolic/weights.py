@@ -140,21 +140,43 @@ class Weights:
         ]
         cells.sort(key=lambda cell: len(cell[0]))
         places = np.array([_place(part) for _, part, _ in cells])
-        groups = [(FIELD.zero, [], np.zeros(len(cells)))]
+        groups = [_Group(FIELD.zero, np.zeros(len(cells)))]
         for number, (held, part, value) in enumerate(cells):
             own = float(_numbers(value, places[number : number + 1])[0])
-            for polynomial, members, numbers in groups:
-                if _is_near(numbers[number], own) and _agree(polynomial, value, held):
-                    members.append(part)
-                    break
+            fitting = [
+                group
+                for group in groups
+                if _is_near(group.numbers[number], own) and _agree(group.value, value, held)
+            ]
+            if fitting:
+                min(fitting, key=lambda group: group.parts_with(part)).add(part)
             else:
-                polynomial = value.substitute(held)
-                groups.append((polynomial, [part], _numbers(polynomial, places)))
-        return [(sets.joined(members), polynomial) for polynomial, members, _ in groups[1:]]
+                value = value.substitute(held)
+                groups.append(_Group(value, _numbers(value, places), part))
+        return [(group.points, group.value) for group in groups[1:]]
 
     def is_zero(self) -> bool:
         """Whether it is 0 everywhere."""
         return not self.formulas()
+
+
+@dataclass
+class _Group:
+    """A polynomial, its values at a place of each cell, and where it holds."""
+
+    value: RationalFunction
+    numbers: Array[np.float64]
+    points: Set = sets.NOTHING
+
+    def parts_with(self, part: Set) -> int:
+        """How many convex parts more it has with another one; none for zero."""
+        if self.value.numerator == 0:
+            return -1
+        return int(sets.joined((self.points, part)).n_basic_set() - self.points.n_basic_set())
+
+    def add(self, part: Set) -> None:
+        """Let it hold on a part, too."""
+        self.points = sets.joined((self.points, part))
 
 
 def _place(part: Set) -> list[float]:

@@ -72,8 +72,7 @@ def _said(theorem: Theorem, known: Mapping[type, tuple[Known, ...]]) -> Known:
     loading, points = theorem.where.loading, reader.points & here
     named = set().union(*(one.free_symbols for one in loading.place)) if loading else set()
     bound = [symbol for symbol in theorem.where.indices if symbol not in named]
-    read = reader.read(value)
-    forms = read if isinstance(read, tuple) else (read,)
+    forms = reader.vector(value) if about.is_vector else (reader.number(value),)
     return Known(
         sets.without(points, *bound),
         tuple(form.on(points).without(*bound).merged() for form in forms),
@@ -140,22 +139,25 @@ class Statistics(Reader):
         return form
 
 
+Relations = tuple[sympy.Basic, ...]
+
+
 @dataclass(frozen=True)
 class Piece:
-    """A part of a closed form.
+    """A formula of a closed form.
 
     Attributes:
-        where: its domain, as relations of indices.
-        value: the form there.
+        where: where it holds, as relations of indices; those of any of several parts.
+        value: the formula.
     """
 
-    where: tuple[sympy.Basic, ...]
+    where: tuple[Relations, ...]
     value: RationalFunction
 
 
 @dataclass(frozen=True, eq=False)
 class ClosedForm:
-    """A number that is a function of indices, by pieces; the largest comes first."""
+    """A number that is a function of indices: a formula on each of a few parts of its domain."""
 
     weights: Weights
     points: sets.Set
@@ -170,22 +172,25 @@ class ClosedForm:
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
-        """Disjoint convex pieces that cover the domain; several may have one value."""
+        """Its formulas, on parts of the domain that cover it and share no point."""
         found = []
         left = self.points
         back = {symbol: FIELD.from_sympy(one) for symbol, one in self.straight.back.items()}
         for whole, value in self.weights.formulas():
             left = left - whole
-            for part in sets.parts(whole):
-                found.append(Piece(self._relations(part), value.substitute(back)))
-        for part in sets.parts(left):
-            found.append(Piece(self._relations(part), FIELD.zero))
+            found.append(Piece(self._relations(whole), value.substitute(back)))
+        if not left.is_empty():
+            found.append(Piece(self._relations(left), FIELD.zero))
         return tuple(found)
 
-    def _relations(self, part: sets.Set) -> tuple[sympy.Basic, ...]:
-        equations, bounds = sets.conditions(part, self.points)
-        zero = (sympy.Eq(self._whole(form), 0, evaluate=False) for form in equations)
-        return (*zero, *(sympy.Ge(self._whole(form), 0, evaluate=False) for form in bounds))
+    def _relations(self, whole: sets.Set) -> tuple[Relations, ...]:
+        return tuple(
+            (
+                *(sympy.Eq(self._whole(form), 0, evaluate=False) for form in equations),
+                *(sympy.Ge(self._whole(form), 0, evaluate=False) for form in bounds),
+            )
+            for equations, bounds in sets.conditions(whole, self.points)
+        )
 
     def _whole(self, form: sets.Row) -> sympy.Expr:
         """A form in the old indices, without fractions."""

@@ -1,0 +1,1 @@
+"""A calculator of exact statistics: observables and loads in, closed forms out."""

@@ -1,0 +1,185 @@
+"""Mean, variance and covariance of what is linear in the radii, as exact closed forms."""
+
+from collections.abc import Iterable
+
+import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import NotExactError
+from force_diffusion.symbolic.kernel import statistics
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
+from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.printing.text import text
+
+from .closed_form import ClosedForm
+from .loads import Load, ObservableError, geometry, load_of
+
+_CONTACTS = (sy.ForcePlus, sy.ForceMinus, sy.VerticalPlus, sy.VerticalMinus)
+_ALLOWED = (*_CONTACTS, sy.DeltaNPlus, sy.DeltaNMinus, sy.DeltaX, sy.DeltaR)
+_NAMED = {
+    name: symbol
+    for symbol in (*sy.INDICES, *sy.PARAMETERS)
+    for name in (symbol.name, symbol.in_code)
+}
+
+
+def response(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
+    """The vertical force on bead (i, j) from both contacts above it."""
+    return sy.VerticalPlus(across, layer) + sy.VerticalMinus(across, layer)
+
+
+def mean_over(observable: sympy.Expr, count: sympy.Expr | int) -> sympy.Expr:
+    """The average of an observable over ``count`` neighbours in a layer, two columns apart each.
+
+    Raises:
+        ObservableError: it belongs to no bead.
+    """
+    quantities = observable.atoms(sy.SiteFunction)
+    if not quantities:
+        raise ObservableError(f"mean_over: {text(observable)} belongs to no bead")
+    spare = (s for s in (sy.n, sy.m) if s not in observable.free_symbols)
+    taken = {limit[0] for one in observable.atoms(sympy.Sum) for limit in one.limits}
+    index = next((s for s in spare if s not in taken), None)
+    if index is None:
+        raise ObservableError("mean_over: averages of averages of averages are not read")
+    moved = {one: one.func(one.args[0] + 2 * index, one.args[1]) for one in quantities}
+    return sympy.Sum(observable.xreplace(moved), (index, 0, count - 1)) / count
+
+
+def variance(
+    observable: sympy.Expr, *, load: str | Load = "surface", relative: bool = True
+) -> ClosedForm:
+    """The exact variance of an observable that is linear in the radii.
+
+    >>> import force_diffusion as fd
+    >>> from force_diffusion.symbols import f_minus, f_plus, i, j
+    >>> form = fd.variance(f_plus(i, j) - f_minus(i, j))
+    >>> len(form.pieces)
+    8
+
+    Args:
+        observable: linear in contact forces, contact directions, displacements and radii.
+        load: "surface", "bulk", ``point(k, l)`` or ``leaning(t)``.
+        relative: whether forces are relative to the ordered force of their own contact, vertical
+            forces on beads to the load, and lengths to r.
+
+    Raises:
+        ObservableError: it is not linear, not given by the radii, or holds a foreign symbol.
+    """
+    return _closed(sy.Variance, [observable], load, relative)
+
+
+def covariance(
+    one: sympy.Expr, other: sympy.Expr, *, load: str | Load = "surface", relative: bool = True
+) -> ClosedForm:
+    """The exact covariance of two observables; arguments and errors are those of ``variance``."""
+    return _closed(sy.Covariance, [one, other], load, relative)
+
+
+def mean(
+    observable: sympy.Expr,
+    *,
+    order: int = 1,
+    load: str | Load = "surface",
+    relative: bool = True,
+) -> ClosedForm:
+    """The mean of an observable, or the shift of its mean to second order.
+
+    Args:
+        observable: linear for ``order=1``; a polynomial for ``order=2``.
+        order: 1 for the value in the ordered packing, 2 for what disorder adds to it at order σ².
+        load: as for ``variance``.
+        relative: as for ``variance``.
+
+    Raises:
+        ObservableError: as for ``variance``, or another order is asked for.
+    """
+    if order not in (1, 2):
+        raise ObservableError(f"order={order}: 1 and 2 are allowed")
+    return _closed(sy.Mean if order == 1 else sy.Shift, [observable], load, relative)
+
+
+def _closed(
+    kind: type[sy.Moment], observables: Iterable[sympy.Expr], load: str | Load, relative: bool
+) -> ClosedForm:
+    known = load_of(load)
+    read = [_read(one) for one in observables]
+    where = domain(read, known)
+    meant = [one.xreplace(_scales(one, known)) for one in read] if relative else read
+    meant = [one.xreplace(dict(known.values)) for one in meant]
+    facts = (*geometry(), *(known.theorems() if where.loading else ()))
+    try:
+        form = statistics.ClosedForm.of(kind(*meant), where, facts)
+    except (NotExactError, NotProvedError) as reason:
+        raise ObservableError(f"{text(kind(*read))}: {reason}") from None
+    equations = (3, 4, 5, *(known.equations if where.loading else ()))
+    return ClosedForm(kind(*read), form, where, equations)
+
+
+def _read(observable: sympy.Expr) -> sympy.Expr:
+    """An observable, if it holds only what the calculator knows."""
+    try:
+        read = sympy.sympify(observable)
+    except sympy.SympifyError:
+        raise ObservableError(f"{observable!r} is no SymPy expression") from None
+    if not isinstance(read, sympy.Expr):
+        raise ObservableError(f"{observable!r} is no SymPy expression")
+    for quantity in read.atoms(sy.SiteFunction):
+        if not isinstance(quantity, _ALLOWED):
+            raise ObservableError(f"{text(quantity)} is no quantity of a disordered packing")
+    for symbol in by_name(read.free_symbols):
+        ours = _NAMED.get(symbol.name)
+        if ours is not None and ours != symbol:
+            raise ObservableError(
+                f"{symbol.name} is another symbol than {symbol.name} of force_diffusion.symbols: "
+                "import it from there, or give yours another name"
+            )
+    return read
+
+
+def domain(observables: Iterable[sympy.Expr], load: Load) -> Where:
+    """Where all contacts and beads that are named exist."""
+    quantities: set[sy.SiteFunction] = set()
+    relations: list[sympy.Basic] = []
+    for one in observables:
+        quantities |= one.atoms(sy.SiteFunction)
+        for series in one.atoms(sympy.Sum):
+            relations.append(sympy.Ge(series.limits[0][2], 0, evaluate=False))
+    forces = any(isinstance(one, _CONTACTS) for one in quantities)
+    even = []
+    for one in by_name(quantities):
+        across, layer = one.args
+        even.append(across + layer)
+        relations.append(sympy.Ge(layer, 0, evaluate=False))
+        if forces:
+            is_bead = isinstance(one, sy.DeltaX | sy.DeltaR)
+            last = load.top if is_bead else load.top - 1
+            relations.append(sympy.Le(layer, last, evaluate=False))
+    relations = [one for one in dict.fromkeys(relations) if one.free_symbols]
+    held = set().union(*(one.free_symbols for one in (*relations, *even)))
+    bound = {series.limits[0][0] for one in observables for series in one.atoms(sympy.Sum)}
+    if forces:
+        held |= set().union(*(one.free_symbols for one in load.loading.place))
+        even += [across + layer for across, layer in ((sy.k, sy.l),) if {across, layer} <= held]
+    held = (held | set().union(*(one.free_symbols for one in observables))) - bound
+    even = [sympy.expand(one.xreplace({s: 0 * s for s in bound})) for one in even]
+    indices = tuple(symbol for symbol in sy.INDICES if symbol in held)
+    loading = load.loading if forces else None
+    return Where(indices, tuple(relations), loading, tuple(dict.fromkeys(even)))
+
+
+def _scales(observable: sympy.Expr, load: Load) -> dict[sympy.Expr, sympy.Expr]:
+    """Every quantity over what it is compared with."""
+    scales = {}
+    for one in observable.atoms(sy.SiteFunction):
+        layer = one.args[1]
+        if isinstance(one, sy.ForcePlus | sy.ForceMinus):
+            unit = load.ordered[0 if isinstance(one, sy.ForcePlus) else 1].xreplace({sy.j: layer})
+        elif isinstance(one, _CONTACTS):
+            unit = load.unit.xreplace({sy.j: layer})
+        elif isinstance(one, sy.DeltaX | sy.DeltaR):
+            unit = sy.r
+        else:
+            continue
+        scales[one] = one / unit
+    return scales
