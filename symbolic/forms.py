@@ -25,6 +25,7 @@ from .symbols import (
     DeltaNMinus,
     DeltaNPlus,
     Dot,
+    ForceAlong,
     ForceMinus,
     ForcePlus,
     SecondDifference,
@@ -165,7 +166,7 @@ class Known:
     points: Set
     value: tuple[Form, ...]
 
-    def at(self, site: tuple[sympy.Expr, sympy.Expr]) -> tuple[Set, tuple[Form, ...]]:
+    def at(self, site: tuple[sympy.Expr, ...]) -> tuple[Set, tuple[Form, ...]]:
         """The same of a bead with other coordinates."""
         image = dict(zip(SOURCE, site, strict=False))
         return sets.at(self.points, image), tuple(one.at(image) for one in self.value)
@@ -202,6 +203,8 @@ class Reader:
             return self.read(expression.doit())
         if isinstance(expression, SiteFunction):
             return self._quantity(expression)
+        if isinstance(expression, ForceAlong):
+            return self._along(expression)
         if isinstance(expression, sympy.Add):
             return self._sum(expression.args)
         if isinstance(expression, sympy.Mul):
@@ -259,6 +262,14 @@ class Reader:
         if quantity.is_vector:
             return self._alone(kind, "+", site), self._alone(kind, "-", site)
         return self._alone(kind, "", site)
+
+    def _along(self, quantity: ForceAlong) -> Form:
+        """A contact's force in three dimensions."""
+        axis, *place = quantity.args
+        if type(quantity) not in self.known or axis not in (1, 2, 3):
+            raise NotExactError(f"{text(quantity)} is not known")
+        site = tuple(sympy.expand(one.xreplace(self.straight.image)) for one in place)
+        return self.known[type(quantity)][int(axis) - 1].at(site)[1][0]
 
     def _vertical(self, kind: type, quantity: SiteFunction) -> Form:
         """Force times vertical component of the contact's direction, n_y + e_y·δn."""

@@ -34,16 +34,16 @@ PLUS, MINUS = 0, 1
 """The two branches, and the components n⁺·v and n⁻·v of a vector."""
 
 _TURN, _FORCE = (DeltaNPlus, DeltaNMinus), (ForcePlus, ForceMinus)
-_PLANE, _BEAD = SITE[:2], SOURCE[:2]
+_BEAD = SOURCE[:2]
 _PHI, _R, _TWO = FIELD.generator(phi), FIELD.generator(r), FIELD.constant(2)
 _SQUARE = FIELD.one - _PHI**2
 _ABOVE = sets.where(n >= 1)
 
 
-def covariance(one: Form, other: Form) -> Weights:
+def covariance(one: Form, other: Form, dimension: int = 2) -> Weights:
     """Σ w w′ over all sites, for radii of variance 1."""
     left, right = (form.parts.get(RADII, Weights()) for form in (one, other))
-    return left.times(right).summed(*_PLANE)
+    return left.times(right).summed(*SITE[:dimension])
 
 
 class Jet(Form):
@@ -144,5 +144,5 @@ class Means:
 
 def _radius() -> Form:
     """δr of the bead itself."""
-    here = (sympy.Eq(one, at, evaluate=False) for one, at in zip(_PLANE, _BEAD, strict=True))
+    here = (sympy.Eq(one, at, evaluate=False) for one, at in zip(SITE, _BEAD, strict=False))
     return Form({RADII: Weights.of(*here)})

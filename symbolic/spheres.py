@@ -15,8 +15,8 @@ that the contact below along n^a carries what comes in from above along n^a, and
 F_c being the ordered forces. Summed along the contact's line up to the load this is its force.
 """
 
-from collections.abc import Sequence
-from functools import lru_cache
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache, lru_cache
 
 import sympy
 
@@ -24,7 +24,7 @@ from . import sets
 from .algebra.exact import FIELD, SITE, SOURCE, RationalFunction
 from .forms import NUMBER, Form, Known
 from .second_order import RADII
-from .symbols import n, phi, r
+from .symbols import ForceAlong, M, VerticalAlong, l, n, phi, r, t_2, t_3
 from .weights import Weights
 
 _UPWARDS = sets.where(n >= 1)
@@ -66,22 +66,76 @@ def turns(dimension: int) -> tuple[tuple[Weights, ...], ...]:
     return tuple(tuple(turn(a, c) for c in axes) for a in axes)
 
 
-def forces(ordered: Sequence[Weights], axis: int) -> Known:
+def force(ordered: Sequence[Weights], axis: int) -> Known:
     """The force of the contact from a bead along n^axis; ``ordered`` gives F_c by the bead."""
     dimension = len(ordered)
     own, cross = reciprocal(dimension)
     beads = SOURCE[:dimension]
     gained = Weights()
-    for c, force in enumerate(ordered):
-        carried = Weights()
+    for c, carried in enumerate(ordered):
+        turned = Weights()
         for a in range(dimension):
-            turned = turns(dimension)[a][c].scaled(own if a == axis else cross)
-            carried = carried + turned.times(force)
-        carried = carried.merged()
-        gained = gained + carried - carried.at({beads[c]: beads[c] - 1})
+            turn = turns(dimension)[a][c].scaled(own if a == axis else cross)
+            turned = turned + turn.times(carried)
+        turned = turned.merged()
+        gained = gained + turned - turned.at({beads[c]: beads[c] - 1})
     upwards = gained.merged().at({beads[axis]: beads[axis] + n}).on(_UPWARDS)
     weights = upwards.summed(n).merged()
     return Known(sets.EVERYTHING, (Form({NUMBER: ordered[axis], RADII: weights}),))
+
+
+def vertical(force: Known, dimension: int, axis: int) -> Known:
+    """The vertical component of the same over n_z: 1 + Σ_a n^a·δn^axis/[1 + (d − 1)φ] of it."""
+    tilted = Weights()
+    for a in range(dimension):
+        tilted = tilted + turns(dimension)[a][axis]
+    scale = FIELD.from_sympy(1 / (1 + (dimension - 1) * phi))
+    unit = Form.number(FIELD.one) + Form({RADII: tilted.scaled(scale)})
+    (value,) = force.value
+    return Known(force.points, (unit.times(value).merged(),))
+
+
+# loads in three dimensions
+
+_LAYER = sympy.Add(*SOURCE)
+_RATIOS = (sympy.S.One, t_2, t_3)
+
+
+def _layered(factor: sympy.Expr, ratios: Sequence[sympy.Expr]) -> tuple[Weights, ...]:
+    within = (_LAYER >= 0, sympy.Le(_LAYER, M - 1, evaluate=False))
+    values = (FIELD.from_sympy(factor * ratio) for ratio in ratios)
+    return tuple(Weights.of(*within, value=value) for value in values)
+
+
+def _legs() -> tuple[Weights, ...]:
+    """One on each leg below bead (0, 0, l), along which the load comes down."""
+
+    def leg(axis: int) -> Weights:
+        place = [0, 0, l]
+        place[axis] = place[axis] - n
+        steps = sum((SOURCE[2] - l, *SOURCE[:2]))
+        run = (_is(bead, at) for bead, at in zip(SOURCE, place, strict=True))
+        return Weights.of(*run, n >= 1, _LAYER >= 0, _is(steps, -n)).without(n)
+
+    return tuple(map(leg, range(3)))
+
+
+ORDERED: Mapping[str, Callable[[], tuple[Weights, ...]]] = {
+    "surface": lambda: _layered(sympy.S.One, (sympy.S.One,) * 3),
+    "bulk": lambda: _layered(M - _LAYER, (sympy.S.One,) * 3),
+    "surface leaning": lambda: _layered(sympy.S.One, _RATIOS),
+    "bulk leaning": lambda: _layered(M - _LAYER, _RATIOS),
+    "point": _legs,
+}
+"""F_c by the bead, in units of what the load gives contacts along n¹ for each layer of it."""
+
+
+@cache
+def known(load: str) -> Mapping[type, tuple[Known, ...]]:
+    """The forces of all contacts of a packing of spheres, by axis."""
+    forces = tuple(force(ORDERED[load](), axis) for axis in range(3))
+    verticals = tuple(vertical(one, 3, axis) for axis, one in enumerate(forces))
+    return {ForceAlong: forces, VerticalAlong: verticals}
 
 
 def _is(symbol: sympy.Symbol, value: sympy.Expr) -> sympy.Basic:

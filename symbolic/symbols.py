@@ -30,6 +30,9 @@ L_plus = Symbol("L_plus", "L^{+}", "L⁺", positive=True)
 L_minus = Symbol("L_minus", "L^{-}", "L⁻", positive=True)
 t = Symbol("t", positive=True)
 # in any dimension −Σ_a L^a n^a; sums of (L^a/L^1)ⁿ over the other vectors a ≠ 1, n = 1 and 2
+# in three dimensions L^2/L^1 and L^3/L^1
+t_2 = Symbol("t_2", "t_{2}", "t₂", positive=True)
+t_3 = Symbol("t_3", "t_{3}", "t₃", positive=True)
 tau_1 = Symbol("tau_1", r"\tau_{1}", "τ₁", positive=True)
 tau_2 = Symbol("tau_2", r"\tau_{2}", "τ₂", positive=True)
 
@@ -47,7 +50,7 @@ INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M, N)
 """All index symbols, in the fixed order that normal forms use."""
 
 PARAMETERS = (
-    phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z, L_plus, L_minus, t, tau_1, tau_2,
+    phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z, L_plus, L_minus, t, t_2, t_3, tau_1, tau_2,
 )  # fmt: skip
 """All continuous symbols, in the fixed order that exact domains use."""
 
@@ -335,6 +338,30 @@ class PushBelow(ForceBelow):
 
 
 CONTACTS = (ForceOfLayer, ForceBelow, PushBelow)
+
+
+class ForceAlong(Function):  # type: ignore[misc]
+    """f^a of bead (x, y, z): the force of the contact that leads up from it along base vector a.
+
+    In three dimensions; x, y and z are steps along the three base vectors, x + y + z is the layer.
+    """
+
+    nargs = 4
+    head = "f"
+
+    def _latex(self, printer: Any) -> str:
+        axis, *steps = map(printer._print, self.args)
+        return rf"{self.head}^{{({axis})}}_{{{','.join(steps)}}}"
+
+    def _text(self, printer: Any) -> str:
+        axis, *steps = map(printer._print, self.args)
+        return f"{self.head}{axis}_({','.join(steps)})"
+
+
+class VerticalAlong(ForceAlong):
+    """The vertical component of the same."""
+
+    head = "p"
 
 
 class MatrixTimes(Function):  # type: ignore[misc]
