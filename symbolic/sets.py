@@ -63,15 +63,18 @@ def _constraint(form: Row, equation: bool) -> Any:
     return found
 
 
-def _not_negative(relation: sympy.Basic) -> tuple[sympy.Expr, bool]:
-    """What is at least 0 where a relation holds, and whether it is 0 there."""
-    left, right = relation.args
+def condition(relation: sympy.Basic) -> tuple[Row, bool]:
+    """What is at least 0 where a relation holds, and whether it is 0 there.
+
+    Raises:
+        NotExactError: it is no affine relation between whole numbers.
+    """
     if isinstance(relation, sympy.Eq):
-        return left - right, True
+        return row(relation.lhs - relation.rhs), True
     if isinstance(relation, sympy.Ge | sympy.Gt):
-        return left - right - int(isinstance(relation, sympy.Gt)), False
+        return row(relation.lhs - relation.rhs - int(isinstance(relation, sympy.Gt))), False
     if isinstance(relation, sympy.Le | sympy.Lt):
-        return right - left - int(isinstance(relation, sympy.Lt)), False
+        return row(relation.rhs - relation.lhs - int(isinstance(relation, sympy.Lt))), False
     raise NotExactError(f"{relation} is no relation between whole numbers")
 
 
@@ -87,8 +90,7 @@ def where(*relations: sympy.Basic) -> Set:
             continue
         if relation == sympy.false:
             return NOTHING
-        form, equation = _not_negative(relation)
-        found = found.add_constraint(_constraint(row(form), equation))
+        found = found.add_constraint(_constraint(*condition(relation)))
     return found.to_set()
 
 

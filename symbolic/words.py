@@ -11,10 +11,6 @@ from .symbols import M, N, i, j, k, l, m, n, p, q, site_r, site_s
 _ALONE = (N, p, q, n, m, i, site_r, j, k, site_s, l, M)
 """Which symbol stands alone, the first that can."""
 
-Chain = tuple[sympy.Expr, ...]
-"""Sides of a chain of relations, lower bound, symbol, upper bound; None where there is no bound."""
-
-
 def alone(form: sympy.Expr) -> tuple[sympy.Symbol, sympy.Expr, int]:
     """A symbol of a form c·symbol + rest with c = ±1, −rest/c, and c; any c where there is none."""
     factors = sympy.expand(form).as_coefficients_dict()
@@ -37,13 +33,21 @@ def equations(relations: Iterable[sympy.Basic]) -> list[sympy.Eq]:
     return [sympy.Eq(symbol, found[symbol], evaluate=False) for symbol in _ALONE if symbol in found]
 
 
-def bounds(relations: Sequence[sympy.Basic]) -> list[tuple[list[sympy.Expr], sympy.Symbol, list[sympy.Expr]]]:
-    """Lower bounds, symbol and upper bounds of forms that are at least 0."""
+Bounds = tuple[list[sympy.Expr], sympy.Symbol, list[sympy.Expr]]
+"""Lower bounds of a symbol, the symbol, and upper bounds."""
+
+
+def bounds(relations: Iterable[sympy.Basic]) -> list[Bounds]:
+    """Symbols between their bounds, from relations that are no equations."""
     found: dict[sympy.Symbol, tuple[list[sympy.Expr], list[sympy.Expr]]] = {}
     for relation in relations:
         if isinstance(relation, sympy.Eq):
             continue
-        symbol, bound, sign = alone(relation.lhs - relation.rhs)
+        above, below = relation.args
+        if isinstance(relation, sympy.Le | sympy.Lt):
+            above, below = below, above
+        strict = int(isinstance(relation, sympy.Lt | sympy.Gt))
+        symbol, bound, sign = alone(above - below - strict)
         found.setdefault(symbol, ([], []))[0 if sign > 0 else 1].append(bound)
     return [(low, symbol, high) for symbol, (low, high) in found.items()]
 

@@ -1,43 +1,327 @@
-"""A closed form as a Python user holds it."""
+"""A closed form as a Python user holds it: formulas with their domains, numbers, LaTeX, a decision."""
 
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from typing import Any
 
 import sympy
-from force_diffusion.symbolic import words
+from flint import fmpq
+from force_diffusion.symbolic import sets, words
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.kernel import statistics
+from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.printing.code import python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.text import text
+
+from ..api.arrays import evaluate
+from ..api.evaluation import ArgumentError, Number, in_order, read_arguments, rounded, told
 
 
 @dataclass(frozen=True)
 class Piece:
-    """A formula, and where it holds."""
+    """A formula of a closed form.
+
+    Attributes:
+        domain: where it holds, in words, beside what holds of the whole form.
+        expr: the formula.
+    """
 
     domain: str
     expr: sympy.Expr
 
 
 class ClosedForm:
-    """An exact statistic: a formula on each of a few parts of its domain."""
+    """An exact statistic: a formula on each of a few parts of its domain.
+
+    >>> import force_diffusion as fd
+    >>> from force_diffusion.symbols import f_plus, i, j
+    >>> print(fd.variance(f_plus(i, j), load="bulk"))  # doctest: +ELLIPSIS
+    var(f⁺_ij), exact for 0 ≤ j ≤ M − 1
+      j ≥ 2: σ_δr² (36 M⁴ + 36 M³ j + ...
+      j = 1: σ_δr² (36 M⁴ + 81 M³ + ...
+      j = 0: σ_δr² (36 M⁴ + 45 M³ + ...
+    """
 
     def __init__(
         self,
         quantity: sympy.Expr,
         form: statistics.ClosedForm,
         where: Where,
-        equations: tuple[int | str, ...],
+        premises: tuple[int | str, ...],
     ) -> None:
-        self.quantity, self._form, self._where, self.premises = quantity, form, where, equations
+        self._quantity, self._form, self._where = quantity, form, where
+        self._premises = premises
+
+    @property
+    def quantity(self) -> sympy.Expr:
+        """What it is the value of."""
+        return self._quantity
+
+    @property
+    def premises(self) -> tuple[int | str, ...]:
+        """The equations that it rests on."""
+        return self._premises
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
-        """The formulas, each on a part of the domain."""
-        return tuple(Piece("; or ".join(map(words.in_words, one.where)), one.value.to_sympy()) for one in self._form.pieces)
+        """The formulas, each on a part of the domain; together they cover it.
 
-    def __str__(self) -> str:
-        return "\n".join([text(self.quantity), *(f"  {p.domain or 'everywhere'}: {text(p.expr)}" for p in self.pieces)])
+        >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j
+        >>> [piece.domain for piece in fd.variance(f_plus(i, j), load="bulk").pieces]
+        ['j ≥ 2', 'j = 1', 'j = 0']
+        """
+        return tuple(Piece(self._words(one), one.value.to_sympy()) for one in self._form.pieces)
+
+    def _words(self, piece: statistics.Piece, *, tex: bool = False) -> str:
+        either = r" \text{ or } " if tex else "; or "
+        return either.join(words.in_words(one, tex=tex) for one in piece.where)
+
+    @property
+    def domain(self) -> str:
+        """Where it holds, in words: where all contacts and beads that it names exist."""
+        indices = self._needed & {*sy.INDICES}
+        relations = [one for one in self._where.relations if one.free_symbols <= indices]
+        even = [one for one in self._where.even if one.free_symbols <= indices]
+        parts = [words.in_words(relations), *(f"{text(one)} even" for one in even)]
+        return ", ".join(filter(None, parts))
+
+    # numbers
+
+    @cached_property
+    def _needed(self) -> set[sympy.Symbol]:
+        """The symbols on which its value, and whether it has one, depend."""
+        held = set().union(*(piece.expr.free_symbols for piece in self.pieces))
+        for piece in self._form.pieces:
+            for relations in piece.where:
+                held = held.union(*(one.free_symbols for one in relations))
+        for relation in self._where.relations:
+            if relation.free_symbols & held:
+                held |= relation.free_symbols
+        return held - {sy.n_x, sy.n_y} | ({sy.phi} if held & {sy.n_x, sy.n_y} else set())
+
+    def at(self, **values: Any) -> Any:
+        """The value for given numbers.
+
+        Exact for int, Fraction, Decimal, SymPy's Rational and ``flint.fmpq``, whatever their size;
+        a float, the exact value for the given floats rounded once, where one of them is a float.
+        Arrays, lists and ranges are broadcast as NumPy does.
+
+        >>>         >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j
+        >>> form = fd.variance(f_plus(i, j))
+        >>> form.at(M=10, j=3, phi=Fraction(-1, 8), sigma=Fraction(1, 100), r=1)
+        247909/1764000
+        >>> form.at(M=3, j=[0, 1, 2], phi=0.0, sigma=0.01, r=1)
+        array([0.00465, 0.00335, 0.00085])
+        >>> form.at(M=3, j=3, phi=0, sigma=1, r=1)
+        Traceback (most recent call last):
+        ...
+        force_diffusion...ArgumentError: var(f⁺_ij) is known for 0 ≤ j ≤ M − 1, not for j = 3, M = 3
+
+        Raises:
+            ArgumentError: a name is unknown or missing, or a value is outside of the domain.
+        """
+        return evaluate(_Numbers(self), values)
+
+    def value(self, values: Mapping[sympy.Symbol, sympy.Rational]) -> sympy.Expr:
+        """The exact value for exact numbers, by symbol; their names have been looked at.
+
+        Raises:
+            ArgumentError: it is outside of the domain.
+        """
+        whole = {symbol: int(value) for symbol, value in values.items() if symbol in sy.INDICES}
+        if not self._holds(whole):
+            given = told([symbol for symbol in sy.INDICES if symbol in whole], values)
+            raise ArgumentError(f"{text(self._quantity)} is for {self.domain}, not for {given}")
+        for value, parts in self._conditions:
+            if any(all(_is_met(one, whole) for one in part) for part in parts):
+                return _number(value, values)
+        raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
+
+    def _holds(self, whole: Mapping[sympy.Symbol, int]) -> bool:
+        relations = [one for one in self._where.relations if one.free_symbols <= {*whole}]
+        even = [sets.row(one) for one in self._where.even if one.free_symbols <= {*whole}]
+        return all(_is_met(sets.condition(one), whole) for one in relations) and all(
+            _total(form, whole) % 2 == 0 for form in even
+        )
+
+    @cached_property
+    def _conditions(self) -> list[tuple[RationalFunction, list[list[tuple[sets.Row, bool]]]]]:
+        """Values, and the conditions of the parts on which they hold."""
+        return [
+            (piece.value, [[sets.condition(one) for one in part] for part in piece.where])
+            for piece in self._form.pieces
+        ]
+
+    def profile(self, **values: Number) -> Any:
+        """The values in all layers j of a packing, from the base up; the other symbols are given.
+
+        >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j
+        >>> fd.variance(f_plus(i, j)).profile(M=3, phi=0.0, sigma=0.01, r=1)
+        array([0.00465, 0.00335, 0.00085])
+
+        Raises:
+            ArgumentError: it does not depend on the layer j, or as for :meth:`at`.
+        """
+        top = next((symbol for symbol in (sy.M, sy.l) if symbol.in_code in values), None)
+        if sy.j not in self._needed or top is None:
+            raise ArgumentError("a profile needs a form that depends on the layer j, and M or l")
+        return self.at(j=range(int(values[top.in_code])), **values)
+
+    # the leading orders
+
+    def leading(self, orders: int = 2) -> sympy.Expr:
+        """The highest powers of M at fixed z = j/M, as a sum; two of them by default.
+
+        >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j
+        >>> fd.variance(f_plus(i, j)).leading(1)
+        2*M**3*sigma**2*(1 - z)**2*(2*z + 1)/(r**2*(1 - phi**2)**2)
+
+        Raises:
+            ArgumentError: its packings have no height M, or no layer j is meant.
+        """
+        piece = next((one for one in self._form.pieces if any(map(_is_inside, one.where))), None)
+        if piece is None or not {sy.M, sy.j} <= self._needed:
+            raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
+        height, z = FIELD.generator(sy.M), FIELD.generator(sy.z)
+        return sympy.Add(*_highest(piece.value.substitute({sy.j: z * height}), orders))
+
+    # how it is written
+
+    def latex(self) -> str:
+        """LaTeX for mathematics mode, which needs amsmath: a formula, or ``cases`` of them."""
+        left = latex(self._quantity)
+        if len(self.pieces) == 1:
+            return f"{left} = {latex(self.pieces[0].expr)}"
+        rows = (
+            rf"{latex(shown.expr)} & {self._words(piece, tex=True)}"
+            for shown, piece in zip(self.pieces, self._form.pieces, strict=True)
+        )
+        body = " \\\\\n".join(rows)
+        return f"{left} = \\begin{{cases}}\n{body}\n\\end{{cases}}"
 
     def _repr_latex_(self) -> str:
-        return latex(self.quantity)
+        return rf"$\displaystyle {self.latex()}$"
+
+    def python(self, name: str = "closed_form") -> str:
+        """Python source of a function that refuses what :meth:`at` refuses; it needs no import."""
+        arguments = in_order(symbol.in_code for symbol in self._needed)
+        lines = [f"def {name}({', '.join(arguments)}):"]
+        lines.append(f'    """{text(self._quantity)}, exact for {self.domain}."""')
+        conditions = [_in_python(one) for one in self._where.relations if one.free_symbols <= self._needed]
+        conditions += [
+            f"({python_expression(one)}) % 2 == 0"
+            for one in self._where.even
+            if one.free_symbols <= self._needed
+        ]
+        if conditions:
+            lines.append(f"    if not ({' and '.join(conditions)}):")
+            lines.append(f'        raise ValueError("outside of {self.domain}")')
+        for shown, piece in zip(self.pieces, self._form.pieces, strict=True):
+            parts = (" and ".join(map(_in_python, part)) or "True" for part in piece.where)
+            either = " or ".join(f"({part})" for part in parts)
+            lines.append(f"    if {either}:")
+            lines.append(f"        return {python_expression(shown.expr)}")
+        return "\n".join(lines) + "\n"
+
+    def __str__(self) -> str:
+        heading = f"{text(self._quantity)}, exact for {self.domain}"
+        rows = (f"  {one.domain or 'everywhere'}: {text(one.expr)}" for one in self.pieces)
+        return "\n".join((heading, *rows))
+
+    def __repr__(self) -> str:
+        return f"<{text(self._quantity)}: {len(self.pieces)} formulas for {self.domain}>"
+
+    # a candidate
+
+    def decide(self, candidate: sympy.Expr) -> Ruling:
+        """Rule on an expression of your own: is it this statistic, on all of the domain?
+
+        >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j, M
+        >>> form = fd.mean(f_plus(i, j))
+        >>> print(form.decide(M / M))
+        proved: the same on all of the domain
+        """
+        return statistics.decide(self._form, self._where, candidate)
+
+
+class _Numbers:
+    """A closed form as numbers are put into it."""
+
+    def __init__(self, form: ClosedForm) -> None:
+        self._form, self.about, self.sides = form, text(form.quantity), (None,)
+
+    def asked(self, _given: Iterable[str]) -> set[sympy.Symbol]:
+        """The symbols to give a value."""
+        return self._form._needed
+
+    def at(self, given: Mapping[str, Number]) -> Any:
+        """The value for single numbers."""
+        values, exact = read_arguments(self.about, self._form._needed, given)
+        value = self._form.value(values)
+        return value if exact else rounded(value)
+
+
+def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
+    return form[1] + sum(factor * whole[symbol] for symbol, factor in form[0].items())
+
+
+def _is_met(condition: tuple[sets.Row, bool], whole: Mapping[sympy.Symbol, int]) -> bool:
+    form, equation = condition
+    total = _total(form, whole)
+    return total == 0 if equation else total >= 0
+
+
+def _number(value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rational]) -> sympy.Expr:
+    """The exact value of a function; a root where n_x or n_y is left."""
+    value = value.reduced()
+    if any(value.holds(one) for one in (sy.n_x, sy.n_y)):
+        cosine = values[sy.phi]
+        sides = {sy.n_x: sympy.sqrt((1 - cosine) / 2), sy.n_y: sympy.sqrt((1 + cosine) / 2)}
+        return value.to_sympy().xreplace({**values, **sides})
+    numbers = [
+        fmpq(int(values[one].p), int(values[one].q)) if one in values else fmpq(0)
+        for one in FIELD.generators
+    ]
+    found = value.numerator(*numbers) / value.denominator(*numbers)
+    return sympy.Rational(int(found.p), int(found.q))
+
+
+def _is_inside(part: Iterable[sympy.Basic]) -> bool:
+    """Whether a part holds all of M → ∞ at fixed z = j/M, 0 < z < 1."""
+    for relation in part:
+        form, equation = sets.condition(relation)
+        at_base, at_surface = (form[0].get(sy.M, 0) + z * form[0].get(sy.j, 0) for z in (0, 1))
+        grows = min(at_base, at_surface) >= 0 and max(at_base, at_surface) > 0
+        if equation or not (grows or at_base == at_surface == 0):
+            return False
+    return True
+
+
+def _highest(value: RationalFunction, orders: int) -> Iterator[sympy.Expr]:
+    """The highest powers of M of a function, by division of its numerator."""
+    height = FIELD.generator(sy.M)
+    divisor = FIELD.polynomial(value.denominator)
+    below = divisor.coefficients(sy.M)
+    rest = FIELD.polynomial(value.numerator) * height**orders  # so that no power is negative
+    for _ in range(orders):
+        if rest.is_zero():
+            return
+        above = rest.coefficients(sy.M)
+        term = above[-1] / below[-1] * height ** (len(above) - len(below))
+        yield (term / height**orders).to_sympy()
+        rest = rest - term * divisor
+
+
+def _in_python(relation: sympy.Basic) -> str:
+    signs = {sympy.Eq: "==", sympy.Ge: ">=", sympy.Le: "<=", sympy.Gt: ">", sympy.Lt: "<"}
+    left, right = map(python_expression, relation.args)
+    return f"{left} {signs[relation.func]} {right}"

@@ -56,6 +56,10 @@ class Domain:
             self, self.context.constant(fmpq(numerator, denominator)), self.context.constant(1)
         )
 
+    def polynomial(self, value: Polynomial) -> "RationalFunction":
+        """A polynomial as an element of the field."""
+        return RationalFunction(self, value, self.context.constant(1))
+
     def generator(self, symbol: sympy.Expr) -> "RationalFunction":
         """The generator that stands for ``symbol``."""
         try:
@@ -339,6 +343,9 @@ def _reads_negative(factor: sympy.Expr) -> bool:
         highest = max(power for _, power in found)
         top = sympy.Add(*(c for c, power in found if power == highest))
         return bool(top.could_extract_minus_sign())
+    signs = [term.could_extract_minus_sign() for term in sympy.Add.make_args(factor)]
+    if 2 * sum(signs) != len(signs):
+        return 2 * sum(signs) > len(signs)
     constant = factor.as_coeff_Add()[0]
     return bool(constant.is_negative or (constant == 0 and factor.could_extract_minus_sign()))
 

@@ -21,6 +21,7 @@ from ..notation import by_name
 from ..printing.text import text
 from ..second_order import RADII, SHIFT, Jet, Means, covariance
 from ..weights import Weights
+from .decisions import Ruling, proved, refuted, undecided
 from .rules import Rule
 from .theorem import NotProvedError, Theorem, check, made
 from .where import Where
@@ -183,6 +184,13 @@ class ClosedForm:
             found.append(Piece(self._relations(left), FIELD.zero))
         return tuple(found)
 
+    @cached_property
+    def weights_symbols(self) -> set[sympy.Symbol]:
+        """The indices on which it depends."""
+        held = set().union(*(one.free_symbols for piece in self.pieces
+                             for part in piece.where for one in part))  # fmt: skip
+        return held | {s for s in sy.INDICES if any(piece.value.holds(s) for piece in self.pieces)}
+
     def _relations(self, whole: sets.Set) -> tuple[Relations, ...]:
         return tuple(
             (
@@ -197,6 +205,33 @@ class ClosedForm:
         value = sympy.Add(*(n * s for s, n in form[0].items()), form[1])
         value = sympy.expand(value.xreplace(self.straight.back))
         return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
+
+
+def decide(form: ClosedForm, where: Where, candidate: sympy.Expr) -> Ruling:
+    """Rule on a candidate for a closed form: whether it is the same on all of the domain."""
+    try:
+        read = Statistics.on(where.loaded(None), ()).number(sympy.sympify(candidate))
+        if strange := {*read.parts} - {NUMBER}:
+            return undecided(f"it holds {min(strange)}, which belongs to single beads")
+        differences = (form.weights - read.parts.get(NUMBER, Weights())).on(form.points).formulas()
+    except (NotExactError, NotProvedError, sympy.SympifyError, ZeroDivisionError) as reason:
+        return undecided(str(reason))
+    if not differences:
+        return proved("the same on all of the domain")
+    return refuted(_shown(form, *differences[0]))
+
+
+def _shown(form: ClosedForm, points: sets.Set, difference: RationalFunction) -> str:
+    """A point at which a closed form differs from what was said of it."""
+    at = sets.sample(sets.parts(points)[0])
+    whole = {symbol: FIELD.constant(at[symbol]) for symbol in at if difference.holds(symbol)}
+    left = difference.substitute(whole).to_sympy()
+    indices = {symbol: old.xreplace({s: sympy.Integer(n) for s, n in at.items()})
+               for symbol, old in form.straight.image.items()}  # fmt: skip
+    held = form.weights_symbols
+    values = {s: indices.get(s, at[s]) for s in sy.INDICES if s in held}
+    where = ", ".join(f"{text(symbol)} = {value}" for symbol, value in values.items())
+    return f"at {where or 'every point'} the true value less this one is {text(left)}"
 
 
 def moment(*facts: Theorem) -> Rule:

@@ -53,6 +53,15 @@ def sympy_source(expr: Basic) -> str:
     return str(_SymPySource().doprint(rebuilt(expr)))
 
 
+def python_expression(expr: Basic) -> str:
+    """An expression in Python.
+
+    >>> python_expression(sy.j**2 / 2)
+    'j**2/2'
+    """
+    return str(_PythonSource().doprint(rebuilt(expr)))
+
+
 def python_source(name: str, doc: str, expr: Basic) -> str:
     """A Python function that returns the expression.
 
