@@ -28,6 +28,7 @@ from .symbols import (
     ForceAlong,
     ForceMinus,
     ForcePlus,
+    MeanOver,
     SecondDifference,
     SiteFunction,
     VerticalMinus,
@@ -35,6 +36,8 @@ from .symbols import (
     e_y,
     i,
     k,
+    m,
+    n,
     n_y,
     p,
     q,
@@ -50,6 +53,8 @@ VERTICAL = {VerticalPlus: (ForcePlus, DeltaNPlus), VerticalMinus: (ForceMinus, D
 
 _ACROSS = (i, k, site_r, p, q)
 """Indices that lie across the packing, or may."""
+
+_HIGHEST = 4  # power of a quantity
 
 Image = Mapping[sympy.Symbol, sympy.Expr]
 
@@ -211,6 +216,10 @@ class Reader:
             return self._product(expression.args)
         if isinstance(expression, sympy.Sum):
             return self._series(expression)
+        if isinstance(expression, MeanOver):
+            return self._average(*expression.args)
+        if isinstance(expression, sympy.Pow) and expression.has(SiteFunction):
+            return self._power(*expression.args)
         if isinstance(expression, Dot):
             return self._dot(*map(self.vector, expression.args))
         if isinstance(expression, Braces):
@@ -339,6 +348,31 @@ class Reader:
             if not inner.points.is_empty():
                 total = total + inner.number(part).on(inner.points)
         return total
+
+    def _power(self, base: sympy.Expr, exponent: sympy.Expr) -> Form:
+        if not (isinstance(exponent, sympy.Integer) and 0 < exponent <= _HIGHEST):
+            raise NotExactError(f"the power {text(exponent)} of {text(base)} is not read")
+        power = self._product([base] * int(exponent))
+        if isinstance(power, tuple):
+            raise NotExactError("a power of a vector")
+        return power
+
+    def _average(self, expression: sympy.Expr, count: sympy.Expr, *indices: sympy.Symbol) -> Form:
+        """Over neighbours two columns apart."""
+        step = m if expression.has(MeanOver) else n
+        inner = self.within(step >= 0, sympy.Le(step, count - 1, evaluate=False))
+        there, back = (self._moved(indices, sign * 2 * step) for sign in (1, -1))
+        wide = replace(self, points=sets.without(sets.at(inner.points, back), step))
+        total = wide.number(expression).merged().at(there).on(inner.points).summed(step)
+        return total.merged().times(self.number(1 / count))
+
+    def _moved(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
+        """Straightened indices, all of which go on by as many columns."""
+        old = self.straight
+        further = {index: old.back[index].xreplace({index: index + by}) for index in indices}
+        return {
+            index: sympy.expand(form.xreplace(dict(old.image))) for index, form in further.items()
+        }
 
     def _series(self, series: sympy.Sum) -> Value:
         *others, (index, low, high) = series.limits

@@ -4,7 +4,8 @@ isl does the arithmetic (islpy). It compares sets of different spaces without co
 one space here: every index of the paper, the coordinates of a site, and those of a second site.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from math import gcd
 from typing import Any
@@ -13,7 +14,7 @@ import islpy as isl
 import sympy
 
 from .algebra.exact import FIELD, SITE, SOURCE, NotExactError, RationalFunction
-from .symbols import INDICES
+from .symbols import INDICES, M, N
 
 Set = Any  # islpy's Set, which ships no types
 Row = tuple[dict[sympy.Symbol, int], int]
@@ -27,6 +28,13 @@ _LOCAL = isl.LocalSpace.from_space(_SPACE)
 _DIM = isl.dim_type.set
 EVERYTHING: Set = isl.Set.universe(_SPACE)
 NOTHING: Set = isl.Set.empty(_SPACE)
+_FIXED_FIRST = {
+    symbol: place
+    for place, symbol in enumerate(
+        (*SITE, *SOURCE, *(symbol for symbol in INDICES if symbol not in (M, N)), N, M)
+    )
+}
+"""Which symbol an equation gives, the first that it holds: M and N also stand in denominators."""
 _MOST = 2**62  # isl takes machine integers
 
 
@@ -122,11 +130,14 @@ def at(points: Set, image: Mapping[sympy.Symbol, sympy.Expr]) -> Set:
 def _map(image: tuple[tuple[sympy.Symbol, sympy.Expr], ...]) -> Any:
     found = isl.MultiAff.identity(_SPACE.map_from_set())
     for symbol, value in image:
-        factors, constant = row(value)
-        form = isl.Aff.zero_on_domain(_LOCAL).set_constant_val(isl.Val(constant))
-        for other, factor in factors.items():
-            form = form.set_coefficient_val(isl.dim_type.in_, _PLACE[other], isl.Val(factor))
-        found = found.set_aff(_PLACE[symbol], form)
+        found = found.set_aff(_PLACE[symbol], _affine(row(value)))
+    return found
+
+
+def _affine(form: Row) -> Any:
+    found = isl.Aff.zero_on_domain(_LOCAL).set_constant_val(isl.Val(form[1]))
+    for symbol, factor in form[0].items():
+        found = found.set_coefficient_val(isl.dim_type.in_, _PLACE[symbol], isl.Val(factor))
     return found
 
 
@@ -135,7 +146,8 @@ def _map(image: tuple[tuple[sympy.Symbol, sympy.Expr], ...]) -> Any:
 
 def parts(points: Set) -> list[Set]:
     """Convex parts of a set, no two of which share a point."""
-    return [part.to_set() for part in points.make_disjoint().get_basic_sets()]
+    found = (part.to_set() for part in points.make_disjoint().get_basic_sets())
+    return [part for part in found if not part.is_empty()]
 
 
 def rows(part: Set) -> tuple[list[Row], list[Row]]:
@@ -167,6 +179,97 @@ def _row(constraint: Any) -> Row:
     return factors, constraint.get_constant_val().to_python()
 
 
+Interval = tuple[int | None, int | None]
+"""The least and the largest value of a form; None where there is none."""
+
+
+def _intervals(part: Set, directions: dict[Any, int]) -> dict[int, Interval]:
+    """A convex set as intervals of forms without a constant, which are numbered in ``directions``.
+
+    Forms that differ in sign, in a factor or in a constant share a number.
+    """
+    found: dict[int, Interval] = {}
+    for forms, equation in zip(rows(part), (True, False), strict=True):
+        for factors, constant in forms:
+            divisor = gcd(*factors.values())
+            if next(iter(factors.values())) < 0:
+                divisor = -divisor
+            number = directions.setdefault(
+                tuple((symbol, factor // divisor) for symbol, factor in factors.items()),
+                len(directions),
+            )
+            low, high = found.get(number, (None, None))
+            if equation or divisor > 0:
+                bound = -(constant // abs(divisor)) if divisor > 0 else constant // -divisor
+                low = bound if low is None else max(low, bound)
+            if equation or divisor < 0:
+                bound = constant // -divisor if divisor < 0 else -constant // divisor
+                high = bound if high is None else min(high, bound)
+            found[number] = low, high
+    return found
+
+
+def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
+    """Convex cells, each in all of some sets and outside of the others: it, and which sets.
+
+    Space is halved by the bounds of the sets, the most frequent one first, until no bound is left
+    that parts a cell.
+    """
+    directions: dict[Any, int] = {}
+    bounded = [(number, _intervals(part, directions)) for number, part in enumerate(parts)]
+    forms = [_affine((dict(direction), 0)) for direction in directions]
+    factors = [dict(direction) for direction in directions]
+
+    def halved(
+        cell: Set, left: list[tuple[int, dict[int, Interval]]], inside: list[int]
+    ) -> Iterator[tuple[Set, list[int]]]:
+        reach = {
+            number: (_bounded(cell.min_val(forms[number])), _bounded(cell.max_val(forms[number])))
+            for number in {number for _, intervals in left for number in intervals}
+        }
+        cuts: Counter[tuple[int, int]] = Counter()
+        still_open = []
+        for one, intervals in left:
+            if any(_outside(interval, reach[n]) for n, interval in intervals.items()):
+                continue
+            parting = {n: list(_cuts(interval, reach[n])) for n, interval in intervals.items()}
+            open_ones = {n: intervals[n] for n, bounds in parting.items() if bounds}
+            if open_ones:
+                still_open.append((one, open_ones))
+                cuts.update((n, bound) for n in open_ones for bound in parting[n])
+            else:
+                inside = [*inside, one]
+        if not still_open:
+            yield cell, inside
+            return
+        ((number, bound), _), *_ = cuts.most_common(1)
+        downwards = {symbol: -factor for symbol, factor in factors[number].items()}
+        for form in ((factors[number], -bound), (downwards, bound - 1)):
+            yield from halved(cell.add_constraint(_constraint(form, False)), still_open, inside)
+
+    yield from halved(EVERYTHING, bounded, [])
+
+
+def _outside(interval: Interval, reach: Interval) -> bool:
+    """Whether no value that a form reaches is in an interval."""
+    (low, high), (least, largest) = interval, reach
+    above = low is not None and largest is not None and largest < low
+    return above or (high is not None and least is not None and least > high)
+
+
+def _cuts(interval: Interval, reach: Interval) -> Iterator[int]:
+    """The least values that lie in an interval, or above it, where others below are reached."""
+    (low, high), (least, largest) = interval, reach
+    if low is not None and (least is None or least < low):
+        yield low
+    if high is not None and (largest is None or largest > high):
+        yield high + 1
+
+
+def _bounded(value: Any) -> int | None:
+    return None if value.is_infty() or value.is_neginfty() else value.to_python()
+
+
 def fixed(points: Set) -> dict[sympy.Symbol, RationalFunction]:
     """Symbols that the equations of a set fix, by those that they leave free.
 
@@ -177,7 +280,7 @@ def fixed(points: Set) -> dict[sympy.Symbol, RationalFunction]:
 
 
 def _fixed(points: Set) -> dict[sympy.Symbol, tuple[dict[sympy.Symbol, sympy.Rational], Any]]:
-    """The same as forms, by elimination: sites first, then the last index."""
+    """The same as forms, by elimination."""
     forms = []
     for one in points.affine_hull().get_constraints():
         divided = (_number(one, isl.dim_type.div, n).is_zero() for n in range(_divisions(one)))
@@ -189,7 +292,7 @@ def _fixed(points: Set) -> dict[sympy.Symbol, tuple[dict[sympy.Symbol, sympy.Rat
         factors, constant = forms.pop()
         if not factors:
             continue
-        symbol = max(factors, key=_PLACE.__getitem__)
+        symbol = min(factors, key=_FIXED_FIRST.__getitem__)
         scale = -factors.pop(symbol)
         value = {s: n / scale for s, n in factors.items()}, sympy.Rational(constant) / scale
         forms = [_with(form, symbol, value) for form in forms]

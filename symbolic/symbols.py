@@ -235,6 +235,21 @@ class Covariance(Moment):
         return f"cov({', '.join(map(printer._print, self.args))})"
 
 
+class MeanOver(Function):  # type: ignore[misc]
+    """The average of X over N neighbours: MeanOver(X, N, i) is that of X at i, i + 2, …, i + 2(N−1).
+
+    With several indices all of them go on together.
+    """
+
+    def _latex(self, printer: Any) -> str:
+        quantity, count, *_ = map(printer._print, self.args)
+        return rf"\overline{{{quantity}}}^{{\,{count}}}"
+
+    def _text(self, printer: Any) -> str:
+        quantity, count, *_ = map(printer._print, self.args)
+        return f"mean of {count} neighbours ({quantity})"
+
+
 class LargestWeight(Function):  # type: ignore[misc]
     """The largest weight of a radius in X, without its sign (X over a length)."""
 

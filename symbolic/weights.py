@@ -6,8 +6,8 @@ counts there. Sums and products of forms are sums and products of pieces, cases 
 themselves, and two forms are the same where no piece of their difference is left.
 """
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 import numpy as np
 import sympy
@@ -114,10 +114,13 @@ class Weights:
         return Weights(pieces)
 
     def cells(self) -> "Weights":
-        """The same in pieces that share no point."""
-        found: list[Piece] = []
-        for points, value in self.pieces:
-            found = list(_laid_over(found, points, value))
+        """The same in convex pieces that share no point."""
+        pieces = [(part, value) for points, value in self.pieces for part in sets.parts(points)]
+        found = []
+        for cell, inside in sets.arrangement([part for part, _ in pieces]):
+            value = sum((pieces[number][1] for number in inside), FIELD.zero)
+            if not value.is_zero():
+                found.append((cell, value))
         return Weights(tuple(found))
 
     def merged(self) -> "Weights":
@@ -133,27 +136,20 @@ class Weights:
 
     def formulas(self) -> list[Piece]:
         """The same as few polynomials, each on a set of its own; where it is 0 is left out."""
-        cells = [
-            (sets.fixed(part), part, value)
-            for points, value in self.cells().pieces
-            for part in sets.parts(points)
-        ]
+        cells = [(sets.fixed(part), part, value) for part, value in self.cells().pieces]
         cells.sort(key=lambda cell: len(cell[0]))
         places = np.array([_place(part) for _, part, _ in cells])
         groups = [_Group(FIELD.zero, np.zeros(len(cells)))]
         for number, (held, part, value) in enumerate(cells):
             own = float(_numbers(value, places[number : number + 1])[0])
-            fitting = [
-                group
-                for group in groups
-                if _is_near(group.numbers[number], own) and _agree(group.value, value, held)
-            ]
-            if fitting:
-                min(fitting, key=lambda group: group.parts_with(part)).add(part)
+            for group in groups:
+                if _is_near(group.numbers[number], own) and _agree(group.value, value, held):
+                    group.parts.append(part)
+                    break
             else:
                 value = value.substitute(held)
-                groups.append(_Group(value, _numbers(value, places), part))
-        return [(group.points, group.value) for group in groups[1:]]
+                groups.append(_Group(value, _numbers(value, places), [part]))
+        return [(sets.joined(group.parts), group.value) for group in groups[1:]]
 
     def is_zero(self) -> bool:
         """Whether it is 0 everywhere."""
@@ -162,21 +158,11 @@ class Weights:
 
 @dataclass
 class _Group:
-    """A polynomial, its values at a place of each cell, and where it holds."""
+    """A polynomial, its values at a place of each cell, and the cells where it holds."""
 
     value: RationalFunction
     numbers: Array[np.float64]
-    points: Set = sets.NOTHING
-
-    def parts_with(self, part: Set) -> int:
-        """How many convex parts more it has with another one; none for zero."""
-        if self.value.numerator == 0:
-            return -1
-        return int(sets.joined((self.points, part)).n_basic_set() - self.points.n_basic_set())
-
-    def add(self, part: Set) -> None:
-        """Let it hold on a part, too."""
-        self.points = sets.joined((self.points, part))
+    parts: list[Set] = field(default_factory=list)
 
 
 def _place(part: Set) -> list[float]:
@@ -212,17 +198,3 @@ def _agree(one: RationalFunction, other: RationalFunction, held: Fixed) -> bool:
         return (one - other).substitute(held).is_zero()
     except NotExactError:  # a divisor vanishes there
         return False
-
-
-def _laid_over(pieces: Iterable[Piece], points: Set, value: RationalFunction) -> Iterator[Piece]:
-    """Pieces that share no point, with one more added to them."""
-    for there, other in pieces:
-        if there.is_disjoint(points):
-            yield there, other
-            continue
-        yield there & points, value + other
-        if not there.is_subset(points):
-            yield there - points, other
-        points = points - there
-    if not points.is_empty():
-        yield points, value

@@ -14,9 +14,10 @@ from force_diffusion.derivations.beyond import t1_forces as t1
 from force_diffusion.derivations.parts import cone
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel import axioms, rules
+from force_diffusion.symbolic.kernel.statistics import SPHERES
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import BULK, POINT, SURFACE, Loading
-from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t
+from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t, t_2, t_3
 
 
 class ObservableError(ForceDiffusionError, ValueError):
@@ -31,22 +32,24 @@ class Load:
         name: in words.
         loading: the same for the kernel.
         top: the layer that bears it, or the highest of those.
-        ordered: the ordered forces of a contact of layer j along n⁺ and along n⁻, or what forces
-            are compared with where some of these are zero.
+        ordered: the ordered forces of a contact of layer j along n⁺ and along n⁻ (in three
+            dimensions along n¹, n² and n³), or what forces are compared with where some are zero.
         unit: what a vertical force on a bead is compared with.
         theorems: both forces in the radii.
         equations: where these are proved.
         values: numbers for symbols of the load.
+        dimension: of the packing.
     """
 
     name: str
     loading: Loading
     top: sympy.Symbol
-    ordered: tuple[sympy.Expr, sympy.Expr]
+    ordered: tuple[sympy.Expr, ...]
     unit: sympy.Expr
     theorems: Callable[[], tuple[Theorem, ...]]
     equations: tuple[int | str, ...]
     values: tuple[tuple[sympy.Symbol, sympy.Expr], ...] = ()
+    dimension: int = 2
 
 
 @cache
@@ -104,6 +107,26 @@ _LEANING = {
 _BY_NAME = {"surface": SURFACE_LOAD, "bulk": BULK_LOAD}
 
 
+def _spheres(name: str, factor: sympy.Expr, leaning: bool, top: sympy.Symbol = M) -> Load:
+    """A load in three dimensions; forces are in units of what one layer of it gives along n¹."""
+    ratios = (sympy.S.One, t_2, t_3) if leaning else (sympy.S.One,) * 3
+    ordered = tuple(factor * ratio for ratio in ratios)
+    load = "a load on one bead" if top == l else f"a {name} load"
+    return Load(
+        load, SPHERES[name], top, ordered, sympy.Add(*ordered), tuple, (), dimension=3
+    )
+
+
+_IN_THREE = {
+    "surface": _spheres("surface", sympy.S.One, False),
+    "bulk": _spheres("bulk", M - j, False),
+    "surface leaning": _spheres("surface leaning", sympy.S.One, True),
+    "bulk leaning": _spheres("bulk leaning", M - j, True),
+    "point": _spheres("point", sympy.S.One, False, l),
+}
+"""Loads on packings of spheres, by their names."""
+
+
 def point(across: sympy.Expr, layer: sympy.Expr) -> Load:
     """A load f_load straight down on the bead (k, l), and nothing else.
 
@@ -139,12 +162,19 @@ def leaning(ratio: sympy.Expr, load: str = "surface") -> Load:
     return replace(_LEANING[load], values=((t, value),))
 
 
-def load_of(load: str | Load) -> Load:
+def load_of(load: str | Load, dimension: int = 2) -> Load:
     """A load by its name, or as it is.
 
     Raises:
-        ObservableError: there is none of that name.
+        ObservableError: there is none of that name, or none in that dimension.
     """
+    if dimension not in (2, 3):
+        raise ObservableError(f"dimension={dimension}: 2 and 3 are allowed")
+    if dimension == 3:
+        if load not in _IN_THREE:
+            either = ", ".join(map(repr, _IN_THREE))
+            raise ObservableError(f"load={load!r}: {either} are allowed in three dimensions")
+        return _IN_THREE[load]
     if isinstance(load, Load):
         return load
     if load not in _BY_NAME:

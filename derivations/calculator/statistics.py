@@ -15,6 +15,7 @@ from .closed_form import ClosedForm
 from .loads import Load, ObservableError, geometry, load_of
 
 _CONTACTS = (sy.ForcePlus, sy.ForceMinus, sy.VerticalPlus, sy.VerticalMinus)
+_SPHERES = (sy.ForceAlong, sy.VerticalAlong)
 _ALLOWED = (*_CONTACTS, sy.DeltaNPlus, sy.DeltaNMinus, sy.DeltaX, sy.DeltaR)
 _NAMED = {
     name: symbol
@@ -32,22 +33,19 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int) -> sympy.Expr:
     """The average of an observable over ``count`` neighbours in a layer, two columns apart each.
 
     Raises:
-        ObservableError: it belongs to no bead.
+        ObservableError: no index says where across the packing it is.
     """
-    quantities = observable.atoms(sy.SiteFunction)
-    if not quantities:
-        raise ObservableError(f"mean_over: {text(observable)} belongs to no bead")
-    spare = (s for s in (sy.n, sy.m) if s not in observable.free_symbols)
-    taken = {limit[0] for one in observable.atoms(sympy.Sum) for limit in one.limits}
-    index = next((s for s in spare if s not in taken), None)
-    if index is None:
-        raise ObservableError("mean_over: averages of averages of averages are not read")
-    moved = {one: one.func(one.args[0] + 2 * index, one.args[1]) for one in quantities}
-    return sympy.Sum(observable.xreplace(moved), (index, 0, count - 1)) / count
+    places = [one.args[0] for one in observable.atoms(sy.SiteFunction)]
+    indices = [s for s in (sy.i, sy.site_r) if any(one.has(s) for one in places)]
+    if not indices or not all(one.has(*indices) for one in places):
+        raise ObservableError(
+            f"mean_over({text(observable)}): name the place across the packing by the index i"
+        )
+    return sy.MeanOver(observable, count, *indices)
 
 
 def variance(
-    observable: sympy.Expr, *, load: str | Load = "surface", relative: bool = True
+    observable: sympy.Expr, *, load: str | Load = "surface", relative: bool = True, dimension: int = 2
 ) -> ClosedForm:
     """The exact variance of an observable that is linear in the radii.
 
@@ -62,18 +60,19 @@ def variance(
         load: "surface", "bulk", ``point(k, l)`` or ``leaning(t)``.
         relative: whether forces are relative to the ordered force of their own contact, vertical
             forces on beads to the load, and lengths to r.
+        dimension: 3 for contact forces of spheres, ``f_along(axis, x, y, z)``.
 
     Raises:
         ObservableError: it is not linear, not given by the radii, or holds a foreign symbol.
     """
-    return _closed(sy.Variance, [observable], load, relative)
+    return _closed(sy.Variance, [observable], load, relative, dimension)
 
 
 def covariance(
-    one: sympy.Expr, other: sympy.Expr, *, load: str | Load = "surface", relative: bool = True
+    one: sympy.Expr, other: sympy.Expr, *, load: str | Load = "surface", relative: bool = True, dimension: int = 2
 ) -> ClosedForm:
     """The exact covariance of two observables; arguments and errors are those of ``variance``."""
-    return _closed(sy.Covariance, [one, other], load, relative)
+    return _closed(sy.Covariance, [one, other], load, relative, dimension)
 
 
 def mean(
@@ -82,6 +81,7 @@ def mean(
     order: int = 1,
     load: str | Load = "surface",
     relative: bool = True,
+    dimension: int = 2,
 ) -> ClosedForm:
     """The mean of an observable, or the shift of its mean to second order.
 
@@ -96,23 +96,27 @@ def mean(
     """
     if order not in (1, 2):
         raise ObservableError(f"order={order}: 1 and 2 are allowed")
-    return _closed(sy.Mean if order == 1 else sy.Shift, [observable], load, relative)
+    return _closed(sy.Mean if order == 1 else sy.Shift, [observable], load, relative, dimension)
 
 
 def _closed(
-    kind: type[sy.Moment], observables: Iterable[sympy.Expr], load: str | Load, relative: bool
+    kind: type[sy.Moment],
+    observables: Iterable[sympy.Expr],
+    load: str | Load,
+    relative: bool,
+    dimension: int,
 ) -> ClosedForm:
-    known = load_of(load)
+    known = load_of(load, dimension)
     read = [_read(one) for one in observables]
     where = domain(read, known)
     meant = [one.xreplace(_scales(one, known)) for one in read] if relative else read
     meant = [one.xreplace(dict(known.values)) for one in meant]
-    facts = (*geometry(), *(known.theorems() if where.loading else ()))
+    facts = (*geometry(), *(known.theorems() if where.loading else ())) if dimension == 2 else ()
     try:
         form = statistics.ClosedForm.of(kind(*meant), where, facts)
     except (NotExactError, NotProvedError) as reason:
         raise ObservableError(f"{text(kind(*read))}: {reason}") from None
-    equations = (3, 4, 5, *(known.equations if where.loading else ()))
+    equations = (3, 4, 5, *(known.equations if where.loading else ())) if facts else ()
     return ClosedForm(kind(*read), form, where, equations)
 
 
@@ -139,44 +143,55 @@ def _read(observable: sympy.Expr) -> sympy.Expr:
 
 def domain(observables: Iterable[sympy.Expr], load: Load) -> Where:
     """Where all contacts and beads that are named exist."""
-    quantities: set[sy.SiteFunction] = set()
+    quantities: set[sympy.Expr] = set()
     relations: list[sympy.Basic] = []
     for one in observables:
-        quantities |= one.atoms(sy.SiteFunction)
-        for series in one.atoms(sympy.Sum):
-            relations.append(sympy.Ge(series.limits[0][2], 0, evaluate=False))
-    forces = any(isinstance(one, _CONTACTS) for one in quantities)
+        quantities |= one.atoms(sy.SiteFunction, *_SPHERES)
+        for average in one.atoms(sy.MeanOver):
+            relations.append(sympy.Ge(average.args[1], 1, evaluate=False))
+    forces = any(isinstance(one, (*_CONTACTS, *_SPHERES)) for one in quantities)
     even = []
     for one in by_name(quantities):
-        across, layer = one.args
-        even.append(across + layer)
+        layer = _layer(one)
+        if isinstance(one, sy.SiteFunction):
+            even.append(sympy.Add(*one.args))
         relations.append(sympy.Ge(layer, 0, evaluate=False))
         if forces:
             is_bead = isinstance(one, sy.DeltaX | sy.DeltaR)
             last = load.top if is_bead else load.top - 1
             relations.append(sympy.Le(layer, last, evaluate=False))
     relations = [one for one in dict.fromkeys(relations) if one.free_symbols]
-    held = set().union(*(one.free_symbols for one in (*relations, *even)))
-    bound = {series.limits[0][0] for one in observables for series in one.atoms(sympy.Sum)}
+    held = set().union(*(one.free_symbols for one in (*relations, *even, *observables)))
     if forces:
         held |= set().union(*(one.free_symbols for one in load.loading.place))
-        even += [across + layer for across, layer in ((sy.k, sy.l),) if {across, layer} <= held]
-    held = (held | set().union(*(one.free_symbols for one in observables))) - bound
-    even = [sympy.expand(one.xreplace({s: 0 * s for s in bound})) for one in even]
+        even += [sy.k + sy.l] if {sy.k, sy.l} <= held else []
     indices = tuple(symbol for symbol in sy.INDICES if symbol in held)
-    loading = load.loading if forces else None
-    return Where(indices, tuple(relations), loading, tuple(dict.fromkeys(even)))
+    return Where(
+        indices,
+        tuple(relations),
+        load.loading if forces else None,
+        tuple(dict.fromkeys(even)),
+        dimension=load.dimension,
+    )
+
+
+def _layer(quantity: sympy.Expr) -> sympy.Expr:
+    if isinstance(quantity, _SPHERES):
+        return sympy.Add(*quantity.args[1:])
+    return quantity.args[1]
 
 
 def _scales(observable: sympy.Expr, load: Load) -> dict[sympy.Expr, sympy.Expr]:
     """Every quantity over what it is compared with."""
     scales = {}
-    for one in observable.atoms(sy.SiteFunction):
-        layer = one.args[1]
-        if isinstance(one, sy.ForcePlus | sy.ForceMinus):
-            unit = load.ordered[0 if isinstance(one, sy.ForcePlus) else 1].xreplace({sy.j: layer})
-        elif isinstance(one, _CONTACTS):
-            unit = load.unit.xreplace({sy.j: layer})
+    for one in observable.atoms(sy.SiteFunction, *_SPHERES):
+        at = {sy.j: _layer(one)}
+        if isinstance(one, sy.VerticalPlus | sy.VerticalMinus | sy.VerticalAlong):
+            unit = load.unit.xreplace(at)
+        elif isinstance(one, sy.ForceAlong):
+            unit = load.ordered[int(one.args[0]) - 1].xreplace(at)
+        elif isinstance(one, sy.ForcePlus | sy.ForceMinus):
+            unit = load.ordered[0 if isinstance(one, sy.ForcePlus) else 1].xreplace(at)
         elif isinstance(one, sy.DeltaX | sy.DeltaR):
             unit = sy.r
         else:

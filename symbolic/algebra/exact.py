@@ -168,12 +168,13 @@ class RationalFunction:
             return self
         if self.denominator == other.denominator:
             return self._same(self.numerator + other.numerator, self.denominator)
-        for one, scale in ((self, other), (other, self)):
-            _refuse_more_terms(_terms_of_product(one.numerator, scale.denominator))
-        _refuse_more_terms(_terms_of_product(self.denominator, other.denominator))
+        common = self.denominator.gcd(other.denominator)
+        own, theirs = self.denominator / common, other.denominator / common
+        for numerator, scale in ((self.numerator, theirs), (other.numerator, own)):
+            _refuse_more_terms(_terms_of_product(numerator, scale))
+        _refuse_more_terms(_terms_of_product(self.denominator, theirs))
         return self._same(
-            self.numerator * other.denominator + other.numerator * self.denominator,
-            self.denominator * other.denominator,
+            self.numerator * theirs + other.numerator * own, self.denominator * theirs
         )
 
     def __neg__(self) -> Self:

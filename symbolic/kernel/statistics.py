@@ -12,7 +12,7 @@ from functools import cached_property, lru_cache
 
 import sympy
 
-from .. import sets
+from .. import sets, spheres
 from .. import symbols as sy
 from ..algebra.exact import FIELD, SOURCE, NotExactError, RationalFunction
 from ..as_printed import equation
@@ -24,9 +24,26 @@ from ..weights import Weights
 from .decisions import Ruling, proved, refuted, undecided
 from .rules import Rule
 from .theorem import NotProvedError, Theorem, check, made
-from .where import Where
+from .where import Loading, Where
 
 _SQUARE = FIELD.generator(sy.sigma) ** 2
+_PLANE = 2
+
+
+_SPHERES = "each bead rests on three others, and "
+_DIRECTION = "a load along the sum of the base vectors"
+_LEANS = "a load −Σ_a L^a n^a, L^2 = t_2 L^1, L^3 = t_3 L^1"
+SPHERES = {
+    name: Loading(name, _SPHERES + words, place)
+    for name, words, place in (
+        ("surface", f"each bead of the surface carries {_DIRECTION}", (sy.M,)),
+        ("bulk", f"each bead above the base carries {_DIRECTION}", (sy.M,)),
+        ("surface leaning", f"each bead of the surface carries {_LEANS}", (sy.M,)),
+        ("bulk leaning", f"each bead above the base carries {_LEANS}", (sy.M,)),
+        ("point", f"bead (0, 0, l) alone carries {_DIRECTION}", (sy.l,)),
+    )
+}
+"""The loads on packings of spheres. What forces are in the radii is part of what is trusted."""
 
 
 # what theorems say of quantities
@@ -89,9 +106,11 @@ class Statistics(Reader):
 
     Attributes:
         facts: the theorems that give quantities in the radii.
+        spheres: the load in three dimensions.
     """
 
     facts: tuple[Theorem, ...] = ()
+    spheres: Loading | None = None
 
     @classmethod
     def on(cls, where: Where, facts: Iterable[Theorem]) -> "Statistics":
@@ -105,7 +124,10 @@ class Statistics(Reader):
             same = one.where.loading in (None, where.loading)
             if one.where.dimension != where.dimension or one.where.limit or not same:
                 raise NotProvedError(f"{text(one.solved[0])} is known of other packings or loads")
-        empty = cls(sets.EVERYTHING, Straightening.of(where.even), facts=facts)
+        load = None if where.dimension == _PLANE else where.loading
+        if load and load not in SPHERES.values():
+            raise NotProvedError(f"forces under {load.name} are not known in three dimensions")
+        empty = cls(sets.EVERYTHING, Straightening.of(where.even), facts=facts, spheres=load)
         return empty.within(*where.relations)  # type: ignore[return-value]
 
     def read(self, expression: sympy.Expr) -> Value:
@@ -127,13 +149,15 @@ class Statistics(Reader):
         if isinstance(moment, sy.Mean):
             return forms[0].parts.get(NUMBER, Weights())
         if isinstance(moment, sy.Variance | sy.Covariance):
-            return covariance(forms[0], forms[-1]).scaled(_SQUARE)
+            dimension = 3 if self.spheres else _PLANE
+            return covariance(forms[0], forms[-1], dimension).scaled(_SQUARE)
         raise NotExactError(f"{text(moment)} is not worked out")
 
     def _in_radii(self, expression: sympy.Expr, kind: type[Form]) -> Form:
-        reader = Reader(
-            self.points, self.straight, _known(self.facts, kind), kind, linear=kind is Form
-        )
+        if self.spheres and kind is not Form:
+            raise NotExactError("means to second order are not known in three dimensions")
+        known = spheres.known(self.spheres.name) if self.spheres else _known(self.facts, kind)
+        reader = Reader(self.points, self.straight, known, kind, linear=kind is Form)
         form = reader.number(expression).on(self.points).merged()
         if strange := {*form.parts} - {NUMBER, RADII, SHIFT}:
             raise NotExactError(f"{min(strange)} is not given by the radii")
