@@ -94,7 +94,7 @@ class _Blocks:
                     f"{block.first or block.stop} or {block.stop}, or give another name"
                 )
         if store is not None:
-            store.begin(size, self._all)
+            store.begin(size)
         ends = () if store is None else store.about.ends
         last = max([size, *(block.stop for block in self._all)])
         # Where ranges begin and end that are looked at, or were asked for: none lies across.

@@ -5,7 +5,7 @@ import random
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -341,7 +341,7 @@ def test_a_block_is_written_once() -> None:
         def blocks(self, m: Measurement) -> list[Block]:
             return []
 
-        def begin(self, end: int, blocks: Sequence[Block]) -> None:
+        def begin(self, end: int) -> None:
             pass
 
         def put(self, block: Block) -> None:
