@@ -22,6 +22,11 @@ import force_diffusion as fd
 
 Array = np.ndarray[Any, Any]
 
+ROUNDING = 1e-9
+"""Of gaps. Of 3000 drawn packings the worst was 1e-14. Where a bead lies a height h above the line
+of its supports rounding is enlarged by 1/h, and such are drawn with a chance of order h²: that one
+is off by 1e-9 has a chance below 1e-13."""
+
 
 def scene(delta: Array, spacing: float, quantity: str = "positions") -> fd.Scene:
     """Beads of radius 1 + ``delta``, (M + 1, W) discs or (M + 1, W, W) spheres."""
@@ -82,12 +87,12 @@ def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> Array:
 def agree(made: Plan, delta: Array, spacing: float) -> None:
     positions = run(plan(scene(delta, spacing)))
     gaps = every_gap(delta, spacing, positions)
-    assume(np.abs(gaps).min() > 1e-11)  # whether these overlap the centres' rounding hides
+    assume(np.abs(gaps).min() > ROUNDING)  # whether smaller ones overlap rounding may hide
     physical = run(made).physical
     assert physical is not None
     assert physical.overlaps == (gaps < 0).sum()
     assert physical.undecided_gaps == 0
-    assert physical.smallest_gap == pytest.approx(gaps.min(), abs=1e-11)
+    assert physical.smallest_gap == pytest.approx(gaps.min(), abs=ROUNDING)
     assert physical.sound == (gaps.min() > 0 and not physical.tensile)
 
 
