@@ -18,6 +18,7 @@ from force_diffusion.numeric.lattice.branch import Branch, Contact, per_directio
 from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
 from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
 from force_diffusion.numeric.mechanics import engine, physicality, sweep
+from force_diffusion.numeric.mechanics.engine import worth_compiling
 from force_diffusion.numeric.mechanics.problem import Solved
 from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
 from force_diffusion.numeric.mechanics.work import Work
@@ -284,6 +285,7 @@ def test_small_packings_load_the_compiler_once_they_were_many(
     monkeypatch: pytest.MonkeyPatch, carried: bool
 ) -> None:
     plan = planned(basic(8, 16, quantity="contact_forces"))
+    monkeypatch.setattr(engine, "worth_compiling", worth_compiling)
     monkeypatch.setattr(kernels, "LOADED", set())
     monkeypatch.setattr(engine, "_by_numpy", Counter())
     once = engine._work(plan.problem.region, 1, 1, carried=carried)
