@@ -1,11 +1,10 @@
 """Time and memory over the number of beads of one packing, and over the number of packings.
 
-Run with ``python benchmarks/scale.py`` (needs the extra ``fast``; ``--most 9 --packings 6`` goes to
-10⁹ beads and 10⁶ packings, which takes minutes; ``--figure scale.png`` draws the table, which needs
-the extra ``plots``).
+Run with ``python benchmarks/scale.py`` (needs the extra ``fast``; ``--packings 6`` goes to 10⁶
+packings, which takes minutes; ``--figure scale.png`` draws the table, which needs the extra
+``plots``).
 Each line is a process of its own: seconds are of the processor, estimating the error included;
-memory is that process's most, the interpreter included. Packings of more than ``--memory`` bytes
-are swept by segments.
+memory is that process's most, the interpreter included.
 """
 
 import argparse
@@ -16,8 +15,6 @@ import sys
 from pathlib import Path
 from time import process_time
 from typing import Any
-
-from force_diffusion.numeric.planning.planner import plan
 
 import force_diffusion as fd
 
@@ -35,19 +32,18 @@ def scene(height: int, width: int) -> fd.Scene:
     )
 
 
-def measured(what: str, power: int, memory: int) -> dict[str, Any]:
+def measured(what: str, power: int) -> dict[str, Any]:
     """Solve one packing of 10^power beads, or so many packings; after a small one of its kind."""
     size = 10**power
     if what == "beads":
         width = round(size**0.5) + 1
-        planned = plan(scene(size // width - 1, width), memory_limit=memory)
+        planned = scene(size // width - 1, width).explain()
         beads, start = planned.problem.region.beads, process_time()
-        fd.run(planned)  # and a second time, or of a narrow one, to estimate the error
+        fd.run(planned)
         seconds = process_time() - start
-        way = "segments" if planned.problem.segment else "in memory"
     else:
         fd.ensemble(scene(HEIGHT, WIDTH), 300)  # loads the compiled loops
-        beads, start, way = (HEIGHT + 1) * WIDTH * size, process_time(), "ensemble"
+        beads, start = (HEIGHT + 1) * WIDTH * size, process_time()
         fd.ensemble(scene(HEIGHT, WIDTH), size)
         seconds = process_time() - start
     most = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
@@ -57,7 +53,6 @@ def measured(what: str, power: int, memory: int) -> dict[str, Any]:
         "beads": beads,
         "seconds": seconds,
         "bytes": most,
-        "way": way,
     }
 
 
@@ -94,27 +89,24 @@ def main() -> int:
     """Measure each size in a process of its own, and print the table."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--most", type=int, default=BEADS[-1], help="power of ten of the beads")
-    parser.add_argument("--memory", type=int, default=2 * 10**9, help="bytes that may be used")
     parser.add_argument("--packings", type=int, default=PACKINGS[-1], help="likewise, of packings")
     parser.add_argument("--figure", type=Path, metavar="FILE.png")
     parser.add_argument("--one", nargs=2, help=argparse.SUPPRESS)
     options = parser.parse_args()
     if options.one:
-        print(json.dumps(measured(options.one[0], int(options.one[1]), options.memory)))
+        print(json.dumps(measured(options.one[0], int(options.one[1]))))
         return 0
     sizes = [("beads", power) for power in range(BEADS[0], options.most + 1)]
     sizes += [("packings", power) for power in range(PACKINGS[0], options.packings + 1)]
-    print("| size | way | seconds | ns per bead | memory |\n|---|---|---:|---:|---:|")
+    print("| size | seconds | ns per bead | memory |\n|---|---:|---:|---:|")
     found = []
     for what, power in sizes:
-        command = [sys.executable, __file__, "--memory", str(options.memory)]
-        done = subprocess.run(
-            [*command, "--one", what, str(power)], check=True, capture_output=True, text=True
-        )
+        command = [sys.executable, __file__, "--one", what, str(power)]
+        done = subprocess.run(command, check=True, capture_output=True, text=True)
         one = json.loads(done.stdout)
         each = 1e9 * one["seconds"] / one["beads"]
         print(
-            f"| 10^{power} {what} | {one['way']} | {one['seconds']:.3g} | {each:.3g} | "
+            f"| 10^{power} {what} | {one['seconds']:.3g} | {each:.3g} | "
             f"{one['bytes'] / 1e6:.0f} MB |",
             flush=True,
         )

@@ -27,7 +27,6 @@ from .arithmetic.systems import (
     largest_of,
     midpoint,
 )
-from .mechanics.kept import Kept
 from .mechanics.sweep import NotStandingError
 from .mechanics.work import ESTIMATE, Work
 from .planning.plan import CERTIFY, Plan
@@ -154,18 +153,15 @@ def _least_tolerance(height: int) -> str:
     return f"1e-{int(digits * 0.30102)}"
 
 
-def repeated(plan: Plan, work: Work, kept: Kept | None = None) -> tuple[Answer, Accuracy]:
-    """Answer, and say how large the error is: as sweeps carried it, or a repeat measured it.
-
-    ``kept``: what an earlier run has kept of a sweep by segments.
-    """
+def repeated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
+    """Answer, and say how large the error is: as sweeps carried it, or a repeat measured it."""
     quantity, problem, method = plan.quantity, plan.problem, plan.method
     longer = method.longer
     assert longer is not None
     few = range(method.repeated)
     if method.carries and len(few) >= problem.realisations:
         beside = longer if plan.system is FLOAT64 else None
-        found = answer(quantity, problem, few, plan.system, work, longer=beside, kept=kept)
+        found = answer(quantity, problem, few, plan.system, work, longer=beside)
         with longer.active():
             return found, of_carried(found, plan)
     found = answer(quantity, problem, range(problem.realisations), plan.system, work)

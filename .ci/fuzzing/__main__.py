@@ -50,7 +50,6 @@ def kinds(whole: Path) -> dict[str, tuple[int, Case]]:
         "NumPy files": (7, files.array),
         "tables": (8, files.table),
         "packings": (7, files.packings),
-        "checkpoints": (6, answers.of_checkpoint),
         "compared with balls": (9, answers.of_balls),
         "arrays, compared with balls": (6, answers.of_radii),
         "threads": (4, answers.of_threads),

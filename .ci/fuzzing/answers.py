@@ -1,4 +1,4 @@
-"""Answers that are judged by other answers: of balls, of threads, of a run gone on with, of files.
+"""Answers that are judged by other answers: of balls, of threads, of files.
 
 Each gives the exit status that its question has, and what was wrong with the answer, or nothing.
 """
@@ -8,9 +8,7 @@ import io
 import json
 import math
 import sys
-from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from random import Random
@@ -23,10 +21,6 @@ from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.decimals import short
 from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT
 from force_diffusion.numeric.arithmetic.systems import as_ball, midpoint
-from force_diffusion.numeric.planning import memory
-from force_diffusion.numeric.planning.plan import Plan
-from force_diffusion.numeric.run import checkpoint
-from force_diffusion.numeric.run.checkpoint import CheckpointError
 from force_diffusion.numeric.tables import strings
 from pyarrow import parquet
 
@@ -180,92 +174,6 @@ def of_threads(random: Random, folder: Path) -> Judged:
         sys.setswitchinterval(before)
     differ = [one for one in several if one != alone]
     return alone[0], f"alone {alone}\nand in threads {differ[0]}"[:2500] if differ else ""
-
-
-def of_checkpoint(random: Random, folder: Path) -> Judged:
-    """Stop a run, damage what it keeps or not, and go on: the same bits, or words."""
-    path, other = folder / "kept", folder / "other"
-    try:
-        made = _by_segments(random)
-        usual = fd.run(made)
-        fd.run(_by_segments(random), checkpoint=other)
-    except fd.ForceDiffusionError as error:
-        return _refused(error)
-    _stopped(random, made, path)
-    if not path.is_file():
-        return 0, "an interrupted run kept nothing"
-    own = path.read_bytes()
-    content = own if random.random() < 0.4 else _damaged(random, own, other.read_bytes())
-    path.write_bytes(content)
-    if random.random() < 0.1:
-        (folder / "kept.part").write_bytes(_damaged(random, own, b""))
-    try:
-        again = fd.run(made, checkpoint=path)
-    except CheckpointError as error:
-        if content == own and "kept.part" not in str(error):
-            return 0, f"its own checkpoint was refused: {error}"
-        kept = "" if path.read_bytes() == content else "a refused checkpoint was changed"
-        return error.exit_status, kept or _refused(error)[1]
-    for name, column in usual.arrays.items():
-        if column.tobytes() != again.arrays[name].tobytes():
-            return 0, f"gone on with, {name} is another"
-    return 0, "" if content == own else "a damaged checkpoint was taken"
-
-
-def _by_segments(random: Random) -> Plan:
-    """Plan a tiny packing as if the memory did not hold it."""
-    while True:
-        sections = questions.tiny(random)
-        sections["effects"], height = {}, random.randrange(4, 9)
-        if sections["ask"].pop("realisations", 0) or sections["packing"].get("dimension"):
-            continue
-        sections["packing"] |= {"height": height, "width": height + random.randrange(1, 4)}
-        sections["load"] = {"kind": random.choice(["surface", "bulk"])}
-        if sections["ask"]["quantity"] in {"contact", "response"}:
-            continue
-        path = Path("segments.toml")
-        path.write_text(questions.toml(sections), encoding="utf-8")
-        made = fd.read_scene(path).explain()
-        cut = memory.by_segments(made.problem, made.method, made.scene, None)
-        if cut is not None:
-            layers = random.choice([2, 4, 6])
-            return replace(
-                made, problem=replace(cut[0], segment=layers, every=random.choice([1, 2]))
-            )
-
-
-def _stopped(random: Random, made: Plan, path: Path) -> None:
-    """Run it until it is interrupted, or to its end; it is kept whenever it can be."""
-    left = random.choice([1, 5, 20, 10**6])
-
-    def stop(kind: str, beads: int) -> None:
-        nonlocal left
-        left -= 1
-        if not left:
-            raise KeyboardInterrupt
-
-    usual, checkpoint.OFTEN = checkpoint.OFTEN, 0
-    try:
-        fd.run(made, stop, checkpoint=path)
-    except KeyboardInterrupt:
-        pass
-    finally:
-        checkpoint.OFTEN = usual
-
-
-def _damaged(random: Random, own: bytes, other: bytes) -> bytes:
-    at = random.randrange(len(own))
-    kinds: list[Callable[[], bytes]] = [
-        lambda: own[:at] + bytes([own[at] ^ 1 << random.randrange(8)]) + own[at + 1 :],
-        lambda: own[:at] + random.randbytes(random.choice([1, 8])) + own[at:],
-        lambda: own[:at],
-        lambda: own[at:],
-        lambda: other[:at] + own[at:],
-        lambda: own[:at] + other[at:],
-        lambda: own + other,
-        lambda: other,
-    ]
-    return random.choice(kinds)()
 
 
 def of_files(random: Random, folder: Path) -> Judged:

@@ -95,7 +95,6 @@ def _options(random: Random, command: str) -> list[str]:
             ["--set", f"{key}={value}"],
             ["--set", f"{key}={value}", "--set", "disorder.seed=3", "--json"],
             ["--set", f"{random.choice(questions.KEYS)}={value}"],
-            ["--checkpoint", random.choice(["kept", ".", "/dev/null", "scene.toml"])],
         ],
         "ensemble": [
             [],

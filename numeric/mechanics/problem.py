@@ -37,9 +37,8 @@ class Problem:
     where only positions are asked for. ``contact`` or ``site``: the one that is asked for, if it is
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
     ``protocol``: how beads come to rest where contacts are unilateral, and when that is given up:
-    after ``most_events``, or ``most_seconds`` of the processor. ``segment``: how many layers are in
-    memory at a time, 0 for all of them; a layer is kept below each ``every``-th of these parts. In
-    three dimensions layers of W² beads count as one row.
+    after ``most_events``, or ``most_seconds`` of the processor. In three dimensions layers of W²
+    beads count as one row.
     """
 
     n_x: Fraction
@@ -56,18 +55,11 @@ class Problem:
     protocol: str = ""
     most_events: int | None = None
     most_seconds: Fraction | None = None
-    segment: int = 0
-    every: int = 1
 
     @property
     def dimension(self) -> int:
         """2 for discs, 3 for spheres."""
         return self.region.dimension
-
-    @property
-    def segments(self) -> int:
-        """In how many parts a packing is swept, one below the other; 1 for all in memory."""
-        return max(1, -(-self.region.top // self.segment)) if self.segment else 1
 
     @property
     def side(self) -> int:

@@ -136,15 +136,14 @@ def deposit(
     system: NumberSystem,
     work: Work | None = None,
     *,
-    on: tuple[Any, ...] | None = None,
     linear: bool = False,
 ) -> SolvedPacking:
     """Deposit beads layer by layer on the ordered base; to first order only if ``linear``.
 
     ``phi`` is the dot product of any two base vectors.
     ``rho[j]`` holds δr/r of the beads of ``region.rows[j]`` (shape (count,), or (…, count) for a
-    batch of packings). ``on`` holds c of the lowest row, if it is not the ordered base. The caller
-    activates ``system``. Raises ``UnbuildableError``, naming the bead, where a radius is not
+    batch of packings). The caller activates ``system``. Raises ``UnbuildableError``, naming the
+    bead, where a radius is not
     positive (or no number) or the supports are too far apart or too steep, and ``UndecidedError``
     where balls are too wide to tell.
     """
@@ -153,7 +152,7 @@ def deposit(
     nothing = zeros(system, 0)
     base = zeros(system, *_shape(rho[0]))
     down = [region.step(a, -1) for a in range(d)]
-    c: list[tuple[Any, ...]] = [(base,) * d if on is None else tuple(on)]
+    c: list[tuple[Any, ...]] = [(base,) * d]
     dn: list[tuple[tuple[Any, ...], ...]] = [((nothing,) * d,) * d]
     layers = tuple(region.rows)
     for j, layer in enumerate(layers):

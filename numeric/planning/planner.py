@@ -18,7 +18,6 @@ from time import monotonic
 
 from ..arithmetic.carried import LONGER, PAIRS, Pairs
 from ..arithmetic.decimals import short
-from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import memory_limit as free_memory
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import Monodisperse, Radii
@@ -30,7 +29,7 @@ from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 from ..theory.expected import critical_height
-from .memory import COMPILED, TooLargeError, divided, memory, refuse_beads, refuse_memory, size
+from .memory import COMPILED, TooLargeError, fitting, memory, refuse_beads, refuse_memory
 from .plan import ALGORITHMS, Candidate, Choice, Method, Plan, Skipped
 from .sources import load_of, radii_of, refuse_beyond_floats
 
@@ -73,17 +72,14 @@ def plan(
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
     limit = _free(int(monotonic()), free_memory) if memory_limit is None else memory_limit
-    try:
+
+    def planned(scene: Scene) -> Plan:
         return _plan(scene, tolerance, limit, system, certified=certified, text=text)
+
+    try:
+        return planned(scene)
     except TooLargeError as refused:
-        if tolerance is None or certified:
-            raise
-        try:
-            free = _plan(scene, None, limit, system, certified=False, text=text)
-        except ForceDiffusionError:
-            raise refused from None
-        takes = f"about {size(free.memory)}"
-        said = f"{refused.allowed}; without the tolerance it would take {takes}"
+        said = f"{refused.allowed}{fitting(scene, planned)}"
         raise TooLargeError(refused.key, refused.value, said) from None
 
 
@@ -152,7 +148,7 @@ class _Asked:
         beads = 5 * scene.packing.height if self.single else quantity.most_beads()
         if self.ordered and scene.packing.dimension == 2:
             beads = 0
-        refuse_beads(quantity, beads, self.tolerance, self.limit, text=self.text)
+        refuse_beads(quantity, beads, self.limit, text=self.text)
         load = load_of(scene)
         if not quantity.needs_forces:
             if "load" in scene.model_fields_set:
@@ -225,13 +221,10 @@ class _Asked:
         quantity, problem, scene = self.quantity, self.problem, self.scene
         if method.carries or method.system.dtype is not object:
             refuse_beyond_floats(scene, problem.radii, problem.load)
-        problem, needed, because = divided(
-            quantity, problem, method.system, self.tolerance, self._memory(method), self.limit,
-            text=self.text,
-        )  # fmt: skip
+        needed = self._memory(method)
         refuse_memory(scene, needed, self.limit)
         skipped = tuple(Skipped(*one) for one in self.skipped.items())
-        return Plan(scene, quantity, problem, self.tolerance, method, skipped, needed, because)
+        return Plan(scene, quantity, problem, self.tolerance, method, skipped, needed)
 
     def choose(self, tolerance: Fraction, *, certified: bool) -> Plan:
         """Give the plan of the first method that should do, with all that were looked at.

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Protocol
 
 import numpy as np
 
@@ -12,16 +11,12 @@ from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.engine import chunk_size, packings
-from ..mechanics.kept import Kept
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import ESTIMATE, Work
-from ..statistics.bins import counted, edges_between
 from ..unilateral import Network, Relaxed, UnfinishedError
 from .base import RATIO, Quantity, Table
-from .histogram import Histogram
-from .parts import Part, joined
 
 # What the sweeps raise for a packing that can't be built.
 UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
@@ -58,62 +53,31 @@ def answer(
     *,
     plainly: bool = False,
     longer: NumberSystem | None = None,
-    kept: Kept | None = None,
 ) -> Answer:
     """Answer a question for some realisations; ``plainly`` solves them in the plain form.
 
-    With a ``longer`` arithmetic, ``system`` is float64 and numbers carry their errors. What is
-    ``kept`` of a sweep by segments may be that of an earlier run.
+    With a ``longer`` arithmetic, ``system`` is float64 and numbers carry their errors.
 
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     work = Work() if work is None else work
     work.uses(system.name)
     asked = _Asked(quantity, problem, realisations, system, work, longer)
-    counts = problem.segments > 1 and isinstance(quantity, Histogram) and not quantity.single
     networks: list[Network] = []
     with system.active(), asked.own.active():
-        sweep: Sweep = _Whole(asked, plainly, networks)
-        if problem.segment:
-            from ..mechanics.segments import Segments
-
-            (realisation,) = realisations
-            store = Kept() if kept is None else kept
-            sweep = Segments(problem, realisation, work, store, again=counts)
-        part = _swept(asked, sweep, kept, counts=counts)
-        table = named(quantity, part.table)
-        again = None if part.exact is None else named(quantity, part.exact)
-        bins: Bins | None = None
-        if counts:
-            bins = _counted(asked, sweep, store, table)
-        elif not work.repeating:
-            bins = quantity.bins_of(table, system)
+        found = asked.gathered(plainly, networks)
+        table, exact = found.table, found.exact
+        bins = None if work.repeating else quantity.bins_of(table, system)
+    physical, stopped = found.physical, found.stopped
     if problem.route == Route.ORDERED:
         table, bins = _of_all(quantity.scene.ask.realisations, table, bins)
-    physical, stopped = part.physical, part.stopped
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = at_home(quantity, physical.first_tensile)
     stopped = None if stopped is None else at_home(quantity, stopped)
-    return Answer(table, bins, physical, stopped, tuple(networks), again, part.sizes, part.left)
+    return Answer(table, bins, physical, stopped, tuple(networks), exact, found.sizes, found.left)
 
 
 Packings = Iterator[tuple[Solved, Sequence[int]]]
-
-
-class Sweep(Protocol):
-    """Solves packings part by part, the highest first; a small one is a single part."""
-
-    def up(self, highest: int) -> None:
-        """Make ready for the parts up to the ``highest`` that is needed."""
-
-    def layers_of(self, number: int) -> range:
-        """Give the layers that a part answers for."""
-
-    def packings(self, number: int, physical: Physicality | None) -> Packings:
-        """Solve a part of each packing; ``physical`` looks at it."""
-
-    def leave(self, number: int) -> None:
-        """Forget what only that part needed."""
 
 
 @dataclass(frozen=True)
@@ -137,17 +101,17 @@ class _Asked:
         """The arithmetic of the sweep."""
         return FLOAT64 if self.carried else self.system
 
-    def gathered(self, sweep: Sweep, number: int, *, look: bool) -> Part:
-        """Gather the rows of a part, and ``look`` whether it is physical, if it is exact."""
+    def gathered(self, plainly: bool, networks: list[Network]) -> Answer:
+        """Gather the rows, and look whether packings are physical, if they are exact."""
         quantity, system, longer = self.quantity, self.system, self.longer
-        layers, physical = sweep.layers_of(number), None
-        if look and self.problem.route == Route.EXACT and not self.work.repeating:
+        layers, physical = quantity.all_layers, None
+        if self.problem.route == Route.EXACT and not self.work.repeating:
             physical = Physicality(looks_at=self.realisations)
         gatherer = quantity.gatherer(self.problem, system)
         beside = None if longer is None else quantity.gatherer(self.problem, longer)
         stopped: Contact | AxisContact | None = None
         sizes = NONE
-        for solved, chunk in sweep.packings(number, physical):
+        for solved, chunk in self.packings(physical, plainly, networks):
             if solved.forces is not None and stopped is None:
                 stopped = solved.forces.stopped
             pairs = isinstance(system, Pairs)
@@ -156,97 +120,44 @@ class _Asked:
                 with self.work.timed(ESTIMATE):
                     beside.add(solved.longer(longer), chunk, layers)
             sizes |= solved.sizes
-        table, exact = in_units(quantity, gatherer.table().sorted(), system), None
+        table, exact = self.finished(gatherer.table(), system), None
         left = gatherer.left() if beside is not None else None
         if beside is not None and longer is not None and left is None:
             with self.work.timed(ESTIMATE):
-                exact = in_units(quantity, beside.table().sorted(), longer)
-        return Part(table, physical, exact, left, sizes, stopped)
+                exact = self.finished(beside.table(), longer)
+        return Answer(table, None, physical, stopped, (), exact, sizes, left)
 
+    def finished(self, table: Table, system: NumberSystem) -> Table:
+        """Give the rows in order, by name and in units."""
+        table = in_units(self.quantity, table.sorted(), system)
+        return table if table.index else replace(table, index=self.quantity.names)
 
-class _Whole:
-    """Whole packings, in one part; ``networks`` are collected, errors say which packing it was."""
-
-    def __init__(self, asked: _Asked, plainly: bool, networks: list[Network]) -> None:
-        self.asked, self.plainly, self.networks = asked, plainly, networks
-
-    def up(self, highest: int) -> None:
-        """There is nothing below the one part."""
-
-    def leave(self, number: int) -> None:
-        """Nothing is kept."""
-
-    def layers_of(self, number: int) -> range:
-        """All layers."""
-        return self.asked.quantity.all_layers
-
-    def packings(self, number: int, physical: Physicality | None) -> Packings:
-        """Solve them."""
-        asked, done = self.asked, 0
-        problem, realisations, work = asked.problem, asked.realisations, asked.work
+    def packings(
+        self, physical: Physicality | None, plainly: bool, networks: list[Network]
+    ) -> Packings:
+        """Solve packings, at which ``physical`` looks; errors say which packing it was."""
+        problem, realisations, work, done = self.problem, self.realisations, self.work, 0
         if problem.route == Route.UNILATERAL:
             from ..unilateral import packings as relaxed  # SciPy's solvers take 35 MB
 
-            solved_all = relaxed(problem, realisations, asked.system, work)
+            solved_all = relaxed(problem, realisations, self.system, work)
         else:
             solved_all = packings(
-                problem, realisations, asked.own, work, physical, plainly=self.plainly,
-                carried=asked.carried, copied=True,
+                problem, realisations, self.own, work, physical, plainly=plainly,
+                carried=self.carried, copied=True,
             )  # fmt: skip
         try:
             for solved, chunk in solved_all:
                 if isinstance(solved, Relaxed):
-                    self.networks.append(solved.network)
+                    networks.append(solved.network)
                 yield solved, chunk
                 done += len(chunk)
         except (*UNBUILDABLE, UnfinishedError) as error:
             if problem.route == Route.UNILATERAL and len(realisations) > 1:
                 error.add_note(f"realisation {realisations[done]}; an ensemble leaves such out")
             elif len(realisations) > 1:
-                error.add_note(_which(problem, realisations[done:], asked.own, self.plainly))
+                error.add_note(_which(problem, realisations[done:], self.own, plainly))
             raise
-
-
-def _swept(asked: _Asked, sweep: Sweep, kept: Kept | None, *, counts: bool) -> Part:
-    """Gather all parts, from the top; what ``counts`` changes has the extremes alone."""
-    parts: list[Part] = []
-    numbers = range(asked.problem.segments - 1, -1, -1)
-    known = {} if kept is None else {n: Part.of(kept, n) for n in numbers}
-    missing = [n for n in numbers if known.get(n) is None]
-    if missing:
-        sweep.up(missing[0])
-    for number in numbers:
-        part = known.pop(number, None)
-        if part is None:
-            part = asked.gathered(sweep, number, look=True)
-            if kept is not None or len(numbers) > 1:
-                part = part.measured()
-            part = part.extremes() if counts else part
-            if kept is not None:
-                part.keep(kept, number)
-            sweep.leave(number)
-        parts.insert(0, part)
-    found = parts[0] if len(parts) == 1 else joined(parts)
-    return found.extremes() if counts else found
-
-
-def _counted(asked: _Asked, sweep: Sweep, kept: Kept, table: Table) -> Bins:
-    """Count all changes, of which the ``table`` has the extremes, on a second way down."""
-    assert isinstance(asked.quantity, Histogram)
-    if not table.rows:
-        return []
-    low, high = table.numbers["change"].tolist()
-    edges = edges_between(low, high, asked.quantity.bins)
-    count = np.zeros(len(edges) - 1)
-    for number in reversed(range(asked.problem.segments)):
-        own = kept.get(f"counts{number}")
-        if own is None:
-            part = asked.gathered(sweep, number, look=False)
-            own = counted(part.table.numbers["change"], edges)
-            kept.put(f"counts{number}", own)
-            sweep.leave(number)
-        count += own
-    return list(zip(edges[:-1], edges[1:], map(int, count), strict=True))
 
 
 def _of_all(alike: int, table: Table, bins: Bins | None) -> tuple[Table, Bins | None]:
@@ -267,11 +178,6 @@ def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
         errors = {k: v * unit for k, v in table.errors.items()}
     numbers = {k: v if k == RATIO else v * factor for k, v in table.numbers.items()}
     return Table(table.index, numbers, table.small, errors)
-
-
-def named(quantity: Quantity, table: Table) -> Table:
-    """Give the rows of a whole packing with the columns that name them."""
-    return table if table.index else replace(table, index=quantity.names)
 
 
 def at_home(quantity: Quantity, contact: Contact | AxisContact) -> Contact | AxisContact:

@@ -236,7 +236,7 @@ def test_gaps_of_touching_beads_are_told_apart() -> None:
     """At s = 2r beads of a layer touch: no gap, to the last place."""
     region, rho = spheres([np.zeros((3, 3))] * 2)
     with FLOAT64.active():
-        found = gaps(deposit(Fraction(1, 2), region, rho, FLOAT64), range(2))
+        found = gaps(deposit(Fraction(1, 2), region, rho, FLOAT64))
     assert found.smallest == 0
     # three pairs a bead, in each of two layers
     assert (found.overlaps, found.undecided) == (0, 3 * 9 * 2)
@@ -253,7 +253,7 @@ def test_the_smallest_gap_is_that_of_all_pairs_and_images(dimension: int, size: 
         rho = [size * rng.uniform(-1, 1, beads) for _ in range(height + 1)]
         with FLOAT64.active():
             packing = deposit(phi, region, rho, FLOAT64)
-        found = gaps(packing, range(height + 1))
+        found = gaps(packing)
         gram = np.full((dimension, dimension), float(phi)) + (1 - float(phi)) * np.eye(dimension)
         base = np.linalg.cholesky(gram)
         dual = np.linalg.inv(gram)
