@@ -78,7 +78,7 @@ class Raw:
 
 def tiny(random: Random) -> Sections:
     """Draw a scene that is solved in a moment, and that most commands answer."""
-    dimension = random.choice([2] * 15 + [3] * 4 + [4])
+    dimension = random.choice([2] * 15 + [3] * 5)
     spheres = dimension > 2
     height = random.randrange(1, 4 if spheres else 6)
     width = random.randrange(height + 1, 6 if spheres else 9)
@@ -105,7 +105,7 @@ def tiny(random: Random) -> Sections:
     ask: dict[str, Any] = {"quantity": random.choice(quantities)}
     found["effects"] = {}
     if ask["quantity"] == "contact":
-        branch = random.choice("1234"[:dimension] if spheres else "+-")
+        branch = random.choice("123" if spheres else "+-")
         ask["at"] = [*bead(random, height - 1, width, dimension), branch]
     elif random.random() < 0.3:
         ask["realisations"] = random.choice([2, 3])

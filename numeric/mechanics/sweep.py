@@ -1,4 +1,4 @@
-"""Packings and their forces, swept layer by layer: any dimension, any number system.
+"""Packings and their forces, swept layer by layer: discs or spheres, any number system.
 
 The beads of a row are calculated with as arrays, by the one source in ``local``. ``kernels`` runs
 the same source compiled, bit for bit. Forces are in units of the load's magnitude, loads in
@@ -57,7 +57,7 @@ def radii_named(region: Region) -> Iterator[None]:
         if region.dimension == 2:
             raise
         i, j = error.site
-        raise RadiusError(bead_of((i, j), region.side, region.dimension), error.reason) from None
+        raise RadiusError(bead_of((i, j), region.side), error.reason) from None
 
 
 @dataclass(frozen=True)

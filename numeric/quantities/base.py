@@ -74,7 +74,7 @@ class Table:
         return len(next(iter(self.numbers.values()), []))
 
     def sorted(self) -> "Table":
-        """Give the rows by realisation, j, i (or p, q, …) and branch as numbers, "+" before "-"."""
+        """Give the rows by realisation, j, i (or p, q) and branch as numbers, "+" before "-"."""
         if self.in_order:
             return self
         names = (*ORDER, "realisation")
@@ -419,15 +419,15 @@ def slope(problem: Problem, system: NumberSystem) -> Any:
 def cartesian(
     components: Sequence[Array], problem: Problem, system: NumberSystem, *, raised: bool
 ) -> tuple[Array, ...]:
-    """Give (x, y), or (x, y, …, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
+    """Give (x, y), or (x, y, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
 
-    The last is up; x is along n^1 − n^d, y along 2 n^2 − n^1 − n^d, and so on.
+    The last is up; x is along n^1 − n^d, the y of three dimensions along 2 n^2 − n^1 − n^3.
     """
     nx, up = system.scalar(problem.n_x), slope(problem, system)
     found = []
     for k, row in enumerate(level(len(components)), 1):
         along = total(v if h == 1 else h * v for h, v in zip(row, components, strict=True) if h)
-        across = along if k == 1 else along * system.root(Fraction(2, k * (k + 1)))
+        across = along if k == 1 else along * system.root(Fraction(1, 3))
         found.append(across * nx if raised else across / (2 * nx))
     rise = total(components)
     return (*found, rise * up if raised else rise / (len(components) * up))

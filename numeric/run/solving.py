@@ -14,7 +14,7 @@ import numpy as np
 from ..accuracy import Accuracy
 from ..arithmetic.named import system_of
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Axis, axis_names
+from ..lattice.branch import axis_names
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
 from ..planning.planner import plan
@@ -54,7 +54,7 @@ class Solution:
     def force(self) -> Array:
         """f^±_ij, shape (2, M, W): branch (0: "+", 1: "-"), layer j and column q of the lower bead.
 
-        Compressive forces are positive. Of spheres (3, M, W, W): axis, layer j, p and q; and so on.
+        Compressive forces are positive. Of spheres (3, M, W, W): axis, layer j, p and q.
         """
         return self._contacts("force")
 
@@ -156,10 +156,8 @@ def _named_as_here() -> Iterator[None]:
 def _dimension_of(given: GivenRadii, asked: Any) -> int:
     """Give the dimension of a packing, which shapes tell, but for that of a stack of squares."""
     shape = given.values.shape
-    most = len(Axis)
-    if asked is not None and not (isinstance(asked, Integral) and 2 <= int(asked) <= most):
-        allowed = f"must be 2, of discs, 3, of spheres, or more, at most {most}"
-        raise SceneError("dimension", asked, allowed)
+    if asked is not None and not (isinstance(asked, Integral) and int(asked) in {2, 3}):
+        raise SceneError("dimension", asked, "must be 2, of discs, or 3, of spheres")
     if asked is None and len(shape) == 3 and shape[1] == shape[2]:
         count, side = shape[:2]
         raise SceneError(
@@ -170,10 +168,7 @@ def _dimension_of(given: GivenRadii, asked: Any) -> int:
             f"of {side}",
         )
     dimension = int(asked or (3 if len(shape) == 4 else 2))
-    form = f"(layers{', W' * (dimension - 1)})"
-    beads = "discs" if dimension == 2 else "spheres"
-    if dimension > 3:
-        beads += f" in {dimension} dimensions"
+    beads, form = ("discs", "(layers, W)") if dimension == 2 else ("spheres", "(layers, W, W)")
     if len(shape) not in {dimension, dimension + 1} or len(set(shape[1 - dimension :])) > 1:
         allowed = f"shape {shape}: {beads} take {form}, with an axis before it for several packings"
         raise SceneError(given.name, None, allowed)
@@ -206,8 +201,8 @@ def solve(
             2 r < s < √(32/3) r; by default 3 r.
         load: ``SurfaceLoad()`` by default, ``BulkLoad()``, ``PointLoad(at=(k, l))`` or, of spheres,
             ``PointLoad(at=(p, q, l))``.
-        dimension: 2 for discs, 3 for spheres, or more, at most 5. By default the shape says whether
-            it is 2 or 3; an array of shape (N, W, W) could be either, and is refused without.
+        dimension: 2 for discs, 3 for spheres. By default the shape says which; an array of shape
+            (N, W, W) could be either, and is refused without.
         tolerance: error allowed, relative to the largest change; the first of float64, pairs
             and balls that meets it is taken.
         certified: with a tolerance, only a rigorous bound will do.

@@ -52,11 +52,11 @@ def either(words: tuple[str, ...]) -> str:
     return ", ".join(quoted[:-1]) + f" or {quoted[-1]}"
 
 
-_OPEN, _SPHERES, _YES, _NO = ("unilateral",), (3, 4, 5), (True,), (False,)
+_OPEN, _SPHERES, _YES, _NO = ("unilateral",), (3,), (True,), (False,)
 _PLACES = ("contact", "histogram", "positions")
 _GATHERED = ("profile", "contact", "contact_forces", "response", "histogram")
 _OF_NETWORKS = ("contact", "histogram", "profile", "response")
-_IN_THREE = "in three dimensions and more"
+_IN_THREE = "in three dimensions"
 _ENDLESS = "is required: an infinite slab has infinitely many of these"
 _IN_OPEN = 'has no meaning with contacts = "unilateral": beads move, exactly, until none pulls'
 
