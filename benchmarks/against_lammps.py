@@ -21,7 +21,7 @@ from time import perf_counter
 import numpy as np
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Array
 from force_diffusion.numeric.lattice.layers import full_layer
-from force_diffusion.numeric.mechanics import plain
+from force_diffusion.numeric.mechanics.problem import axes
 from peers import Problem, stacked
 
 MISSING = 77
@@ -67,7 +67,7 @@ def data_file(problem: Problem, stiffness: float) -> tuple[str, str]:
     contacts layer by layer from the base up, bead by bead, first to the left, then to the right.
     """
     M, W = problem.height, problem.width
-    nx, ny = (float(v) for v in plain.axes(problem.n_x, FLOAT64))
+    nx, ny = (float(v) for v in axes(problem.n_x, FLOAT64))
     rho = problem.radii()
     atoms: list[str] = []
     bonds: list[str] = []
@@ -153,7 +153,7 @@ def witnessed(problem: Problem, stiffness: float, style: str, goal: float = 1e-1
     """Compare with the sweep; the error is relative to the largest |change|."""
     found = by_lammps(problem, stiffness, style, goal)
     exact = stacked(problem.solver(LONGDOUBLE)()[1]).astype(np.float64)
-    ordered = 1 / (2 * float(plain.axes(problem.n_x, FLOAT64)[1]))
+    ordered = 1 / (2 * float(axes(problem.n_x, FLOAT64)[1]))
     off = found.forces - ordered - exact
     return replace(found, error=float(np.abs(off).max() / np.abs(exact).max()))
 

@@ -31,16 +31,6 @@ def _sweep(height: int, width: int, bits: int | None = None) -> Work:
     return Problem(height, width).solver(FLOAT64 if bits is None else Balls(bits))
 
 
-def _plain_form() -> Work:
-    from force_diffusion.numeric.arithmetic.systems import FLOAT64
-    from force_diffusion.numeric.mechanics import plain
-    from peers import Problem
-
-    problem = Problem(32, 66)
-    rho = problem.radii()
-    return lambda: plain.deposit(problem.n_x, rho, FLOAT64)
-
-
 def _answer(quantity: str, packing: str = "height = 16\nwidth = 34", more: str = "") -> Work:
     """Plan a scene and run it, as the command ``run`` does."""
     from force_diffusion.numeric.planning.planner import plan
@@ -87,7 +77,6 @@ def _closed_forms() -> Work:
 COUNTED: dict[str, Callable[[], Work]] = {
     "NumPy sweep, 32 × 66": lambda: _sweep(32, 66),
     "balls sweep, 50 digits, 8 × 18": lambda: _sweep(8, 18, 183),
-    "plain form, 32 × 66": _plain_form,
     "radii, 65 layers of 256, twice two": _radii,
     "closed forms, 64 layers": _closed_forms,
     "scene: one contact by line sums": _line_sums,

@@ -17,7 +17,6 @@ from force_diffusion.numeric.arithmetic.carried import CARRYING
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, NumberSystem
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
 from force_diffusion.numeric.lattice.layers import Region, whole
-from force_diffusion.numeric.mechanics import plain
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.sweep import (
@@ -126,12 +125,6 @@ def directions(solved: SolvedPacking, n: tuple[Any, Any]) -> Directions:
         ((1 + a - b) * nx, (1 + a + b) * ny, (c - d - 1) * nx, (c + d + 1) * ny)
         for (a, b), (c, d) in zip(solved.dn.plus[1:], solved.dn.minus[1:], strict=True)
     ]
-
-
-def plain_directions(laid: plain.PlainPacking) -> Directions:
-    """Give the same from positions."""
-    pairs = zip(laid.plus[1:], laid.minus[1:], strict=True)
-    return [(p.x, p.y, m.x, m.y) for p, m in pairs]
 
 
 def force_balance(N: Directions, one: Any = 1.0) -> Balance:

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
-from force_diffusion.numeric.mechanics import plain
+from force_diffusion.numeric.mechanics.problem import axes
 from force_diffusion.numeric.planning.planner import initial_bits
 from measuring import Line, in_turn, program
 from peers import (
@@ -29,7 +29,6 @@ from peers import (
     changes,
     directions,
     force_balance,
-    plain_directions,
     stacked,
 )
 
@@ -45,7 +44,7 @@ def forces() -> Iterator[Line]:
     numpy, compiled = problem.solver(), problem.compiled()
     batches = {f"batch of {size}": (size, problem.compiled(size)) for size in BATCHES}
     solved, found = numpy()
-    n = plain.axes(problem.n_x, FLOAT64)
+    n = axes(problem.n_x, FLOAT64)
     reference = stacked(problem.solver(LONGDOUBLE)()[1])
 
     def error(values: Any) -> float:
@@ -85,10 +84,6 @@ def forces() -> Iterator[Line]:
     yield Line("error of spsolve (NATURAL), geometry given / sweep", given / own, "", ">", 1000)
     usual = error(changes(default(), ordered, WIDTH))
     yield Line("error of spsolve (default), geometry given / sweep", usual / own)
-    laid = plain.deposit(problem.n_x, problem.radii(), FLOAT64)
-    A, right = sparse(plain_directions(laid))
-    positions = error(changes(best(), ordered, WIDTH))
-    yield Line("error of spsolve, geometry from positions / sweep", positions / own, "", ">", 1000)
 
 
 SIZES = {
@@ -217,7 +212,7 @@ def digits() -> Iterator[Line]:
     balls, floats = pair(small)
     context = floats.context
     laid, forces = small.solver(floats)()
-    n = plain.axes(small.n_x, floats)
+    n = axes(small.n_x, floats)
     b = force_balance(directions(laid, n), context.mpf(1))
     A = context.zeros(len(b.right))
     for row, column, value in zip(b.rows.tolist(), b.columns.tolist(), b.values, strict=True):
@@ -363,7 +358,7 @@ def solving() -> Iterator[Line]:
         problem = Problem(height, width, Fraction(1, 10**4))
         radii = 1 + np.stack(problem.radii())
         packing, _ = problem.solver()()
-        n = plain.axes(problem.n_x, FLOAT64)
+        n = axes(problem.n_x, FLOAT64)
         system = force_balance(directions(packing, n))
         matrix = sparse.csc_matrix(
             (system.values, (system.rows, system.columns)), shape=(len(system.right),) * 2

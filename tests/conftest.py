@@ -37,11 +37,6 @@ def pytest_addoption(parser: pytest.Parser) -> None:
         action="store_true",
         help="write the golden files anew instead of comparing with them",
     )
-    parser.addoption(
-        "--report",
-        metavar="FILE",
-        help="let the browser look at this page, made by 'force-diffusion report'",
-    )
 
 
 def _leaves_out(config: pytest.Config) -> bool:

@@ -43,14 +43,6 @@ COMMANDS = {
         "scenes",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",
     ),
-    "stability": (
-        "stability",
-        "Measure what stability costs: errors, lost bits and times with and without it.",
-    ),
-    "cascade": (
-        "cascade",
-        "Open one contact that barely pulls, and count what changes.",
-    ),
     "ensemble": (
         "ensemble",
         "Statistics over many packings, on many cores, kept in a file as they come.",
@@ -60,10 +52,6 @@ COMMANDS = {
         "Say what the store of an ensemble holds, and check it.",
     ),
     "figures": ("figures", "Draw the paper's figures from new simulations of exact packings."),
-    "report": (
-        "report",
-        "Write all results as one HTML page: derivations, checks, figures, costs, stability.",
-    ),
 }
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, or the checker at fault, "

@@ -16,6 +16,7 @@ from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 import force_diffusion as fd
 
 from ..export.answers import Format
+from ..export.tables import csv_text
 from .cli import command_line, shell_line
 from .guard import about as named
 from .guard import in_range, say
@@ -24,13 +25,13 @@ from .shared import (
     Quiet,
     Written,
     checked,
+    drawn,
     images,
     noticing,
     show,
     sourced,
     warn,
     write,
-    write_study,
 )
 from .sweep import Seed, Settings, name_of, variants
 
@@ -191,10 +192,16 @@ def cost(
             read = fd.read_scene(scene)
             found = fd.cost(read, notice)
         source = sourced(source_of(read), scene, None)
-        title = printable(scene.stem)
-        about = {"command": command, "source": source}
-        plot = partial(found.plot, title)
-        data = write_study(folder, found, f"Cost of accuracy: {title}", about, plot)
+        data = json.dumps({"command": command, "source": source, **found.data()}, indent=2)
+        if folder:
+            title = printable(scene.stem)
+            plot = partial(found.plot, title)
+            files: dict[str, str | bytes] = {
+                "cost.json": data + "\n",
+                "cost.csv": csv_text([{**row, "command": command} for row in found.listed()]),
+                **drawn(plot, "cost", f"Cost of accuracy: {title}", command),
+            }
+            folder.write(files, seed=source["seed"], inputs=source["sha256"])
     print(data if as_json else found)
 
 

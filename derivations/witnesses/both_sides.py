@@ -8,7 +8,7 @@ equation whose left-hand side is not what the derivation speaks of.
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from math import isqrt
 from typing import Any
 
 import sympy
@@ -106,21 +106,16 @@ class ExactSolution:
         return Dual(x[0], x[1]), Dual(y[0], y[1])
 
     def _ordered(self, across: int, layer: int) -> tuple[Fraction, Fraction]:
+        """Lay equal beads by circle intersection: in the middle of two, as high as both reach."""
         self.solved.displacement(across, layer)  # refuses what is no site
-        laid = self._laid[layer]
-        x, y = (component[(across - layer % 2) // 2][0] for component in laid)
-        return Fraction(int(x.p), int(x.q)), Fraction(int(y.p), int(y.q))
-
-    @cached_property
-    def _laid(self) -> Any:
-        """Beads of equal radii, laid one by one by circle intersection."""
-        from force_diffusion.numeric.arithmetic.systems import Series, zeros
-        from force_diffusion.numeric.mechanics import plain
-
-        system = Series(1)
-        with system.active():
-            rows = tuple(zeros(system, self.packing.width) for _ in range(self.packing.height + 1))
-            return plain.deposit(self.packing.n[0], rows, system).position
+        if not layer:
+            return 2 * self.packing.n[0] * across, Fraction(0)
+        left, right = (self._ordered(across + side, layer - 1) for side in (-1, 1))
+        half = (right[0] - left[0]) / 2
+        square = 4 - half * half
+        rise = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+        assert rise * rise == square
+        return left[0] + half, left[1] + rise
 
 
 def evaluate(expression: sympy.Expr, solution: ExactSolution, at: Values) -> Dual | Vector:

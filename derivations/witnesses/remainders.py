@@ -38,7 +38,7 @@ def _orders(
 
 
 def second_order(packing: SmallPacking, slopes: list[Fraction], read: "Reading") -> Ruling:
-    """Measure the order of exact − first order, by the plain form at ε and ε/2.
+    """Measure the order of exact − first order, at ε and ε/2.
 
     ``slopes`` are the first-order coefficients of the quantities that ``read`` takes from a
     solution. The remainder is Aε² + Bε³ + …: the measured order is 2 + O(εB/A), or 3 where A = 0.
@@ -60,7 +60,6 @@ def second_order(packing: SmallPacking, slopes: list[Fraction], read: "Reading")
                     loads=loads,
                     strength=value,
                     system=BigFloat(DIGITS),
-                    plainly=True,
                 )
                 for value in (Fraction(strength), Fraction(strength) / 2)
             ]

@@ -51,10 +51,9 @@ def answer(
     system: NumberSystem,
     work: Work | None = None,
     *,
-    plainly: bool = False,
     longer: NumberSystem | None = None,
 ) -> Answer:
-    """Answer a question for some realisations; ``plainly`` solves them in the plain form.
+    """Answer a question for some realisations.
 
     With a ``longer`` arithmetic, ``system`` is float64 and numbers carry their errors.
 
@@ -65,7 +64,7 @@ def answer(
     asked = _Asked(quantity, problem, realisations, system, work, longer)
     networks: list[Network] = []
     with system.active(), asked.own.active():
-        found = asked.gathered(plainly, networks)
+        found = asked.gathered(networks)
         table, exact = found.table, found.exact
         bins = None if work.repeating else quantity.bins_of(table, system)
     physical, stopped = found.physical, found.stopped
@@ -101,7 +100,7 @@ class _Asked:
         """The arithmetic of the sweep."""
         return FLOAT64 if self.carried else self.system
 
-    def gathered(self, plainly: bool, networks: list[Network]) -> Answer:
+    def gathered(self, networks: list[Network]) -> Answer:
         """Gather the rows, and look whether packings are physical, if they are exact."""
         quantity, system, longer = self.quantity, self.system, self.longer
         layers, physical = quantity.all_layers, None
@@ -111,7 +110,7 @@ class _Asked:
         beside = None if longer is None else quantity.gatherer(self.problem, longer)
         stopped: Contact | AxisContact | None = None
         sizes = NONE
-        for solved, chunk in self.packings(physical, plainly, networks):
+        for solved, chunk in self.packings(physical, networks):
             if solved.forces is not None and stopped is None:
                 stopped = solved.forces.stopped
             pairs = isinstance(system, Pairs)
@@ -132,9 +131,7 @@ class _Asked:
         table = in_units(self.quantity, table.sorted(), system)
         return table if table.index else replace(table, index=self.quantity.names)
 
-    def packings(
-        self, physical: Physicality | None, plainly: bool, networks: list[Network]
-    ) -> Packings:
+    def packings(self, physical: Physicality | None, networks: list[Network]) -> Packings:
         """Solve packings, at which ``physical`` looks; errors say which packing it was."""
         problem, realisations, work, done = self.problem, self.realisations, self.work, 0
         if problem.route == Route.UNILATERAL:
@@ -143,7 +140,7 @@ class _Asked:
             solved_all = relaxed(problem, realisations, self.system, work)
         else:
             solved_all = packings(
-                problem, realisations, self.own, work, physical, plainly=plainly,
+                problem, realisations, self.own, work, physical,
                 carried=self.carried, copied=True,
             )  # fmt: skip
         try:
@@ -156,7 +153,7 @@ class _Asked:
             if problem.route == Route.UNILATERAL and len(realisations) > 1:
                 error.add_note(f"realisation {realisations[done]}; an ensemble leaves such out")
             elif len(realisations) > 1:
-                error.add_note(_which(problem, realisations[done:], self.own, plainly))
+                error.add_note(_which(problem, realisations[done:], self.own))
             raise
 
 
@@ -187,14 +184,12 @@ def at_home(quantity: Quantity, contact: Contact | AxisContact) -> Contact | Axi
     return contact._replace(i=quantity.naming.home(contact.i))
 
 
-def _which(
-    problem: Problem, realisations: Sequence[int], system: NumberSystem, plainly: bool
-) -> str:
+def _which(problem: Problem, realisations: Sequence[int], system: NumberSystem) -> str:
     """Name the first packing that can't be built, of those that were solved together."""
     word = "packing" if isinstance(problem.radii, ArrayRadii) else "realisation"
     for k in realisations[: chunk_size(problem, system)]:
         try:
-            list(packings(problem, [k], system, plainly=plainly))
+            list(packings(problem, [k], system))
         except UNBUILDABLE:
             return f"{word} {k}"
     return f"of {word}s {realisations[0]} on"

@@ -120,8 +120,6 @@ class Quantity(ABC):
 
     name: ClassVar[str]
     needs_forces: ClassVar[bool] = True
-    plain: ClassVar[bool] = False
-    """Whether it can be gathered from a packing that was solved in the plain form."""
     merged: ClassVar[bool] = False
     """Whether realisations are merged into one set of rows."""
     statistics: ClassVar[bool] = False

@@ -96,7 +96,6 @@ class ContactForce(SingleContact, Listed):
     """One contact force f^±_ij and its change."""
 
     name = "contact"
-    plain = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a realisation."""

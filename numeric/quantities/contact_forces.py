@@ -25,7 +25,6 @@ class ContactForces(ContactQuantity, Listed):
 
     name = "contact_forces"
     numbers = 2
-    plain = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """The contacts below each bead above the base."""

@@ -13,9 +13,8 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..lattice.branch import Branch
 from ..lattice.layers import Region, Rows, whole
-from ..mechanics import plain
 from ..mechanics.loads import LoadSpec
-from ..mechanics.problem import Problem, Solved
+from ..mechanics.problem import Problem, Solved, axes
 from ..statistics.bins import histogram
 from ..statistics.moments import root
 from ..statistics.ratios import moments
@@ -183,7 +182,7 @@ class NetworkPositions(NetworkQuantity):
             beads = range(bead, bead + 1)
         names = [network.bead(number) for number in beads]
         bearing = np.bincount(network.pairs.ravel(), minlength=len(network.x))
-        nx, ny = plain.axes(problem.n_x, system)
+        nx, ny = axes(problem.n_x, system)
         x = column([network.x[b, 0] * r for b in beads], system)
         y = column([network.x[b, 1] * r for b in beads], system)
         home_x = column([2 * nx * i * r for i, _ in names], system)

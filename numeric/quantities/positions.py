@@ -21,7 +21,6 @@ class Positions(Listed):
 
     name = "positions"
     needs_forces = False
-    plain = True
 
     def force_rows(self, load: LoadSpec) -> Rows:
         """No forces are needed."""

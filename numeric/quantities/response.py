@@ -32,7 +32,6 @@ class Response(ContactQuantity):
     """
 
     name = "response"
-    plain = True
     merged = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:

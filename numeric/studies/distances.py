@@ -66,15 +66,13 @@ FAILURES = (UnbuildableError, UndecidedError, NotStandingError, RadiusError, Inc
 """What is raised where a packing has no answer in some arithmetic."""
 
 
-def answer(
-    plan: Plan, system: NumberSystem, realisations: Sequence[int], *, plainly: bool = False
-) -> Table:
+def answer(plan: Plan, system: NumberSystem, realisations: Sequence[int]) -> Table:
     """Answer a plan's question for some realisations, and nothing beside it.
 
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     problem, work = plan.problem, Work(repeating=True)  # what is physical was judged before
-    return whole_answer(plan.quantity, problem, realisations, system, work, plainly=plainly).table
+    return whole_answer(plan.quantity, problem, realisations, system, work).table
 
 
 def changes(table: Table) -> Array:

@@ -13,10 +13,9 @@ from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import Array, Balls, NumberSystem
 from ..disorder.radii import rows_of
 from ..lattice.layers import column, whole
-from ..mechanics import plain
 from ..mechanics.engine import solve
 from ..mechanics.physicality import Physicality
-from ..mechanics.problem import Problem, Route, Solved
+from ..mechanics.problem import Problem, Route, Solved, axes
 from ..mechanics.work import Work
 from . import event_driven, interior_path, linear_programs
 from .certificate import Certificate, certify, smallest_gap
@@ -369,7 +368,7 @@ def _as_deposited(problem: Problem, realisation: int, system: Balls) -> Relaxed:
         raise UnfinishedError("a contact pulls by less than float64 tells")
     if seen.undecided_signs:
         raise UndecidedError("the enclosures are too wide to tell whether a contact pulls")
-    width, nx, ny = problem.width, *plain.axes(problem.n_x, system)
+    width, nx, ny = problem.width, *axes(problem.n_x, system)
     x = np.empty(((problem.height + 1) * width, 2), dtype=object)
     for j, row in enumerate(packing.region.rows):
         plus, minus = packing.c.plus[j], packing.c.minus[j]

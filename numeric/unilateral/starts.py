@@ -10,9 +10,8 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..disorder.radii import rows_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Region, column, whole
-from ..mechanics import plain
 from ..mechanics.engine import solve
-from ..mechanics.problem import Problem, Route
+from ..mechanics.problem import Problem, Route, axes
 from ..mechanics.sweep import UnbuildableError
 from ..mechanics.work import Work
 from .grains import Grains, Pairs
@@ -31,7 +30,7 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None, int
     region = whole(width, height)
     rho = rows_of(problem.radii, region.rows, [realisation], FLOAT64)
     radii = np.concatenate([1 + row for row in rho])
-    nx, ny = (float(n) for n in plain.axes(problem.n_x, FLOAT64))
+    nx, ny = (float(n) for n in axes(problem.n_x, FLOAT64))
     load = as_floats(loads_of(problem, region, FLOAT64))
     home, j = sites(problem), np.repeat(np.arange(height + 1), width)
     grains = Grains(np.zeros((len(radii), 2)), radii, 4 * nx * width, load, width)
@@ -73,7 +72,7 @@ def sites(problem: Problem) -> Array:
     """Give the sites of the ordered lattice, (N, 2)."""
     assert problem.width is not None
     rows = whole(problem.width, problem.height).rows
-    nx, ny = (float(n) for n in plain.axes(problem.n_x, FLOAT64))
+    nx, ny = (float(n) for n in axes(problem.n_x, FLOAT64))
     i = np.concatenate([row.first + 2 * np.arange(row.count) for row in rows])
     return np.stack([2 * nx * i, 2 * ny * np.repeat(np.arange(len(rows)), problem.width)], axis=1)
 
@@ -217,7 +216,7 @@ def lattice_contacts(width: int, height: int) -> Pairs:
 
 def loads_of(problem: Problem, region: Region, system: NumberSystem) -> Array:
     """Give the Cartesian loads of all beads, (N, 2)."""
-    nx, ny = plain.axes(problem.n_x, system)
+    nx, ny = axes(problem.n_x, system)
     rows = region.rows
     loads = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
     zero = system.number(problem.n_x * 0)

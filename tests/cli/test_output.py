@@ -597,7 +597,7 @@ def scene(tmp_path: Path) -> Path:
 def _unsolved(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("framework.runner.run", "commands.scenes._solved", "commands.figures._made"):
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
-    for name in ("derive", "report", "figure", "ensemble", "cost", "stability"):
+    for name in ("derive", "figure", "ensemble", "cost"):
         monkeypatch.setattr(fd, name, None)
 
 
@@ -607,8 +607,6 @@ COMMANDS = {
     "cost scene.toml": "cost.json",
     "ensemble scene.toml --realisations 9": "contact_forces.csv",
     "figures 1": "figure1.svg",
-    "stability": "stability_balls.csv",
-    "report": "report.html",
 }
 
 

@@ -64,19 +64,6 @@ def test_check_packings_of_something_else(
     assert main(["check-packings", str(tmp_path / "none.json")]) == 2
 
 
-@pytest.mark.long
-def test_cascade_writes_tables_and_a_figure(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    words = ["cascade", "--height", "4", "--packings", "2", "--protocol", "event-driven"]
-    assert main([*words, "--out", str(tmp_path / "out"), "--json"]) == 0
-    data = json.loads(capsys.readouterr().out)
-    assert len(data["packings"]) == 4
-    files = {path.name for path in (tmp_path / "out").iterdir()}
-    assert files >= {"cascade.json", "cascade.csv", "cascade.png", "cascade.svg", "cascade.pdf"}
-    assert main(["cascade", "--height", "0"]) == 2
-
-
 def test_check_packings_says_what_is_no_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

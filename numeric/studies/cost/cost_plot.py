@@ -17,9 +17,8 @@ from .rows import Reference, Way
 WIDE = 60
 POWERS = (0, -5, -15, -30, -50, -100, -200, -300)
 SERIES = {
-    "exact, deviation form": 0,
+    "exact": 0,
     "Monte Carlo, exact": 0,
-    "exact, plain form": 1,
     "first-order line sums": 2,
     "Monte Carlo, first-order": 2,
     "exact finite-M formula": 3,

@@ -128,8 +128,7 @@ def _skipped(scene: Scene) -> Iterator[Skipped]:
     if scene.effects.geometry != "exact":
         yield Skipped("Monte Carlo, exact", "the scene asks for the first-order theory")
     yield Skipped("first-order line sums", "one packing has no σ_f: Monte Carlo averages over them")
-    yield Skipped("exact, deviation form", "one packing has no σ_f: Monte Carlo averages over them")
-    yield Skipped("exact, plain form", "it would sample the same packings and round more")
+    yield Skipped("exact", "one packing has no σ_f: Monte Carlo averages over them")
     yield Skipped("Monte Carlo in longdouble, mpmath, balls", sampled)
 
 

@@ -1,4 +1,4 @@
-"""Ways to answer a scene: any plan in any number system, also in the plain form; what they take."""
+"""Ways to answer a scene: any plan in any number system; what they take."""
 
 import math
 import tracemalloc
@@ -7,10 +7,8 @@ from statistics import median
 from typing import Any, TypeVar
 
 from ...arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
-from ...mechanics.problem import Route
-from ...planning.plan import Plan
 from ...scene.scene import Scene
-from ..timing import in_turn
+from ..timing import seconds_of
 from .rows import Way
 
 T = TypeVar("T")
@@ -50,7 +48,7 @@ def measured(
     finally:
         tracemalloc.stop()
     errors = judged(result)
-    (seconds,) = in_turn(work)
+    seconds = seconds_of(work)
     return Way(
         way=way,
         arithmetic=system.name,
@@ -63,17 +61,3 @@ def measured(
         peak_bytes=peak,
         peak_is_bound=system not in (FLOAT64, LONGDOUBLE),
     )
-
-
-def why_not_plain(plan: Plan) -> str | None:
-    """Say why the plain form can't answer a plan; None where it can."""
-    if plan.problem.route != Route.EXACT:
-        return "it solves the exact packing, and the scene asks for less"
-    if plan.problem.width is None:
-        return "it is written for periodic packings; the scene's is an infinite slab"
-    if plan.problem.stop_at_tension:
-        return "it does not stop at tension"
-    if not plan.quantity.plain:
-        name = plan.quantity.name
-        return f"it gives forces and positions, from which '{name}' is not gathered"
-    return None

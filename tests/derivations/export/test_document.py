@@ -1,6 +1,7 @@
 """The LaTeX: one document, paste-ready fragments, a manifest that tells what is there."""
 
 import re
+from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -9,11 +10,13 @@ from force_diffusion.derivations.export.document import (
     finding,
     statement_latex,
 )
-from force_diffusion.derivations.export.prose import prose_latex
+from force_diffusion.derivations.export.prose import both, prose_latex
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.printing.latex import RELATIONS, latex
+from force_diffusion.symbolic.printing.lines import latex_body
 
 from tests.derivations import fakes
 
@@ -126,3 +129,31 @@ def test_no_power_or_root_of_the_words_is_left_open(number: int | str) -> None:
 
 def test_powers_of_ten_are_set_as_such() -> None:
     assert prose_latex("1e-14, 2.5e+03") == r"$10^{-14}$, $2.5 \cdot 10^{3}$"
+
+
+def sentences() -> Iterator[str]:
+    for number in modules():
+        derivation = load(number)
+        for step in derivation.steps():
+            yield from (step.reason, both(step.uses) if step.uses else "follows")
+        yield from (check.name for check in (*derivation.all_claims, *derivation.witnesses))
+        yield from (*derivation.remarks, *derivation.assumptions, derivation.title)
+        yield from (said for _, said in derivation.symbols)
+
+
+def test_sentences_of_every_derivation_can_be_set() -> None:
+    for sentence in sentences():
+        source = prose_latex(sentence)
+        assert source.isascii()
+        assert r"\text{[" not in source, source  # a character that it has only a name for
+        assert not re.search(r"\$B\d+\$", source), source  # Eq. B4 is no product
+
+
+def test_fonts_are_commands_of_every_class() -> None:
+    for number in modules():  # \bf and the like are no commands of KOMA's classes, nor of memoir
+        derivation = load(number)
+        sources = [latex_body(derivation.printed, RELATIONS[derivation.relation])]
+        sources += [latex(symbol) for symbol, _ in derivation.symbols]
+        sources += [latex_body([step.formula]) for step in derivation.steps()]
+        for source in sources:
+            assert not re.search(r"\\(bf|rm|it|sf|tt|sl|sc|cal)\b", source), source

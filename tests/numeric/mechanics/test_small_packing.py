@@ -16,6 +16,7 @@ from force_diffusion.numeric.mechanics.small_packing import Solution, solve
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.numeric.mechanics.plain_packing import PlainPacking
 from tests.numeric.strategies import Case, cases, sites
 
 STRENGTH = Fraction(1, 10**6)  # far below M* of these heights: every packing can be built
@@ -69,20 +70,30 @@ def test_number_systems_agree(case: Case) -> None:
 
 
 @given(cases())
-def test_plain_form_agrees_at_sixty_digits(case: Case) -> None:
+def test_it_agrees_with_first_principles(case: Case) -> None:
     """Positions of order 10 carry 60 digits; 1e-52 leaves room for ~1e6 roundings of them."""
-    system = BigFloat(60)
-    one = solved(case, system)
-    other = solve(
-        case.width, case.height, n_x=case.n[0], rho=case.rho, loads=case.loads,
-        strength=STRENGTH, system=system, plainly=True,
-    )  # fmt: skip
-    for i, j in sites(case.width, case.height):
-        for a, b in zip(one.displacement(i, j), other.displacement(i, j), strict=True):
-            assert abs(a - b) < mp.mpf(10) ** -52
-    for contact in contacts(case):
-        assert abs(one.force(*contact) - other.force(*contact)) < mp.mpf(10) ** -52
-        assert abs(one.change(*contact) - other.change(*contact)) < mp.mpf(10) ** -52
+    found, width = solved(case, BigFloat(60)), case.width
+    nx, ny = (mp.mpf(n.numerator) / n.denominator for n in case.n)
+    rho = {((i + j) // 2 % width, j): Fraction(0) for i, j in sites(width, case.height)}
+    for (i, j), value in case.rho.items():
+        rho[(i + j) // 2 % width, j] += STRENGTH * value
+    shares: dict[tuple[int, int], list[mpmath.mpf]] = {}
+    for (i, j), force in case.loads.items():
+        fx, fy = (mp.mpf(f.numerator) / f.denominator for f in force)
+        shares[(i + j) // 2 % width, j] = [-(fy / ny + fx / nx) / 2, -(fy / ny - fx / nx) / 2]
+    with mpmath.workdps(70):
+        true = PlainPacking(2, case.height, width, 1 - 2 * case.n[0] ** 2, rho)
+        for i, j in sites(width, case.height):
+            bead = (i + j) // 2, (j - i) // 2
+            dx, dy = found.displacement(i, j)
+            home = [2 * (bead[0] * n + bead[1] * m) for n, m in zip(*true.n, strict=True)]
+            moved = [a - b for a, b in zip(true.at(bead), home, strict=True)]
+            for n, c in zip(true.n, (nx * dx + ny * dy, ny * dy - nx * dx), strict=True):
+                assert abs(sum(a * b for a, b in zip(n, moved, strict=True)) - c) < 1e-52
+            if j:
+                forces = true.below(bead, lambda own: shares.get(own, [0, 0]))
+                for side, branch, force in ((-1, "+", forces[0]), (1, "-", forces[1])):
+                    assert abs(found.force(i + side, j - 1, branch) - force) < 1e-52
 
 
 @given(cases(), st.sampled_from(["1e-15", "1e-20"]))

@@ -66,8 +66,8 @@ def test_positions_and_forces_are_those_of_first_principles(
     plain = PlainPacking(d, height, width, phi, drawn)
     values = [mpmath.mpf(x.numerator) / x.denominator for x in share]
 
-    def load(layer: int) -> list[Any]:
-        return values if layer == height else [mpmath.mpf(0)] * d
+    def load(bead: tuple[int, ...]) -> list[Any]:
+        return values if bead[-1] == height else [mpmath.mpf(0)] * d
 
     system = BigFloat(50)
     floats = [Carried(np.array([float(x) for x in row]), np.zeros(len(row))) for row in rows]
