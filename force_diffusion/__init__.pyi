@@ -29,5 +29,3 @@ from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
 from .numeric.studies.cost.cost import cost as cost
 from .numeric.studies.cost.table import CostStudy as CostStudy
-from .numeric.unilateral import Verdict as Verdict
-from .numeric.unilateral import check_packings as check_packings

@@ -174,20 +174,6 @@ def test_rooms_on_the_ground_floor_are_blind(folder: str, never: tuple[str, ...]
             assert not any(name == one or name.startswith(f"{one}.") for one in never), path
 
 
-def test_contacts_that_open_are_entered_by_one_door() -> None:
-    """What ``numeric/unilateral`` gives to others stands in its stub."""
-    island = "force_diffusion.numeric.unilateral"
-    door = ast.parse((ROOT / "numeric/unilateral/__init__.pyi").read_text(encoding="utf-8"))
-    given = {one.name for node in door.body for one in getattr(node, "names", [])}
-    for folder in ("force_diffusion", "numeric", "derivations", "benchmarks"):
-        for path in (ROOT / folder).rglob("*.py*"):
-            if path.suffix not in {".py", ".pyi"} or "unilateral" in path.parts:
-                continue
-            for name in imported(path):
-                if name.startswith(f"{island}."):
-                    assert name.removeprefix(f"{island}.") in given, (path, name)
-
-
 def test_nothing_imports_a_room_by_its_folder() -> None:
     """In the checkout ``numeric`` can be imported from the current folder; installed it can't."""
     for path in ROOT.rglob("*.py"):

@@ -30,7 +30,7 @@ ENOUGH = 2.0  # seconds of processor time after which a case is interrupted, and
 PATIENCE = 60.0  # seconds in which it has to end then
 MEMORY = 4 * 2**30
 TOGETHER = 2000  # cases of one process
-QUICK = {"explain", "ensemble-status", "check-packings"}  # which solve nothing
+QUICK = {"explain", "ensemble-status"}  # which solve nothing
 # What matters is loaded once, and not by every process.
 LOADED = ["numeric.figures.style", "numeric.figures.answers_drawing", "numeric.studies.cost.cost"]
 
@@ -49,7 +49,6 @@ def kinds(whole: Path) -> dict[str, tuple[int, Case]]:
         "stores": (8, lambda random, folder: files.store(random, folder, whole)),
         "NumPy files": (7, files.array),
         "tables": (8, files.table),
-        "packings": (7, files.packings),
         "compared with balls": (9, answers.of_balls),
         "arrays, compared with balls": (6, answers.of_radii),
         "threads": (4, answers.of_threads),
@@ -203,7 +202,7 @@ def main() -> int:
     root.mkdir()
     for name in LOADED:
         import_module(f"force_diffusion.{name}")
-    for command in ("run", "figures", "ensemble", "check-packings"):
+    for command in ("run", "figures", "ensemble"):
         commands.said([command, "--help"])
     maker = os.fork()  # what solves may start threads, which a fork would lose
     if not maker:

@@ -52,8 +52,6 @@ def _written(stream: io.TextIOWrapper) -> str:
 def wrong(command: list[str], found: Said) -> str:
     """Say what was wrong with the end of a command, or nothing."""
     words = found.err
-    if command[0] == "check-packings" and found.status == 3:  # a verdict, which is no message
-        words += found.out
     silent = found.status in {2, 3} and not words.strip()
     if found.status not in ENDED or "Traceback" in words or "Warning:" in words or silent:
         return f"ended with status {found.status} and said\n{words[-2500:]}"

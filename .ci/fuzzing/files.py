@@ -1,7 +1,6 @@
-"""Files that a case reads: stores, arrays, tables and packings in which something is odd."""
+"""Files that a case reads: stores, arrays and tables in which something is odd."""
 
 import io
-import json
 import shutil
 import sqlite3
 from pathlib import Path
@@ -128,35 +127,3 @@ def _of_file(folder: Path, name: str, random: Random) -> list[str]:
     (folder / "scene.toml").write_text("\n".join(lines), encoding="utf-8")
     command = random.choice([["run"]] * 12 + [["explain"]] * 7 + [["figures", "--out", "out"]])
     return [*command, "scene.toml"]
-
-
-PACKING: dict[str, Any] = {
-    "period": "12",
-    "fixed": 2,
-    "radii": ["1"] * 3,
-    "loads": [["0", "0"], ["0", "0"], ["0", "-1"]],
-    "centres": [["0", "0"], ["3", "0"], ["1.5", "1.32287565553229529525080787681963021285513"]],
-    "contacts": [[2, 0], [2, 1]],
-}
-
-
-def packings(random: Random, folder: Path) -> list[str]:
-    """Give a file of packings in which something is odd."""
-    packing = json.loads(json.dumps(PACKING))
-    for _ in range(random.choice([0, 1, 1, 1, 1, 2])):
-        key = random.choice(list(PACKING))
-        odd: Any = random.choice(
-            [_number(random), 2**70, -1, [], None, 1.5, [[_number(random)] * 2]]
-        )
-        if isinstance(packing[key], list) and packing[key] and random.random() < 0.8:
-            at = random.randrange(len(packing[key]))
-            if isinstance(packing[key][at], list) and packing[key][at]:
-                packing[key][at][random.randrange(len(packing[key][at]))] = odd
-            else:
-                packing[key][at] = odd
-        else:
-            packing[key] = odd
-    text = json.dumps({"format": "force-diffusion packings 1", "packings": [packing]}).encode()
-    damaged = _damaged(random, text) if random.random() < 0.2 else text
-    (folder / "packings.json").write_bytes(damaged)
-    return ["check-packings", "packings.json", *random.choice([[], ["--json"]])]

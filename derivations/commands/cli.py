@@ -35,10 +35,6 @@ COMMANDS = {
     "examples": ("examples", "Copy the example scenes into a folder."),
     "run": ("scenes", "Solve the packing of a scene and answer its question."),
     "explain": ("scenes", "Say what 'run' would do, and why."),
-    "check-packings": (
-        "packings",
-        "Prove that packings touch where they say, without tension or overlap.",
-    ),
     "cost": (
         "scenes",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",

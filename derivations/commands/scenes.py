@@ -162,16 +162,13 @@ def _answer(
     from force_diffusion.numeric.run.outcome import outcome_lines
 
     warn(scene, planned)
-    unilateral = planned.scene.effects.contacts == "unilateral"
     names = ["result.json", f"{planned.scene.ask.quantity}.{written}"]
-    names += ["packings.json"] * unilateral
     with output(out, question, names, overwrite) as folder:
         found = _solved(planned, scene, quiet)
         about = found.data(rows=False)
         about["source"] = sourced(about["source"], scene, command_line())
         if folder:
-            more = {"packings.json": json.dumps(found.packings())} if unilateral else {}
-            write(folder, found, about, written, more)
+            write(folder, found, about, written, {})
     lines = outcome_lines(about, found.count)
     show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
 

@@ -22,7 +22,6 @@ from ..mechanics.problem import Problem, Route
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
-from ..quantities.contacts_that_open import NetworkQuantity
 from ..scene.scene import Scene, refuse
 from ..scene.sections import SceneError
 from ..statistics.moments import unit_near
@@ -30,13 +29,9 @@ from ..statistics.moments import unit_near
 DEFAULT_BINS = 60
 # Outer edges of a histogram, in units of the largest theoretical σ_f.
 REACH = 6
-# Of one of forces under unilateral contacts, in units of the mean ordered force.
-FORCES = 8
 # Variables of a covariance matrix, whose numbers grow with their square.
 MOST_VARIABLES = 2048
 # Magnitude of a load up to which, and down to whose inverse, fourth powers of forces are float64.
-# Units of force: sums over a packing must stay below 1e308.
-MOST_UNIT = 10**280
 MOST_MAGNITUDE = 10**60
 
 
@@ -67,9 +62,9 @@ class Measurement:
         return self.plan.problem
 
     @property
-    def quantity(self) -> ContactQuantity | NetworkQuantity:
+    def quantity(self) -> ContactQuantity:
         """What is asked of each packing."""
-        assert isinstance(self.plan.quantity, ContactQuantity | NetworkQuantity)
+        assert isinstance(self.plan.quantity, ContactQuantity)
         return self.plan.quantity
 
     @cached_property
@@ -81,11 +76,6 @@ class Measurement:
     def compiled(self) -> bool:
         """Whether compiled loops solve the packings."""
         return self.problem.route == Route.EXACT and compiles(self.many, FLOAT64)
-
-    @property
-    def of_networks(self) -> bool:
-        """Whether contacts are unilateral, and differ from packing to packing."""
-        return self.problem.route == Route.UNILATERAL
 
     @property
     def row(self) -> int:
@@ -100,8 +90,6 @@ class Measurement:
     @cached_property
     def unit(self) -> int:
         """The power of two in whose units changes are summed up (σ/r is near it)."""
-        if self.of_networks:
-            return 0
         return math.frexp(unit_near(self.problem.radii.relative_std()))[1] - 1
 
     @cached_property
@@ -116,7 +104,7 @@ class Measurement:
 
     @cached_property
     def members(self) -> int:
-        """Contacts in a group; 0 where they differ from packing to packing."""
+        """Contacts in a group."""
         return self.quantity.members(self.problem)
 
     @property
@@ -127,7 +115,7 @@ class Measurement:
     @cached_property
     def blocks(self) -> list[Block]:
         """Give the whole rows of contacts that groups are made of, in order; none of contacts."""
-        if self.members < 2 or isinstance(self.quantity, NetworkQuantity):
+        if self.members < 2:
             return []
         return self.quantity.blocks(self.problem)
 
@@ -156,7 +144,7 @@ class Measurement:
 
     def theory(self) -> PerBranch[Sequence[Fraction]] | None:
         """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
-        return None if self.of_networks else first_order_std(self.problem)
+        return first_order_std(self.problem)
 
 
 def measurement(
@@ -176,13 +164,7 @@ def measurement(
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")
     made = Measurement(planned, (), covariance)
     magnitude = scene.load.magnitude
-    if made.of_networks and made.problem.most_seconds is not None:
-        why = "which packings come to rest in time depends on the machine: give most_events"
-        raise SceneError("effects.most_seconds", made.problem.most_seconds, why)
-    if made.of_networks and not 1 <= magnitude * MOST_UNIT <= MOST_UNIT**2:
-        why = "must lie between 1e-280 and 1e280, as sums are float64: choose another unit"
-        raise SceneError("load.magnitude", magnitude, why)
-    if not made.of_networks and not (made.groups and made.members):
+    if not (made.groups and made.members):
         allowed = "bears on no contact that is asked for: there is nothing to gather"
         raise SceneError("load.kind", scene.load.kind, allowed)
     if ask.quantity == "histogram":
@@ -205,11 +187,7 @@ def measurement(
 
 
 def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
-    """Edges that are fixed before anything is drawn.
-
-    They are symmetric about no change at all; of unilateral contacts they are those of the forces
-    themselves, and begin at 0.
-    """
+    """Edges that are fixed before anything is drawn, symmetric about no change at all."""
     if reach is None:
         reach = _usual_reach(made)
     else:
@@ -217,7 +195,7 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
     if not 0 < reach < 1e300:
         raise ArgumentError("reach", reach, "must be a positive number below 1e300")
     bins = made.plan.scene.ask.bins or DEFAULT_BINS
-    low = 0 if made.of_networks else -Fraction(reach)
+    low = -Fraction(reach)
     width = (Fraction(reach) - low) / bins
     edges = tuple(float(low + k * width) for k in range(bins + 1))
     if len(set(edges)) <= bins:
@@ -227,9 +205,7 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
 
 def _usual_reach(made: Measurement) -> float:
     """Give the outer edge that is taken where none is named."""
-    theory, quantity = made.theory(), made.quantity
-    if isinstance(quantity, NetworkQuantity) and (mean := quantity.mean_force(made.problem)):
-        return FORCES * mean
+    theory = made.theory()
     if theory is None:
         raise SceneError(
             "ask.quantity",

@@ -68,8 +68,7 @@ def at_once(problem: Problem) -> int:
 
 def _in_batches(problem: Problem, system: NumberSystem) -> bool:
     """Say whether several realisations may be swept together."""
-    one_by_one = problem.stop_at_tension or problem.route == Route.LINE_SUMS
-    return not (system.dtype is object or one_by_one)
+    return not (system.dtype is object or problem.route == Route.LINE_SUMS)
 
 
 def packings(
@@ -196,7 +195,7 @@ def _solved(
             return sweeps.told(rho, block, None, None)
         with work.timed("balance forces"):
             descent = sweeps.descent(rows, loads)
-            g = None if problem.stop_at_tension else descent(block)
+            g = descent(block)
         if g is not None:
             work.did_rows("balanced", rows[1:], descent.beads * n)
             return sweeps.told(rho, block, descent, g)
@@ -204,10 +203,7 @@ def _solved(
     forces = None
     if loads is not None:
         with work.timed("balance forces"):
-            forces = sweep_down(
-                packing, rows, loads, linear=linear, stop_at_tension=problem.stop_at_tension,
-                work=work,
-            )  # fmt: skip
+            forces = sweep_down(packing, rows, loads, linear=linear, work=work)
     found = Solved(own, packing, forces, None)
     return rounded(found) if carried else found
 

@@ -41,9 +41,8 @@ class Problem:
     ``region``: the beads that are deposited. ``force_rows``: those whose forces are balanced, empty
     where only positions are asked for. ``contact`` or ``site``: the one that is asked for, if it is
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
-    ``protocol``: how beads come to rest where contacts are unilateral, and when that is given up:
-    after ``most_events``, or ``most_seconds`` of the processor. In three dimensions layers of W²
-    beads count as one row.
+    ``most_programs``, ``most_seconds`` of the processor: after which a packing is given up where
+    contacts are unilateral. In three dimensions layers of W² beads count as one row.
     """
 
     n_x: Fraction
@@ -55,10 +54,8 @@ class Problem:
     needs_forces: bool
     contact: Contact | None = None
     site: Site | None = None
-    stop_at_tension: bool = False
     realisations: int = 1
-    protocol: str = ""
-    most_events: int | None = None
+    most_programs: int | None = None
     most_seconds: Fraction | None = None
 
     @property
@@ -147,7 +144,7 @@ class Solved:
             of = rest.forces
             assert of is not None
             ordered, change = each(forces.ordered, of.ordered), each(forces.change, of.change)
-            forces = Forces(system, forces.region, forces.rows, ordered, change, forces.stopped)
+            forces = Forces(system, forces.region, forces.rows, ordered, change)
         if single is not None:
             single = sums((tuple(single), tuple(rest.single or ())))
         return Solved(system, packing, forces, single)

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
-from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
+from ..arithmetic.systems import Array, NumberSystem, zeros
 from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows, bead_of
@@ -102,10 +102,9 @@ class Forces:
     """Contact forces below the beads of ``rows[j]`` (empty at j = 0), indexed by the upper bead.
 
     ``ordered``: F^a, ``change``: g^a = f^a − F^a; per layer arrays of shape (count,), changes of a
-    batch of packings (…, count). ``stopped`` names the first tensile contact where a sweep was
-    asked to stop at one: the layers below it are then empty. ``F`` (d, …) and ``g`` (batch, d, …)
-    hold all of compiled loops, from the lowest row that forces reach on. ``hold``: it is known that
-    none of them pulls. ``left``: the most that rounding left of a change, if that is known.
+    batch of packings (…, count). ``F`` (d, …) and ``g`` (batch, d, …) hold all of compiled loops,
+    from the lowest row that forces reach on. ``hold``: it is known that none of them pulls.
+    ``left``: the most that rounding left of a change, if that is known.
     """
 
     system: NumberSystem
@@ -113,7 +112,6 @@ class Forces:
     rows: Rows
     ordered: PerBranch[Sequence[Array]]
     change: PerBranch[Sequence[Array]]
-    stopped: Contact | AxisContact | None = None
     F: Array | None = None
     g: Array | None = None
     hold: bool = False
@@ -192,7 +190,6 @@ def sweep_down(
     loads: Loads,
     *,
     linear: bool = False,
-    stop_at_tension: bool = False,
     work: Work | None = None,
 ) -> Forces:
     """Carry loads down from the highest of ``rows`` through the beads of ``rows``.
@@ -202,8 +199,7 @@ def sweep_down(
 
     ``rows[j]`` for j = 0 … top lie within the packing's region; ``loads`` belong to them. Beads
     above or beside the rows pass no force on to them. The caller activates the number system.
-    ``stop_at_tension`` ends the sweep below the first layer with a tensile contact. Raises
-    ``NotStandingError`` where contacts are parallel within the arithmetic.
+    Raises ``NotStandingError`` where contacts are parallel within the arithmetic.
     """
     top, region, system = len(rows) - 1, packing.region, packing.system
     d = region.dimension
@@ -213,7 +209,6 @@ def sweep_down(
     ordered: list[tuple[Any, ...]] = [(nothing,) * d] * (top + 1)
     change: list[tuple[Any, ...]] = [(nothing,) * d] * (top + 1)
     lost: tuple[Any, ...] = ()
-    stopped = None
     dn = [rows_of for _, rows_of in packing.dn]
     shares = [of for _, of in loads]
     up = [region.step(a, 1) for a in range(d)]
@@ -253,17 +248,12 @@ def sweep_down(
         if work is not None:
             work.did("balanced", layer, _beads(found.g[0]) // layer.count)
         ordered[j], change[j], lost = F, found.g, found.lost
-        if stop_at_tension:
-            stopped = first_tension(layer, region, F, found.g, system)
-        if stopped is not None:
-            break
     return Forces(
         system,
         region,
         rows,
         per_direction([tuple(row[a] for row in ordered) for a in range(d)]),
         per_direction([tuple(row[a] for row in change) for a in range(d)]),
-        stopped,
     )
 
 
@@ -287,29 +277,6 @@ def straight_down(
             parts.append(F if share[j] is None else F + share[j])
         found[j] = tuple(parts)
     return found
-
-
-def first_tension(
-    layer: Layer,
-    region: Region,
-    F: Sequence[Any],
-    g: Sequence[Any],
-    system: NumberSystem,
-) -> Contact | AxisContact | None:
-    """Name the first contact below ``layer`` that surely pulls, or None.
-
-    ``F`` and ``g`` hold ordered forces and changes by direction. Raises ``UndecidedError`` where
-    balls leave a sign open; what floats leave open counts as holding, and what balls of the most
-    bits do: a force that is exactly zero has no sign.
-    """
-    for (branch, _), force, change in zip(per_direction(range(len(F))), F, g, strict=True):
-        pulls, undecided = pulling(force + change, change, system)
-        if pulls.any():
-            q = int(np.argwhere(pulls)[0][-1])
-            return region.contact_below(layer, branch, q)
-        if undecided.any() and isinstance(system, Balls) and system.bits < MOST_BITS:
-            raise UndecidedError(f"layer {layer.j}: balls are too wide for the sign of a force")
-    return None
 
 
 # A float64 force has no sign within so much of its layer's largest change.

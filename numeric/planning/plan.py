@@ -266,7 +266,7 @@ def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step
         ]
     elif problem.route == Route.UNILATERAL:
         beads = n * problem.region.beads
-        moves = f"{problem.protocol}: contacts that pull open, others close"
+        moves = "linear programs: contacts that pull open, others close"
         steps = [
             Step(source, "every bead may move", beads, name),
             Step("relax", moves, beads, name),

@@ -175,10 +175,8 @@ class _Asked:
             quantity.needs_forces,
             scene.contact,
             scene.site,
-            scene.effects.stop_at_tension,
             realisations,
-            scene.effects.protocol if self.unilateral else "",
-            scene.effects.most_events,
+            scene.effects.most_programs,
             scene.effects.most_seconds,
         )
 
@@ -190,10 +188,7 @@ class _Asked:
         if scene.disorder is not None and not self.ordered:
             radii = radii_of(scene, region.rows)
         if self.unilateral:
-            skipped["stop at tension"] = "contacts open before they pull"
             return radii, Route.UNILATERAL
-        if not scene.effects.stop_at_tension:
-            skipped["stop at tension"] = "not asked for: tensile contacts are counted, not acted on"
         if scene.packing.dimension == 2:
             why = 'contacts = "unilateral" would let beads move where a contact pulls'
             skipped["contacts that open"] = why
@@ -339,8 +334,6 @@ def why_not(
         return ""
     if certified:
         return "its error would be estimated, and certified was asked for"
-    if problem.stop_at_tension:
-        return "where the sweep stops hangs on the signs of forces, which only balls decide"
     highest = critical_height(problem.radii.relative_std())
     if problem.route == Route.EXACT and problem.height > highest * SOUND:
         return f"the height is above M*/2 = {highest / 2:.3g}, where rounding errors grow with it"

@@ -7,7 +7,7 @@ from fractions import Fraction
 import numpy as np
 
 from ..arithmetic.carried import NONE, Pairs, Sizes
-from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.engine import chunk_size, packings
@@ -15,7 +15,7 @@ from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import ESTIMATE, Work
-from ..unilateral import Network, Relaxed, UnfinishedError
+from ..unilateral.network import Network, Relaxed
 from .base import RATIO, Quantity, Table
 
 # What the sweeps raise for a packing that can't be built.
@@ -28,17 +28,15 @@ class Answer:
     """Rows of numbers; (low, high, count) of a histogram's bins, None for other quantities.
 
     ``physical``: None where nothing exact was solved, or the same packings a second time.
-    ``stopped``: the contact at which a sweep stopped, if it was asked to. ``networks``: where beads
-    came to rest, one a realisation, under unilateral contacts. Where sweeps carried their errors,
-    ``exact`` is the table with them, in a longer arithmetic, and ``sizes`` how large they were;
-    or ``left`` says how far changes are from those in it.
+    ``network``: where beads came to rest under unilateral contacts. Where sweeps carried their
+    errors, ``exact`` is the table with them, in a longer arithmetic, and ``sizes`` how large they
+    were; or ``left`` says how far changes are from those in it.
     """
 
     table: Table
     bins: Bins | None
     physical: Physicality | None
-    stopped: Contact | AxisContact | None
-    networks: tuple[Network, ...] = ()
+    network: Network | None = None
     exact: Table | None = None
     sizes: Sizes = NONE
     left: float | None = None
@@ -62,18 +60,15 @@ def answer(
     work = Work() if work is None else work
     work.uses(system.name)
     asked = _Asked(quantity, problem, realisations, system, work, longer)
-    networks: list[Network] = []
     with system.active(), asked.own.active():
-        found = asked.gathered(networks)
-        table, exact = found.table, found.exact
+        found = asked.gathered()
+        table, physical = found.table, found.physical
         bins = None if work.repeating else quantity.bins_of(table, system)
-    physical, stopped = found.physical, found.stopped
     if problem.route == Route.ORDERED:
         table, bins = _of_all(quantity.scene.ask.realisations, table, bins)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = at_home(quantity, physical.first_tensile)
-    stopped = None if stopped is None else at_home(quantity, stopped)
-    return Answer(table, bins, physical, stopped, tuple(networks), exact, found.sizes, found.left)
+    return replace(found, table=table, bins=bins)
 
 
 Packings = Iterator[tuple[Solved, Sequence[int]]]
@@ -100,7 +95,7 @@ class _Asked:
         """The arithmetic of the sweep."""
         return FLOAT64 if self.carried else self.system
 
-    def gathered(self, networks: list[Network]) -> Answer:
+    def gathered(self) -> Answer:
         """Gather the rows, and look whether packings are physical, if they are exact."""
         quantity, system, longer = self.quantity, self.system, self.longer
         layers, physical = quantity.all_layers, None
@@ -108,51 +103,48 @@ class _Asked:
             physical = Physicality(looks_at=self.realisations)
         gatherer = quantity.gatherer(self.problem, system)
         beside = None if longer is None else quantity.gatherer(self.problem, longer)
-        stopped: Contact | AxisContact | None = None
+        network: Network | None = None
         sizes = NONE
-        for solved, chunk in self.packings(physical, networks):
-            if solved.forces is not None and stopped is None:
-                stopped = solved.forces.stopped
+        for solved, chunk in self.packings(physical):
             pairs = isinstance(system, Pairs)
             gatherer.add(solved.longer(system) if pairs else solved, chunk, layers)
             if beside is not None and longer is not None and gatherer.left() is None:
                 with self.work.timed(ESTIMATE):
                     beside.add(solved.longer(longer), chunk, layers)
             sizes |= solved.sizes
+            if isinstance(solved, Relaxed):
+                network = solved.network
         table, exact = self.finished(gatherer.table(), system), None
         left = gatherer.left() if beside is not None else None
         if beside is not None and longer is not None and left is None:
             with self.work.timed(ESTIMATE):
                 exact = self.finished(beside.table(), longer)
-        return Answer(table, None, physical, stopped, (), exact, sizes, left)
+        return Answer(table, None, physical, network, exact, sizes, left)
 
     def finished(self, table: Table, system: NumberSystem) -> Table:
         """Give the rows in order, by name and in units."""
         table = in_units(self.quantity, table.sorted(), system)
         return table if table.index else replace(table, index=self.quantity.names)
 
-    def packings(self, physical: Physicality | None, networks: list[Network]) -> Packings:
+    def packings(self, physical: Physicality | None) -> Packings:
         """Solve packings, at which ``physical`` looks; errors say which packing it was."""
         problem, realisations, work, done = self.problem, self.realisations, self.work, 0
         if problem.route == Route.UNILATERAL:
-            from ..unilateral import packings as relaxed  # SciPy's solvers take 35 MB
+            from ..unilateral.relaxation import relaxed  # SciPy's solvers take 35 MB
 
-            solved_all = relaxed(problem, realisations, self.system, work)
-        else:
-            solved_all = packings(
+            assert isinstance(self.system, Balls)
+            (realisation,) = realisations
+            yield relaxed(problem, realisation, self.system, work), realisations
+            return
+        try:
+            for solved, chunk in packings(
                 problem, realisations, self.own, work, physical,
                 carried=self.carried, copied=True,
-            )  # fmt: skip
-        try:
-            for solved, chunk in solved_all:
-                if isinstance(solved, Relaxed):
-                    networks.append(solved.network)
+            ):  # fmt: skip
                 yield solved, chunk
                 done += len(chunk)
-        except (*UNBUILDABLE, UnfinishedError) as error:
-            if problem.route == Route.UNILATERAL and len(realisations) > 1:
-                error.add_note(f"realisation {realisations[done]}; an ensemble leaves such out")
-            elif len(realisations) > 1:
+        except UNBUILDABLE as error:
+            if len(realisations) > 1:
                 error.add_note(_which(problem, realisations[done:], self.own))
             raise
 

@@ -22,7 +22,6 @@ from ..lattice.layers import Block, LazyRows, Naming, Region, Rows, pick, standi
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.sweep import Forces
 from ..scene.scene import Scene
 from ..theory.expected import std_of_spheres, stds_of_discs
 
@@ -373,12 +372,6 @@ def contact_changes(
             F, g = pick(F, own, row, row.count, zero), pick(g, own, row, row.count, zero)
         found.append((block, F, g))
     return found
-
-
-def above_stop(blocks: Sequence[Block], forces: Forces) -> list[Block]:
-    """Leave out what lies below the layer at which a sweep stopped."""
-    lowest = 0 if forces.stopped is None else forces.stopped.j
-    return [block for block in blocks if block.row.j > lowest]
 
 
 def joined(system: NumberSystem, parts: Sequence[Array]) -> Array:

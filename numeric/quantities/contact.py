@@ -16,7 +16,6 @@ from .base import (
     ContactQuantity,
     Listed,
     Table,
-    above_stop,
     column,
     contact_changes,
     joined,
@@ -79,13 +78,12 @@ class SingleContact(ContactQuantity):
         return [Fraction(float(problem.load.ordered_force(self.contact, strength, FLOAT64)))]
 
     def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
-        """Give the contact, with the layer of its upper bead; not where a sweep stopped above."""
+        """Give the contact, with the layer of its upper bead."""
         system, blocks = solved.system, self.blocks(problem, layers)
         if solved.single is not None:
             F, g = (column([one], system) for one in solved.single)
         else:
             assert solved.forces is not None
-            blocks = above_stop(blocks, solved.forces)
             found = contact_changes(solved, blocks, 1)
             F = joined(system, [F for _, F, _ in found])
             g = joined(system, [g[0] for _, _, g in found])

@@ -14,7 +14,6 @@ from .base import (
     Later,
     Listed,
     Table,
-    above_stop,
     contact_changes,
     joined,
 )
@@ -44,7 +43,7 @@ class ContactForces(ContactQuantity, Listed):
         rows: Sequence[Layer] = problem.force_rows[layers.start : layers.stop]
         if self.width is not None:
             rows = [full_layer(j, self.width) for j in layers]
-        blocks = above_stop([Block(b, row) for row in rows for b in self.branches], solved.forces)
+        blocks = [Block(b, row) for row in rows for b in self.branches]
         found = list(contact_changes(solved, blocks, 1))
         return Table(
             self.naming.contacts(blocks),

@@ -17,7 +17,6 @@ from .base import (
     ContactQuantity,
     Gatherer,
     Table,
-    above_stop,
     column,
     contact_changes,
     first_order_std,
@@ -88,7 +87,7 @@ class ProfileMoments(Gatherer):
     def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
         """Merge the changes of the contacts; ordered forces only enter the mean."""
         assert solved.forces is not None
-        blocks = above_stop(self.quantity.blocks(self.problem, layers), solved.forces)
+        blocks = self.quantity.blocks(self.problem, layers)
         means, squares = [], []
         for (branch, row), F, g in contact_changes(solved, blocks, len(realisations)):
             with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
@@ -101,8 +100,7 @@ class ProfileMoments(Gatherer):
                 one = self.problem.load.loaded is None
                 self.found[key] = (F[0] if one else F.sum() / len(F), Moments(self.unit))
             self.found[key][1].add(g.reshape(-1))
-        if not self.problem.stop_at_tension:
-            self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
+        self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
 
     def table(self) -> Table:
         """One row a layer and branch, base first."""
@@ -133,9 +131,7 @@ class ProfileMoments(Gatherer):
         if self.problem.load.loaded is None and not self.problem.load.angle_deg:  # no mean is zero
             numbers[RATIO] = numbers["std"] / numbers["mean"]
         small = ("mean_change", "std")
-        nothing = dict.fromkeys(small, np.full(len(keys), np.nan))
-        errors = nothing if self.problem.stop_at_tension else self._errors()
-        return Table(index, numbers, small, errors)
+        return Table(index, numbers, small, self._errors())
 
     def _errors(self) -> dict[str, Array]:
         mean, std = (error * self.unit for error in self.scatter.errors())

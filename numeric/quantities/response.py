@@ -15,7 +15,6 @@ from .base import (
     ContactQuantity,
     Gatherer,
     Table,
-    above_stop,
     contact_changes,
     joined,
     slope,
@@ -95,7 +94,7 @@ class Response(ContactQuantity):
         contacts) and the same.
         """
         assert solved.forces is not None
-        blocks = above_stop(self.blocks(problem, layers), solved.forces)
+        blocks = self.blocks(problem, layers)
         system = solved.system
         ny = slope(problem, system)
         parts = contact_changes(solved, blocks, realisations)

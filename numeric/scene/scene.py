@@ -92,7 +92,6 @@ def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bo
         leaning=bool(load.angle_deg),
         contacts=effects.contacts,
         geometry=effects.geometry,
-        stop=effects.stop_at_tension,
         at=ask.at is not None,
         layers=ask.layers is not None,
         bins=ask.bins is not None,
@@ -109,7 +108,7 @@ def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bo
 
 def _check_effects(effects: Effects, packing: Packing) -> None:
     if effects.contacts == "bilateral":
-        for key in ("protocol", "most_events", "most_seconds"):
+        for key in ("most_programs", "most_seconds"):
             if key in effects.model_fields_set:
                 allowed = 'only has a meaning with contacts = "unilateral"'
                 raise SceneError(f"effects.{key}", getattr(effects, key), allowed)

@@ -275,26 +275,17 @@ class PointLoad(Load):
 
 
 class Effects(Section):
-    """What is simulated of the packing, and whether tension stops the sweep.
+    """What is simulated of the packing.
 
     ``contacts``: "bilateral" ones stay closed and may pull; "unilateral" ones open instead, and
-    beads move until none pulls. They may come to rest in more than one way, so the way there, the
-    ``protocol``, is part of the answer: "linear-programs", one after another, or "event-driven",
-    one contact after another along the exact motion, from the deposited packing;
-    "interior-path", for large packings, ends in other, deeper minima; "ladder" and "event-ladder"
-    are the first two, then from beads that are dropped one by one, and for "ladder" last a loaded
-    bead in each pocket of the base. A packing is given up after ``most_events`` programs or
-    contacts, or after ``most_seconds`` of processor time.
+    beads move by linear programs, one after another, until none pulls. A packing is given up after
+    ``most_programs``, by default 400, or after ``most_seconds`` of processor time.
     """
 
     section = "effects"
     geometry: Literal["ordered", "first-order", "exact"] = "exact"
-    stop_at_tension: bool = False
     contacts: Literal["bilateral", "unilateral"] = "bilateral"
-    protocol: Literal[
-        "ladder", "linear-programs", "interior-path", "event-ladder", "event-driven"
-    ] = "ladder"
-    most_events: Whole | None = Field(default=None, ge=1)
+    most_programs: Whole | None = Field(default=None, ge=1)
     most_seconds: Number | None = None
 
 

@@ -45,6 +45,21 @@ class Grains:
         first = 2 * (beads - self.fixed)
         return np.asarray(np.stack([first, first + 1], axis=1).ravel())
 
+    def backbone(self, contacts: Pairs) -> Array:
+        """Give the free beads that contacts touch."""
+        free = np.arange(self.fixed, len(self.radii))
+        return np.asarray(free[np.isin(free, contacts)])
+
+    def rattlers(self, contacts: Pairs) -> Array:
+        """Give the free beads that contacts don't touch."""
+        free = np.arange(self.fixed, len(self.radii))
+        return np.asarray(free[~np.isin(free, contacts)])
+
+    def move(self, moves: Array) -> None:
+        """Move all coordinates that may change."""
+        self.x = self.x.copy()
+        self.x[self.fixed :] += moves.reshape(-1, 2)
+
     def energy(self) -> float:
         """Potential energy of the load, which falls while beads move."""
         return -float((self.load * self.x).sum())
@@ -100,13 +115,6 @@ class Grains:
             f"the widest hole of the base lets radii up to {hole:.3g} r through, and the smallest "
             f"bead has {smallest:.3g} r"
         )
-
-    def rate(self, pair: Array, moves: Array, x: Array) -> float:
-        """Give the derivative of one pair's gap along moves of all coordinates that may change."""
-        n = self.directions(pair[None], x)[0]
-        a, b = 2 * (pair - self.fixed)
-        other = moves[b : b + 2] if b >= 0 else 0.0
-        return float(n @ (moves[a : a + 2] - other))
 
     def near(self, reach: float, *, base: bool = False) -> Pairs:
         """List all pairs with gaps up to ``reach``, and some wider ones.

@@ -58,10 +58,7 @@ def scene(quantity: str, kind: str, load: str = "", said: str = "") -> str:
         "packing": {"height": 2, "width": 4, "dimension": 3 if spheres else 2},
         "disorder": {"kind": "uniform", "relative_std": "=0.02", "seed": 3},
         "load": dict(OTHER_LOADS.get(load, usual)),
-        "effects": {
-            "contacts": own.get("contacts", "bilateral"),
-            "stop_at_tension": own.get("stop", False),
-        },
+        "effects": {"contacts": own.get("contacts", "bilateral")},
         "ask": {"quantity": quantity, "at": "place" if quantity == "contact" else None},
     }
     if said:
@@ -120,9 +117,8 @@ def features(quantity: str, kind: str, load: str, said: str) -> dict[str, Any]:
 
 def crossed(command: str, quantity: str, kind: str) -> bool:
     """Whether a cell is tried with other loads and all that is said: some take a second."""
-    if command == "cost":
-        return kind == "discs" and quantity in {"contact", "profile", "histogram"}
-    return command != "figures" or kind != "`stop_at_tension`"
+    few = kind == "discs" and quantity in {"contact", "profile", "histogram"}
+    return few or command != "cost"
 
 
 PAIRS = [("", ""), *product(OTHER_LOADS, [""]), *product([""], SAID)]

@@ -13,9 +13,7 @@ from force_diffusion.__main__ import main
 EFFECTS = {
     "exact": "",
     "first-order": 'geometry = "first-order"',
-    "stop": "stop_at_tension = true",
-    "linear-programs": 'contacts = "unilateral"',
-    "event-driven": 'contacts = "unilateral"\nprotocol = "event-driven"',
+    "unilateral": 'contacts = "unilateral"',
 }
 LOADS = {
     "surface": 'kind = "surface"',

@@ -59,7 +59,7 @@ def test_threads_give_what_one_gives() -> None:
 @pytest.mark.long
 @pytest.mark.usefixtures("_often")
 def test_threads_prove_what_one_proves() -> None:
-    """Of packings whose contacts open, and of bits that only the checker takes."""
+    """Of packings whose contacts open, beside those that stay on the lattice."""
     effects: dict[str, Any] = {"contacts": "unilateral"}
 
     def asked(seed: int) -> Any:

@@ -90,8 +90,6 @@ def _study_one(scene: Scene, notice: Notice) -> CostStudy:
     if plan.problem.route != Route.EXACT:
         own = LINE_SUMS
         skipped.append(Skipped(EXACT, "the scene asks for the first-order theory"))
-    elif scene.effects.stop_at_tension:
-        skipped.append(Skipped(LINE_SUMS, "they do not stop at tension"))
     else:
         first = with_geometry(one, "first-order")
         measure(LINE_SUMS, FLOAT64, planner.plan(first, BEYOND), certified(first).best)

@@ -266,7 +266,6 @@ def test_bytes_that_are_no_sums_are_refused(data: st.DataObject) -> None:
     [
         ({"ask": {"quantity": "positions"}}, "ask.quantity"),
         ({"ask": {"quantity": "profile", "tolerance": "=1e-9"}}, "ask.tolerance"),
-        ({"effects": {"stop_at_tension": True}}, "stop_at_tension"),
         ({"effects": {"geometry": "ordered"}}, "every realisation would be the same"),
         ({"disorder": {"kind": "file", "file": "radii.csv"}}, "drawn"),
         ({"disorder": {"kind": "normal", "relative_std": "=0.0"}}, "the same"),

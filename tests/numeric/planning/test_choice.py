@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.carried import PAIRS
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, midpoint
 from force_diffusion.numeric.planning import sources
@@ -17,7 +16,7 @@ from force_diffusion.numeric.run import run
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.studies import distances
-from hypothesis import assume, given
+from hypothesis import given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
@@ -137,11 +136,7 @@ def test_changes_that_float64_can_not_hold_are_left_to_balls() -> None:
 def test_any_scene_keeps_its_tolerance(sections: dict[str, dict[str, Any]], wanted: str) -> None:
     sections["ask"]["tolerance"] = f"={wanted}"
     plan = planned(sections)
-    try:
-        true = reference(sections)
-    except ToleranceError:  # a force that is exactly zero has no sign
-        assume("stop_at_tension" not in sections["effects"])
-        raise
+    true = reference(sections)
     every = [] if plan.choice is None else [c for c in plan.choice.candidates if not c.out]
     for one in [only(plan, way) for way in every] or [plan]:
         outcome = run(one)
@@ -178,12 +173,11 @@ def test_certified_leaves_balls_alone() -> None:
 
 
 def test_what_only_balls_decide_is_left_to_them() -> None:
-    stopping = {**basic(tolerance="=1e-3"), "effects": {"stop_at_tension": True}}
     high = basic(24, 25, tolerance="=1e-3")
     high["disorder"]["relative_std"] = "=1e-2"
     tiny = basic(tolerance="=1e-3")
     tiny["disorder"]["relative_std"] = "=1e-400"
-    for sections, why in ((stopping, "signs of forces"), (high, r"M*/2"), (tiny, "in float64")):
+    for sections, why in ((high, r"M*/2"), (tiny, "in float64")):
         chosen, *rest = candidates(sections)
         assert chosen.certified
         floats = [way for way in rest if way.arithmetic in {"float64", "longdouble"}]

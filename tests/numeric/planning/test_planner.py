@@ -194,7 +194,7 @@ def test_cost_grows_with_the_region_not_with_the_packing() -> None:
 @pytest.mark.parametrize(
     "named",
     [
-        {"effects": {"stop_at_tension": False}},
+        {"effects": {"contacts": "bilateral"}},
         {"load": {"kind": "surface", "angle_deg": 0}},
         {"effects": {"geometry": "exact"}},
         {"load": {"kind": "surface", "magnitude": "=1.0"}},

@@ -91,7 +91,6 @@ def test_one_periodic_packing() -> None:
     ("sections", "way", "why"),
     [
         (basic(4, 6) | {"effects": {"geometry": "first-order"}}, "exact", "asks"),
-        (basic(4, 6) | {"effects": {"stop_at_tension": True}}, "first-order line sums", "stop"),
         (
             profile() | {"load": {"kind": "point", "at": [1, 5]}},
             "exact finite-M formula",
