@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import flint
@@ -133,10 +134,12 @@ def test_solutions_can_be_pickled(tolerance: str | None, certified: bool) -> Non
     assert np.array_equal(again.force.astype(float), found.force.astype(float))
 
 
-@pytest.mark.parametrize("quantity", QUANTITIES)
 @pytest.mark.parametrize(
-    "effects",
-    [{}, {"geometry": "first-order"}, {"geometry": "ordered"}, {"contacts": "unilateral"}],
+    ("quantity", "effects"),
+    [
+        *product(QUANTITIES, [{}, {"geometry": "first-order"}, {"geometry": "ordered"}]),
+        *product(["contact_forces", "positions"], [{"contacts": "unilateral"}]),
+    ],
 )
 def test_outcomes_can_be_pickled(quantity: str, effects: dict[str, Any]) -> None:
     found = scene(quantity, **effects).run()
