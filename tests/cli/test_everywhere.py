@@ -47,7 +47,7 @@ QUESTIONS = get_args(fd.Ask.model_fields["quantity"].annotation)
 
 def test_the_questions_are_all() -> None:
     assert "contact_forces" in QUESTIONS
-    assert len(QUESTIONS) >= 7
+    assert len(QUESTIONS) >= 6
 
 
 @pytest.mark.long(sample=14)

@@ -510,7 +510,7 @@ def test_a_sign_that_no_precision_settles_stays_open(tmp_path: Path) -> None:
         packing=fd.Packing(height=3, width=20),
         disorder=fd.Disorder(kind="file", file="radii.csv"),
         load=fd.PointLoad(at=(11, 3)),
-        ask=fd.Ask(quantity="contact_forces", tolerance=1e-12),
+        ask=fd.Ask(quantity="contact_forces", tolerance=1e-12, certified=True),
         folder=tmp_path,
     ).run()
     assert found.accuracy.certified
