@@ -51,5 +51,3 @@ def test_figures_of_a_scene(quantity: str, tmp_path: Path) -> None:
     scene.write_text(SCENE.replace("contact_forces", quantity))
     assert main(["figures", str(scene), "--out", str(out)]) == 0
     assert {path.suffix for path in out.iterdir()} == {".csv", ".json", ".pdf", ".png", ".svg"}
-
-
