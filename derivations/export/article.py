@@ -99,12 +99,12 @@ def article_and_figures(
     ``command`` is what the figures say that made them; ``notice`` is told which is made next.
     Raises ``MissingLibraryError``.
     """
-    from force_diffusion.numeric.figures.catalogue import begun
+    from force_diffusion.numeric.figures.catalogue import figure
 
     markdown, plates = source(), {}
     drawn: dict[str, str | bytes] = {}
     for name in figures_of(markdown):
-        made = begun(name, command=command, kinds=("pdf",), notice=notice)()
+        made = figure(name, command=command, kinds=("pdf",), notice=notice)
         file = f"{FIGURES[name].file}.pdf"
         drawn[file] = made.files[file]
         plates[name] = Plate(file, made.wide, tuple(made.lines))
@@ -260,8 +260,7 @@ class _Writer:
             return before
         if title.startswith("Appendix: "):
             title = title.removeprefix("Appendix: ")
-            before += "\\label{end}\\appendix\n\\setcounter{figure}{0}\n"
-            before += "\\renewcommand{\\thefigure}{A\\arabic{figure}}\n"
+            before += "\\label{end}\\appendix\n"
         return f"{before}\\{_HEADINGS[level - 1]}{{{title[:1].upper()}{title[1:]}}}\n"
 
     def _paragraph(self, node: Node) -> str:

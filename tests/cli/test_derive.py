@@ -9,7 +9,6 @@ import signal
 import subprocess
 import sys
 import textwrap
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -144,11 +143,11 @@ def test_a_part_of_them_again_loses_nothing(made_up, tmp_path: Path, capsys) -> 
 def drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures that take no time."""
 
-    def begun(name: str, **_: Any) -> Callable[[], PaperFigure]:
+    def figure(name: str, **_: Any) -> PaperFigure:
         file = f"{FIGURES[name].file}.pdf"
-        return lambda: PaperFigure(name, {file: b"%PDF", "x.csv": ""}, {}, ["all inside"])
+        return PaperFigure(name, {file: b"%PDF", "x.csv": ""}, {}, ["all inside"])
 
-    monkeypatch.setattr("force_diffusion.numeric.figures.catalogue.begun", begun)
+    monkeypatch.setattr("force_diffusion.numeric.figures.catalogue.figure", figure)
 
 
 def test_the_article_says_what_was_derived(made_up, drawn, tmp_path: Path, capsys) -> None:
