@@ -121,8 +121,6 @@ class Quantity(ABC):
     needs_forces: ClassVar[bool] = True
     merged: ClassVar[bool] = False
     """Whether realisations are merged into one set of rows."""
-    statistics: ClassVar[bool] = False
-    """Whether an ensemble has statistics of it."""
     numbers: ClassVar[int] = 4
     """How many numbers a row has, at the most."""
 
@@ -290,7 +288,6 @@ class ContactQuantity(Quantity):
     Its groups hold contacts that are alike: a layer and branch of a profile, or one contact.
     """
 
-    statistics = True
     squares: ClassVar[bool] = False
     """Whether covariances between groups are those of mean squares, and not of changes."""
 
