@@ -3,9 +3,9 @@
 import io
 import shutil
 import sqlite3
+from contextlib import suppress
 from pathlib import Path
 from random import Random
-from typing import Any
 
 import numpy as np
 
@@ -16,20 +16,13 @@ ask = {quantity = "profile"}
 """
 
 
-def store(random: Random, folder: Path, whole: Path) -> list[str]:
+def store(random: Random, folder: Path) -> list[str]:
     """Damage a store, its bytes or what it says, and look at it or go on from it."""
     path = folder / "store"
-    shutil.copy(whole, path)
-    shutil.copy(whole.with_name("scene.toml"), folder)
-    kind = random.randrange(4)
-    if kind == 0:
-        content = bytearray(path.read_bytes())
-        for _ in range(random.choice([1, 1, 2, 20])):
-            content[random.randrange(len(content))] ^= 1 << random.randrange(8)
-        path.write_bytes(content)
-    elif kind == 1:
-        content = bytearray(path.read_bytes())
-        path.write_bytes(content[: random.randrange(len(content))] + random.randbytes(9) * 9)
+    for name in ("store", "scene.toml"):
+        shutil.copy(folder.parent / "whole" / name, folder)
+    if random.random() < 0.5:
+        path.write_bytes(_damaged(random, path.read_bytes()))
     else:
         _forge(random, path)
     if random.random() < 0.5:
@@ -38,34 +31,29 @@ def store(random: Random, folder: Path, whole: Path) -> list[str]:
 
 
 def _forge(random: Random, path: Path) -> None:
-    database = sqlite3.connect(path, isolation_level=None)
-    tables = {"about": ["name", "content", "checksum"], "sums": ["first", "stop", "content"]}
     values = [
         None, 0, -1, 2**63 - 1, 1.5, "", "[", "null", "[" * 50_000, '{"a": 1}', "\x1b[2J",
         "nan", b"", b"\xff\xfe", random.randbytes(64), "9" * 5000, "x" * 10**6,
     ]  # fmt: skip
-    statements: list[tuple[str, tuple[object, ...]]] = []
+    database = sqlite3.connect(path, isolation_level=None)
     for _ in range(random.choice([1, 1, 3])):
-        table = random.choice(list(tables))
-        column = random.choice(tables[table])
-        statements.append(
-            random.choice(
-                [
-                    (f"UPDATE {table} SET {column} = ?", (random.choice(values),)),
-                    (f"DELETE FROM {table} WHERE rowid = ?", (random.randrange(4),)),
-                    (f"DROP TABLE {table}", ()),
-                    (f"ALTER TABLE {table} ADD COLUMN x CHECK (abs(x) > randomblob(9))", ()),
-                    ("INSERT INTO sums VALUES (?, ?, ?, ?)", (5, 3, b"", "")),
-                    (f"PRAGMA user_version = {random.randrange(-5, 5)}", ()),
-                    ("CREATE VIEW v AS SELECT * FROM v", ()),
-                ]
-            )
+        table, column = random.choice(
+            [("about", "name"), ("about", "content"), ("about", "checksum"), ("sums", "first"),
+             ("sums", "stop"), ("sums", "content")]
+        )  # fmt: skip
+        statement, arguments = random.choice(
+            [
+                (f"UPDATE {table} SET {column} = ?", [random.choice(values)]),
+                (f"DELETE FROM {table} WHERE rowid = ?", [random.randrange(4)]),
+                (f"DROP TABLE {table}", []),
+                (f"ALTER TABLE {table} ADD COLUMN x CHECK (abs(x) > randomblob(9))", []),
+                ("INSERT INTO sums VALUES (?, ?, ?, ?)", [5, 3, b"", ""]),
+                (f"PRAGMA user_version = {random.randrange(-5, 5)}", []),
+                ("CREATE VIEW v AS SELECT * FROM v", []),
+            ]
         )
-    for statement, arguments in statements:
-        try:
+        with suppress(sqlite3.Error, OverflowError):
             database.execute(statement, arguments)
-        except (sqlite3.Error, OverflowError):
-            continue
     database.close()
 
 
@@ -93,9 +81,9 @@ def array(random: Random, folder: Path) -> list[str]:
     values[random.randrange(4), random.randrange(5)] = random.choice(odd)
     kinds = ["<f8"] * 9 + [">f8", "<f4", "<i8", "|b1", "<c16", "<U3"]
     with np.errstate(all="ignore"):
-        kept: Any = values.astype(random.choice(kinds))
+        given = values.astype(random.choice(kinds))
     buffer = io.BytesIO()
-    random.choice([np.save] * 8 + [np.savez])(buffer, kept)
+    random.choice([np.save] * 8 + [np.savez])(buffer, given)
     content = buffer.getvalue()
     content = content if random.random() < 0.3 else _damaged(random, content)
     (folder / "radii.npy").write_bytes(content)
