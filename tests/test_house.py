@@ -20,7 +20,7 @@ LIMITS = {
     "derivations": 16_520,
     "numeric": 17_277,
     "force_diffusion": 73,
-    "benchmarks": 1_220,
+    "benchmarks": 900,
     ".ci": 500,
     "tests": 26_000,
 }
