@@ -18,7 +18,7 @@ from time import process_time
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, BigFloat, as_floats
 from force_diffusion.numeric.mechanics.problem import axes
 from force_diffusion.numeric.planning.planner import initial_bits
 from measuring import Line, in_turn, program
@@ -38,7 +38,7 @@ def forces() -> Iterator[Line]:
     numpy, compiled = problem.solver(), problem.compiled()
     solved, found = numpy()
     n = axes(problem.n_x, FLOAT64)
-    reference = stacked(problem.solver(LONGDOUBLE)()[1])
+    reference = as_floats(stacked(problem.solver(Balls(106))()[1]))
 
     def error(values: Any) -> float:
         return float(np.abs(values - reference).max() / np.abs(reference).max())

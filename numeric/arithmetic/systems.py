@@ -21,7 +21,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
-MOST_DIGITS = 2400  # of big numbers; balls never get more than 8192 bits
 
 
 class NumberSystem(Protocol):
@@ -35,7 +34,7 @@ class NumberSystem(Protocol):
 
     @property
     def dtype(self) -> Any:
-        """NumPy's element type; ``object`` for everything but hardware floats."""
+        """NumPy's element type; ``object`` for everything but float64."""
 
     def number(self, value: Fraction) -> Any:
         """Turn a rational into the nearest number (balls: into an enclosure)."""
@@ -97,7 +96,7 @@ def from_floats(system: NumberSystem, values: Array) -> Array:
     if hasattr(system, "from_floats"):
         return like_array(system.from_floats(values))
     if system.dtype is not object:
-        return values.astype(system.dtype)
+        return values
     result = np.empty(values.shape, dtype=object)
     flat = result.reshape(-1)
     for q, value in enumerate(values.reshape(-1).tolist()):
@@ -113,26 +112,20 @@ def as_floats(values: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Hardware:
-    """float64, or the platform's long double (80 bits on x86, maybe no more than 64 elsewhere)."""
+class Float64:
+    """Doubles."""
 
-    name: str
-    dtype: Any
-
-    @property
-    def bits(self) -> int:
-        """Bits of the significand."""
-        return int(np.finfo(self.dtype).nmant) + 1
+    name: str = "float64"
+    dtype: Any = np.float64
+    bits: int = 53
 
     def number(self, value: Fraction) -> Any:
-        """Round to nearest even (long double: within one unit in the last place)."""
-        if self.dtype is np.float64:
-            return np.float64(value.numerator / value.denominator)
-        return _longdouble(value)
+        """Round to nearest even."""
+        return np.float64(value.numerator / value.denominator)
 
     def from_float(self, value: float) -> Any:
-        """Convert without loss."""
-        return self.dtype(value)
+        """Keep it."""
+        return np.float64(value)
 
     def from_ball(self, value: Any) -> Any:
         """Round the midpoint."""
@@ -157,7 +150,7 @@ class Hardware:
 
     def __reduce__(self) -> str:
         """Stay the one that there is: a plan asks whether a system *is* that of float64."""
-        return self.name.upper()
+        return "FLOAT64"
 
     @contextmanager
     def active(self) -> Iterator[None]:
@@ -166,15 +159,7 @@ class Hardware:
             yield
 
 
-def _longdouble(value: Fraction) -> Any:
-    """Divide the 70 leading bits: exact scaling, so that no step overflows or loses digits."""
-    if not value:
-        return np.longdouble(0)
-    shift = 70 - (value.numerator.bit_length() - value.denominator.bit_length())
-    scaled = round(value * Fraction(2) ** shift)
-    high, low = divmod(abs(scaled), 1 << 40)
-    whole = np.ldexp(np.longdouble(high), 40) + np.longdouble(low)
-    return np.ldexp(whole if scaled > 0 else -whole, -shift)
+FLOAT64 = Float64()
 
 
 def midpoint(ball: Any) -> Fraction:
@@ -223,10 +208,6 @@ def in_flint(**settings: int) -> Iterator[None]:
         finally:
             for name, value in before.items():
                 setattr(flint.ctx, name, value)
-
-
-FLOAT64 = Hardware("float64", np.float64)
-LONGDOUBLE = Hardware("longdouble", np.longdouble)
 
 
 @dataclass(frozen=True)

@@ -147,10 +147,10 @@ class Descent:
         self.set(loads)
 
     @cached_property
-    def nearest(self) -> tuple[Array, Array]:
-        """The ordered forces below beads, (d, …), rounded once, and what that leaves."""
+    def nearest(self) -> Array:
+        """The ordered forces below beads, (d, …), rounded once."""
         d, F = self.region.dimension, self.F[:, self.beads_below]
-        return Carried(F[:d], F[d:]).nearest
+        return np.asarray(F[:d] + F[d:]) if self.carried else F
 
     @cached_property
     def bounds(self) -> tuple[float, float]:
@@ -174,16 +174,13 @@ class Descent:
                     shares[a, of] = share
         kernels(d).straight_down(self.F, shares, self.runs, np.empty(0))
 
-    def settled(self, g: Array) -> tuple[float, float, float]:
-        """Round changes that carry errors once, in place; rests take the place of errors.
-
-        Give the largest change, the largest error of one, and the largest rest.
-        """
+    def settle(self, g: Array) -> tuple[float, float]:
+        """Round changes that carry errors once, in place; give the largest change, and error."""
         d, of = self.region.dimension, self.beads_below
-        most = np.zeros(2 * d + 1)
+        most = np.zeros(2 * d)
         loop, words = kernels(d).settle, g.view(np.int64)
         loop(g, words, of.start, of.stop - of.start, most.view(np.int64))
-        return float(most[:d].max()), float(most[d : 2 * d].max()), float(most[-1])
+        return float(most[:d].max()), float(most[d:].max())
 
     def __call__(self, block: Array) -> Array | None:
         """Balance the forces of packings whose ``block`` that is; None where not all is in order.
@@ -207,15 +204,12 @@ class Descent:
         """Which of all numbers belong to beads that bear something."""
         return slice(self.starts[self.lowest], self.starts[-1])
 
-    def told(
-        self, F: Array, g: Array, most: float | None = None, left: float | None = None
-    ) -> Forces:
-        """Tell ``beads_below`` row by row: ordered forces (d, …), changes (packings, d, …).
+    def told(self, g: Array, most: float | None) -> Forces:
+        """Tell ``beads_below`` row by row, of changes ``g`` (packings, d, …).
 
-        ``most``: the largest change, if that is known; ``left``: as ``Forces`` have it.
+        ``most``: the largest change, if that is known.
         """
-        d = self.region.dimension
-
+        d, F = self.region.dimension, self.nearest
         starts = self.starts - self.starts[self.lowest]
 
         def row(values: Array, j: int) -> Array:
@@ -235,5 +229,4 @@ class Descent:
             F=F,
             g=g,
             hold=most is not None and self.bounds[0] - most > 2 * SIGNS * most,
-            left=left,
         )

@@ -104,7 +104,6 @@ class Forces:
     ``ordered``: F^a, ``change``: g^a = f^a − F^a; per layer arrays of shape (count,), changes of a
     batch of packings (…, count). ``F`` (d, …) and ``g`` (batch, d, …) hold all of compiled loops,
     from the lowest row that forces reach on. ``hold``: it is known that none of them pulls.
-    ``left``: the most that rounding left of a change, if that is known.
     """
 
     system: NumberSystem
@@ -115,7 +114,6 @@ class Forces:
     F: Array | None = None
     g: Array | None = None
     hold: bool = False
-    left: float | None = None
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
         """Give (branch, F, g) of the contacts below row j."""

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.carried import CARRYING, Carried, Sizes
+from ..arithmetic.carried import CARRYING, NONE, Carried, Sizes
 from ..arithmetic.compiling import on_all_cores
 from ..arithmetic.systems import FLOAT64, Array
 from ..disorder import compiled as drawing
@@ -171,7 +171,7 @@ class Sweeps:
         return replace(told(*parts, Carried), system=CARRYING, memory=None)
 
     def told(self, rho: Array, block: Array, descent: Descent | None, g: Array | None) -> Solved:
-        """Tell what was solved row by row, with what rounding left if that is known."""
+        """Tell what was solved row by row."""
         return tell(self.phi, self._deposit, rho, descent, g)
 
 
@@ -192,28 +192,17 @@ def tell(
 
     Changes are rounded in place: no sweep goes on from them.
     """
-    region, most = deposition.region, deposition.most
-    parts = phi, region, rho, deposition.block[: len(rho)], most
-    forces = left = None
-    if not deposition.carried:
-        if g is not None and descent is not None:
-            of = descent.beads_below
-            forces = descent.told(descent.F[:, of], g[..., of])
-        return Solved(FLOAT64, told(*parts), forces, None)
-    d = region.dimension
-    moved, turned = most[:, d + d * d : 2 * d + d * d], most[:, 2 * d + d * d :]
-    sizes = Sizes(float(moved.max()), float(turned.max()))
+    region, most, carried = deposition.region, deposition.most, deposition.carried
+    d, forces, sizes = region.dimension, None, NONE
+    if carried:
+        moved, turned = most[:, d + d * d : 2 * d + d * d], most[:, 2 * d + d * d :]
+        sizes = Sizes(float(moved.max()), float(turned.max()))
     if g is not None and descent is not None:
-        largest, off, after = descent.settled(g)
-        near, rest = descent.nearest
-        sizes |= Sizes(changed=off, force=descent.bounds[1] + largest)
-        g = g[..., descent.beads_below]
-        forces = descent.told(near, g[:, :d], largest, after)
-        left = descent.told(rest, g[:, d:])
-    beside = Solved(FLOAT64, told(*parts, _left), left, None)
-    return Solved(FLOAT64, told(*parts, add), forces, None, beside, sizes)
-
-
-def _left(value: Array, error: Array) -> Any:
-    """Give what one rounding leaves of a value and its error."""
-    return Carried(value, error).nearest[1]
+        largest = None
+        if carried:
+            largest, off = descent.settle(g)
+            sizes |= Sizes(changed=off, force=descent.bounds[1] + largest)
+        forces = descent.told(g[:, :d, descent.beads_below], largest)
+    block = deposition.block[: len(rho)]
+    packing = told(phi, region, rho, block, most, add if carried else None)
+    return Solved(FLOAT64, packing, forces, None, sizes)

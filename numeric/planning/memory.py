@@ -3,9 +3,8 @@
 import math
 from collections.abc import Callable
 
-from ..arithmetic.carried import Pairs
 from ..arithmetic.errors import ForceDiffusionError
-from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..lattice.layers import Region, Rows
 from ..quantities.base import Quantity
 from ..scene.scene import Scene, check
@@ -49,13 +48,13 @@ def memory(
     ``beads`` are those solved at once, ``region`` is that of the plan; the rows of the answer
     become ``text`` or not.
     """
-    scene, big = quantity.scene, system.dtype is object
-    each = float_bead(scene.packing.dimension) * (1 if system is FLOAT64 else 3)
-    if big and not isinstance(system, Pairs):
-        each = BALL_BEAD * max(64 + system.bits, 128) // 128
+    scene = quantity.scene
+    each = float_bead(scene.packing.dimension)
+    row = NAMES + quantity.numbers * (FLOAT_NUMBER + TEXT * text)
+    if isinstance(system, Balls):
+        each, row = BALL_BEAD * max(64 + system.bits, 128) // 128, BALL_ROW
     if scene.disorder is not None and scene.disorder.file is not None:
         each += FILE_LINE
-    row = BALL_ROW if big else NAMES + quantity.numbers * (FLOAT_NUMBER + TEXT * text)
     listed = 0 if quantity.merged or realisations == 1 else realisations
     return (
         beads * each

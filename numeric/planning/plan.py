@@ -6,7 +6,6 @@ from functools import cached_property
 from importlib.util import find_spec
 from typing import Any
 
-from ..arithmetic.carried import Pairs
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
@@ -40,26 +39,15 @@ _WHOLE = "spheres are always swept in whole layers"
 
 @dataclass(frozen=True)
 class Method:
-    """An arithmetic, and how the error of its answer becomes known.
-
-    In float64 and pairs, sweeps of the first ``repeated`` realisations carry their errors, and
-    ``longer`` holds both together; what is longer still is repeated in ``longer``. None stands for
-    balls, which certify.
-    """
+    """An arithmetic; in float64, sweeps of the first ``repeated`` realisations carry errors."""
 
     system: NumberSystem
-    longer: NumberSystem | None = None
     repeated: int = 0
 
     @property
     def certified(self) -> bool:
         """Whether the error is a rigorous bound."""
         return isinstance(self.system, Balls)
-
-    @property
-    def carries(self) -> bool:
-        """Whether sweeps carry their own errors."""
-        return self.system is FLOAT64 or isinstance(self.system, Pairs)
 
 
 @dataclass(frozen=True)
@@ -300,19 +288,14 @@ def _judging(steps: list[Step], problem: Problem, method: Method) -> Step:
     if problem.route == Route.UNILATERAL:
         why = "Kantorovich's theorem in balls: beads touch exactly, forces and gaps are positive"
         return Step(CERTIFY, why, 0, name)
-    if method.longer is None:
+    if method.certified:
         why = "balls enclose the answer; bits are added, and all is done again, until it fits"
         return Step(CERTIFY, why, 0, name)
-    whole = method.repeated == problem.realisations
-    if method.carries and whole:
+    if method.repeated == problem.realisations:
         return Step(ESTIMATE, "the sweep carried the rounding error of every number along", 0, name)
     visits = sum(step.beads for step in steps if step.step != PHYSICAL) // problem.realisations
-    again = "their rounding errors carried along" if method.carries else "a longer significand"
-    longer = method.longer.name
-    if not whole:
-        longer = name if method.carries else f"{name}, then {longer}"
-    beads = (1 if whole else 2) * method.repeated * visits
-    return Step(ESTIMATE, f"the first realisations again with {again}", beads, longer)
+    why = "the first realisations again with their rounding errors carried along"
+    return Step(ESTIMATE, why, 2 * method.repeated * visits, name)
 
 
 def _why_region(problem: Problem) -> str:

@@ -6,15 +6,15 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..arithmetic.carried import NONE, Pairs, Sizes
-from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
+from ..arithmetic.carried import NONE, Sizes
+from ..arithmetic.systems import Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import AxisContact, Contact
 from ..mechanics.engine import chunk_size, packings
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import NotStandingError, UnbuildableError
-from ..mechanics.work import ESTIMATE, Work
+from ..mechanics.work import Work
 from ..unilateral.network import Network, Relaxed
 from .base import RATIO, Quantity, Table
 
@@ -28,18 +28,15 @@ class Answer:
     """Rows of numbers; (low, high, count) of a histogram's bins, None for other quantities.
 
     ``physical``: None where nothing exact was solved, or the same packings a second time.
-    ``network``: where beads came to rest under unilateral contacts. Where sweeps carried their
-    errors, ``exact`` is the table with them, in a longer arithmetic, and ``sizes`` how large they
-    were; or ``left`` says how far changes are from those in it.
+    ``network``: where beads came to rest under unilateral contacts. ``sizes``: those of the errors
+    that sweeps carried, if they did.
     """
 
     table: Table
     bins: Bins | None
     physical: Physicality | None
     network: Network | None = None
-    exact: Table | None = None
     sizes: Sizes = NONE
-    left: float | None = None
 
 
 def answer(
@@ -49,104 +46,63 @@ def answer(
     system: NumberSystem,
     work: Work | None = None,
     *,
-    longer: NumberSystem | None = None,
+    carried: bool = False,
 ) -> Answer:
-    """Answer a question for some realisations.
-
-    With a ``longer`` arithmetic, ``system`` is float64 and numbers carry their errors.
+    """Answer a question for some realisations; ``carried``: numbers, float64, carry their errors.
 
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     work = Work() if work is None else work
     work.uses(system.name)
-    asked = _Asked(quantity, problem, realisations, system, work, longer)
-    with system.active(), asked.own.active():
-        found = asked.gathered()
-        table, physical = found.table, found.physical
-        bins = None if work.repeating else quantity.bins_of(table, system)
+    physical, network, sizes, bins = None, None, NONE, None
+    if problem.route == Route.EXACT and not work.repeating:
+        physical = Physicality(looks_at=realisations)
+    gatherer = quantity.gatherer(problem, system)
+    with system.active():
+        for solved, chunk in _solved(problem, realisations, system, work, physical, carried):
+            gatherer.add(solved, chunk)
+            sizes |= solved.sizes
+            if isinstance(solved, Relaxed):
+                network = solved.network
+        table = in_units(quantity, gatherer.table().sorted(), system)
+        if not table.index:
+            table = replace(table, index=quantity.names)
+        if not work.repeating:
+            bins = quantity.bins_of(table, system)
     if problem.route == Route.ORDERED:
         table, bins = _of_all(quantity.scene.ask.realisations, table, bins)
     if physical is not None and physical.first_tensile is not None:
         physical.first_tensile = at_home(quantity, physical.first_tensile)
-    return replace(found, table=table, bins=bins)
+    return Answer(table, bins, physical, network, sizes)
 
 
-Packings = Iterator[tuple[Solved, Sequence[int]]]
+def _solved(
+    problem: Problem,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    work: Work,
+    physical: Physicality | None,
+    carried: bool,
+) -> Iterator[tuple[Solved, Sequence[int]]]:
+    """Solve packings, at which ``physical`` looks; errors say which packing it was."""
+    if problem.route == Route.UNILATERAL:
+        from ..unilateral.relaxation import relaxed  # SciPy's solvers take 35 MB
 
-
-@dataclass(frozen=True)
-class _Asked:
-    """What is asked of a sweep, in which arithmetic its numbers are gathered."""
-
-    quantity: Quantity
-    problem: Problem
-    realisations: Sequence[int]
-    system: NumberSystem
-    work: Work
-    longer: NumberSystem | None
-
-    @property
-    def carried(self) -> bool:
-        """Whether sweeps carry their errors."""
-        return self.longer is not None or isinstance(self.system, Pairs)
-
-    @property
-    def own(self) -> NumberSystem:
-        """The arithmetic of the sweep."""
-        return FLOAT64 if self.carried else self.system
-
-    def gathered(self) -> Answer:
-        """Gather the rows, and look whether packings are physical, if they are exact."""
-        quantity, system, longer = self.quantity, self.system, self.longer
-        layers, physical = quantity.all_layers, None
-        if self.problem.route == Route.EXACT and not self.work.repeating:
-            physical = Physicality(looks_at=self.realisations)
-        gatherer = quantity.gatherer(self.problem, system)
-        beside = None if longer is None else quantity.gatherer(self.problem, longer)
-        network: Network | None = None
-        sizes = NONE
-        for solved, chunk in self.packings(physical):
-            pairs = isinstance(system, Pairs)
-            gatherer.add(solved.longer(system) if pairs else solved, chunk, layers)
-            if beside is not None and longer is not None and gatherer.left() is None:
-                with self.work.timed(ESTIMATE):
-                    beside.add(solved.longer(longer), chunk, layers)
-            sizes |= solved.sizes
-            if isinstance(solved, Relaxed):
-                network = solved.network
-        table, exact = self.finished(gatherer.table(), system), None
-        left = gatherer.left() if beside is not None else None
-        if beside is not None and longer is not None and left is None:
-            with self.work.timed(ESTIMATE):
-                exact = self.finished(beside.table(), longer)
-        return Answer(table, None, physical, network, exact, sizes, left)
-
-    def finished(self, table: Table, system: NumberSystem) -> Table:
-        """Give the rows in order, by name and in units."""
-        table = in_units(self.quantity, table.sorted(), system)
-        return table if table.index else replace(table, index=self.quantity.names)
-
-    def packings(self, physical: Physicality | None) -> Packings:
-        """Solve packings, at which ``physical`` looks; errors say which packing it was."""
-        problem, realisations, work, done = self.problem, self.realisations, self.work, 0
-        if problem.route == Route.UNILATERAL:
-            from ..unilateral.relaxation import relaxed  # SciPy's solvers take 35 MB
-
-            assert isinstance(self.system, Balls)
-            (realisation,) = realisations
-            yield relaxed(problem, realisation, self.system, work), realisations
-            return
-        try:
-            for solved, chunk in packings(
-                problem, realisations, self.own, work, physical,
-                carried=self.carried, copied=True,
-            ):  # fmt: skip
-                yield solved, chunk
-                done += len(chunk)
-        except UNBUILDABLE as error:
-            if len(realisations) > 1:
-                error.add_note(_which(problem, realisations[done:], self.own))
-            raise
+        assert isinstance(system, Balls)
+        (realisation,) = realisations
+        yield relaxed(problem, realisation, system, work), realisations
+        return
+    done = 0
+    try:
+        for solved, chunk in packings(
+            problem, realisations, system, work, physical, carried=carried, copied=True
+        ):
+            yield solved, chunk
+            done += len(chunk)
+    except UNBUILDABLE as error:
+        if len(realisations) > 1:
+            error.add_note(_which(problem, realisations[done:], system))
+        raise
 
 
 def _of_all(alike: int, table: Table, bins: Bins | None) -> tuple[Table, Bins | None]:

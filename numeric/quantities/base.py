@@ -92,26 +92,12 @@ class Gatherer(ABC):
     """Collects solved realisations; ``table`` gives what was found."""
 
     @abstractmethod
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
-        """Take in solved realisations (in a batch, the first axis of the arrays).
-
-        What is taken in belongs to the beads of some ``layers``, and to the contacts below them.
-        """
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+        """Take in solved realisations (in a batch, the first axis of the arrays)."""
 
     @abstractmethod
     def table(self) -> Table:
-        """Give the answer, or that part of it which follows from the layers taken in.
-
-        Parts of layers one above the other, put below each other, are the rows of the answer in
-        order. Where rows have no ``index``, theirs is ``Quantity.names``.
-        """
-
-    def left(self) -> float | None:
-        """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
-
-        None where the rows have to be gathered with them to know that.
-        """
-        return None
+        """Give the answer; where rows have no ``index``, theirs is ``Quantity.names``."""
 
 
 class Quantity(ABC):
@@ -123,6 +109,8 @@ class Quantity(ABC):
     """Whether realisations are merged into one set of rows."""
     numbers: ClassVar[int] = 4
     """How many numbers a row has, at the most."""
+    roundings: ClassVar[int] = 6
+    """Of a number of the answer, sums over many apart, in units 2^-53 of the largest change."""
 
     def __init__(self, scene: Scene) -> None:
         """Ask a scene's question."""
@@ -204,21 +192,9 @@ class Quantity(ABC):
     # How it is gathered
 
     @property
-    def all_layers(self) -> range:
-        """All layers, whose contacts below decide the answer; and the base."""
-        return range(self.height + 1)
-
-    @property
     def names(self) -> Columns:
         """The columns that name all rows of a packing, where tables leave them out."""
         return {}
-
-    def left(self, solved: Solved) -> float | None:
-        """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
-
-        None where the rows have to be gathered with them to know that.
-        """
-        return None
 
     @abstractmethod
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
@@ -238,25 +214,17 @@ class Listing(Gatherer):
         """Start empty."""
         self.quantity, self.problem, self.system = quantity, problem, system
         self.parts: list[Table] = []
-        self._left: float | None = 0.0
 
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in solved realisations."""
-        left = self.quantity.left(solved)
-        known = left is not None and self._left is not None
-        self._left = max(self._left or 0.0, left or 0.0) if known else None
         for number, realisation in enumerate(realisations):
             one = solved if len(realisations) == 1 else solved.one(number)
-            part = self.quantity.rows(self.problem, one, layers)
+            part = self.quantity.rows(self.problem, one)
             if self.problem.realisations > 1:
                 index = part.index or self.quantity.names
                 index["realisation"] = np.full(part.rows, realisation)
                 part = replace(part, index=index)
             self.parts.append(part)
-
-    def left(self) -> float | None:
-        """Give how far numbers are from those of their sweeps' errors, as far as that is known."""
-        return self._left
 
     def table(self) -> Table:
         """Put the realisations below each other."""
@@ -278,8 +246,8 @@ class Listed(Quantity):
         return Listing(self, problem, system)
 
     @abstractmethod
-    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
-        """Give the rows of one realisation that belong to some layers (see ``Gatherer``)."""
+    def rows(self, problem: Problem, solved: Solved) -> Table:
+        """Give the rows of one realisation."""
 
 
 class ContactQuantity(Quantity):
@@ -301,16 +269,9 @@ class ContactQuantity(Quantity):
         """Whether contacts below the beads of layer j are asked for."""
         return self.layers is None or j - 1 in self.layers
 
-    def left_of_changes(self, solved: Solved) -> float | None:
-        """Give what rounding left of the changes of all contacts, where they are the answer."""
-        one = self.scene.load.magnitude == 1
-        return solved.forces.left if one and solved.forces is not None else None
-
-    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
-        """Give the contacts below the beads of some layers, in the order of the groups."""
-        layers = self.all_layers if layers is None else layers
-        below = problem.force_rows[max(layers.start, 1) : layers.stop]
-        rows = (row for row in below if row.count and self.is_asked(row.j))
+    def blocks(self, problem: Problem) -> list[Block]:
+        """Give the contacts that are asked for, in the order of the groups."""
+        rows = (row for row in problem.force_rows[1:] if row.count and self.is_asked(row.j))
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:

@@ -36,8 +36,8 @@ class NetworkQuantity(Listed):
         """Two contacts a bead, at most."""
         return 2 * region.beads
 
-    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
-        """Give all rows; a packing is never cut into layers."""
+    def rows(self, problem: Problem, solved: Solved) -> Table:
+        """Give all rows."""
         assert isinstance(solved, Relaxed)
         return self.listed(problem, solved.network, solved.system)
 

@@ -41,17 +41,16 @@ class Profile(ContactQuantity):
     def gathered(self, region: Region, realisations: int) -> int:
         """Whole layers, also where a load reaches few of their contacts: 38 numbers a bead."""
         idle = max((self.width or 0) * (self.height + 1) - region.beads, 0)
-        return 2 * idle * (realisations + 3) // 38
+        return 2 * idle * (realisations + 1) // 38
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> "ProfileMoments":
         """Start to merge moments."""
         return ProfileMoments(self, problem, system)
 
-    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
+    def blocks(self, problem: Problem) -> list[Block]:
         """Give whole layers, those that no load reaches included."""
         assert self.width is not None
-        layers = self.all_layers if layers is None else layers
-        rows = [full_layer(j, self.width) for j in layers if j]
+        rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
@@ -84,10 +83,10 @@ class ProfileMoments(Gatherer):
         self.found: dict[tuple[int, Direction], tuple[Any, Moments]] = {}
         self.scatter = Scatter()
 
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Merge the changes of the contacts; ordered forces only enter the mean."""
         assert solved.forces is not None
-        blocks = self.quantity.blocks(self.problem, layers)
+        blocks = self.quantity.blocks(self.problem)
         means, squares = [], []
         for (branch, row), F, g in contact_changes(solved, blocks, len(realisations)):
             with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known

@@ -11,7 +11,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from ..accuracy import Accuracy, ToleranceError, enclosed, repeated, shortfall
+from ..accuracy import Accuracy, ToleranceError, enclosed, estimated, shortfall
 from ..arithmetic.decimals import exact, parse
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work
@@ -45,7 +45,7 @@ def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     elif plan.method.certified:
         plan, answer, accuracy = enclosed(plan, work)
     else:
-        answer, accuracy = repeated(plan, work)
+        answer, accuracy = estimated(plan, work)
     if not accuracy.certified and not accuracy.error_bound and _squares_vanish(plan):
         note = "every change is zero, or below what float64 holds: a tolerance tells which"
         accuracy = replace(accuracy, error_bound=math.inf, note=note)
@@ -61,7 +61,7 @@ def _chosen(choice: Choice, work: Work, missed: list[Missed]) -> tuple[Plan, Ans
         if candidate.certified:
             return enclosed(tried, work)
         try:
-            answer, accuracy = repeated(tried, work)
+            answer, accuracy = estimated(tried, work)
             why = shortfall(answer, accuracy, choice.tolerance)
         except (UnbuildableError, NotStandingError, ArithmeticError) as error:
             why = str(error)  # rounding may have made it so: the next method tells

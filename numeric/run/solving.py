@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..accuracy import Accuracy
-from ..arithmetic.named import system_of
-from ..arithmetic.systems import FLOAT64, Array, as_floats
+from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import axis_names
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
@@ -35,10 +34,9 @@ class Solution:
     Layers of spheres hold W × W beads: shapes then have p and q in place of the column, and three
     axes in place of two branches.
 
-    Numbers are float64, or objects of a longer arithmetic where you chose one or a tolerance needs
-    it, such as balls: numbers with a rigorous error each. A ball prints only a few of its digits;
-    ``.astype(float)`` rounds an array, ``forces.decimals()`` and ``positions.decimals()`` write
-    every digit that is known.
+    Numbers are float64, or where a tolerance needs more, balls: numbers of any length with a
+    rigorous error each. A ball prints only a few of its digits; ``.astype(float)`` rounds an array,
+    ``forces.decimals()`` and ``positions.decimals()`` write every digit that is known.
     """
 
     forces: Outcome
@@ -103,7 +101,7 @@ class Solution:
         made = self.forces.plan
         scene = self.scene.model_copy(update={"ask": ask})
         certified = made.tolerance is not None and made.method.certified
-        return run(plan(scene, made.tolerance, certified=certified, system=made.system, text=False))
+        return run(plan(scene, made.tolerance, certified=certified, text=False))
 
     @property
     def _dimension(self) -> int:
@@ -185,7 +183,6 @@ def solve(
     dimension: int | None = None,
     tolerance: Any = None,
     certified: bool = False,
-    arithmetic: str | None = None,
     allow_images: bool = False,
 ) -> Solution:
     """Solve periodic packings of given radii exactly: contact forces, positions and their errors.
@@ -203,12 +200,9 @@ def solve(
             ``PointLoad(at=(p, q, l))``.
         dimension: 2 for discs, 3 for spheres. By default the shape says which; an array of shape
             (N, W, W) could be either, and is refused without.
-        tolerance: error allowed, relative to the largest change; the first of float64, pairs
-            and balls that meets it is taken.
+        tolerance: error allowed, relative to the largest change: where float64 does not meet it,
+            balls do.
         certified: with a tolerance, only a rigorous bound will do.
-        arithmetic: "float64" (the default), "pairs" (a number
-            and its error, about 28 digits), "longdouble", "mpmath N" or "balls N" with N decimal
-            digits; not with a tolerance, which chooses it.
         allow_images: let W be as small as M or smaller, so that a bead bears on one by two ways
             around the period; without it such an array, a transposed one perhaps, is refused.
 
@@ -230,8 +224,6 @@ def solve(
     if load is not None and not isinstance(load, Load):
         allowed = "must be SurfaceLoad(), BulkLoad(), PointLoad(at=(k, l)) or Load(kind=…)"
         raise SceneError("load", load, allowed)
-    if tolerance is not None and arithmetic is not None:
-        raise SceneError("arithmetic", arithmetic, "a tolerance chooses it: leave one of them out")
     if certified and tolerance is None:
         raise SceneError("certified", True, "needs a tolerance, as tolerance=1e-30")
     dimension = _dimension_of(given, dimension)
@@ -268,9 +260,4 @@ def solve(
             ask=Ask(quantity="contact_forces", realisations=batch[0] if batch else 1),
         )
     asked = None if tolerance is None else read_tolerance(tolerance)
-    try:
-        system = FLOAT64 if arithmetic is None else system_of(arithmetic)
-    except ValueError as error:
-        raise SceneError("arithmetic", arithmetic, str(error)) from None
-    made = plan(scene, asked, certified=certified, system=system, text=False)
-    return Solution(run(made), scene)
+    return Solution(run(plan(scene, asked, certified=certified, text=False)), scene)

@@ -36,14 +36,13 @@ class Means(Gatherer):
         self.sums: dict[int, Any] = {}
         self.counts: dict[int, int] = {}
 
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         assert solved.forces is not None
-        for j in layers:
-            if 0 < j < len(solved.forces.rows):
-                (_, F, g), (_, E, h), *_ = solved.forces.below(j)
-                product = (F + g) * (E + h)
-                self.sums[j] = self.sums.get(j, 0) + product.sum()
-                self.counts[j] = self.counts.get(j, 0) + product.size
+        for j in range(1, len(solved.forces.rows)):
+            (_, F, g), (_, E, h), *_ = solved.forces.below(j)
+            product = (F + g) * (E + h)
+            self.sums[j] = self.sums.get(j, 0) + product.sum()
+            self.counts[j] = self.counts.get(j, 0) + product.size
 
     def table(self) -> Table:
         layers = sorted(self.sums)

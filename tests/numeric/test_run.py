@@ -47,7 +47,7 @@ def numbers(outcome: Outcome, small_only: bool = False) -> Iterator[tuple[str, s
 def test_the_stated_error_holds(sections: dict[str, dict[str, Any]]) -> None:
     """Each printed number of a float run lies within its bound of the true one.
 
-    A bound in float64 is an estimate (twice the distance from long double), the other is rigorous.
+    A bound in float64 is an estimate (what its sweep carried), the other is rigorous.
     Cutting off digits adds at most a twentieth of the bound, and 17 digits are the most that are
     printed.
     """

@@ -47,7 +47,7 @@ def solved(
 def measured(*strip: Any, **more: Any) -> tuple[float, fd.Solution, fd.Solution]:
     """Give the largest error in float64, and the solutions in float64 and in balls."""
     found = solved(*strip, **more)
-    balls = solved(*strip, **more, arithmetic="balls 100")
+    balls = solved(*strip, **more, tolerance="1e-60", certified=True)
     assert balls.certified
     assert balls.error < 1e-6 * UNIT  # far better than what is measured by it
     with flint.ctx.workprec(500):
@@ -68,7 +68,7 @@ def accurate(*arguments: Any, **more: Any) -> fd.Solution:
 @cache
 def lost(height: int, std: float) -> float:
     """Bits that balls lose in a strip of 16 beads a layer."""
-    return solved(height, 16, std, arithmetic="balls 60").accuracy.bits_lost
+    return solved(height, 16, std, tolerance="1e-40", certified=True).accuracy.bits_lost
 
 
 @pytest.mark.parametrize("load", LOADS)
@@ -124,15 +124,15 @@ def test_fifty_digits_are_certified_beyond_it_too() -> None:
     assert found.error <= 1e-50
     assert found.accuracy.bits_lost > 40  # and were made up for
     with flint.ctx.workprec(1000):
-        more = solved(192, 16, 0.003, arithmetic="balls 100").change
+        more = solved(192, 16, 0.003, tolerance="1e-100").change
         for a, b in zip(found.change.flat, more.flat, strict=True):
             assert a.overlaps(b)
 
 
 def test_where_no_packing_exists_it_is_said() -> None:
-    for arithmetic in ("float64", "balls 60"):
+    for tolerance in (None, "1e-40"):
         with pytest.raises(UnbuildableError, match=r"^bead \(\d+, \d+\): its supports are too far"):
-            solved(512, 16, 0.01, arithmetic=arithmetic)
+            solved(512, 16, 0.01, tolerance=tolerance)
 
 
 def test_balls_that_are_too_wide_are_undecided_not_unbuildable() -> None:

@@ -12,7 +12,7 @@ from typing import Any
 
 import flint
 
-from ...arithmetic.systems import FLOAT64, LONGDOUBLE, Array, NumberSystem, largest_of
+from ...arithmetic.systems import FLOAT64, Array, NumberSystem, largest_of
 from ...mechanics.problem import Route
 from ...planning import planner
 from ...planning.plan import Plan, Skipped
@@ -111,5 +111,3 @@ def _never(scene: Scene) -> Iterator[Skipped]:
         why = f"'{scene.ask.quantity}' is studied for one packing, and this is about an ensemble"
     for way in ("printed asymptotic formula", "exact finite-M formula", "Monte Carlo"):
         yield Skipped(way, why)
-    if LONGDOUBLE.bits <= FLOAT64.bits:
-        yield Skipped("longdouble", "on this machine it is no longer than float64")

@@ -25,7 +25,7 @@ SERIES = {
     "printed asymptotic formula": 4,
 }
 DASHES: Mapping[str, tuple[str, Any]] = {
-    "hardware": ("float64, long double", "-"),
+    "float64": ("float64", "-"),
     "mpmath": ("mpmath", (0, (5, 2))),
     "arb balls": ("arb balls", (0, (1, 1.2))),
 }
@@ -83,7 +83,7 @@ def _in_vain(row: Way, rows: Sequence[Way]) -> bool:
 
 
 def _family(row: Way) -> str:
-    return next((name for name in DASHES if row.arithmetic.startswith(name)), "hardware")
+    return next(name for name in DASHES if row.arithmetic.startswith(name))
 
 
 def lines(rows: Sequence[Way]) -> list[list[Way]]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from statistics import median
 from typing import Any, TypeVar
 
-from ...arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
+from ...arithmetic.systems import FLOAT64, Balls, BigFloat, NumberSystem
 from ...scene.scene import Scene
 from ..timing import seconds_of
 from .rows import Way
@@ -19,10 +19,8 @@ DIGITS = (20, 30, 50, 100, 300)
 
 
 def systems() -> Iterator[NumberSystem]:
-    """All arithmetics: float64, long double where it is longer, mpmath and balls by digits."""
+    """All arithmetics: float64, mpmath and balls by digits."""
     yield FLOAT64
-    if LONGDOUBLE.bits > FLOAT64.bits:
-        yield LONGDOUBLE
     yield from (BigFloat(digits) for digits in DIGITS)
     yield from (Balls(math.ceil(digits * math.log2(10))) for digits in DIGITS)
 
@@ -59,5 +57,5 @@ def measured(
         seconds_max=max(seconds),
         runs=len(seconds),
         peak_bytes=peak,
-        peak_is_bound=system not in (FLOAT64, LONGDOUBLE),
+        peak_is_bound=system is not FLOAT64,
     )

@@ -6,7 +6,6 @@ import mpmath
 import numpy as np
 from force_diffusion.numeric.arithmetic.systems import (
     FLOAT64,
-    LONGDOUBLE,
     Balls,
     BigFloat,
     NumberSystem,
@@ -41,27 +40,20 @@ def scale(case: Case) -> Fraction:
     return 4 * load * radii
 
 
-def as_mpf(value: object) -> mpmath.mpf:
-    """Widen a hardware float without loss (long double: as high part and remainder)."""
-    high = float(value)  # type: ignore[arg-type]
-    return mp.mpf(high) + mp.mpf(float(value - high))  # type: ignore[operator]
-
-
 @given(cases())
 def test_number_systems_agree(case: Case) -> None:
-    """float64 and long double stay within rounding of 60 digits; balls contain the 60 digits.
+    """float64 stays within rounding of 60 digits; balls contain the 60 digits.
 
     Rounding: each layer adds a few roundings of terms no larger than ``scale``; up and down
     through at most 5 layers, 200 units in the last place are ample and still far from chance.
     """
     reference = solved(case, BigFloat(60))
     ball = solved(case, Balls(256))
-    for system in (FLOAT64, LONGDOUBLE):
-        unit = scale(case) * STRENGTH * Fraction(2) ** -system.bits
-        rounded = solved(case, system)
-        for contact in contacts(case):
-            error = abs(as_mpf(rounded.change(*contact)) - reference.change(*contact))
-            assert error <= 200 * mp.mpf(unit.numerator) / unit.denominator
+    unit = scale(case) * STRENGTH * Fraction(2) ** -FLOAT64.bits
+    rounded = solved(case, FLOAT64)
+    for contact in contacts(case):
+        error = abs(mp.mpf(float(rounded.change(*contact))) - reference.change(*contact))
+        assert error <= 200 * mp.mpf(unit.numerator) / unit.denominator
     for contact in contacts(case):
         enclosure = ball.change(*contact)
         value = reference.change(*contact)

@@ -23,7 +23,7 @@ SCENES = {
     "contact forces": 'packing = {height = 100, width = 350}\nask = {quantity = "contact_forces"}',
     "positions": 'packing = {height = 200, width = 350}\nask = {quantity = "positions"}',
     "response": POINT + 'ask = {quantity = "response"}',
-    "responses": POINT + 'ask = {quantity = "response", realisations = 40}',
+    "responses": POINT + 'ask = {quantity = "response", realisations = 80}',
     "ordered response": POINT + 'ask = {quantity = "response"}\neffects = {geometry = "ordered"}',
     "contact": "packing = {height = 5}\n"
     'ask = {quantity = "contact", at = [0, 0, "+"], realisations = 50_000}',
