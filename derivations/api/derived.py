@@ -26,8 +26,7 @@ from ..export.terminal import (
 )
 from ..framework.catalogue import Number, modules
 from ..framework.loading import load, with_premises
-from ..framework.own import assert_allowed, assert_shown
-from ..framework.record import Derivation, Outcome
+from ..framework.record import Outcome
 from ..framework.runner import run_all
 from .equation import equation
 
@@ -103,7 +102,7 @@ class Derived:
 
 
 def derive(
-    numbers: Iterable[Number | Derivation] | None = None,
+    numbers: Iterable[Number] | None = None,
     *,
     notice: Callable[[str], None] | None = None,
     finished: Callable[[Outcome], None] | None = None,
@@ -120,13 +119,12 @@ def derive(
     (True, '2 proved', ['eq01.tex', 'eq02.tex', 'equations.tex'])
 
     Args:
-        numbers: of the equations, all of them by default; or derivations of your own.
+        numbers: of the equations, all of them by default.
         notice: told which check comes next.
         finished: given the outcome of each equation as soon as it is known.
 
     Raises:
         NoSuchFormError: there is no equation of such a number.
-        OwnDerivationError: a derivation's label is not allowed.
         TypeError: ``numbers`` is a single one.
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
@@ -135,30 +133,14 @@ def derive(
     return derive_with(None, numbers, notice, finished)
 
 
-def derivations_of(numbers: Iterable[Number | Derivation]) -> list[Derivation]:
-    """The derivations with these numbers, or these themselves.
-
-    Raises:
-        NoSuchFormError: there is no equation of such a number.
-        OwnDerivationError: a derivation's label is not allowed.
-    """
-    found = []
-    for one in numbers:
-        if isinstance(one, Derivation):
-            assert_allowed(one)
-            assert_shown(one)
-        found.append(one if isinstance(one, Derivation) else load(equation(one).number))
-    return found
-
-
 def derive_with(
     start: Start | None,
-    numbers: Iterable[Number | Derivation] | None,
+    numbers: Iterable[Number] | None,
     notice: Callable[[str], None] | None,
     finished: Callable[[Outcome], None] | None,
 ) -> Derived:
     """Derive as ``derive`` does; ``start`` calls functions in another process (``run_all``)."""
-    wanted = derivations_of(modules() if numbers is None else numbers)
+    wanted = [load(equation(one).number) for one in (modules() if numbers is None else numbers)]
     outcomes = []
     tell = notice or (lambda _: None)
     for outcome in run_all(

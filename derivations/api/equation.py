@@ -24,7 +24,6 @@ from ..framework.catalogue import (
     theorem_of,
 )
 from ..framework.loading import load, with_premises
-from ..framework.own import assert_allowed, is_own
 from ..framework.record import Derivation, ExactCase
 from ..framework.runner import run, run_all
 from .arrays import evaluate
@@ -153,7 +152,7 @@ class Equation(Formula):
         >>> [premise.number for premise in fd.equation(13).premises]
         [11, 12]
         """
-        return tuple(equation(premise) for premise in self._derivation.premises)
+        return tuple(_equation(premise.number) for premise in self._derivation.premises)
 
     @property
     def coq(self) -> Recorded:
@@ -430,10 +429,8 @@ def _equation(number: EquationNumber) -> Equation:
     return Equation(load(number))
 
 
-def equation(number: EquationNumber | Derivation) -> Equation:
+def equation(number: EquationNumber) -> Equation:
     """The equation with this number of the paper, or with this label: "B1" and so on.
-
-    For a derivation of your own it gives an equation that can do all that the paper's can.
 
     >>> import force_diffusion as fd
     >>> fd.equation(13).title
@@ -444,15 +441,11 @@ def equation(number: EquationNumber | Derivation) -> Equation:
     force_diffusion...NoSuchFormError: there is no equation 99: give a number from 1 to 16...
 
     Args:
-        number: such as 13, "13" or "B1"; or a derivation.
+        number: such as 13, "13" or "B1".
 
     Raises:
         NoSuchFormError: there is none.
-        OwnDerivationError: the derivation's label is not allowed.
     """
-    if isinstance(number, Derivation):
-        assert_allowed(number)
-        return Equation(number) if is_own(number) else _equation(number.number)
     known = number_of(number) if isinstance(number, str) else number
     is_number = isinstance(known, Integral | str) and not isinstance(known, bool)
     if not is_number or known not in modules():

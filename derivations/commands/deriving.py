@@ -25,14 +25,12 @@ WORTH_ANOTHER_PROCESS = 16
 """Equations from which on another process, which has to load SymPy, repays itself."""
 
 
-def premises_first(numbers: "Iterable[Number | Derivation]") -> "list[Derivation]":
+def premises_first(numbers: Iterable[Number]) -> "list[Derivation]":
     """The derivations of these equations and of all that they rest on."""
-    return with_premises(load(one) if isinstance(one, int | str) else one for one in numbers)
+    return with_premises(map(load, numbers))
 
 
-def watched(
-    numbers: "Iterable[Number | Derivation]", watch: Silence, start: Start | None = None
-) -> "Derived":
+def watched(numbers: Iterable[Number], watch: Silence, start: Start | None = None) -> "Derived":
     """Derive these equations under a display; ``start`` calls functions in another process."""
     from ..api.derived import derive_with
 
@@ -41,7 +39,7 @@ def watched(
 
 
 def derive(
-    numbers: "Sequence[Number | Derivation]",
+    numbers: Sequence[Number],
     out: Path | None,
     as_json: bool,
     overwrite: bool = False,
@@ -90,8 +88,7 @@ def derive(
             parts |= {
                 one.derivation.number: (one.derivation, finding(one)) for one in found.outcomes
             }
-            places = [*modules(), *(number for number in parts if number not in modules())]
-            about = [parts[number] for number in places if number in parts]
+            about = [parts[number] for number in modules() if number in parts]
             folder.write(
                 {**found.fragments(columns), DOCUMENT: document(about)}, [one for _, one in about]
             )

@@ -14,7 +14,7 @@ from ..coq.record import recorded
 from ..framework.catalogue import theorem_of
 from ..framework.proving import Shown
 from ..framework.record import Check, Derivation, Mutant, Outcome
-from ..framework.runner import UNLIKE, UNLISTED
+from ..framework.runner import UNLIKE
 from .manifest import FoundCheck
 from .prose import both
 
@@ -128,7 +128,7 @@ def check_text(check: Check) -> str:
 def mutant_text(mutant: Mutant) -> str:
     """One changed equation that the checker did not refute."""
     kind = "equivalent rewriting" if mutant.equivalent else str(mutant.ruling.verdict)
-    if mutant.reason in {UNLIKE, UNLISTED}:
+    if mutant.reason == UNLIKE:
         return _paragraph(f"{mutant.change}: {mutant.reason}", "  - ", "    ")
     note = f". {mutant.note}" if mutant.note else ""
     return _paragraph(f"{kind}: {mutant.change}{note}", "  - ", "    ")
@@ -229,7 +229,7 @@ def trouble_lines(outcome: Outcome) -> list[str]:
     lines += [
         mutant_text(mutant)
         for mutant in outcome.mutants
-        if mutant.ruling.verdict is Verdict.UNDECIDED or mutant.reason in {UNLIKE, UNLISTED}
+        if mutant.ruling.verdict is Verdict.UNDECIDED or mutant.reason == UNLIKE
     ]
     lines += [
         _paragraph(

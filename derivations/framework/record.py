@@ -106,7 +106,7 @@ class Derivation:
     not.
 
     Attributes:
-        number: of the paper; of your own a label such as "S1".
+        number: of the paper; beyond it a label such as "B1".
         name: in code and JSON.
         title: in words.
         symbols: each with its meaning; ``usual`` gives the common ones.

@@ -13,7 +13,7 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
 from force_diffusion.symbolic.kernel.where import Where
 
 from ..witnesses.draws import draw
-from .catalogue import Number, modules
+from .catalogue import Number
 from .loading import load
 from .proving import Shown
 from .record import (
@@ -34,9 +34,6 @@ PRINTED = "printed equation"
 
 UNLIKE = "proved, unlike the printed equation"
 """What is said of a change that makes a theorem of what is none."""
-
-UNLISTED = "proved as well, and not listed as equivalent: does it say the same?"
-"""What is said of such a change of a user's own equation."""
 
 Watch = Callable[[Derivation, str], None]
 """Told which check of which derivation comes next."""
@@ -131,7 +128,7 @@ def judged_mutants(
 
     Raises:
         KernelError: one is proved that is not listed as an equivalent rewriting. Where the printed
-            equation is not proved, or is a user's own, such a change is told instead.
+            equation is not proved, such a change is told instead.
     """
     from force_diffusion.symbolic.search.mutants import mutants
 
@@ -143,8 +140,6 @@ def judged_mutants(
             if ruling.verdict.is_proved and not reason:
                 if not derivation.rule_on(place, equation).verdict.is_proved:
                     reason = UNLIKE
-                elif derivation.number not in modules():
-                    reason = UNLISTED
                 else:
                     raise derivation.fault(
                         mutated, f"proved, a change that is not listed as equivalent: {change}"
@@ -312,9 +307,7 @@ def run_all(
     """
     wanted = list(derivations)
     known: dict[Number, Verdict] = {}
-    ruled = [  # derivations of a user's own are not found elsewhere
-        start(rulings, one.number) if start and one.number in modules() else Ruled for one in wanted
-    ]
+    ruled = [start(rulings, one.number) if start else Ruled for one in wanted]
     with _rarely_collected():
         if wanted:
             attacked()
