@@ -12,7 +12,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.printing.text import text
 
-from ..coq.record import Recorded, recorded
+from ..coq.record import recorded
 from ..export.prose import both, either
 from ..export.terminal import statement_text
 from ..framework.catalogue import Number as EquationNumber
@@ -155,14 +155,14 @@ class Equation(Formula):
         return tuple(_equation(premise.number) for premise in self._derivation.premises)
 
     @property
-    def coq(self) -> Recorded:
+    def coq(self) -> str:
         """What Coq said of it when it was last asked; :func:`certify` asks again.
 
         >>> import force_diffusion as fd
-        >>> print(fd.equation(13).coq)
-        accepted by Coq 8.16.1
+        >>> fd.equation(13).coq
+        'accepted by Coq 8.16.1'
         """
-        return recorded(self._derivation)
+        return recorded(self.number)
 
     @property
     def _domain(self) -> str:

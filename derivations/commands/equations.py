@@ -163,9 +163,8 @@ def list_equations() -> None:
     Beside each stands what Coq said of it when it was last asked.
     """
     for one in map(fd.equation, modules()):
-        theorem = one.theorem or ""
         print(
-            f"{one.number!s:>3}  {theorem:<2}  {one.name:<26}  {one.coq.verdict:<13}  {one.title}"
+            f"{one.number!s:>3}  {one.theorem or '':<2}  {one.name:<26}  {one.coq:<22}  {one.title}"
         )
 
 

@@ -2,7 +2,6 @@
 
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict
 
 from force_diffusion.symbolic.kernel.decisions import in_words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
@@ -68,7 +67,7 @@ READING = (
     "to be a statement; one that is an "
     "equivalent rewriting is listed with the proof that it is. Accepted is a word of "
     "Coq, an unrelated proof assistant, about the printed equation on exact packings; it is on "
-    "record with the hash of what was asked, and stale once that has changed."
+    "record with the hash of what was asked."
 )
 """What the words of a report mean."""
 
@@ -193,7 +192,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
             f"\\section{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
             _numbered(derivation),
             f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
-            f"Verdict: \\textbf{{{_verdict(found)}}}. Coq: {_coq(found)}."
+            f"Verdict: \\textbf{{{_verdict(found)}}}. Coq: {recorded(derivation.number)}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
             _part("Printed as well, and refuted", _refuted(derivation)),
             _part("Symbols", _list("itemize", symbols)),
@@ -208,10 +207,6 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
 
 def _verdict(found: FoundEquation) -> str:
     return prose_latex(in_words(found.verdict, found.assuming))
-
-
-def _coq(found: FoundEquation) -> str:
-    return found.coq.verdict if found.coq else "not on record"
 
 
 def _overview(parts: Sequence[tuple[Derivation, FoundEquation]]) -> str:
@@ -231,7 +226,7 @@ def _table(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
             tried.update(found.statements.model_dump())
         rows.append(
             f"({derivation.number}) & {prose_latex(derivation.title)} & "
-            f"{_verdict(found)} & {_coq(found)} & "
+            f"{_verdict(found)} & {recorded(derivation.number).partition(' by ')[0]} & "
             f"{kinds.count('proof')} & {kinds.count('witness')} & "
             f"{mutants.made} & {mutants.refuted} & {mutants.no_statements} & "
             f"{mutants.equivalent} \\\\\n"
@@ -261,7 +256,6 @@ def finding(outcome: Outcome) -> FoundEquation:
             "premises": [premise.number for premise in derivation.premises],
             "verdict": str(outcome.verdict),
             "assuming": outcome.assuming,
-            "coq": asdict(recorded(derivation)),
             "checks": [
                 {
                     "kind": check.kind,

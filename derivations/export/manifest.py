@@ -71,15 +71,6 @@ class FoundMutants(_Part):
     changes: tuple[FoundMutant, ...]
 
 
-class FoundByCoq(_Part):
-    """What Coq said of an equation when it was last asked, and the hashes of what is asked now."""
-
-    verdict: Literal["accepted", "stale", "not on record", "not stated"]
-    checker: str
-    theorems: dict[str, str]
-    theory: str
-
-
 class FoundStatements(_Part):
     """How many false statements were tried and refuted, and how many true ones and proved."""
 
@@ -101,7 +92,6 @@ class FoundEquation(_Part):
     verdict: Literal["proved", "proved, assuming", "refuted", "undecided"]
     checks: tuple[FoundCheck, ...]
     mutants: FoundMutants
-    coq: FoundByCoq | None = None
     statements: FoundStatements | None = None
     assuming: tuple[str, ...] = ()
 

@@ -83,7 +83,7 @@ def statement_text(derivation: Derivation) -> str:
     if derivation.premises:
         numbers = ", ".join(str(premise.number) for premise in derivation.premises)
         parts += ["", f"Rests on Eq{'s' * (len(derivation.premises) > 1)}. {numbers}"]
-    parts += ["", f"Coq: {recorded(derivation)}"]
+    parts += ["", f"Coq: {recorded(derivation.number)}"]
     if derivation.remarks:
         parts += ["", "Remarks"]
         parts += [_paragraph(words, "  - ", "    ") for words in derivation.remarks]
