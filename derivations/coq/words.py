@@ -88,8 +88,7 @@ class _Words(StrPrinter):  # type: ignore[misc]
     def _print_Pow(self, expr: sympy.Pow, rational: bool = False) -> str:
         base, exponent = expr.args
         if exponent < 0:
-            below = self.parenthesize(sympy.Pow(base, -exponent, evaluate=False), PRECEDENCE["Pow"])
-            return f"1/{below}"
+            return f"1/{self._print_Pow(sympy.Pow(base, -exponent, evaluate=False))}"
         shown = self.parenthesize(base, PRECEDENCE["Pow"])
         if exponent.q > 1:
             shown = f"root {exponent.q} {argument(self._print(base))}"
