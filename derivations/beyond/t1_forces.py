@@ -309,7 +309,6 @@ B1 = Derivation(
     premises=tuple(one.DERIVATION for one in (eq06, eq07, eq08, eq10, eq11)),
     printed=PRINTED,
     steps=steps,
-    loads=("surface tilted",),
     where=WHERE,
     witnesses=tuple(
         on_packings(

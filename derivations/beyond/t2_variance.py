@@ -265,7 +265,6 @@ def _derivation(number: Number, case: Case, **options: Any) -> Derivation:
         premises=(eq04.DERIVATION, eq05.DERIVATION, t1.B1, case.vertical.DERIVATION),
         printed=case.printed,
         relation="∼",
-        loads=(f"{case.load.name} tilted",),
         exact=case.variance.exact,
         where=case.variance.in_the_limit,
         witnesses=tuple(

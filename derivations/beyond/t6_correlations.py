@@ -440,7 +440,6 @@ B12 = Derivation(
     domain=INSIDE,
     where=between(*INSIDE),
     steps=layer_steps,
-    loads=("surface",),
     exact=edges,
     claims=(
         Claim(

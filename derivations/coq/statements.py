@@ -136,13 +136,13 @@ def _up_to_variance(size: str) -> Callable[[sympy.Eq], str]:
     return conclude
 
 
-def _near(quantity: str, statistic: str, size: str) -> Callable[[sympy.Eq], str]:
+def _near(quantity: str, size: str) -> Callable[[sympy.Eq], str]:
     """A statistic of f, which is a quantity to first order, is the right side up to a size."""
 
     def conclude(equation: sympy.Eq) -> str:
         return (
             f"exists f, linearised ({_OF_RHO} {quantity} e) f /\\\n"
-            f"    Rabs ({statistic} - ({words(equation.rhs)})) <= {size} * {_UNIT}"
+            f"    Rabs ({words(equation.lhs)} - ({words(equation.rhs)})) <= {size} * {_UNIT}"
         )
 
     return conclude
@@ -167,7 +167,7 @@ class Frame:
 
 def _variance(size: str) -> Frame:
     every_contact = ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
-    conclude = _near("f_plus F i j", "relative_variance L f", size)
+    conclude = _near("f_plus F i j", size)
     return Frame(_AT, conclude, every_contact, random=True)
 
 
@@ -192,7 +192,7 @@ FRAMES: dict[Number, Frame] = {
     14: _variance("(3 / 8 * IZR M ^ 2 + 5 / 4 * IZR M)"),
     16: Frame(
         _BELOW_AT_A_DISTANCE,
-        _near("pressed_down X F i j", "variance L f / f_load ^ 2", "47"),
+        _near("pressed_down X F i j", "47"),
         (
             *(f"({x.in_code} = {index(at)})%Z" for x, at in IN_CONE.items()),
             "bead M i j",
@@ -257,9 +257,9 @@ def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> S
 
 def _averages(derivation: Derivation) -> Statement:
     """Eq. 15 for its loads: in proportion, by constants that depend on φ alone."""
-    deviation, height = (line.rhs for line in derivation.printed)
-    proportional = f"(c (phi G) * ({words(deviation)}))"
-    at_height = f"c (phi G) * ({words(deviation.xreplace({sy.M: HEIGHT}))})"
+    deviation, height = derivation.printed
+    proportional = f"(c (phi G) * ({words(deviation.rhs)}))"
+    at_height = f"c (phi G) * ({words(deviation.rhs.xreplace({sy.M: HEIGHT}))})"
     layers = ("(1 <= M)%Z", "(0 <= j < M)%Z", "contact M (across j) j")
     claims, companions = [], []
     for load in derivation.loads:
@@ -278,9 +278,11 @@ def _averages(derivation: Derivation) -> Statement:
                 *before,
                 "  exists f, (forall j, (0 <= j < M)%Z ->",
                 "      linearised (fun rho => f_plus (Fs rho) (across j) j) (f j)) /\\",
-                f"    Rabs (root_mean_square L f - {proportional}) <= 10 / IZR M * {proportional})",
+                f"    Rabs ({words(deviation.lhs)} - {proportional})",
+                f"      <= 10 / IZR M * {proportional})",
                 "  /\\ forall (G : lattice) (sigma M_star : R), 0 < sigma -> 0 < M_star ->",
-                f"  (({at_height}) ^ 2 = 1 <-> M_star = d (phi G) * ({words(height)})))",
+                f"  (({at_height}) ^ 2 = 1 <->",
+                f"    {words(height.lhs)} = d (phi G) * ({words(height.rhs)})))",
             )
         )
         claims.append(claim)
@@ -292,7 +294,7 @@ def _averages(derivation: Derivation) -> Statement:
 
 def _exact(derivation: Derivation) -> Statement:
     """Mean and variance of one contact's force in every layer."""
-    printed = statement(derivation, 0)
+    printed, statistic = statement(derivation, 0), words(derivation.printed[0].lhs)
     assert derivation.exact
     layers: dict[str, sympy.Expr] = {}
     for case in derivation.exact().values():
@@ -303,7 +305,7 @@ def _exact(derivation: Derivation) -> Statement:
     claims = [
         f"exists f, linearised ({_OF_RHO} f_plus F i j e) f",
         f"expect L f = {LOADS[derivation.loads[0]].mean}",
-        *(f"({at} ->\n    relative_variance L f = {words(is_)})" for at, is_ in layers.items()),
+        *(f"({at} ->\n    {statistic} = {words(is_)})" for at, is_ in layers.items()),
     ]
     every = "forall M j : Z, (0 <= j < M)%Z ->\n  " + " \\/\n  ".join(layers)
     return replace(

@@ -23,8 +23,15 @@ _SITES = FIXED | {
     sy.ForcePlus: "f_plus F",
     sy.ForceMinus: "f_minus F",
 }
+_BY_NAME = {
+    HEIGHT.name: "M_star",
+    "relative_variance": "relative_variance L f",
+    "relative_deviation": "root_mean_square L f",
+    "response": "variance L f / f_load ^ 2",
+}
+"""Left-hand sides that are about random radii, and a quantity f, by the names of their symbols."""
 _SYMBOLS = {
-    **{sy.r: "r G", sy.n_x: "n_x G", sy.n_y: "n_y G", sy.phi: "phi G", HEIGHT: "M_star"},
+    **{sy.r: "r G", sy.n_x: "n_x G", sy.n_y: "n_y G", sy.phi: "phi G"},
     **{sy.f_load: "f_load", sy.sigma: "sigma", sy.z: "(IZR j / IZR M)", sy.e_y: "e_y"},
     **{v: f"{v.name} G" for v in (sy.n_plus, sy.n_minus, sy.b_plus, sy.b_minus)},
     **{symbol: f"IZR {symbol.in_code}" for symbol in sy.INDICES},
@@ -51,7 +58,7 @@ class _Words(StrPrinter):  # type: ignore[misc]
         return " ".join(argument(self._print(one)) for one in expressions)
 
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
-        return _SYMBOLS[expr]
+        return _BY_NAME.get(expr.name) or _SYMBOLS[expr]
 
     def _print_Function(self, expr: sympy.Function) -> str:
         at = " ".join(argument(index(place)) for place in expr.args)

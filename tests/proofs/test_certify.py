@@ -112,7 +112,7 @@ def test_what_is_stated_beside_is_not_accepted_otherwise(
     [
         ("0 = 1", "exact I. Qed.", "0 = 1"),
         ("0 = 1", "lra. Qed.", "Cannot find witness"),
-        ("0 = 1", "Admitted.", "rests on Planted.planted"),
+        ("0 = 1", "Admitted.", "rests on Planted.statement"),
         (
             "True \\/ ~ True",
             "apply Classical_Prop.classic. Qed.",

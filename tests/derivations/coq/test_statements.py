@@ -91,6 +91,13 @@ def test_its_hash_covers_all_that_is_written() -> None:
     assert len({made.hash, *(one.hash for one in changed)}) == 4
 
 
+def test_a_statistic_is_the_one_that_is_printed() -> None:
+    (printed,) = load(13).printed
+    other = replace(load(13), printed=(equation(sympy.Symbol("another"), printed.rhs),))
+    with pytest.raises(KeyError, match="another"):
+        coq.statement(other, 0)
+
+
 @pytest.mark.parametrize(
     ("load_of", "shown"), [("surface", "surface M f_load"), ("bulk", "bulk f_load")]
 )
