@@ -83,7 +83,7 @@ class _Words(StrPrinter):  # type: ignore[misc]
         if not is_vector(expr):
             return str(super()._print_Add(expr, order))
         terms = map(self._print, expr.args)
-        return reduce(lambda left, right: f"add {argument(left)} {argument(right)}", terms)
+        return str(reduce(lambda left, right: f"add {argument(left)} {argument(right)}", terms))
 
     def _print_Mul(self, expr: sympy.Mul) -> str:
         if not is_vector(expr):
