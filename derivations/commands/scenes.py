@@ -168,7 +168,7 @@ def _answer(
         about = found.data(rows=False)
         about["source"] = sourced(about["source"], scene, command_line())
         if folder:
-            write(folder, found, about, written, {})
+            write(folder, found, about, written)
     lines = outcome_lines(about, found.count)
     show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
 

@@ -1,7 +1,7 @@
 """What several commands share: a line that tells how far they are, and plots if they can be."""
 
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -57,15 +57,11 @@ def write(
     answer: answers.Answered,
     about: dict[str, Any],
     written: Format,
-    more: Mapping[str, str],
 ) -> None:
-    """Write an answer and ``more`` files beside it into a folder, and what they came from."""
+    """Write an answer into a folder, and what it came from."""
     source = about["source"]
-    folder.write(
-        {**answers.files_of(answer, about, written), **more},
-        seed=source["seed"],
-        inputs=source["sha256"],
-    )
+    files = answers.files_of(answer, about, written)
+    folder.write(files, seed=source["seed"], inputs=source["sha256"])
 
 
 def show(

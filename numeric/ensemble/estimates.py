@@ -103,18 +103,6 @@ class Estimates:
         """Standard error of ``std``; NaN where nothing varies."""
         return self._rows(self._found[3])
 
-    @cached_property
-    def covariance(self) -> Array | None:
-        """Covariance between groups from packing to packing, (G, G); None if not asked for.
-
-        Of a profile that of mean squares of g over a packing's contacts, else that of g. Divided by
-        N it is that of the means over all packings.
-        """
-        if not self.measurement.covariance:
-            return None
-        matrix = self.sums.pairs[:, self._order] / (self.realisations - 1)
-        return self._rows(matrix, 2 + 2 * self.measurement.row)
-
     def width(self, confidence: float, look: int) -> float:
         """Give the half-width of all σ_f together, relative: see ``statistics.confidence``."""
         _, std, _, error = self._found

@@ -29,10 +29,6 @@ from ..statistics.moments import unit_near
 DEFAULT_BINS = 60
 # Outer edges of a histogram, in units of the largest theoretical σ_f.
 REACH = 6
-# Variables of a covariance matrix, whose numbers grow with their square.
-MOST_VARIABLES = 2048
-# Magnitude of a load up to which, and down to whose inverse, fourth powers of forces are float64.
-MOST_MAGNITUDE = 10**60
 
 
 class ArgumentError(ForceDiffusionError, ValueError):
@@ -47,13 +43,12 @@ class ArgumentError(ForceDiffusionError, ValueError):
 class Measurement:
     """What is measured, and how it is summed up; ``plan`` has one realisation.
 
-    ``edges`` are those of the bins, float64; ``covariance`` asks for that of the groups.
-    ``expected`` is how many packings there will be; it decides who sweeps, never a number.
+    ``edges`` are those of the bins, float64. ``expected`` is how many packings there will be; it
+    decides who sweeps, never a number.
     """
 
     plan: Plan
-    edges: tuple[float, ...]
-    covariance: bool
+    edges: tuple[float, ...] = ()
     expected: int = 1
 
     @property
@@ -76,11 +71,6 @@ class Measurement:
     def compiled(self) -> bool:
         """Whether compiled loops solve the packings."""
         return self.problem.route == Route.EXACT and compiles(self.many, FLOAT64)
-
-    @property
-    def row(self) -> int:
-        """Whether covariances are of mean squares of packings, 1, or of changes, 0."""
-        return int(self.quantity.squares)
 
     @property
     def counted(self) -> int:
@@ -106,11 +96,6 @@ class Measurement:
     def members(self) -> int:
         """Contacts in a group."""
         return self.quantity.members(self.problem)
-
-    @property
-    def variables(self) -> int:
-        """Size of the covariance matrix."""
-        return self.groups if self.covariance else 0
 
     @cached_property
     def blocks(self) -> list[Block]:
@@ -147,42 +132,25 @@ class Measurement:
         return first_order_std(self.problem)
 
 
-def measurement(
-    scene: Scene, *, covariance: bool = False, reach: float | None = None
-) -> Measurement:
+def measurement(scene: Scene, *, reach: float | None = None) -> Measurement:
     """Say what is measured of an ensemble of a scene's packings.
 
     ``reach`` is the outer edge of a histogram, in units of force; by default six times the largest
     theoretical σ_f. Raises ``SceneError`` for what has no statistics over an ensemble.
     """
     ask = scene.ask
-    refuse("ensemble", scene, covariance=covariance, reach=reach is not None)
+    refuse("ensemble", scene, reach=reach is not None)
     one = scene.model_copy(update={"ask": ask.model_copy(update={"realisations": 1})})
     planned = plan(one)
     if planned.problem.route == Route.ORDERED:
         why = planned.skipped[-1].reason
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")
-    made = Measurement(planned, (), covariance)
-    magnitude = scene.load.magnitude
+    made = Measurement(planned)
     if not (made.groups and made.members):
         allowed = "bears on no contact that is asked for: there is nothing to gather"
         raise SceneError("load.kind", scene.load.kind, allowed)
     if ask.quantity == "histogram":
         made = replace(made, edges=_edges(made, reach))
-    if covariance and not 1 <= magnitude * MOST_MAGNITUDE <= MOST_MAGNITUDE**2:
-        raise SceneError(
-            "load.magnitude",
-            magnitude,
-            "a covariance of forces leaves the range of float64: give a magnitude from 1e-60 to "
-            "1e60, or leave the covariance out",
-        )
-    if made.variables > MOST_VARIABLES:
-        raise SceneError(
-            "ask.quantity",
-            ask.quantity,
-            f"the covariance of {made.variables} variables is too large, and {MOST_VARIABLES} "
-            "are allowed: ask for a smaller packing, or leave the covariance out",
-        )
     return made
 
 

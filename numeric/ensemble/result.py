@@ -196,12 +196,6 @@ class Ensemble(Estimates):
             whole = [name for name, column in self._groups.items() if column.dtype.kind == "i"]
             # of all that was counted
             (data["statistics"],) = rows_of_text(self._text_of(self._groups), whole)
-        if self.covariance is not None:
-            data["covariance"] = {
-                "of": "mean square change of a packing" if m.row else "change",
-                "labels": {name: column.tolist() for name, column in self.index.items()},
-                "matrix": self.covariance.tolist(),
-            }
         return data
 
     def plot(self) -> "Figure":

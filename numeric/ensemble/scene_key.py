@@ -25,7 +25,7 @@ def ensemble_key(m: Measurement) -> dict[str, Any]:
         digest = hashlib.sha256(json.dumps(forces).encode()).hexdigest()
         sections["load"]["file"] = f"sha256 {digest}"
     key: dict[str, Any] = json.loads(json.dumps(sections, default=str))  # of fractions
-    key["measured"] = {"covariance": m.covariance, "edges": [edge.hex() for edge in m.edges]}
+    key["measured"] = {"edges": [edge.hex() for edge in m.edges]}
     key["version"] = {PROGRAM: program_version()}
     return key
 

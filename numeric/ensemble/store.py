@@ -32,7 +32,7 @@ _TABLES = (
     "checksum TEXT NOT NULL)",
 )
 _SETTINGS = "locking_mode = EXCLUSIVE", "synchronous = FULL", "trusted_schema = 0"
-# Bytes of what a store says of itself, and of a block: a covariance of 2048 variables has 50 MB.
+# Bytes of what a store says of itself, and of a block: of a million contacts it has 60 MB.
 LARGEST_TEXT, LARGEST_BLOCK = 1_000_000, 500_000_000
 _Number = Annotated[int, Field(ge=0, le=10**12)]  # of a realisation
 _KEY = TypeAdapter(dict[str, dict[str, JsonValue] | None])

@@ -35,25 +35,22 @@ _COUNTS = ("packings", "tensile", "bins")
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """Sums over packings, of G groups, V variables and B bins; a first axis may list several.
+    """Sums over packings, of G groups and B bins; a first axis may list several.
 
     ``first`` is the lowest number of a packing that is left out; ``packings`` (2,) counts those
     that are summed up, and left out; ``tensile`` (G,) contacts that pull. ``bins`` (3, B + 2):
     counts below, in and above the bins, their squares, and their products with all that a packing
-    counts. ``means`` (2, G) are those of a and b over packings,
-    ``products`` (3, G) the sums of products of deviations from them, row by row; ``pairs`` (V, V)
-    those of the variables, the ``row`` of means. a is in units of 2^unit of the measurement, b of
+    counts. ``means`` (2, G) are those of a and b over packings, ``products`` (3, G) the sums of
+    products of deviations from them, row by row. a is in units of 2^unit of the measurement, b of
     its square.
     """
 
-    row: int
     first: Array
     packings: Array
     tensile: Array
     bins: Array
     means: Array
     products: Array
-    pairs: Array
 
     @property
     def realisations(self) -> int:
@@ -76,11 +73,11 @@ class Sums:
         return int(self.packings.sum())
 
     def _arrays(self) -> list[Array]:
-        return [getattr(self, field.name) for field in fields(self)[1:]]
+        return [getattr(self, field.name) for field in fields(self)]
 
     def __getitem__(self, key: Any) -> "Sums":
         """Give some of several."""
-        return Sums(self.row, *(array[key] for array in self._arrays()))
+        return Sums(*(array[key] for array in self._arrays()))
 
     @np.errstate(all="ignore")  # in a forged file numbers may be of any size
     def __add__(self, other: "Sums") -> "Sums":
@@ -89,7 +86,6 @@ class Sums:
         share = more / np.maximum(own + more, 1)
         step, weight = other.means - self.means, own * share
         rows, columns = np.triu_indices(step.shape[-2])
-        x = step[..., self.row, : self.pairs.shape[-1]]
         return replace(
             self,
             first=np.minimum(self.first, other.first),
@@ -98,27 +94,23 @@ class Sums:
             products=self.products
             + other.products
             + step[..., rows, :] * step[..., columns, :] * weight,
-            pairs=self.pairs + other.pairs + x[..., :, None] * (x[..., None, :] * weight),
         )
 
     def to_bytes(self) -> bytes:
         """Write as bytes; equal sums give equal bytes."""
-        parts = [*self._arrays()[:-1], self.pairs[np.triu_indices(len(self.pairs))]]
-        return b"".join(part.astype(f"<{part.dtype.kind}8").tobytes() for part in parts)
+        return b"".join(one.astype(f"<{one.dtype.kind}8").tobytes() for one in self._arrays())
 
 
 def _shapes(m: Measurement) -> list[tuple[str, tuple[int, ...]]]:
     """Give kind and shape of each array."""
-    G, V = m.groups, m.variables
+    G = m.groups
     whole = [(), (2,), (G,), (3, m.counted)]
-    parts = [(2, G), (3, G), (V, V)]
-    return [("i8", shape) for shape in whole] + [("f8", shape) for shape in parts]
+    return [("i8", shape) for shape in whole] + [("f8", (2, G)), ("f8", (3, G))]
 
 
 def from_bytes(content: bytes, m: Measurement) -> Sums:
     """Read what ``to_bytes`` wrote. Raises ``ValueError`` where it is nothing of the kind."""
-    V, at, arrays = m.variables, 0, list[Array]()
-    shapes = [*_shapes(m)[:-1], ("f8", (V * (V + 1) // 2,))]
+    at, arrays, shapes = 0, list[Array](), _shapes(m)
     if len(content) != 8 * sum(int(np.prod(shape)) for _, shape in shapes):
         raise ValueError("sums are shorter or longer than they should be")
     for kind, shape in shapes:
@@ -128,19 +120,16 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
             raise ValueError("sums are no numbers, or count less than nothing")
         arrays.append(array)
         at += 8 * count
-    pairs, upper = np.zeros((V, V)), np.triu_indices(V)
-    pairs[upper] = pairs.T[upper] = arrays[-1]
-    arrays[-1] = pairs
-    return Sums(m.row, *arrays)
+    return Sums(*arrays)
 
 
 def nothing(m: Measurement, packings: int) -> Sums:
-    """Give the sums of no packing, so many times; products and pairs can't be written to."""
-    *small, products, pairs = _shapes(m)
+    """Give the sums of no packing, so many times; products can't be written to."""
+    *small, (_, products) = _shapes(m)
     arrays = [np.zeros((packings, *shape), kind) for kind, shape in small]
     arrays[0] += NEVER
-    arrays += [np.broadcast_to(np.zeros(s), (packings, *s)) for _, s in (products, pairs)]
-    return Sums(m.row, *arrays)
+    arrays.append(np.broadcast_to(np.zeros(products), (packings, *products)))
+    return Sums(*arrays)
 
 
 @dataclass(frozen=True, eq=False)
@@ -218,7 +207,7 @@ def blocks_of(packings: Sums, first: int) -> list[Block]:
 
 def _join(packings: Sums) -> Sums:
     count = len(packings.first)
-    if count > 1 and count * (packings.means[0].size + packings.pairs[0].size) > AT_ONCE:
+    if count > 1 and count * packings.means[0].size > AT_ONCE:
         return _join(packings[: count // 2]) + _join(packings[count // 2 :])
     while len(packings.first) > 1:
         packings = packings[0::2] + packings[1::2]

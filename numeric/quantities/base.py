@@ -256,9 +256,6 @@ class ContactQuantity(Quantity):
     Its groups hold contacts that are alike: a layer and branch of a profile, or one contact.
     """
 
-    squares: ClassVar[bool] = False
-    """Whether covariances between groups are those of mean squares, and not of changes."""
-
     @cached_property
     def layers(self) -> frozenset[int] | None:
         """The layers of lower beads that are asked for; None: all."""

@@ -32,7 +32,6 @@ class Profile(ContactQuantity):
 
     name = "profile"
     merged = True
-    squares = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a layer and branch."""

@@ -183,7 +183,6 @@ PLAIN: dict[str, Any] = {
     "bins": False,
     "several": False,
     "tolerance": False,
-    "covariance": False,
     "reach": False,
 }
 
@@ -245,7 +244,6 @@ _SAID = {
     "bins": "`ask.bins`",
     "several": "realisations",
     "tolerance": "a tolerance",
-    "covariance": "`--covariance`",
     "reach": "`--reach`",
 }
 

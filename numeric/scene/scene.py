@@ -79,7 +79,7 @@ def check(scene: Sections) -> None:
     _check_effects(scene.effects, packing)
 
 
-def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bool = False) -> None:
+def refuse(command: str, scene: Sections, *, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
     packing, load, effects, ask = scene.packing, scene.load, scene.effects, scene.ask
     found = refusal(
@@ -97,7 +97,6 @@ def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bo
         bins=ask.bins is not None,
         several=ask.realisations > 1,
         tolerance=ask.tolerance is not None,
-        covariance=covariance,
         reach=reach,
     )
     if found is not None:

@@ -99,7 +99,7 @@ def ways(command: str, quantity: str) -> list[list[str]]:
     if command == "ensemble":
         few = ["--realisations", "3", "--workers", "1"]
         few += ["--reach", "0.9"] if quantity == "histogram" else []
-        every = [[*few, *way, *more] for way in every for more in ([], ["--covariance"])]
+        every = [[*few, *way] for way in every]
     return every
 
 
@@ -146,8 +146,7 @@ def test_a_cell_is_answered_or_refused_as_the_table_says(
     path.write_text(scene(quantity, kind, load, said))
     tables(tmp_path, kind)
     for way in ways(command, quantity):
-        own = features(quantity, kind, load, said) | {"covariance": "--covariance" in way}
-        refused = refusal(command=command, **own)
+        refused = refusal(command=command, **features(quantity, kind, load, said))
         with warnings.catch_warnings():
             warnings.simplefilter("error")
             status = main([command, path.name, *way])

@@ -236,7 +236,6 @@ def test_a_file_of_another_ensemble(sound: bytes, tmp_path: Path) -> None:
             "there disorder.relative_std is 0.0001, here 1e-05",
         ),
         (case("profile of a bulk load"), "load.kind"),
-        (case("profile", covariance=True), "measured.covariance"),
         (case("response"), "ask.quantity"),
     ):
         with pytest.raises(StoreError, match=says):
