@@ -55,7 +55,7 @@ def program(
     about: str | None,
     head: str,
     parts: Mapping[str, Callable[[], Iterator[Line]]],
-    probes: Mapping[str, Callable[[], float]],
+    probes: Mapping[str, Callable[[], object]],
 ) -> int:
     """Measure the parts, print the table, and compare with the targets; or probe in this process.
 

@@ -1,15 +1,12 @@
 """What the sweeps are compared with: the same problem solved by other means.
 
 ``force_balance`` writes Eq. 6 of a whole packing as one linear system, for sparse and dense
-solvers; ``CSweep`` builds the same arithmetic in C. All of it serves the benchmarks only.
+solvers. All of it serves the benchmarks only.
 """
 
-import ctypes
-import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -17,7 +14,6 @@ from force_diffusion.numeric.arithmetic.carried import CARRYING
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, NumberSystem
 from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
 from force_diffusion.numeric.lattice.layers import Region, whole
-from force_diffusion.numeric.mechanics import plain
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.sweep import (
@@ -128,12 +124,6 @@ def directions(solved: SolvedPacking, n: tuple[Any, Any]) -> Directions:
     ]
 
 
-def plain_directions(laid: plain.PlainPacking) -> Directions:
-    """Give the same from positions."""
-    pairs = zip(laid.plus[1:], laid.minus[1:], strict=True)
-    return [(p.x, p.y, m.x, m.y) for p, m in pairs]
-
-
 def force_balance(N: Directions, one: Any = 1.0) -> Balance:
     """Assemble the linear system of a surface load; ``one`` in the arithmetic of ``N``."""
     height, width = len(N), len(N[0][0])
@@ -164,56 +154,3 @@ def changes(unknowns: Array, ordered: Any, width: int) -> Array:
 def stacked(forces: Forces) -> Array:
     """Give the changes of ``forces`` in the same shape."""
     return np.stack([np.stack(forces.change.plus[1:]), np.stack(forces.change.minus[1:])], axis=-1)
-
-
-class CSweep:
-    """``sweep.c``, built by gcc, with memory of its own."""
-
-    def __init__(self, problem: Problem, folder: Path, *flags: str) -> None:
-        """Compile (-O3, this machine's instructions) and put the radii in place."""
-        source = Path(__file__).with_name("sweep.c")
-        target = folder / f"sweep{len(list(folder.iterdir()))}.so"
-        fixed = ["-O3", "-march=native", "-fno-math-errno", "-shared", "-fPIC"]
-        command = ["gcc", *fixed, *flags, str(source), "-lm", "-o", str(target)]
-        subprocess.run(command, check=True)
-        self.library = ctypes.CDLL(str(target))
-        shape = (problem.height + 1, problem.width)
-        self.rho = np.ascontiguousarray(np.stack(problem.radii()))
-        # At distances as in numeric/fast.py, which suit the cache.
-        beads = shape[0] * shape[1]
-        memory = np.zeros((10, beads + (72 - beads) % 512))
-        self.blocks = memory[:, :beads].reshape(10, *shape)
-        self.nothing = np.zeros(problem.width)
-        self.lost = np.zeros((2, 2, problem.width))
-        phi = cosine(problem.n_x)
-        loads = problem.loads()
-        last_plus, last_minus = loads.plus[-1], loads.minus[-1]
-        assert last_plus is not None
-        assert last_minus is not None
-        scalars = (phi, 1 / (1 - phi**2), last_plus[0], last_minus[0])
-        self.arguments = (
-            ctypes.c_ssize_t(problem.height),
-            ctypes.c_ssize_t(problem.width),
-            *(ctypes.c_double(float(value)) for value in scalars),
-            *(
-                ctypes.c_void_p(a.ctypes.data)
-                for a in (self.nothing, self.lost, self.rho, *self.blocks)
-            ),
-        )
-
-    def __call__(self) -> Array:
-        """Sweep up and down; the blocks are c±, δn⁺ and δn⁻ (two each), F±, g±."""
-        self.library.sweep(*self.arguments)
-        return self.blocks
-
-    def bandwidth(self, n: int = 20_000_000) -> Callable[[], None]:
-        """Give a function that moves 32 n bytes: two reads, a write, and the line it fetches."""
-        a, b, c = np.zeros(n), np.ones(n), np.ones(n)
-        pointers = [ctypes.c_void_p(v.ctypes.data) for v in (a, b, c)]
-        kept = (a, b, c)
-
-        def move() -> None:
-            assert kept
-            self.library.triad(ctypes.c_ssize_t(n), *pointers)
-
-        return move

@@ -1,39 +1,32 @@
 """How fast the sweeps are, and how exact, beside what one would otherwise write.
 
-Run with ``python benchmarks/speed.py`` (needs ``pip install -e '.[bench]'``, and gcc for the part
-"c"). Times are medians of rounds in which all competitors take turns, so that a busy machine
-slows all alike; targets are ratios. ``--skip PART`` leaves parts out. Exit status 1 when a target
-is missed.
+Run with ``python benchmarks/speed.py`` (needs ``pip install -e '.[bench]'``). Times are medians of
+rounds in which all competitors take turns, so that a busy machine slows all alike; targets are
+ratios. ``--skip PART`` leaves parts out. Exit status 1 when a target is missed.
 """
 
 import os
+import re
 import subprocess
 import sys
 import tempfile
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
-from statistics import median
 from time import process_time
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric import closed_forms
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat
-from force_diffusion.numeric.mechanics import plain
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, BigFloat, as_floats
+from force_diffusion.numeric.mechanics.problem import axes
 from force_diffusion.numeric.planning.planner import initial_bits
 from measuring import Line, in_turn, program
-from peers import (
-    CSweep,
-    Problem,
-    changes,
-    directions,
-    force_balance,
-    plain_directions,
-    stacked,
-)
+from peers import Problem, changes, directions, force_balance, stacked
 
-HEIGHT, WIDTH, BATCHES = 256, 512, (8,)
+import force_diffusion as fd
+
+HEIGHT, WIDTH, BATCH = 256, 512, 8
 
 
 def forces() -> Iterator[Line]:
@@ -43,10 +36,9 @@ def forces() -> Iterator[Line]:
 
     problem = Problem(HEIGHT, WIDTH)
     numpy, compiled = problem.solver(), problem.compiled()
-    batches = {f"batch of {size}": (size, problem.compiled(size)) for size in BATCHES}
     solved, found = numpy()
-    n = plain.axes(problem.n_x, FLOAT64)
-    reference = stacked(problem.solver(LONGDOUBLE)()[1])
+    n = axes(problem.n_x, FLOAT64)
+    reference = as_floats(stacked(problem.solver(Balls(106))()[1]))
 
     def error(values: Any) -> float:
         return float(np.abs(values - reference).max() / np.abs(reference).max())
@@ -64,8 +56,8 @@ def forces() -> Iterator[Line]:
     def default() -> Any:
         return spsolve(A, right)
 
-    together = {name: solve for name, (_, solve) in batches.items()}
-    quick = in_turn({"numpy": numpy, "fast": compiled, **together, "best": best}, 15)
+    batch = problem.compiled(BATCH)
+    quick = in_turn({"numpy": numpy, "fast": compiled, "batch": batch, "best": best}, 15)
     slow = in_turn({"best": best, "default": default}, 5)
     peer = quick["best"]
     yield Line("spsolve, NATURAL ordering", 1e3 * peer, " ms")
@@ -74,9 +66,8 @@ def forces() -> Iterator[Line]:
     yield Line("fast sweep", 1e3 * quick["fast"], " ms")
     yield Line("spsolve (NATURAL) / NumPy sweep", peer / quick["numpy"], "", ">", 2)
     yield Line("spsolve (NATURAL) / fast sweep", peer / quick["fast"], "", ">", 20)
-    for name, (size, _) in batches.items():
-        yield Line(f"fast sweep, each of a {name}", 1e3 * quick[name] / size, " ms")
-        yield Line("spsolve (NATURAL) / that", size * peer / quick[name], "", ">", 35)
+    yield Line(f"fast sweep, each of a batch of {BATCH}", 1e3 * quick["batch"] / BATCH, " ms")
+    yield Line("spsolve (NATURAL) / that", BATCH * peer / quick["batch"], "", ">", 35)
     ordered = 1 / (2 * n[1])
     own = error(stacked(found))
     yield Line("error of change, sweep (NumPy and fast alike)", own)
@@ -85,111 +76,35 @@ def forces() -> Iterator[Line]:
     yield Line("error of spsolve (NATURAL), geometry given / sweep", given / own, "", ">", 1000)
     usual = error(changes(default(), ordered, WIDTH))
     yield Line("error of spsolve (default), geometry given / sweep", usual / own)
-    laid = plain.deposit(problem.n_x, problem.radii(), FLOAT64)
-    A, right = sparse(plain_directions(laid))
-    positions = error(changes(best(), ordered, WIDTH))
-    yield Line("error of spsolve, geometry from positions / sweep", positions / own, "", ">", 1000)
 
 
-SIZES = {
-    "like the packing above": ((70, 142), (223, 448), (706, 1414), (2235, 4474)),
-    "layers of 512": ((19, 512), (194, 512), (1952, 512), (19530, 512)),
-}
-
-# Bytes of a bead between memory and cores. Read: radii, F, δn; written: c, δn, F, g, whose cache
-# lines are fetched first.
-_MOVED = 8 * (1 + 2 + 4 + 2 * 10)
+LARGE = (5, 6, 7)
 
 
-def bandwidth_of_one_core() -> float:
-    """Gigabytes a second that NumPy moves in a = b + c, lines of a fetched before being written."""
-    a, b, c = np.ones((3, 20_000_000))  # zeros would all be one page
-    seconds = in_turn({"": lambda: np.add(b, c, out=a)}, 9, process_time)[""]
-    return 32 * len(a) / seconds / 1e9
+def large() -> Iterator[Line]:
+    """Time and memory by the number of beads, each in a process of its own."""
+    for power in LARGE:
+        probe = [sys.executable, __file__, "--probe", f"10^{power}"]
+        done = subprocess.run(probe, check=True, capture_output=True, text=True)
+        seconds, most = map(float, done.stdout.split())
+        yield Line(f"profile of 10^{power} beads", 1e9 * seconds / 10**power, " ns per bead")
+        yield Line("  memory, the interpreter included", most / 1e6, " MB")
 
 
-def size() -> Iterator[Line]:
-    """Time per bead from 1e4 to 1e7 beads, and memory."""
-    bandwidth = bandwidth_of_one_core()
-    yield Line("memory bandwidth of one core (a = b + c)", bandwidth, " GB/s")
-    for shape, sizes in SIZES.items():
-        fresh: dict[int, float] = {}
-        again: dict[int, float] = {}
-        for height, width in sizes:
-            problem = Problem(height, width)
-            beads, rounds = (height + 1) * width, 5 if height * width > 1e6 else 31
-            for found, task in (
-                (
-                    again,
-                    problem.compiled(again=True),
-                ),  # one after the other, as an ensemble has them
-                (fresh, problem.compiled()),
-            ):
-                seconds = in_turn({"": task}, rounds, process_time)[""]
-                found[beads] = 1e9 * seconds / beads
-            yield Line(f"fast, {height} × {width}, memory that stays", again[beads], " ns per bead")
-            yield Line("  in fresh memory", fresh[beads], " ns per bead")
-        for name, each in (("memory that stays", again), ("fresh memory", fresh)):
-            flat = max(each.values()) / min(each.values())
-            target = ("<", 1.5) if each is again else ("", 0)
-            yield Line(f"slowest / fastest of these, {shape}, {name}", flat, "", *target)
-        share = _MOVED / again[max(again)] / bandwidth
-        yield Line("the largest of these: share of that bandwidth", 100 * share, " %")
-    probe = [sys.executable, __file__, "--probe", "memory"]
-    done = subprocess.run(probe, check=True, capture_output=True, text=True)
-    yield Line("memory / arrays of the answer, 4e6 beads", float(done.stdout), "", "<", 1.5)
-
-
-def resident(name: str) -> int:
-    """Bytes in memory: "VmRSS" now, "VmHWM" at the most. (Linux; maxrss is the parent's, too.)"""
-    for line in Path("/proc/self/status").read_text().splitlines():
-        if line.startswith(name):
-            return int(line.split()[1]) * 1024
-    raise SystemExit("the memory of a process can be read on Linux only")
-
-
-def probe_memory() -> float:
-    """Peak memory of one solution beyond what was there before, over the arrays that it gives."""
-    Problem(3, 4).compiled()()
-    solve = Problem(1414, 2828).compiled()
-    before = resident("VmRSS")
-    packing, forces = solve()
-    peak = resident("VmHWM")
-    # The ordered forces are windows on one row, here: they are not counted.
-    answer = [packing.c.plus, packing.c.minus, forces.change.plus, forces.change.minus]
-    answer += [*zip(*packing.dn.plus, strict=True), *zip(*packing.dn.minus, strict=True)]
-    return (peak - before) / sum(layer.nbytes for block in answer for layer in block)
-
-
-def against_c() -> Iterator[Line]:
-    """The fast sweep against the same arithmetic in C, and both against memory."""
-    problem = Problem(HEIGHT, WIDTH)
-    solve, again = problem.compiled(), problem.compiled(again=True)
-    with tempfile.TemporaryDirectory() as folder:
-        alike = CSweep(problem, Path(folder), "-ffp-contract=off")
-        fused = CSweep(problem, Path(folder), "-ffp-contract=fast")
-        blocks = alike()
-        packing, forces = solve()
-        pairs = [
-            (np.stack(packing.c.plus), blocks[0]),
-            (np.stack(packing.c.minus), blocks[1]),
-            (np.stack(forces.change.plus[1:]), blocks[8][1:]),
-            (np.stack(forces.change.minus[1:]), blocks[9][1:]),
-        ]
-        apart = max(float(np.abs(a - b).max() / np.abs(b).max()) for a, b in pairs)
-        yield Line("C, written out by hand, differs by (relative)", apart, "", "<", 1e-13)
-        tasks = {"fast": solve, "again": again, "alike": alike, "fused": fused}
-        quick = in_turn(tasks, 31, process_time)
-        c = min(quick["alike"], quick["fused"])
-        yield Line("C, gcc -O3 -march=native, memory at hand", 1e3 * c, " ms")
-        yield Line("fast sweep, memory that stays / C", quick["again"] / c, "", "<", 1.7)
-        yield Line("  in fresh memory, tables and all / C", quick["fast"] / c)
-        large = Problem(2235, 4474)
-        many = in_turn({"fast": large.compiled(), "memory": alike.bandwidth()}, 5)
-    bandwidth = 32 * 20e6 / many["memory"]
-    moved = _MOVED * (large.height + 1) * large.width
-    yield Line("memory bandwidth of one core (a = b + c)", bandwidth / 1e9, " GB/s")
-    yield Line("fast sweep of 1e7 beads, share of it", 100 * moved / many["fast"] / bandwidth, " %")
+def probe_large(power: int) -> str:
+    """Seconds of the processor, and bytes, that a profile and the estimate of its error take."""
+    width = round(10 ** (power / 2)) + 1
+    scene = fd.Scene(
+        packing=fd.Packing(height=10**power // width - 1, width=width),
+        disorder=fd.Disorder(kind="uniform", relative_std=1e-8, seed=1),
+        ask=fd.Ask(quantity="profile"),
+    )
+    start = process_time()
+    scene.run()
+    seconds = process_time() - start
+    # what getrusage tells would be the parent's, too
+    (most,) = re.findall(r"VmHWM:\s*(\d+) kB", Path("/proc/self/status").read_text())
+    return f"{seconds} {1024 * int(most)}"
 
 
 def digits() -> Iterator[Line]:
@@ -217,7 +132,7 @@ def digits() -> Iterator[Line]:
     balls, floats = pair(small)
     context = floats.context
     laid, forces = small.solver(floats)()
-    n = plain.axes(small.n_x, floats)
+    n = axes(small.n_x, floats)
     b = force_balance(directions(laid, n), context.mpf(1))
     A = context.zeros(len(b.right))
     for row, column, value in zip(b.rows.tolist(), b.columns.tolist(), b.values, strict=True):
@@ -230,84 +145,10 @@ def digits() -> Iterator[Line]:
     yield Line("mpmath.lu_solve, geometry given / balls, 8 × 9", spent["lu"] / spent["balls"])
 
 
-def profile() -> Iterator[Line]:
-    """The exact profile of σ_f in closed form against Monte Carlo, surface load."""
-    problem, realisations = Problem(64, 130), 256
-    phi, std = 1 - 2 * problem.n_x**2, problem.relative_std
-
-    def closed(number: Any = float) -> list[Any]:
-        parameters = (number(phi), number(std), 1)
-        return [
-            closed_forms.surface_variance(problem.height, j, *parameters)
-            for j in range(problem.height)
-        ]
-
-    def simulated() -> Any:
-        _, found = problem.compiled(realisations)()
-        squares = [
-            np.mean(np.square([p, m]))
-            for p, m in zip(found.change.plus[1:], found.change.minus[1:], strict=True)
-        ]
-        return np.sqrt(squares) / float(found.ordered.plus[1][0])
-
-    spent = in_turn({"closed": closed, "simulated": simulated}, 3)
-    exact = np.sqrt(np.array(closed()))
-    error = float(np.sqrt(np.mean((simulated() / exact - 1) ** 2)))
-    fractions = closed(Fraction)
-    rounding = max(
-        abs(float(Fraction(a) / b - 1)) for a, b in zip(closed(), fractions, strict=True)
-    )
-    yield Line("closed form, 64 layers", 1e3 * spent["closed"], " ms")
-    yield Line("  its rounding error of σ_f² (against fractions)", rounding)
-    yield Line(f"Monte Carlo (fast), {realisations} realisations", spent["simulated"], " s")
-    yield Line("  its error of σ_f, root mean square over layers", error)
-    yield Line("  seconds, Monte Carlo / closed form", spent["simulated"] / spent["closed"])
-    for goal in (1e-3, rounding or 1e-16):
-        times = (error / goal) ** 2
-        name = f"to an error of {goal:.1g} (by 1/√N)"
-        yield Line(f"realisations {name}, closed form: none", realisations * times)
-        yield Line(
-            f"  seconds, Monte Carlo / closed form, {name}",
-            times * spent["simulated"] / spent["closed"],
-        )
-
-
-def writing() -> Iterator[Line]:
-    """A million contact forces as files, against the whole run that solves them; processor time."""
-    from force_diffusion.derivations.export.answers import Format, files_of
-
-    import force_diffusion as fd
-
-    scene = fd.Scene(
-        packing=fd.Packing(height=500, width=1000),
-        disorder=fd.Disorder(kind="uniform", relative_std=1e-5, seed=1),
-        ask=fd.Ask(quantity="contact_forces"),
-    )
-
-    def spent(task: Callable[[], Any]) -> float:
-        start = process_time()
-        task()
-        return process_time() - start
-
-    def written(found: fd.Outcome, form: Format) -> float:
-        for name in ("text", "arrays"):  # made once, and kept
-            found.__dict__.pop(name, None)
-        return spent(lambda: files_of(found, found.data(rows=False), form))
-
-    plan, found = scene.explain(), scene.run()
-    solving = median(spent(lambda: fd.run(plan)) for _ in range(3))
-    yield Line("run of 1e6 contact forces, its estimate of the error included", solving, " s")
-    for form in Format:
-        times = median(written(found, form) for _ in range(3))
-        yield Line(f"writing as {form} / that", times / solving, "", "<", 1)
-
-
 def _sphere_tasks(height: int, width: int) -> tuple[int, dict[str, Callable[[], Any]]]:
     """Give the beads of a packing of spheres, and who deposits and balances it."""
     from force_diffusion.numeric.mechanics.passes import Deposition, Descent
     from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
-
-    import force_diffusion as fd
 
     scene = fd.Scene(
         packing=fd.Packing(height=height, width=width, dimension=3, allow_images=True),
@@ -357,13 +198,11 @@ def solving() -> Iterator[Line]:
     from scipy import sparse
     from scipy.sparse.linalg import splu
 
-    import force_diffusion as fd
-
     for height, width in ((8, 16), (64, 128), (256, 512)):
         problem = Problem(height, width, Fraction(1, 10**4))
         radii = 1 + np.stack(problem.radii())
         packing, _ = problem.solver()()
-        n = plain.axes(problem.n_x, FLOAT64)
+        n = axes(problem.n_x, FLOAT64)
         system = force_balance(directions(packing, n))
         matrix = sparse.csc_matrix(
             (system.values, (system.rows, system.columns)), shape=(len(system.right),) * 2
@@ -407,8 +246,6 @@ def first() -> Iterator[Line]:
 
 def probe_first() -> float:
     """Seconds of the processor of the first call that takes compiled loops, less the second."""
-    import force_diffusion as fd
-
     radii = 1 + np.random.default_rng(1).uniform(-1e-4, 1e-4, (401, 600))
     spent = []
     for _ in range(2):
@@ -421,8 +258,6 @@ def probe_first() -> float:
 def running() -> Iterator[Line]:
     """Reading, planning, solving and writing a small scene."""
     from force_diffusion.derivations.export.answers import Format, files_of
-
-    import force_diffusion as fd
 
     text = (
         "packing = {height = 8, width = 20}\n"
@@ -455,11 +290,8 @@ PARTS: dict[str, Callable[[], Iterator[Line]]] = {
     "solve": solving,
     "run": running,
     "forces": forces,
-    "size": size,
-    "c": against_c,
+    "large": large,
     "digits": digits,
-    "profile": profile,
-    "writing": writing,
     "spheres": spheres,
 }
 
@@ -471,6 +303,6 @@ if __name__ == "__main__":
             f"Forces of a packing of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load;\n"
             "errors are relative to the largest |change|.",
             PARTS,
-            {"memory": probe_memory, "first call": probe_first},
+            {"first call": probe_first} | {f"10^{n}": partial(probe_large, n) for n in LARGE},
         )
     )

@@ -1,7 +1,7 @@
 """How fast many packings are: an ensemble beside what its beads take at least.
 
 Run with ``python benchmarks/studies.py`` (needs the extra ``fast``). All times are of processors,
-but where it says wall, and come from the same run: targets are ratios. Each part takes the least of
+and come from the same run: targets are ratios. Each part takes the least of
 several rounds, in which competitors take turns. Exit status 1 when a target is missed.
 """
 
@@ -10,13 +10,12 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from functools import partial
-from time import perf_counter, process_time, thread_time
+from time import process_time, thread_time
 from typing import Any
 
 import numpy as np
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.mechanics import engine
-from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
 from measuring import Line, in_turn, program
 
@@ -110,102 +109,37 @@ def shared(packings: int) -> float:
     return own + (process_time() - start - own) / len(os.sched_getaffinity(0))
 
 
-def probe(spent: Callable[[int], float]) -> float:
+def probe() -> float:
     """Seconds that so many packings more take, here."""
     size = 4 * MORE
-    least = {n: min(spent(n) for _ in range(3)) for n in (FEWER, size)}
+    least = {n: min(shared(n) for _ in range(3)) for n in (FEWER, size)}
     return least[size] - least[FEWER]
 
 
-def wall(packings: int) -> float:
-    """Give the seconds that an ensemble takes."""
-    start = perf_counter()
-    fd.ensemble(scene(), packings)
-    return perf_counter() - start
-
-
-PROBES = {"wall": partial(probe, wall), "thread": partial(probe, shared)}
-
-
 def cores() -> Iterator[Line]:
-    """Two cores against one: by the clock on the wall, where they are free, and by that of threads.
+    """Two cores against one, by the clock of threads, which other programs do not disturb.
 
     Threads take blocks in turns, and this process's own does all that is done by one alone: with
     free cores, the clock on the wall goes with that and a core's share of the rest.
     """
     both = sorted(os.sched_getaffinity(0))[:2]
-    load = os.getloadavg()[0]
-    for name, words in (("thread", "processor time, shared by the cores"), ("wall", "wall")):
-        seconds = []
-        for allowed in (both[:1], both):
-            done = subprocess.run(
-                [sys.executable, __file__, "--probe", name],
-                check=True,
-                capture_output=True,
-                text=True,
-                preexec_fn=partial(os.sched_setaffinity, 0, allowed),
-            )
-            seconds.append(float(done.stdout))
-        ratio = seconds[0] / seconds[1]
-        if name == "wall" and load > 0.5:
-            yield Line(f"one core / two, wall, with a load of {load:.1f} by others", ratio)
-        else:
-            yield Line(f"one core / two, {words}", ratio, "", ">", 1.8)
+    seconds = []
+    for allowed in (both[:1], both):
+        done = subprocess.run(
+            [sys.executable, __file__, "--probe", "cores"],
+            check=True,
+            capture_output=True,
+            text=True,
+            preexec_fn=partial(os.sched_setaffinity, 0, allowed),
+        )
+        seconds.append(float(done.stdout))
+    ratio = seconds[0] / seconds[1]
+    yield Line("one core / two, processor time, shared by the cores", ratio, "", ">", 1.8)
 
 
-def cluster() -> Iterator[Line]:
-    """Strong scaling on Dask's cluster of this machine: the same packings by one worker and two."""
-
-    def solve(workers: int, packings: int) -> None:
-        fd.ensemble(scene(), packings, workers=workers, scheduler="local")
-
-    def spent() -> float:  # of this process and of the workers that have ended
-        return sum(os.times()[:4])
-
-    load, size = os.getloadavg()[0], 4 * MORE
-    tasks = {(w, n): partial(solve, w, n) for w in (1, 2) for n in (FEWER, size)}
-    for name, clock in (("processor time", spent), ("wall", perf_counter)):
-        if name == "wall" and load > 0.5:
-            return  # the cores are not free
-        found = in_turn({f"{w} {n}": task for (w, n), task in tasks.items()}, 2, clock, min)
-        one, two = (found[f"{w} {size}"] - found[f"{w} {FEWER}"] for w in (1, 2))
-        if name == "wall":
-            yield Line("Dask, two workers / one: wall, efficiency", 100 * one / two / 2, " %")
-        else:
-            each = 1e9 * one / (size - FEWER) / BEADS
-            yield Line("Dask, one worker: processor time", each, " ns per bead")
-            yield Line("Dask, one worker / two: processor time of all", 100 * one / two, " %")
-
-
-def batch() -> Iterator[Line]:
-    """A packing of a batch on all cores, beside one that is solved alone.
-
-    This thread does a core's part of a batch, and all that is done by one alone.
-    """
-    problem = plan(scene(realisations=64)).problem
-
-    def solve(packings: int) -> None:
-        with FLOAT64.active():
-            for _ in engine.packings(problem, range(packings), FLOAT64, Work()):
-                pass
-
-    load = os.getloadavg()[0]
-    tasks = {"one": partial(solve, 1), "many": partial(solve, 64)}
-    for clock, words in ((thread_time, "processor time of this thread"), (perf_counter, "wall")):
-        found = in_turn(tasks, 9, clock, min)
-        ratio, free = found["many"] / 64 / found["one"], load <= 0.5
-        yield Line(f"single packing, {words}", 1e3 * found["one"], " ms")
-        if free or clock is thread_time:
-            yield Line(f"of a batch of 64 / single, {words}", ratio, "", "<", 0.6)
-        else:
-            yield Line(
-                f"of a batch of 64 / single, wall, with a load of {load:.1f} by others", ratio
-            )
-
-
-PARTS = {"ensemble": ensemble, "cores": cores, "cluster": cluster, "batch": batch}
+PARTS = {"ensemble": ensemble, "cores": cores}
 
 
 if __name__ == "__main__":
     head = f"Packings of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load"
-    raise SystemExit(program(__doc__, head, PARTS, PROBES))
+    raise SystemExit(program(__doc__, head, PARTS, {"cores": probe}))

@@ -15,8 +15,9 @@ import numpy as np
 from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
-from force_diffusion.numeric.statistics.ratios import moments
-from force_diffusion.numeric.unilateral import Grains, UnfinishedError, balanced, settle, start
+from force_diffusion.numeric.unilateral.grains import Grains
+from force_diffusion.numeric.unilateral.network import UnfinishedError
+from force_diffusion.numeric.unilateral.relaxation import balanced, settle
 from scipy.sparse.linalg import splu
 
 import force_diffusion as fd
@@ -26,9 +27,10 @@ TIMES = (1, 2, 3, 4)
 DISTANCES = np.arange(0, 2.25, 0.25)  # up to half a strip of 2M beads
 
 
-def response(grains: Grains, pairs: Array, backbone: Array) -> tuple[Array, Array]:
+def response(grains: Grains, pairs: Array) -> tuple[Array, Array]:
     """Give Σ|p| of each bead of the surface, were it loaded, and their mean Σp by ``DISTANCES``."""
-    W, place = grains.fixed, grains.coordinates(backbone)
+    W, backbone = grains.fixed, grains.backbone(pairs)
+    place = grains.coordinates(backbone)
     factors = splu(grains.jacobian(pairs)[:, place].tocsc())
     surface = [b for b in backbone if b >= len(grains.radii) - W]
     down = np.zeros((grains.unknowns, len(surface)))
@@ -45,6 +47,13 @@ def response(grains: Grains, pairs: Array, backbone: Array) -> tuple[Array, Arra
     return np.abs(borne).sum(axis=0), profile
 
 
+def relative_std(sums: Array) -> Array:
+    """Give σ_f/⟨f⟩ from counts, totals and squares summed over packings, (3, heights)."""
+    counts, totals, squares = sums
+    mean = totals / counts
+    return np.asarray(np.sqrt(squares / counts - mean**2) / mean)
+
+
 def errors(values: Array) -> Array:
     """Give two standard errors of the means over packings."""
     return np.asarray(2 * values.std(axis=0, ddof=1) / np.sqrt(len(values)))
@@ -59,7 +68,7 @@ def measured(load: fd.Load, spacing: float, M: int, of_critical: float, packings
             packing=fd.Packing(height=M, width=2 * M, spacing=spacing),
             disorder=fd.Disorder(kind="uniform", relative_std=std, seed=number),
             load=load,
-            effects=fd.Effects(contacts="unilateral", protocol="linear-programs"),
+            effects=fd.Effects(contacts="unilateral"),
             ask=fd.Ask(quantity="contact_forces"),
         )
         problem = plan(scene).problem
@@ -68,28 +77,25 @@ def measured(load: fd.Load, spacing: float, M: int, of_critical: float, packings
         except UnfinishedError:
             left_out += 1
             continue
-        if settled is None:
-            grains, pairs, _ = start(problem, 0)
-            assert pairs is not None
-            backbone = np.arange(grains.fixed, len(grains.radii))
-        else:
-            grains, pairs, backbone = settled.grains, settled.contacts, settled.backbone
-        forces = balanced(grains, pairs, backbone)
+        grains, pairs = settled.grains, settled.contacts
+        forces = balanced(grains, pairs)
         layer = pairs[:, 1] // grains.fixed
         groups = [forces[layer == round(z * M)] for z in HEIGHTS]
         sums.append([[len(g) for g in groups], [g.sum() for g in groups],
                      [(g**2).sum() for g in groups]])  # fmt: skip
         beyond.append([(forces > k * forces.mean()).mean() for k in TIMES])
-        sizes, profile = response(grains, pairs, backbone)
+        sizes, profile = response(grains, pairs)
         absolute.append(np.median(sizes))
         profiles.append(profile)
-    counts, totals, squares = np.swapaxes(np.array(sums, dtype=float), 0, 1)
-    mean, sigma, _, error = moments(counts, totals, squares)
+    every = np.array(sums, dtype=float)
+    without = np.array([relative_std(every.sum(axis=0) - own) for own in every])
+    jackknife = np.sqrt(len(every) - 1) * without.std(axis=0)
     shares, logs, profile = np.array(beyond), np.log10(absolute)[:, None], np.array(profiles)
     typical = float(logs.mean())
     cells = [
         M, of_critical, f"{len(sums)}, {left_out}",
-        *(f"{s / m:.2f} ± {2 * e / m:.2f}" for s, m, e in zip(sigma, mean, error, strict=True)),
+        *(f"{s:.2f} ± {2 * e:.2f}"
+          for s, e in zip(relative_std(every.sum(axis=0)), jackknife, strict=True)),
         *(f"{s:.3f} ± {e:.3f}" for s, e in zip(shares.mean(axis=0), errors(shares), strict=True)),
         f"{10**typical:.3g} ×÷ {10 ** float(errors(logs)[0]):.2g}",
         *(f"{p:.2f} ± {e:.2f}" for p, e in zip(profile.mean(axis=0), errors(profile), strict=True)),

@@ -3,8 +3,6 @@ from .derivations.api.derived import Derived as Derived
 from .derivations.api.derived import derive as derive
 from .derivations.api.equation import Equation as Equation
 from .derivations.api.equation import equation as equation
-from .derivations.api.report import Report as Report
-from .derivations.api.report import report as report
 from .numeric.arithmetic.errors import ForceDiffusionError as ForceDiffusionError
 from .numeric.ensemble.ensemble import ensemble as ensemble
 from .numeric.ensemble.result import Ensemble as Ensemble
@@ -29,11 +27,5 @@ from .numeric.scene.sections import Packing as Packing
 from .numeric.scene.sections import PointLoad as PointLoad
 from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
-from .numeric.studies.cascade.cascade import CascadeStudy as CascadeStudy
-from .numeric.studies.cascade.cascade import cascade as cascade
 from .numeric.studies.cost.cost import cost as cost
 from .numeric.studies.cost.table import CostStudy as CostStudy
-from .numeric.studies.stability.stability import StabilityStudy as StabilityStudy
-from .numeric.studies.stability.stability import stability as stability
-from .numeric.unilateral import Verdict as Verdict
-from .numeric.unilateral import check_packings as check_packings

@@ -2,7 +2,7 @@
 
 Answers in balls are certified: bits are added until the enclosure is small enough. Numbers of
 float64 are corrected by the errors that their sweep carried and rounded once; what is stated is
-what that rounding left. Other arithmetics are repeated, in balls, which know their error.
+that rounding, those of gathering them, and what the carried errors leave out.
 """
 
 import math
@@ -22,16 +22,14 @@ from .arithmetic.systems import (
     Array,
     Balls,
     NumberSystem,
-    as_ball,
     as_floats,
     largest_of,
     midpoint,
 )
-from .mechanics.kept import Kept
 from .mechanics.sweep import NotStandingError
 from .mechanics.work import ESTIMATE, Work
 from .planning.plan import CERTIFY, Plan
-from .planning.planner import PRINTED, SAFETY, UNSEEN, initial_bits, merging, usual_units
+from .planning.planner import PRINTED, UNIT, UNSEEN, gathering, initial_bits
 from .quantities.answer import Answer, answer
 from .quantities.base import RATIO, SCATTER_OF, Table
 from .tables import significant, text_of
@@ -49,8 +47,8 @@ class Accuracy:
     """Error of the answer's small columns, relative to the largest entry of them.
 
     ``certified``: a rigorous bound (balls). Otherwise it is estimated, from errors that the sweep
-    carried, or from a second solution with a longer significand. ``bits_lost``: bits of the
-    arithmetic that the answer lacks. A bound below what a float can hold is a fraction.
+    carried. ``bits_lost``: bits of the arithmetic that the answer lacks. A bound below what a float
+    can hold is a fraction.
     """
 
     error_bound: float | Fraction
@@ -154,88 +152,84 @@ def _least_tolerance(height: int) -> str:
     return f"1e-{int(digits * 0.30102)}"
 
 
-def repeated(plan: Plan, work: Work, kept: Kept | None = None) -> tuple[Answer, Accuracy]:
-    """Answer, and say how large the error is: as sweeps carried it, or a repeat measured it.
+def estimated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
+    """Answer in float64, and say how large the error is, as sweeps carried it.
 
-    ``kept``: what an earlier run has kept of a sweep by segments.
+    Of many realisations the first few are swept again with their errors.
     """
-    quantity, problem, method = plan.quantity, plan.problem, plan.method
-    longer = method.longer
-    assert longer is not None
-    few = range(method.repeated)
-    if method.carries and len(few) >= problem.realisations:
-        beside = longer if plan.system is FLOAT64 else None
-        found = answer(quantity, problem, few, plan.system, work, longer=beside, kept=kept)
-        with longer.active():
-            return found, of_carried(found, plan)
-    found = answer(quantity, problem, range(problem.realisations), plan.system, work)
+    quantity, problem, few = plan.quantity, plan.problem, range(plan.method.repeated)
+    if len(few) >= problem.realisations:
+        found = answer(quantity, problem, few, FLOAT64, work, carried=True)
+        return found, of_carried(found, plan)
+    found = answer(quantity, problem, range(problem.realisations), FLOAT64, work)
     part = replace(problem, realisations=len(few))
     with work.repeat(ESTIMATE):
-        table = found.table
-        if len(few) < problem.realisations:
-            table = answer(quantity, part, few, plan.system, work).table
-        if plan.system is FLOAT64:
-            right = answer(quantity, part, few, FLOAT64, work, longer=longer)
-            again = right.table if right.exact is None else right.exact
-        else:
-            again = answer(quantity, part, few, longer, work).table
-        with longer.active():
-            return found, of_repeat(table, again, found.table, plan)
+        table = answer(quantity, part, few, FLOAT64, work).table
+        again = answer(quantity, part, few, FLOAT64, work, carried=True).table
+    return found, of_repeat(table, again, found.table, plan)
 
 
 def of_carried(found: Answer, plan: Plan) -> Accuracy:
-    """State the error of an answer whose sweeps carried it, from the table that holds both."""
-    apart: Fraction | None = Fraction(0)
-    if found.left is not None:
-        apart = Fraction(found.left) if math.isfinite(found.left) else None
-    elif found.exact is not None:
-        apart = _farthest(found.table, found.exact, plan.system)
-    return _unknown(plan.system) if apart is None else stated(found, apart, plan)
-
-
-def stated(found: Answer, apart: Fraction, plan: Plan) -> Accuracy:
     """State the error of an answer whose sweeps carried it.
 
-    ``apart`` is what one rounding left; to it comes what the carried errors leave out themselves
-    (``Sizes.unseen``).
+    It is that of gathering numbers that were rounded once; to it comes what the carried errors
+    leave out themselves (``Sizes.unseen``), which is doubled for sums of a few numbers.
     """
-    system, table = plan.system, found.table
-    largest = max((_largest(table.numbers[name]) for name in table.small), default=Fraction(0))
-    unseen = _unseen(found, plan, largest)
-    if unseen is None:
-        return _unknown(system)
-    if not largest:
-        exact = not apart and not found.sizes.changed and not found.sizes.moved
-        return _of_zeros(plan, CARRIED, exact=exact)
-    ratio = (apart + unseen) / largest
-    if plan.tolerance is not None:
-        ratio = PRINTED * max(ratio, Fraction(1, 2**system.bits))
-    lost = max(system.bits + _log2(ratio), 0.0) if ratio else 0.0
-    return Accuracy(_bound(ratio), False, system.name, round(lost, 1), CARRIED)
-
-
-def _unseen(found: Answer, plan: Plan, largest: Fraction) -> Fraction | None:
-    """Give what carried errors leave out, in the unit of the answer; None where that is no number.
-
-    It is doubled for sums of a few numbers. Gathering them in the longer arithmetic rounds, too,
-    relative to the terms that changes are sums of, σ/r times the forces (positions: the radius): a
-    change that is left over where these cancel may be far smaller.
-    """
-    scene, longer = plan.scene, plan.method.longer
-    assert longer is not None
-    force, moved = found.sizes.unseen(scene.packing.height)
+    table, sizes, scene = found.table, found.sizes, plan.scene
+    largest = _largest(table)
+    force, moved = sizes.unseen(scene.packing.height)
     if not math.isfinite(force + moved):
-        return None
+        return Accuracy(math.inf, False, FLOAT64.name, float(FLOAT64.bits))
+    if not largest:
+        return _of_zeros(plan, CARRIED, exact=not sizes.changed and not sizes.moved)
     if plan.problem.needs_forces:
-        size = Fraction(force) * scene.load.magnitude
-        scale = max(Fraction(found.sizes.force), Fraction(1)) * scene.load.magnitude
+        unseen = Fraction(force) * scene.load.magnitude
     else:
-        size = Fraction(moved * float(1 / plan.problem.n_x)) * scene.packing.radius
-        scale = scene.packing.radius
-    terms = max(largest, scale * plan.problem.radii.relative_std())
-    rounding: Fraction = usual_units(longer, 1) * terms / 2**longer.bits
-    unseen: Fraction = 2 * size + rounding
-    return unseen
+        unseen = Fraction(moved * float(1 / plan.problem.n_x)) * scene.packing.radius
+    ratio = gathering(plan.quantity, plan.problem) * UNIT + 2 * unseen / largest
+    return _estimate(ratio, plan, CARRIED)
+
+
+def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
+    """Estimate the error of a whole answer, as printed.
+
+    ``table`` and ``again`` are those of the realisations that were swept again, in float64 and with
+    their errors.
+    """
+    few = f"{plan.method.repeated} of {plan.problem.realisations} realisations"
+    note = f"estimated, not certified, from {few}"
+    apart = max(np.abs(table.numbers[n] - again.numbers[n]).max(initial=0) for n in table.small)
+    if not np.isfinite(apart):
+        return Accuracy(math.inf, False, FLOAT64.name, float(FLOAT64.bits))
+    largest = _largest(whole)
+    if not largest:
+        return _of_zeros(plan, note, exact=not apart)
+    ratio = max(UNSEEN * Fraction(float(apart)) / largest, 4 * UNIT)
+    ratio += gathering(plan.quantity, plan.problem) * UNIT
+    return _estimate(ratio, plan, note)
+
+
+def _estimate(ratio: Fraction, plan: Plan, note: str) -> Accuracy:
+    """State an error relative to the largest change; with a tolerance, as printed."""
+    if plan.tolerance is not None:
+        ratio *= PRINTED
+    bound = float(min(ratio, Fraction(10) ** 300)) * (1 + 1e-15)
+    lost = max(math.log2(bound) + FLOAT64.bits, 0.0)
+    return Accuracy(bound, False, FLOAT64.name, round(lost, 1), note)
+
+
+def _of_zeros(plan: Plan, note: str, *, exact: bool) -> Accuracy:
+    """State the error where every change is zero; ``exact``: as far as was seen."""
+    if exact and plan.tolerance is None:
+        return Accuracy(0.0, False, FLOAT64.name, 0.0, note)
+    note = "every change is zero here, and only balls can tell whether that is exact"
+    return Accuracy(math.inf, False, FLOAT64.name, 0.0, note)
+
+
+def _largest(table: Table) -> Fraction:
+    """Give the largest change."""
+    most = max((float(np.abs(table.numbers[n]).max(initial=0)) for n in table.small), default=0.0)
+    return Fraction(most) if math.isfinite(most) else Fraction(0)
 
 
 def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:
@@ -249,88 +243,9 @@ def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:
     return ""
 
 
-def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
-    """Estimate the error of a whole answer, as printed.
-
-    ``table`` and ``again`` are the solutions of the repeated realisations, in the arithmetic of the
-    plan and in the longer one.
-    """
-    method = plan.method
-    assert method.longer is not None
-    unit = Fraction(1, 2**method.system.bits)
-    apart = _farthest(table, again, method.longer)
-    if apart is None:
-        return _unknown(method.system)
-    largest = max((_largest(whole.numbers[name]) for name in whole.small), default=Fraction(0))
-    if not largest:
-        return _of_zeros(plan, "estimated, not certified", exact=not apart)
-    seen = method.repeated >= plan.problem.realisations
-    factor = SAFETY if seen else UNSEEN
-    ratio = max(factor * apart / largest, 4 * unit)
-    ratio += merging(method, plan.problem.realisations) * unit
-    lost = max(method.system.bits + _log2(ratio), 0.0)
-    of_all = f"{method.repeated} of {plan.problem.realisations} realisations"
-    note = f"estimated, not certified, from {of_all}"
-    printed = ratio if plan.tolerance is None else PRINTED * ratio
-    return Accuracy(_bound(printed), False, method.system.name, round(lost, 1), note)
-
-
-def _unknown(system: NumberSystem) -> Accuracy:
-    """Say that an error is not finite."""
-    return Accuracy(math.inf, False, system.name, float(system.bits))
-
-
-def _of_zeros(plan: Plan, note: str, *, exact: bool) -> Accuracy:
-    """State the error where every change is zero; ``exact``: as far as was seen."""
-    if exact and plan.tolerance is None:
-        return Accuracy(0.0, False, plan.system.name, 0.0, note)
-    note = "every change is zero here, and only balls can tell whether that is exact"
-    return Accuracy(math.inf, False, plan.system.name, 0.0, note)
-
-
-def _farthest(table: Table, other: Table, system: NumberSystem) -> Fraction | None:
-    """Bound how far small columns of two tables are apart; None where a number is not finite."""
-    found = Fraction(0)
-    for name in table.small:
-        one = _apart(table.numbers[name], other.numbers[name], system)
-        if one is None:
-            return None
-        found = max(found, one)
-    return found
-
-
-def _apart(values: Any, longer: Any, system: NumberSystem) -> Fraction | None:
-    """Bound the largest distance of two columns; None where a number is not finite."""
-    if not len(values):
-        return Fraction(0)
-    if longer.dtype != object:
-        worst = np.abs(longer - values).max()
-        return Fraction(*worst.as_integer_ratio()) if np.isfinite(worst) else None
-    worst_ball = Fraction(0)
-    try:
-        for value, ball in zip(values, longer, strict=True):
-            distance = abs(as_ball(value) - as_ball(ball)).upper()
-            if not distance.is_finite():
-                return None
-            worst_ball = max(worst_ball, midpoint(distance))
-    except (ValueError, OverflowError):  # not a number, or infinite
-        return None
-    return worst_ball
-
-
-def _largest(values: Any) -> Fraction:
-    if not len(values):
-        return Fraction(0)
-    if values.dtype != object:
-        most = np.abs(values).max()
-        return Fraction(*most.as_integer_ratio()) if np.isfinite(most) else Fraction(0)
-    return max(abs(midpoint(as_ball(value))) for value in values)
-
-
 def edge_in_doubt(table: Table, edges: Sequence[Fraction], accuracy: Accuracy) -> bool:
     """Say whether a change lies within its error of the edge of a bin: counts may be off."""
-    values = table.numbers["change"]
-    largest = _largest(values)
+    values, largest = table.numbers["change"], _largest(table)
     # bins are counted in float64, whatever the arithmetic
     error = Fraction(accuracy.error_bound) * largest + largest / 2**52
     sorted_values = np.sort(np.array([float(v) for v in values]))
@@ -340,16 +255,6 @@ def edge_in_doubt(table: Table, edges: Sequence[Fraction], accuracy: Accuracy) -
             if abs(Fraction(value) - edge) <= error:
                 return True
     return False
-
-
-def _bound(ratio: Fraction) -> float | Fraction:
-    """Round up to a float; below the range of floats, keep the fraction."""
-    return ratio if ratio < Fraction(1, 10**300) else float(ratio) * (1 + 1e-15)
-
-
-def _log2(value: Fraction) -> float:
-    shift = value.numerator.bit_length() - value.denominator.bit_length()
-    return shift + math.log2(value / Fraction(2) ** shift)
 
 
 def most_digits(system: Balls) -> int:
@@ -368,14 +273,12 @@ def printed(
     numbers: dict[str, Array] = {}
     for name, column in table.numbers.items():
         sampling = _of_sampling(table, name) if sampled else 0.0
-        if system is FLOAT64 or np.any(sampling):  # what scatters needs no more than a float has
-            error = _of_arithmetic(table, name, accuracy)
-            numbers[name] = known_digits(as_floats(column), error, sampling)
-        elif isinstance(system, Balls):
+        if isinstance(system, Balls) and not np.any(sampling):
             most = most_digits(system)
             numbers[name] = text_of([_ball_string(v, most) for v in column])
-        else:
-            numbers[name] = text_of(_long_strings(table, name, accuracy, system))
+        else:  # what scatters needs no more than a float has
+            error = _of_arithmetic(table, name, accuracy)
+            numbers[name] = known_digits(as_floats(column), error, sampling)
         if name in table.errors:
             numbers[f"{name}_error"] = of_errors(table.errors[name])
     return numbers
@@ -405,35 +308,6 @@ def _of_sampling(table: Table, name: str) -> Array | float:
 def _over(table: Table, name: str) -> Array | float:
     """The error of σ_f/⟨f⟩ is that of σ_f over ⟨f⟩, since ⟨f⟩ is known far better."""
     return abs(as_floats(table.numbers["mean"])) if name == RATIO else 1.0
-
-
-def _long_strings(table: Table, name: str, accuracy: Accuracy, system: NumberSystem) -> list[str]:
-    """Print numbers that a float can't hold, two digits beyond their error."""
-    error, unit = flint.arb(0), flint.arb((1, 1 - system.bits))
-    for small in table.small:
-        for value in table.numbers[small]:
-            error = error.max(abs(as_ball(value)))
-    bound = Fraction(accuracy.error_bound)
-    error = error * flint.arb(flint.fmpq(bound.numerator, bound.denominator))
-    scales = table.numbers["mean"] if name == RATIO else [1.0] * table.rows
-    exact = map(as_ball, table.numbers[name])
-    return [
-        _two_beyond(value, error / abs(as_ball(scale)) + abs(value) * unit)
-        for value, scale in zip(exact, scales, strict=True)
-    ]
-
-
-def _two_beyond(value: Any, error: Any) -> str:
-    if not SWALLOWED * abs(value) > error:
-        return "0"
-    # powers of two, from which the digits follow within one
-    digits = (_power(value) - _power(error)) * 0.30103
-    return str(value.str(math.ceil(digits) + 3, radius=False))
-
-
-def _power(value: Any) -> int:
-    mantissa, exponent = value.mid().man_exp()
-    return int(mantissa).bit_length() + int(exponent)
 
 
 def _ball_string(value: Any, most: int) -> str:

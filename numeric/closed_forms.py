@@ -1,4 +1,4 @@
-"""Closed forms: variances (13–14, 16, B2–3, B7–8, B11–14, B19) and means (B4–6, B10, B15–17).
+"""Closed forms: variances (13–14, 16, B2–3, B7–8, B11, B13–14) and means (B5–6).
 
 All functions give a variance over a squared force, or a mean over its ordered value: numbers
 without unit. Their formulas are those of ``generated``, plain arithmetic with no constant but whole
@@ -117,37 +117,11 @@ def bulk_mean_shift(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
     return _of_contact(generated.bulk_mean_shift, M, j, phi, sigma, r)
 
 
-def surface_mean_shift_at_angle(M: Any, j: Any, t: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact ⟨f^±_ij⟩ over its ordered value, less 1, surface load at an angle (Eq. B15)."""
-    return _of_contact(generated.surface_mean_shift_at_angle, M, j, phi, sigma, r, t)
-
-
-def bulk_mean_shift_at_angle(M: Any, j: Any, t: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact ⟨f^±_ij⟩ over its ordered value, less 1, bulk load at an angle (Eq. B16)."""
-    return _of_contact(generated.bulk_mean_shift_at_angle, M, j, phi, sigma, r, t)
-
-
-def surface_stress_ratio_shift(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact (1+φ)⟨S_xx⟩/[(1−φ)⟨S_yy⟩] − 1 at order σ², surface load (Eq. B10)."""
-    return _of_contact(generated.surface_stress_ratio_shift, M, j, phi, sigma, r)
-
-
-def bulk_stress_ratio_shift(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact (1+φ)⟨S_xx⟩/[(1−φ)⟨S_yy⟩] − 1 at order σ², bulk load (Eq. B17)."""
-    return _of_contact(generated.bulk_stress_ratio_shift, M, j, phi, sigma, r)
-
-
 def diffusion_in_dimensions(d: Any, M: Any, z: Any, phi: Any, sigma: Any, r: Any) -> Any:
     """Leading order of σ_f²/⟨f⟩² in d dimensions for M → ∞ at fixed z, surface load (Eq. B11)."""
     d, M, z, phi = _whole("d", d, 2), _whole("M", M, 1), _fraction(z), _endless(phi)
     kappa = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
     return generated.diffusion_in_dimensions(d, M, z) * kappa**2 * (sigma / r) ** 2
-
-
-def mean_settling(j: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact n_y ⟨δy_ij⟩/r at order σ²: how far the beads of layer j ≥ 0 sink (Eq. B4)."""
-    j, phi = _whole("j", j, 0), _endless(phi)
-    return generated.mean_settling(j, phi) * (sigma / r) ** 2
 
 
 def contacts_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
@@ -170,17 +144,6 @@ def beads_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) ->
     j = _whole("j", j, N + 2)
     M = _whole("M", M, j + N + 1)
     return generated.beads_mean_variance(j, M - j, N, _endless(phi)) * (sigma / r) ** 2
-
-
-def layers_covariance(M: Any, j: Any, l: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact covariance of f^±/⟨f⟩ in layers j and l on one diagonal, surface load (Eq. B12).
-
-    For 2 ≤ j ≤ l − 2 and l ≤ M − 2.
-    """
-    j = _whole("j", j, 2)
-    l = _whole("l", l, j + 2)
-    M = _whole("M", M, l + 2)
-    return generated.layers_covariance(j, M - l, l - j, _endless(phi)) * (sigma / r) ** 2
 
 
 def response(l: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
@@ -258,23 +221,3 @@ def _below_load(i: Any, j: Any, k: Any, l: Any) -> tuple[tuple[int, int, int, in
         if (across + layer) % 2:
             raise ValueError(f"({across}, {layer}) is no site: an even sum is allowed")
     return (i, j, k, l), (l - j + k - i) // 2, (l - j - k + i) // 2
-
-
-def spheres_response(steps: Any, l: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact σ²(p)/f_load² of spheres to first order in δr, for a load f_load on one bead (Eq. B19).
-
-    p is the vertical force that a bead gets from all of its upper contacts together: two on a face
-    of the cone, one, which carries ⅓ f_load on average, on a leg. Elsewhere it does not fluctuate.
-    ``steps``: how many steps down along each of the three base vectors lead from the loaded bead to
-    this one, three whole numbers; below 0, it lies outside of the cone.
-    """
-    least, q, p = sorted(_whole("steps", one, None) for one in steps)
-    l, phi = _whole("l", l, 0), _endless(phi)
-    j = _whole("l less all steps", l - least - q - p, 0)
-    if least or not p:
-        value = 0 * phi
-    elif not q:
-        value = generated.leg_of_spheres(j, l, p, phi)
-    else:
-        value = generated.face_of_spheres(j, l, p, q, phi)
-    return value * (sigma / r) ** 2

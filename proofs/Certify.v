@@ -5,7 +5,7 @@
 
 From Coq Require Export ZArith Reals Lia Lra.
 From ForceDiffusion Require Export Roots Model Sums FirstOrder Lattice Geometry Mirror Forces Existence Random Weights Exact
-  Variances Layers Cone.
+  Variances Cone.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -29,18 +29,9 @@ Ltac of_packing P :=
   lazymatch goal with
   | |- expands (fun e => delta_r _ _ _ e) _ _ => apply delta_r_expands
   | |- expands (delta_r _ _ _) _ _ => apply delta_r_expands
-  | |- expands (fun e => x_of (delta_x _ _ _ e)) _ _ =>
-      apply (delta_x_x_expands _ _ _ _ P); site
-  | |- expands (fun e => y_of (delta_x _ _ _ e)) _ _ =>
-      apply (delta_x_y_expands _ _ _ _ P); site
-  | |- expands (fun e => x_of (delta_n_plus _ _ _ _ e)) _ _ =>
-      apply (delta_n_plus_x_expands _ _ _ _ P); site
-  | |- expands (fun e => y_of (delta_n_plus _ _ _ _ e)) _ _ =>
-      apply (delta_n_plus_y_expands _ _ _ _ P); site
-  | |- expands (fun e => x_of (delta_n_minus _ _ _ _ e)) _ _ =>
-      apply (delta_n_minus_x_expands _ _ _ _ P); site
-  | |- expands (fun e => y_of (delta_n_minus _ _ _ _ e)) _ _ =>
-      apply (delta_n_minus_y_expands _ _ _ _ P); site
+  | |- expands (fun e => _ (delta_x _ _ _ e)) _ _ => apply (delta_x_expands _ _ _ _ P); site
+  | |- expands (fun e => _ (delta_n_plus _ _ _ _ e)) _ _ => apply (delta_n_plus_expands _ _ _ _ P); site
+  | |- expands (fun e => _ (delta_n_minus _ _ _ _ e)) _ _ => apply (delta_n_minus_expands _ _ _ _ P); site
   | |- ?g => idtac "no rule for" g; fail
   end.
 
@@ -51,12 +42,12 @@ Lemma by_parts u v : x_of u = x_of v -> y_of u = y_of v -> u = v.
 Proof. destruct u, v. cbn. intros -> ->. reflexivity. Qed.
 
 Ltac prove_1 :=
-  intros G rho M X i j P H Hj;
+  intros G rho M i j X P H Hj;
   unfold position; rewrite (ordered_position G M rho X P j) by site;
   apply by_parts; components; arithmetic G.
 
 Ltac prove_2 :=
-  intros G rho M X i j P H Hj; positive_things G;
+  intros G rho M i j X P H Hj; positive_things G;
   rewrite ?(along_plus_step rho i j), ?(along_minus_step rho i j) by lia;
   split; both_sides ltac:(fun _ => of_packing P);
   try nonzero;
@@ -64,24 +55,20 @@ Ltac prove_2 :=
   arithmetic G.
 
 Ltac prove_3 :=
-  intros G rho M X i j P H Hj; positive_things G;
+  intros G rho M i j X P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
   try nonzero; elementary_sums; try solve [arithmetic G]; unfold along_minus, along_plus, mirrored;
   replace (j =? 0)%Z with false by lia; normal_form; arithmetic G.
 
-Ltac prove_4 :=
-  intros G rho M X i j P H Hj; positive_things G;
+(** Eqs. 4 and 5, by what is known of a tilt in the radii. *)
+Ltac prove_tilt tilt tilt_is :=
+  intros G rho M i j X P H Hj; positive_things G;
   split; both_sides ltac:(fun _ => of_packing P);
   try nonzero; elementary_sums; try solve [arithmetic G];
-  (replace (tilt_plus G rho i j) with (2 * r G * tilt_plus G rho i j / (2 * r G)) by (arithmetic G));
-  rewrite tilt_plus_is by lia; normal_form; arithmetic G.
-
-Ltac prove_5 :=
-  intros G rho M X i j P H Hj; positive_things G;
-  split; both_sides ltac:(fun _ => of_packing P);
-  try nonzero; elementary_sums; try solve [arithmetic G];
-  (replace (tilt_minus G rho i j) with (2 * r G * tilt_minus G rho i j / (2 * r G)) by (arithmetic G));
-  rewrite tilt_minus_is by lia; normal_form; arithmetic G.
+  (replace (tilt G rho i j) with (2 * r G * tilt G rho i j / (2 * r G)) by (arithmetic G));
+  rewrite tilt_is by lia; normal_form; arithmetic G.
+Ltac prove_4 := prove_tilt tilt_plus tilt_plus_is.
+Ltac prove_5 := prove_tilt tilt_minus tilt_minus_is.
 
 (** ** Forces *)
 
@@ -102,91 +89,51 @@ Ltac where_it_is :=
 Ltac of_single P L C i j := apply (single_force _ _ _ _ P _ _ _ _ L ltac:(site) C j); site.
 
 Ltac prove_6 :=
-  intros G rho M X k l F f_load P; intros;
-  match goal with C : carries _ _ ?load _ |- _ =>
+  intros;
+  match goal with P : packing ?G ?M ?rho ?X, C : carries _ _ (single ?k ?l ?f) ?F |- _ =>
     assert (L : bead M k l) by site;
-    assert (A : forall i j, (l < j <= M)%Z -> load i j = zero)
-      by (intros i j Hj; unfold single; replace (j =? l)%Z with false by lia;
-          rewrite Bool.andb_false_r; reflexivity);
-    apply (near_then _ _ (loaded_bead G M rho X P F load k l C L ltac:(site) A))
+    apply (near_then _ _ (loaded_bead G M rho X P F _ k l C L ltac:(site)
+      (fun i j Hj => no_load k l f i j ltac:(lia))))
   end;
   intros e E; pose proof (f_equal x_of E) as Ex; pose proof (f_equal y_of E) as Ey;
   unfold delta_n_plus, delta_n_minus; apply by_parts; components; components in Ex; components in Ey;
   lra.
 
-Ltac prove_7 :=
-  intros G rho M X k l F f_load P H Hl Hf C; positive_things G;
-  assert (L : bead M k l) by site;
-  both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C));
-  where_it_is; try nonzero; same_values; arithmetic G.
+(** Below a load on one bead: on a leg of its cone, inside of it (Eqs. 7, 9, 10), or outside. *)
+Ltac below_load :=
+  intros;
+  match goal with P : packing ?G ?M _ _, C : carries _ _ (single ?k ?l ?f) _ |- _ =>
+    positive_things G; assert (L : bead M k l) by site;
+    assert (0 < f / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra);
+    both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C));
+    where_it_is; try nonzero; same_values; arithmetic G
+  end.
+Ltac prove_7 := below_load.
+Ltac prove_9 := below_load.
+Ltac prove_10 := below_load.
+Ltac prove_nothing_else := below_load.
 
 Ltac of_passage P F i j :=
-  lazymatch goal with
-  | |- expands (fun e => 1 / @?f e * @?g e) _ _ =>
-      apply (expands_near (fun e => g e / f e));
-        [|apply near_always; intros e; unfold Rdiv; ring]
-  end;
   match goal with C : carries _ _ _ F |- _ =>
     first [apply (propagates _ _ _ _ P F _ i j C)|apply (propagates_mirrored _ _ _ _ P F _ i j C)];
     first [assumption|site]
   end.
 
 Ltac prove_8 :=
-  intros G rho M X i j F load P; intros; positive_things G; unfold dot; components;
+  intros G rho M i j load X F P; intros; positive_things G; unfold dot; components;
   eapply first_order_by;
   [of_passage P F i j|expand_with ltac:(fun _ => of_packing P)|..]; cbv beta;
   try nonzero; arithmetic G.
 
-Ltac prove_9 :=
-  intros G rho M X k l i j F f_load P; intros; positive_things G;
-  match goal with C : carries _ _ _ _ |- _ =>
-    assert (L : bead M k l) by site;
-    assert (0 < f_load / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra);
-    both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C))
-  end;
-  where_it_is; try nonzero; same_values; arithmetic G.
-
-Ltac prove_10 :=
-  intros G rho M X k l i j n F f_load P; intros; positive_things G;
-  match goal with C : carries _ _ _ _ |- _ =>
-    assert (L : bead M k l) by site;
-    assert (0 < f_load / (2 * n_y G)) by (apply Rdiv_lt_0_compat; lra);
-    both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C))
-  end;
-  where_it_is; try nonzero; same_values; arithmetic G.
-
 Ltac of_surface P C i j := apply (surface_force _ _ _ _ P _ i j ltac:(site) _ C).
 
 Ltac prove_11 :=
-  intros G rho M X i j F f_load P; intros; positive_things G;
+  intros G rho M i j f_load X F P; intros; positive_things G;
   match goal with C : carries _ _ _ _ |- _ =>
     both_sides ltac:(fun _ => of_forces P ltac:(of_surface P C))
   end;
   try nonzero; rewrite ?change_minus_is; unfold change_plus, turned; normal_form;
   arithmetic G.
-
-(** Under a load of which L_minus = t L_plus. *)
-Ltac of_leaning P C i j :=
-  first [eapply (leaning_f_plus _ _ _ _ P _ i j ltac:(site) _ _ _ C); eassumption
-        |eapply (leaning_f_minus _ _ _ _ P _ i j ltac:(site) _ _ _ C); eassumption].
-
-Ltac prove_B1 :=
-  intros G rho M X i j F L_plus L_minus t P; intros; positive_things G;
-  match goal with
-  | C : carries M X _ F, E : L_minus = t * L_plus |- _ =>
-      try (assert (t <> 0) by (intros ->; lra); assert (L_plus = / t * L_minus) by (rewrite E; field; assumption));
-      both_sides ltac:(fun _ => of_forces P ltac:(of_leaning P C))
-  end;
-  try nonzero; rewrite ?change_minus_is; unfold change_plus, turned; normal_form; arithmetic G.
-
-(** Outside of the cone of a load, and on the other leg. *)
-Ltac prove_nothing_else :=
-  intros G rho M X k l i j F f_load P; intros; positive_things G;
-  match goal with C : carries _ _ _ _ |- _ =>
-    assert (L : bead M k l) by site;
-    both_sides ltac:(fun _ => of_forces P ltac:(of_single P L C))
-  end;
-  where_it_is; try nonzero; ring.
 
 (** ** Variances *)
 
@@ -202,7 +149,7 @@ Ltac by_arithmetic G := unfold unit_of; rewrite ?minus_IZR; arithmetic G.
 (** The form to first order in one contact under a load of whole layers: what is known of its variance. *)
 Ltac with_variance theorem next :=
   let G := fresh "G" in
-  intros G sigma S M W L Xs Fs i j f_load P; intros; positive_things G;
+  intros G sigma S M i j W f_load L Xs Fs P; intros; positive_things G;
   match goal with
   | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
     C : forall rho, carries M (Xs rho) _ (Fs rho) |- _ =>
@@ -259,45 +206,10 @@ Ltac every_layer G :=
       split; [rewrite E; by_arithmetic G|];
       assert (0 < IZR M - IZR j) by (rewrite <- minus_IZR; apply (IZR_lt 0); site);
       rewrite V; unfold surface_squares, bulk_squares, below_squares, plain, beside, twice;
-      clear E V; repeat split; intros; site_of_case; decide_on; by_arithmetic G
+      clear E V; repeat split; intros; repeat match goal with C : _ /\ _ |- _ => destruct C end; site_of_case; decide_on; by_arithmetic G
   end.
 Ltac prove_13_exact := with_variance surface_variance every_layer.
 Ltac prove_14_exact := with_variance bulk_variance every_layer.
-
-(** Of f⁺ with t, of f⁻ with 1/t. *)
-Ltac prove_leaning next :=
-  let G := fresh "G" in
-  intros G sigma S M W L Xs Fs i j L_plus L_minus t P; intros; positive_things G;
-  match goal with
-  | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, E : L_minus = t * L_plus,
-    C : forall rho, carries M (Xs rho) _ (Fs rho) |- _ =>
-      pose proof (height_positive M i j H);
-      assert (0 < t) by (apply (Rmult_lt_reg_r L_plus); lra);
-      let T := fresh in
-      lazymatch goal with
-      | |- context [f_plus] =>
-          pose proof (variance_of_f_plus G M W sigma S L Xs Fs P i j H HW _ _ t C
-            ltac:(assumption) ltac:(lra) E) as T
-      | |- _ =>
-          pose proof (variance_of_f_minus G M W sigma S L Xs Fs P i j H HW _ _ (/ t) C ltac:(assumption)
-            ltac:(apply Rlt_le, Rinv_0_lt_compat; assumption) ltac:(rewrite E; field; lra)) as T
-      end;
-      destruct T as (f1 & A & Ex & V & B); exists f1; split; [exact A|next G]
-  end.
-Ltac prove_B2 := prove_leaning near_printed.
-Ltac prove_B2_exact := prove_leaning every_layer.
-
-Ltac prove_B12 :=
-  intros G sigma S M W L Xs Fs i j l f_load P; intros; positive_things G;
-  match goal with
-  | H : contact M i j, HW : (Z.abs i + 2 * M + 2 <= W)%Z, Hf : 0 < f_load,
-    C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
-      let V := fresh in
-      destruct (covariance_of_layers G M W sigma L Xs Fs i j l f_load P H ltac:(lia) ltac:(lia) ltac:(lia) HW Hf C)
-        as (f1 & f2 & A & B & V);
-      exists f1, f2; split; [exact A|split; [exact B|]];
-      rewrite V, products_of_two by lia; by_arithmetic G
-  end.
 
 Lemma braces_are j M m : (0 <= j < M)%Z -> (1 <= m <= M)%Z ->
   braces (IZR M - IZR j) (IZR M - IZR m) m j = braces_at j M m.
@@ -307,17 +219,17 @@ Proof.
 Qed.
 
 Ltac prove_12 :=
-  intros G sigma S M W L Xs Fs i j f_load P; intros; positive_things G;
+  intros G sigma S M i j W f_load L Xs Fs P; intros; positive_things G;
   match goal with
   | H : contact M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,
     C : forall rho, carries M (Xs rho) (surface M f_load) (Fs rho) |- _ =>
       pose proof (height_positive M i j H);
-      exists (fun rho => change_plus G 1 rho M i j), (by_braces G M i j);
+      exists (fun rho => change_plus G rho M i j), (by_braces G M i j);
       split; [|split; [|eapply Rle_trans;
         [exact (braces_miss G M W sigma S L Xs Fs P i j H HW)|apply Req_le; by_arithmetic G]]];
       intros rho; pose proof (P rho) as Pr; pose proof (C rho) as Cr;
       cbv zeta; unfold second_difference;
-      [exists 0, (change_plus G 1 rho M i j)|exists 0, (by_braces G M i j rho)]; (split; [|ring]);
+      [exists 0, (change_plus G rho M i j)|exists 0, (by_braces G M i j rho)]; (split; [|ring]);
       (eapply expands_to;
         [expand_with ltac:(fun _ => of_forces Pr ltac:(of_surface Pr Cr))|..]);
       cbv beta; try nonzero; no_zero_sums; try solve [arithmetic G]
@@ -357,7 +269,7 @@ Proof.
 Qed.
 
 Ltac prove_average k average :=
-  intros G sigma S M W L Xs Fs across f_load P; intros; positive_things G;
+  intros G sigma S M W across f_load L Xs Fs P; intros; positive_things G;
   match goal with
   | A : forall j, (0 <= j < M)%Z -> contact M (across j) j /\ (Z.abs (across j) + M + 2 <= W)%Z,
     HM : (1 <= M)%Z, Hf : 0 < f_load,
@@ -369,13 +281,6 @@ Ltac prove_average k average :=
       eapply (averages_are G M sigma k); [assumption|assumption|lra|
         |eapply bound_is; [exact B|field|reflexivity]|arithmetic G]; lra
   end.
-
-Ltac prove_15_1 :=
-  split;
-  [exists (fun x => sqrt 1 / (1 - x * x)); split; [apply root_constant; lra|];
-   prove_average 1 surface_average
-  |exists (fun x => sqrt (1 / 5) / (1 - x * x)); split; [apply root_constant; lra|];
-   prove_average (1 / 5) bulk_average].
 
 Lemma power_constant k : 0 < k -> constant (fun x => / root 3 (sqrt k / (1 - x * x)) ^ 2).
 Proof.
@@ -391,9 +296,9 @@ Ltac prove_critical k :=
   let c := constr:(sqrt k / (1 - phi G * phi G)) in
   assert (Hc : 0 < c) by (apply Rdiv_lt_0_compat; [apply sqrt_lt_R0|]; lra);
   assert (Hs : 0 < sigma / r G) by (apply Rdiv_lt_0_compat; lra);
-  cbv beta; eapply iff_as; [exact (critical_height c (sigma / r G) m Hc Hs Hm)|arithmetic G|ring].
+  cbv beta; eapply iff_as; [exact (critical_height c (sigma / r G) m Hc Hs Hm)|arithmetic G|unfold Rdiv; ring].
 
-Ltac prove_15_2 :=
+Ltac prove_15 :=
   split;
   [exists (fun x => sqrt 1 / (1 - x * x)), (fun x => / root 3 (sqrt 1 / (1 - x * x)) ^ 2);
    split; [apply root_constant; lra|split; [apply power_constant; lra|split;
@@ -403,7 +308,7 @@ Ltac prove_15_2 :=
      [prove_average (1 / 5) bulk_average|prove_critical (1 / 5)]]]].
 
 Ltac prove_16 :=
-  intros G sigma S M W L Xs Fs k l i j p q f_load P; intros; positive_things G;
+  intros G sigma S M k l i j p q W f_load L Xs Fs P; intros; positive_things G;
   subst k l;
   match goal with
   | B : bead M i j, HW : (Z.abs i + M + 2 <= W)%Z, Hf : 0 < f_load,

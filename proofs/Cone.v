@@ -76,9 +76,7 @@ Qed.
 (** ** Both diagonals through a bead *)
 
 Section Cone.
-  Variable G : lattice.
-  Variables M W : Z.
-  Variables i j p q : Z.
+  Context (G : lattice) (M W i j p q : Z).
   Hypothesis at_bead : bead M i j.
   Hypothesis inside_p : (1 <= p)%Z.
   Hypothesis inside_q : (1 <= q)%Z.
@@ -188,7 +186,7 @@ Section Cone.
           let N := fresh in pose proof (Sum_at_most 0 M a x ltac:(lra)) as N;
           set (Sum 0 M (fun m => on (m =? a)%Z x)) in *
       end. lra. }
-    rewrite Sum_minus in B. unfold squares, products. apply Rabs_def2' in B. apply Rabs_le. lra.
+    rewrite Sum_minus in B. unfold squares. apply Rabs_def2' in B. apply Rabs_le. lra.
   Qed.
 
   (** ** The response *)

@@ -21,11 +21,7 @@ Proof.
 Qed.
 
 Section Squares.
-  Variable G : lattice.
-  Variable t : R.  (* L⁻ = t L⁺ of the load *)
-  Variables i j M : Z.
-  Hypothesis base : (0 <= j)%Z.
-  Hypothesis top : (j < M)%Z.
+  Context (G : lattice) (i j M : Z) (base : (0 <= j)%Z) (top : (j < M)%Z).
   Local Notation phi := (phi G).
   Local Notation K := (IZR (M - j)).
   Local Notation over w m := (overlap (layers i j w m) (layers i j w m)).
@@ -34,17 +30,17 @@ Section Squares.
 
   (** Weights that are as if the load were N + 1 layers above the contact. *)
   Definition below_contact (N : R) (w : weights) : Prop := forall m, (0 <= m <= j)%Z ->
-    w_a w m = t * (twice m * N) /\
-    w_b w m = - t * (2 * twice m * N + twice m) + on (m =? j)%Z (phi * (1 - phi)) /\
-    w_c w m = t * (twice m * N + twice m - on (m =? j)%Z (1 - phi)) /\
+    w_a w m = twice m * N /\
+    w_b w m = - (2 * twice m * N + twice m) + on (m =? j)%Z (phi * (1 - phi)) /\
+    w_c w m = twice m * N + twice m - on (m =? j)%Z (1 - phi) /\
     w_p w m = - (phi * twice m) /\ w_q w m = phi * twice m.
 
-  Definition plain (N : R) : R := t ^ 2 * (N ^ 2 + (2 * N + 1) ^ 2 + (N + 1) ^ 2) + 2 * phi ^ 2.
+  Definition plain (N : R) : R := N ^ 2 + (2 * N + 1) ^ 2 + (N + 1) ^ 2 + 2 * phi ^ 2.
   Definition beside (N s : R) : R :=
-    (t * (s * N)) ^ 2 + (- t * (2 * s * N + s) + phi * (1 - phi)) ^ 2 + (t * (s * N + s - (1 - phi))) ^ 2
-    + 2 * (phi * s) ^ 2 + 2 * (phi * s * (t * (3 * s * N + 2 * s - (1 - phi)) - phi * (1 - phi))).
+    (s * N) ^ 2 + (- (2 * s * N + s) + phi * (1 - phi)) ^ 2 + (s * N + s - (1 - phi)) ^ 2
+    + 2 * (phi * s) ^ 2 + 2 * (phi * s * (3 * s * N + 2 * s - (1 - phi) - phi * (1 - phi))).
   Definition below_squares (N : R) : R :=
-    beside N (twice j) + on (1 <=? j)%Z (twice (j - 1) ^ 2 * (plain N - 2 * phi * t * (N + 1)))
+    beside N (twice j) + on (1 <=? j)%Z (twice (j - 1) ^ 2 * (plain N - 2 * phi * (N + 1)))
     + on (2 <=? j)%Z (plain N * (4 * IZR j - 7)).
 
   Lemma squares_below N w : below_contact N w -> Sum 0 j (fun m => over w m) = below_squares N.
@@ -58,7 +54,7 @@ Section Squares.
       unfold beside. decide_on; ring. }
     unfold below_squares. rewrite Sum_last, At by lia.
     destruct (Z.eq_dec j 0) as [E|E]; [rewrite Sum_empty by lia; decide_on; ring|].
-    assert (Before : over w (j - 1)%Z = twice (j - 1) ^ 2 * (plain N - 2 * phi * t * (N + 1))).
+    assert (Before : over w (j - 1)%Z = twice (j - 1) ^ 2 * (plain N - 2 * phi * (N + 1))).
     { rewrite overlap_is. destruct (H (j - 1)%Z ltac:(lia)) as (-> & -> & -> & -> & ->).
       unfold plain. decide_on; ring. }
     rewrite (Sum_last 0 (j - 1)), Before by lia.
@@ -72,7 +68,7 @@ Section Squares.
     - intros m Hm. rewrite Far by lia. unfold twice. replace (m =? 0)%Z with false by lia. ring.
   Qed.
 
-  Lemma surface_below l : (j < l)%Z -> below_contact (IZR (l - (j + 1))) (surface_weights G j t l).
+  Lemma surface_below l : (j < l)%Z -> below_contact (IZR (l - (j + 1))) (surface_weights G j l).
   Proof.
     intros Hl m Hm. unfold surface_weights. cbn [w_a w_b w_c w_p w_q].
     replace (Z.max m (j + 1)) with (j + 1)%Z by lia. repeat split; decide_on; ring.
@@ -88,15 +84,15 @@ Section Squares.
     - intros l Hl. rewrite H by lia. rewrite !minus_IZR, plus_IZR. field.
   Qed.
 
-  Lemma bulk_below : below_contact ((K - 1) / 2) (averaged j M (surface_weights G j t)).
+  Lemma bulk_below : below_contact ((K - 1) / 2) (averaged j M (surface_weights G j)).
   Proof.
     intros m Hm. unfold averaged. cbn [w_a w_b w_c w_p w_q].
     repeat split.
-    - rewrite (mean_affine (t * twice m) 0); [ring|].
+    - rewrite (mean_affine (twice m) 0); [ring|].
       intros l Hl. destruct (surface_below l ltac:(lia) m Hm) as (-> & _). ring.
-    - rewrite (mean_affine (- 2 * t * twice m) (- t * twice m + on (m =? j)%Z (phi * (1 - phi)))); [ring|].
+    - rewrite (mean_affine (- 2 * twice m) (- twice m + on (m =? j)%Z (phi * (1 - phi)))); [ring|].
       intros l Hl. destruct (surface_below l ltac:(lia) m Hm) as (_ & -> & _). ring.
-    - rewrite (mean_affine (t * twice m) (t * (twice m - on (m =? j)%Z (1 - phi)))); [ring|].
+    - rewrite (mean_affine (twice m) (twice m - on (m =? j)%Z (1 - phi))); [ring|].
       intros l Hl. destruct (surface_below l ltac:(lia) m Hm) as (_ & _ & -> & _). ring.
     - rewrite (mean_affine 0 (- (phi * twice m))); [ring|].
       intros l Hl. destruct (surface_below l ltac:(lia) m Hm) as (_ & _ & _ & -> & _). ring.
@@ -115,18 +111,18 @@ Section Squares.
   Proof.
     intros H. assert (E : forall m, (j + 1 <= m <= M)%Z -> over w m = w_a w m ^ 2 + w_b w m ^ 2 + w_c w m ^ 2).
     { intros m Hm. rewrite overlap_is. destruct (H m Hm) as [-> ->]. decide_on; ring. }
-    unfold squares, products. rewrite (Sum_split 0 j M) by lia. rewrite (Sum_first (j + 1) M), E by lia.
+    unfold squares. rewrite (Sum_split 0 j M) by lia. rewrite (Sum_first (j + 1) M), E by lia.
     replace (j + 1 + 1)%Z with (j + 2)%Z by lia.
     rewrite (Sum_eq (j + 2) M _ _ _ _ eq_refl eq_refl (fun m Hm => E m ltac:(lia))). ring.
   Qed.
 
   Definition surface_squares : R :=
     below_squares (K - 1)
-    + ((t * (2 * (K - 1))) ^ 2 + (t * (- 4 * (K - 1) + on (j + 2 <=? M)%Z (1 - phi)) + (phi - t) * (1 - phi)) ^ 2
-       + (t * (2 * (K - 1) - on (j + 2 <=? M)%Z (1 - phi))) ^ 2)
-    + t ^ 2 * (2 * (K - 1) * (4 * K ^ 2 - 14 * K + phi ^ 2 - 2 * phi + 13)).
+    + ((2 * (K - 1)) ^ 2 + (- 4 * (K - 1) + on (j + 2 <=? M)%Z (1 - phi) - (1 - phi) ^ 2) ^ 2
+       + (2 * (K - 1) - on (j + 2 <=? M)%Z (1 - phi)) ^ 2)
+    + 2 * (K - 1) * (4 * K ^ 2 - 14 * K + phi ^ 2 - 2 * phi + 13).
 
-  Theorem surface_squares_are : squares M (layers i j (surface_weights G j t M)) = surface_squares.
+  Theorem surface_squares_are : squares M (layers i j (surface_weights G j M)) = surface_squares.
   Proof.
     rewrite squares_split.
     2:{ intros m Hm. unfold surface_weights. cbn [w_p w_q]. decide_on; split; ring. }
@@ -136,9 +132,9 @@ Section Squares.
     unfold surface_squares. f_equal; [f_equal|].
     - unfold surface_weights. cbn [w_a w_b w_c]. rewrite Z.max_id. unfold twice.
       rewrite !minus_IZR, plus_IZR. decide_on; ring.
-    - rewrite (Sum_telescope (fun m => t ^ 2 * (8 * (IZR (M - j - 2) ^ 3 - IZR (M - m - 1) ^ 3)
+    - rewrite (Sum_telescope (fun m => 8 * (IZR (M - j - 2) ^ 3 - IZR (M - m - 1) ^ 3)
         + 12 * (IZR (M - j - 2) ^ 2 - IZR (M - m - 1) ^ 2)
-        + (4 + 2 * (1 - phi) ^ 2) * (IZR (M - j - 2) - IZR (M - m - 1))))).
+        + (4 + 2 * (1 - phi) ^ 2) * (IZR (M - j - 2) - IZR (M - m - 1)))).
       + rewrite !minus_IZR, !plus_IZR. ring.
       + lia.
       + intros m Hm. unfold surface_weights. cbn [w_a w_b w_c].
@@ -148,9 +144,9 @@ Section Squares.
 
   Definition bulk_squares : R :=
     below_squares ((K - 1) / 2)
-    + ((t * (K - 1)) ^ 2 + (t * (- 2 * (K - 1) + (1 - phi) * (K - 1) / K) + (phi - t) * (1 - phi)) ^ 2
-       + (t * ((K - 1) * (K - 1 + phi) / K)) ^ 2)
-    + t ^ 2 * (6 / 5 * (K - 1) ^ 5 + (2 / 3 * phi ^ 2 - 10 / 3 * phi + 2 / 3) * (K - 1) ^ 3
+    + ((K - 1) ^ 2 + (- 2 * (K - 1) + (1 - phi) * (K - 1) / K - (1 - phi) ^ 2) ^ 2
+       + ((K - 1) * (K - 1 + phi) / K) ^ 2)
+    + (6 / 5 * (K - 1) ^ 5 + (2 / 3 * phi ^ 2 - 10 / 3 * phi + 2 / 3) * (K - 1) ^ 3
        + (4 / 3 * phi ^ 2 - 2 / 3 * phi + 2 / 15) * (K - 1)) / K ^ 2.
 
   (** The mean of weights that begin at layer m, by its certificate. *)
@@ -173,33 +169,33 @@ Section Squares.
     intros; unfold surface_weights; cbn [w_a w_b w_c]; unfold twice;
     rewrite ?Z.max_l, ?Z.max_r by lia; rewrite ?Z.sub_diag; decide_on; rewrite ?minus_IZR; ring.
 
-  Lemma bulk_above m : (j + 2 <= m <= M)%Z -> let w := averaged j M (surface_weights G j t) in
+  Lemma bulk_above m : (j + 2 <= m <= M)%Z -> let w := averaged j M (surface_weights G j) in
     let u := IZR (M - m) in
-    w_a w m = t * ((u + 1) * (u + 1 - phi)) / K /\ w_b w m = - t * (2 * u * (u + 1) + (1 - phi)) / K /\
-    w_c w m = t * (u * (u + phi)) / K.
+    w_a w m = (u + 1) * (u + 1 - phi) / K /\ w_b w m = - (2 * u * (u + 1) + (1 - phi)) / K /\
+    w_c w m = u * (u + phi) / K.
   Proof.
     intros Hm. cbv zeta. unfold averaged. cbn [w_a w_b w_c]. repeat split.
-    - apply (mean_from m (fun u => t * ((u + 1) * (u + 1 - phi)))); [lia|from_weights..].
-    - apply (mean_from m (fun u => - t * (2 * u * (u + 1) + (1 - phi)))); [lia|from_weights..].
-    - apply (mean_from m (fun u => t * (u * (u + phi)))); [lia|from_weights..].
+    - apply (mean_from m (fun u => (u + 1) * (u + 1 - phi))); [lia|from_weights..].
+    - apply (mean_from m (fun u => - (2 * u * (u + 1) + (1 - phi)))); [lia|from_weights..].
+    - apply (mean_from m (fun u => u * (u + phi))); [lia|from_weights..].
   Qed.
 
-  Lemma bulk_beside : let w := averaged j M (surface_weights G j t) in
-    w_a w (j + 1)%Z = t * (K - 1) /\
-    w_b w (j + 1)%Z = t * (- 2 * (K - 1) + (1 - phi) * (K - 1) / K) + (phi - t) * (1 - phi) /\
-    w_c w (j + 1)%Z = t * ((K - 1) * (K - 1 + phi) / K).
+  Lemma bulk_beside : let w := averaged j M (surface_weights G j) in
+    w_a w (j + 1)%Z = K - 1 /\
+    w_b w (j + 1)%Z = - 2 * (K - 1) + (1 - phi) * (K - 1) / K - (1 - phi) ^ 2 /\
+    w_c w (j + 1)%Z = (K - 1) * (K - 1 + phi) / K.
   Proof.
     assert (P : 0 < K) by (apply (IZR_lt 0); lia).
     assert (E : IZR (M - (j + 1)) = K - 1) by (rewrite !minus_IZR, plus_IZR; ring).
     cbv zeta. unfold averaged. cbn [w_a w_b w_c]. repeat split.
-    - rewrite (mean_from (j + 1) (fun u => t * (u * (u + 1)))); [rewrite E; field; lra|lia|from_weights..].
+    - rewrite (mean_from (j + 1) (fun u => u * (u + 1))); [rewrite E; field; lra|lia|from_weights..].
     - rewrite (mean_from (j + 1) (fun u =>
-        t * (- 2 * u * (u + 1) + (1 - phi) * u) + (phi - t) * (1 - phi) * (u + 1)));
+        - 2 * u * (u + 1) + (1 - phi) * u - (1 - phi) ^ 2 * (u + 1)));
         [rewrite E; field; lra|lia|from_weights..].
-    - rewrite (mean_from (j + 1) (fun u => t * (u * (u + phi)))); [rewrite E; field; lra|lia|from_weights..].
+    - rewrite (mean_from (j + 1) (fun u => u * (u + phi))); [rewrite E; field; lra|lia|from_weights..].
   Qed.
 
-  Theorem bulk_squares_are : squares M (layers i j (averaged j M (surface_weights G j t))) = bulk_squares.
+  Theorem bulk_squares_are : squares M (layers i j (averaged j M (surface_weights G j))) = bulk_squares.
   Proof.
     assert (P : 0 < K) by (apply (IZR_lt 0); lia).
     rewrite squares_split.
@@ -208,7 +204,7 @@ Section Squares.
           decide_on; ring). }
     rewrite (squares_below ((K - 1) / 2)) by exact bulk_below.
     destruct bulk_beside as (-> & -> & ->). unfold bulk_squares. f_equal.
-    rewrite (Sum_telescope (fun m => t ^ 2 * (6 / 5 * ((K - 1) ^ 5 - IZR (M - m) ^ 5)
+    rewrite (Sum_telescope (fun m => (6 / 5 * ((K - 1) ^ 5 - IZR (M - m) ^ 5)
       + (2 / 3 * phi ^ 2 - 10 / 3 * phi + 2 / 3) * ((K - 1) ^ 3 - IZR (M - m) ^ 3)
       + (4 / 3 * phi ^ 2 - 2 / 3 * phi + 2 / 15) * (K - 1 - IZR (M - m))) / K ^ 2)).
     - replace (M - (j + 2 - 1))%Z with (M - j - 1)%Z by lia. rewrite Z.sub_diag.
@@ -223,10 +219,7 @@ End Squares.
 (** ** How far they are from the printed forms *)
 
 Section Near.
-  Variable G : lattice.
-  Variables j M : Z.
-  Hypothesis base : (0 <= j)%Z.
-  Hypothesis top : (j < M)%Z.
+  Context (G : lattice) (j M : Z) (base : (0 <= j)%Z) (top : (j < M)%Z).
   Local Notation phi := (phi G).
   Local Notation K := (IZR (M - j)).
 
@@ -269,55 +262,11 @@ Section Near.
     end.
 
   Theorem surface_near :
-    Rabs (surface_squares G 1 j M - 8 * K ^ 2 * (2 * IZR j + IZR M)) <= 4 * (2 * IZR M ^ 2 + IZR M).
+    Rabs (surface_squares G j M - 8 * K ^ 2 * (2 * IZR j + IZR M)) <= 4 * (2 * IZR M ^ 2 + IZR M).
   Proof. layer_by_layer; products x; apply Rabs_le; split; lra. Qed.
 
-  Ltac products_of_t x :=
-    try match goal with
-    | k : R, H : 2 <= ?k |- _ =>
-        assert (0 <= k * (2 * x + 1) ^ 2) by (apply Rmult_le_pos; [lra|apply pow2_ge_0]);
-        assert (0 <= (k - 27 / 8) ^ 2) by apply pow2_ge_0;
-        try match goal with
-        | a : R, H' : 2 <= ?a |- _ => lazymatch a with k => fail | _ => idtac end;
-            assert (0 <= (a - 27 / 8) ^ 2) by apply pow2_ge_0;
-            assert (0 <= (k - 2 * a - 11 / 8) ^ 2) by apply pow2_ge_0;
-            assert (0 <= (a - 2 * k - 11 / 8) ^ 2) by apply pow2_ge_0;
-            assert (0 <= a * (2 * x + 1) ^ 2) by (apply Rmult_le_pos; [lra|apply pow2_ge_0])
-        end
-    end.
-
-  (** Part by part in t. *)
-  Notation part_2 S := ((S 1 + S (-1)) / 2 - S 0).
-  Notation part_1 S := ((S 1 - S (-1)) / 2).
-  Local Notation S := (fun t => surface_squares G t j M).
-
-  Lemma surface_near_2 : Rabs (part_2 S - 8 * K ^ 2 * (2 * IZR j + IZR M)) <= 4 * (2 * IZR M ^ 2 + IZR M).
-  Proof. cbv beta. layer_by_layer; products x; products_of_t x; apply Rabs_le; split; lra. Qed.
-
-  Lemma surface_near_1 : Rabs (part_1 S) <= 4 * (2 * IZR M).
-  Proof. cbv beta. layer_by_layer; products x; apply Rabs_le; split; lra. Qed.
-
-  Lemma surface_near_0 : Rabs (S 0) <= 4 * (IZR M / 2).
-  Proof. cbv beta. layer_by_layer; products x; apply Rabs_le; split; lra. Qed.
-
-  Lemma surface_squares_of t : S t = t ^ 2 * part_2 S + t * part_1 S + S 0.
-  Proof. cbv beta. unfold surface_squares, below_squares, beside, plain, on. repeat destruct (_ <=? _)%Z; field. Qed.
-
-  Theorem leaning_surface_near t : 0 <= t ->
-    Rabs (surface_squares G t j M - t ^ 2 * (8 * K ^ 2 * (2 * IZR j + IZR M)))
-      <= 4 * ((2 * IZR M ^ 2 + IZR M) * t ^ 2 + 2 * IZR M * t + IZR M / 2).
-  Proof.
-    intros Ht. pose proof (surface_squares_of t) as E. pose proof surface_near_2 as A.
-    pose proof surface_near_1 as B. pose proof surface_near_0 as C. cbv beta in *. rewrite E. clear E.
-    apply (Rmult_le_compat_l (t ^ 2)) in A; [|apply pow2_ge_0].
-    apply (Rmult_le_compat_l t) in B; [|lra].
-    rewrite <- (Rabs_right (t ^ 2)) in A at 1 by (apply Rle_ge, pow2_ge_0).
-    rewrite <- (Rabs_right t) in B at 1 by lra. rewrite <- Rabs_mult in A, B.
-    apply Rabs_def2' in A. apply Rabs_def2' in B. apply Rabs_def2' in C. apply Rabs_le. lra.
-  Qed.
-
   Theorem bulk_near :
-    Rabs (bulk_squares G 1 j M - 6 / 5 * K ^ 2 * (4 * IZR j + IZR M)) <= 4 * (3 / 8 * IZR M ^ 2 + 5 / 4 * IZR M).
+    Rabs (bulk_squares G j M - 6 / 5 * K ^ 2 * (4 * IZR j + IZR M)) <= 4 * (3 / 8 * IZR M ^ 2 + 5 / 4 * IZR M).
   Proof.
     layer_by_layer; products x;
       [apply Rabs_le; split; lra| |apply Rabs_le; split; lra| |apply Rabs_le; split; lra|];

@@ -2,7 +2,7 @@
     generated statement supposes can be supposed, which [something] shows. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
-From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Mirror Forces.
+From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Mirror Forces Random.
 
 Open Scope R_scope.
 Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.
@@ -105,11 +105,7 @@ End Laid.
 (** ** Forces *)
 
 Section Solved.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
+  Context (G : lattice) (M : Z) (rho : radii) (X : centres) (P : packing G M rho X).
   Variable load : Z -> Z -> vector.
 
   (** a and b in a u + b v = s. *)
@@ -186,27 +182,10 @@ Section Solved.
   Qed.
 End Solved.
 
-(** A packing, and forces in it, for all radii at once. *)
-Theorem packings_and_forces_exist G M load : exists (Xs : radii -> centres) (Fs : radii -> forces),
-  forall rho, packing G M rho (Xs rho) /\ carries M (Xs rho) load (Fs rho).
-Proof.
-  exists (laid_packing G), (fun rho => passed_down M (laid_packing G rho) load). intros rho. split.
-  - apply laid_is_packing.
-  - apply (passed_down_carries G M rho), laid_is_packing.
-Qed.
-
 (** What Eq. 8 asks for happens: straight below a load, one force enters alone. *)
 Section Alone.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
-  Variable F : forces.
-  Variable k l : Z.
-  Variable f : R.
-  Hypothesis loaded : bead M k l.
-  Hypothesis C : carries M X (single k l f) F.
+  Context (G : lattice) (M : Z) (rho : radii) (X : centres) (P : packing G M rho X).
+  Context (F : forces) (k l : Z) (f : R) (loaded : bead M k l) (C : carries M X (single k l f) F).
 
   Lemma left_of_the_cone j : (j <= l - 1)%Z -> forall i, contact M i j ->
     ((i - j < k - l)%Z -> near (fun e => f_plus F i j e = 0)) /\
@@ -273,44 +252,16 @@ Proof.
   replace (- (- k - d))%Z with (k + d)%Z in N by lia. exact N.
 Qed.
 
-(** In the ordered packing no two beads but those in contact are as near as 2r. *)
-Theorem ordered_beads_do_not_overlap G M rho X i j k l : packing G M rho X ->
-  bead M i j -> bead M k l -> (i, j) <> (k, l) ->
-  (Z.abs (i - k) = 1 /\ Z.abs (j - l) = 1)%Z \/
-  (2 * r G) ^ 2 < dot (minus (X i j 0) (X k l 0)) (minus (X i j 0) (X k l 0)).
-Proof.
-  intros P H K D.
-  rewrite (ordered_position G M rho X P j), (ordered_position G M rho X P l) by site.
-  unfold dot, minus, add, scale. cbn [x_of y_of].
-  pose proof (r_pos G) as Hr. pose proof (n_x_above_half G). pose proof (n_y_above_half G).
-  assert (Hx : 1 / 4 < n_x G * n_x G).
-  { replace (1 / 4) with (1 / 2 * (1 / 2)) by field. apply Rmult_gt_0_lt_compat; lra. }
-  assert (Hy : 1 / 4 < n_y G * n_y G).
-  { replace (1 / 4) with (1 / 2 * (1 / 2)) by field. apply Rmult_gt_0_lt_compat; lra. }
-  assert (Hrr : 0 < r G * r G) by (apply Rmult_lt_0_compat; assumption).
-  set (a := (i - k)%Z). set (b := (j - l)%Z).
-  replace (_ + _) with (4 * (r G * r G) * (IZR (a * a) * (n_x G * n_x G) + IZR (b * b) * (n_y G * n_y G)))
-    by (unfold a, b; rewrite !mult_IZR, !minus_IZR; ring).
-  assert (Hab : (Z.abs a = 1 /\ Z.abs b = 1)%Z \/ (4 <= a * a /\ 0 <= b * b)%Z \/ (0 <= a * a /\ 4 <= b * b)%Z).
-  { assert (Hd : (a <> 0 \/ b <> 0)%Z).
-    { destruct (Z.eq_dec i k) as [->|]; [destruct (Z.eq_dec j l) as [->|]|]; unfold a, b; try lia.
-      exfalso. apply D. reflexivity. }
-    assert (Hp : ((a + b) mod 2 = 0)%Z) by (unfold a, b; site).
-    destruct (Z.le_gt_cases 2 (Z.abs a)); [right; left; nia|].
-    destruct (Z.le_gt_cases 2 (Z.abs b)); [right; right; nia|]. left. lia. }
-  destruct Hab as [Hab|[[Ha Hb]|[Ha Hb]]]; [left; exact Hab|right|right];
-    apply IZR_le in Ha; apply IZR_le in Hb.
-  - assert (4 * (n_x G * n_x G) <= IZR (a * a) * (n_x G * n_x G)) by (apply Rmult_le_compat_r; lra).
-    assert (0 <= IZR (b * b) * (n_y G * n_y G)) by (apply Rmult_le_pos; lra).
-    replace ((2 * r G) ^ 2) with (4 * (r G * r G) * 1) by ring. apply Rmult_lt_compat_l; lra.
-  - assert (4 * (n_y G * n_y G) <= IZR (b * b) * (n_y G * n_y G)) by (apply Rmult_le_compat_r; lra).
-    assert (0 <= IZR (a * a) * (n_x G * n_x G)) by (apply Rmult_le_pos; lra).
-    replace ((2 * r G) ^ 2) with (4 * (r G * r G) * 1) by ring. apply Rmult_lt_compat_l; lra.
-Qed.
-
 (** ** Hypotheses of the generated statements can be fulfilled *)
 
 Ltac something :=
+  repeat lazymatch goal with
+  | |- exists _ : law ?W ?M ?sigma, _ =>
+      let L := fresh in destruct (law_exists W M sigma) as [L _]; exists L
+  | G : lattice, rho : radii |- exists _ : centres, _ => exists (laid_packing G rho)
+  | G : lattice |- exists _ : radii -> centres, _ => exists (laid_packing G)
+  | |- exists _, _ => eexists  (* forces, which the load says *)
+  end;
   repeat match goal with |- _ /\ _ => split end;
   try lra; try reflexivity; try solve [intros; site];
   lazymatch goal with

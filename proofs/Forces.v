@@ -1,6 +1,5 @@
 (** Forces to first order: how a bead passes on what it carries. By induction downwards that gives the forces of
-    every contact under a load on one bead, and under loads of whole layers in any direction, on which Eqs. 6-11
-    and B1 rest. *)
+    every contact under a load on one bead, and under loads of whole layers, on which Eqs. 6-11 rest. *)
 
 From Coq Require Import ZArith Reals Lia Lra Bool.
 From ForceDiffusion Require Import Model Sums FirstOrder Lattice Geometry Mirror.
@@ -28,15 +27,9 @@ Proof.
   assert (D : expands (fun e => ux e * vy e - uy e * vx e) (u * y - w * v)
     (u' * y + u * y' - (w' * v + w * v'))) by (apply expands_minus; apply expands_mult; assumption).
   pose proof (near_both _ _ N (expands_near_nonzero _ _ _ D Hd)) as N'.
-  split.
-  - eapply expands_near.
-    + apply expands_div; [exact Hd|apply expands_minus; apply expands_mult; eassumption|exact D].
-    + eapply near_then; [exact N'|]. cbv beta. intros e [[E1 E2] Hn]. rewrite <- E1, <- E2.
-      field. exact Hn.
-  - eapply expands_near.
-    + apply expands_div; [exact Hd|apply expands_minus; apply expands_mult; eassumption|exact D].
-    + eapply near_then; [exact N'|]. cbv beta. intros e [[E1 E2] Hn]. rewrite <- E1, <- E2.
-      field. exact Hn.
+  split; (eapply expands_near;
+    [apply expands_div; [exact Hd|apply expands_minus; apply expands_mult; eassumption|exact D]
+    |eapply near_then; [exact N'|]; cbv beta; intros e [[E1 E2] Hn]; rewrite <- E1, <- E2; field; exact Hn]).
 Qed.
 
 (** a u + b v = 0 near 0, u and v independent at 0: a and b vanish near 0. *)
@@ -59,14 +52,8 @@ Proof.
 Qed.
 
 Section Forces.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
-  Variable load : Z -> Z -> vector.
-  Variable F : forces.
-  Hypothesis C : carries M X load F.
+  Context (G : lattice) (M : Z) (rho : radii) (X : centres) (P : packing G M rho X).
+  Context (load : Z -> Z -> vector) (F : forces) (C : carries M X load F).
   Local Notation n_x := (n_x G).
   Local Notation n_y := (n_y G).
   Local Notation phi := (phi G).
@@ -110,29 +97,14 @@ Proof.
     apply near_always; intros e; rewrite N_plus_mirrored; unfold flipped, scale; cbn [x_of y_of]; ring.
 Qed.
 
-(** ** Loads in any direction *)
+(** ** From layer to layer *)
 
-Lemma downwards_leans G f : downwards f = leaning G (f / (2 * n_y G)) (f / (2 * n_y G)).
-Proof.
-  pose proof (n_y_pos G). unfold downwards, leaning, scale, add, n_plus, n_minus. cbn [x_of y_of].
-  f_equal; field; lra.
-Qed.
-
-Lemma zero_leans G : zero = leaning G 0 0.
-Proof. unfold zero, leaning, scale, add, n_plus, n_minus. cbn [x_of y_of]. f_equal; ring. Qed.
-
-Lemma flipped_leaning G a b : flipped (leaning G a b) = leaning G b a.
-Proof. unfold flipped, leaning, scale, add, n_plus, n_minus. cbn [x_of y_of]. f_equal; ring. Qed.
+Lemma zero_is : zero = downwards 0.
+Proof. unfold zero, downwards. f_equal. ring. Qed.
 
 Section Below.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
-  Variable load : Z -> Z -> vector.
-  Variable F : forces.
-  Hypothesis C : carries M X load F.
+  Context (G : lattice) (M : Z) (rho : radii) (X : centres) (P : packing G M rho X).
+  Context (load : Z -> Z -> vector) (F : forces) (C : carries M X load F).
   Local Notation n_x := (n_x G).
   Local Notation n_y := (n_y G).
   Local Notation phi := (phi G).
@@ -140,22 +112,21 @@ Section Below.
   Local Notation nu_minus := (tilt_minus G rho).
 
   (** What leaves the bead (i + 1, j + 1) along n⁺, in terms of what enters it, and of its load. *)
-  Theorem f_plus_below i j a b v d w c : contact M i j -> load (i + 1)%Z (j + 1)%Z = leaning G a b ->
+  Theorem f_plus_below i j g v d w c : contact M i j -> load (i + 1)%Z (j + 1)%Z = downwards g ->
     expands (f_plus F (i + 1) (j + 1)) v d -> expands (f_minus F (i + 1) (j + 1)) w c ->
+    let a := g / (2 * n_y) in
     expands (f_plus F i j) (v + a)
       (d + (- (phi * v * nu_plus (i + 1)%Z (j + 1)%Z) + w * nu_minus (i + 1)%Z (j + 1)%Z
-            + phi * (v + a) * nu_plus i j - (w + b) * nu_minus (i + 2)%Z j) / (1 - phi * phi)).
+            + phi * (v + a) * nu_plus i j - (w + a) * nu_minus (i + 2)%Z j) / (1 - phi * phi)).
   Proof.
-    intros H Hl Hp Hm.
+    intros H Hl Hp Hm a.
     pose proof (n_x_pos G) as Hx. pose proof (n_y_pos G) as Hy.
     destruct (push_plus G M rho X P load F C (i + 1) (j + 1) v d ltac:(site) Hp) as [Px Py].
     destruct (push_minus G M rho X P load F C (i + 1) (j + 1) w c ltac:(site) Hm) as [Mx My].
     destruct (N_plus_expands G M rho X P i j H) as [Ux Uy].
     destruct (N_minus_expands G M rho X P (i + 2) j ltac:(site)) as [Vx Vy].
-    pose proof (expands_plus _ _ _ _ _ _ (expands_plus _ _ _ _ _ _ Px Mx)
-      (expands_const ((a - b) * n_x))) as Sx.
-    pose proof (expands_plus _ _ _ _ _ _ (expands_plus _ _ _ _ _ _ Py My)
-      (expands_const ((a + b) * n_y))) as Sy.
+    pose proof (expands_plus _ _ _ _ _ _ Px Mx) as Sx.
+    pose proof (expands_plus _ _ _ _ _ _ (expands_plus _ _ _ _ _ _ Py My) (expands_const g)) as Sy.
     assert (Hxy : 0 < n_x * n_y) by (apply Rmult_lt_0_compat; assumption).
     destruct (solved (f_plus F i j) (f_minus F (i + 2) j)
       _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ _ Ux Uy Vx Vy Sx Sy) as [A _].
@@ -165,8 +136,8 @@ Section Below.
       replace (i + 1 + 1)%Z with (i + 2)%Z in N by lia.
       eapply near_then; [exact N|]. intros e E.
       pose proof (f_equal x_of E) as E1. pose proof (f_equal y_of E) as E2.
-      unfold leaning in *. components in E1. components in E2. components. split; lra.
-    - rewrite one_minus_phi_squared, phi_is.
+      components in E1. components in E2. components. split; lra.
+    - unfold a. rewrite one_minus_phi_squared, phi_is.
       eapply expands_to; [exact A|field; repeat split; lra|].
       field_simplify_eq; [ring [(n_y_squared G)]|repeat split; lra].
   Qed.
@@ -202,76 +173,45 @@ Proof.
   replace (i + 1 + 1)%Z with (i + 2)%Z by lia. rewrite Z.add_simpl_r. ring.
 Qed.
 
-(** A load −(a n⁺ + b n⁻) on each bead of a layer, a and b of that layer: f⁺ of every contact. *)
-Theorem layered_f_plus G M j : (j <= M)%Z -> forall rho X load F a b,
-  packing G M rho X -> carries M X load F -> (forall i l, load i l = leaning G (a l) (b l)) ->
+(** The relative change of f⁺ over ε, where the load is at height M alone (Eq. 11); of f⁻. *)
+Definition change_plus (G : lattice) (rho : radii) (M i j : Z) : R :=
+  (phi G * tilt_plus G rho i j - turned G rho M i j) / (1 - phi G * phi G).
+Definition change_minus (G : lattice) (rho : radii) (M i j : Z) : R :=
+  change_plus G (mirrored rho) M (- i) j.
+
+Lemma change_at_top G rho i j : change_plus G rho (j + 1) i j =
+  (phi G * tilt_plus G rho i j - tilt_minus G rho (i + 2) j) / (1 - phi G * phi G).
+Proof. unfold change_plus. rewrite turned_at_top. reflexivity. Qed.
+
+(** A load g(l) on each bead of layer l: f⁺ of every contact. *)
+Theorem layered_f_plus G M j : (j <= M)%Z -> forall rho X load F g,
+  packing G M rho X -> carries M X load F -> (forall i l, load i l = downwards (g l)) ->
   forall i, bead M i j ->
-  expands (f_plus F i j) (Sum (j + 1) M a)
-    ((phi G * Sum (j + 1) M a * tilt_plus G rho i j
-      - Sum (j + 1) M (fun l => b l * turned G rho l i j)) / (1 - phi G * phi G)).
+  expands (f_plus F i j) (Sum (j + 1) M g / (2 * n_y G))
+    (Sum (j + 1) M (fun l => g l * change_plus G rho l i j) / (2 * n_y G)).
 Proof.
-  intros Hj. pose proof (divisor_positive G) as Hd.
+  intros Hj. pose proof (divisor_positive G) as Hd. pose proof (n_y_pos G) as Hy.
   pattern j. apply (down_from _ M); [| |exact Hj]; clear j Hj.
-  - intros rho X load F a b P C L i H. rewrite !Sum_empty by lia.
-    eapply expands_to; [exact (proj1 (at_surface M X load F C i))|reflexivity|field; lra].
-  - intros j Hj IH rho X load F a b P C L i H.
-    pose proof (IH rho X load F a b P C L (i + 1)%Z ltac:(site)) as Ep.
-    assert (Em : exists c, expands (f_minus F (i + 1) (j + 1)) (Sum (j + 1 + 1) M b) c).
-    { rewrite f_minus_is. eexists. refine (IH _ _ (fun i l => leaning G (b l) (a l)) _ b a
-        (mirrored_packing G M rho X P) (mirrored_carries M X load _ F C _) _ (- (i + 1))%Z _).
-      - intros. rewrite L, flipped_leaning. reflexivity.
-      - reflexivity.
-      - site. }
+  - intros rho X load F g P C L i H. rewrite !Sum_empty by lia.
+    eapply expands_to; [exact (proj1 (at_surface M X load F C i))|field; lra..].
+  - intros j Hj IH rho X load F g P C L i H.
+    pose proof (IH rho X load F g P C L (i + 1)%Z ltac:(site)) as Ep.
+    assert (Em : exists c, expands (f_minus F (i + 1) (j + 1)) (Sum (j + 1 + 1) M g / (2 * n_y G)) c).
+    { rewrite f_minus_is. eexists. apply (IH _ _ load _ g (mirrored_packing G M rho X P)); [|exact L|site].
+      apply (mirrored_carries M X load _ F C). intros. rewrite !L, flipped_downwards. reflexivity. }
     destruct Em as [c Em].
-    eapply expands_to; [exact (f_plus_below G M rho X P load F C i j _ _ _ _ _ _ ltac:(site) (L _ _) Ep Em)|..];
-      rewrite !(Sum_first (j + 1) M) by lia; [ring|].
-    rewrite turned_at_top, (Sum_eq (j + 1 + 1) M (j + 1 + 1) M (fun l => b l * turned G rho l i j) (fun l =>
-      b l * turned G rho l (i + 1) (j + 1)
-      + b l * (tilt_minus G rho (i + 2) j - tilt_minus G rho (i + 1) (j + 1))))
-      by (reflexivity || (intros; rewrite turned_below by lia; ring)).
-    rewrite Sum_plus, Sum_times. field. lra.
+    eapply expands_to; [exact (f_plus_below G M rho X P load F C i j _ _ _ _ _ ltac:(site) (L _ _) Ep Em)|..];
+      rewrite !(Sum_first (j + 1) M) by lia; [field; lra|].
+    rewrite (Sum_eq (j + 1 + 1) M (j + 1 + 1) M (fun l => g l * change_plus G rho l i j) (fun l =>
+      g l * change_plus G rho l (i + 1) (j + 1)
+      + g l * ((phi G * (tilt_plus G rho i j - tilt_plus G rho (i + 1) (j + 1))
+          - (tilt_minus G rho (i + 2) j - tilt_minus G rho (i + 1) (j + 1))) / (1 - phi G * phi G))) eq_refl eq_refl)
+      by (intros; unfold change_plus; rewrite turned_below by lia; field; lra).
+    rewrite Sum_plus, Sum_times, change_at_top. field. lra.
 Qed.
 
-(** The relative change of f⁺ over ε, where L⁻ = t L⁺ acts at height M alone (Eq. 11; B1); of f⁻, L⁺ = t L⁻. *)
-Definition change_plus (G : lattice) (t : R) (rho : radii) (M i j : Z) : R :=
-  (phi G * tilt_plus G rho i j - t * turned G rho M i j) / (1 - phi G * phi G).
-Definition change_minus (G : lattice) (t : R) (rho : radii) (M i j : Z) : R :=
-  change_plus G t (mirrored rho) M (- i) j.
-
-(** One vector, s(l) times of it, on each bead of layer l. *)
-Theorem f_plus_of_layers G M rho X (P : packing G M rho X) F i j load s a t :
-  contact M i j -> carries M X load F ->
-  (forall i l, load i l = leaning G (s l * a) (s l * (t * a))) ->
-  expands (f_plus F i j) (Sum (j + 1) M s * a)
-    (a * Sum (j + 1) M (fun l => s l * change_plus G t rho l i j)).
-Proof.
-  intros H C L. pose proof (divisor_positive G).
-  eapply expands_to; [apply (layered_f_plus G M j ltac:(site) rho X load F (fun l => s l * a)
-    (fun l => s l * (t * a)) P C L i); site|apply Sum_times|].
-  rewrite Sum_times.
-  rewrite (Sum_eq _ _ (j + 1) M (fun l => s l * change_plus G t rho l i j) (fun l =>
-    phi G * tilt_plus G rho i j / (1 - phi G * phi G) * s l
-    - t / (1 - phi G * phi G) * (s l * turned G rho l i j)) eq_refl eq_refl)
-    by (intros; unfold change_plus; field; lra).
-  rewrite (Sum_eq _ _ (j + 1) M (fun l => s l * (t * a) * turned G rho l i j) (fun l =>
-    t * a * (s l * turned G rho l i j)) eq_refl eq_refl) by (intros; ring).
-  rewrite Sum_minus, !Sum_scale. field. lra.
-Qed.
-
-Corollary f_minus_of_layers G M rho X (P : packing G M rho X) F i j load s b t :
-  contact M i j -> carries M X load F ->
-  (forall i l, load i l = leaning G (s l * (t * b)) (s l * b)) ->
-  expands (f_minus F i j) (Sum (j + 1) M s * b)
-    (b * Sum (j + 1) M (fun l => s l * change_minus G t rho l i j)).
-Proof.
-  intros H C L. rewrite f_minus_is.
-  refine (f_plus_of_layers G M _ _ (mirrored_packing G M rho X P) _ _ _
-    (fun i l => leaning G (s l * b) (s l * (t * b))) s b t _ (mirrored_carries M X load _ F C _) _);
-    [site|intros; rewrite L, flipped_leaning|]; reflexivity.
-Qed.
-
-Lemma change_minus_is G t rho M i j : change_minus G t rho M i j =
-  (phi G * tilt_minus G rho i j - t * (tilt_plus G rho (i - M + j - 1) (M - 1)
+Lemma change_minus_is G rho M i j : change_minus G rho M i j =
+  (phi G * tilt_minus G rho i j - (tilt_plus G rho (i - M + j - 1) (M - 1)
     + Sum 1 (M - j - 1) (fun n => tilt_plus G rho (i - n - 1) (j + n - 1) - tilt_plus G rho (i - n) (j + n))))
     / (1 - phi G * phi G).
 Proof.
@@ -282,95 +222,48 @@ Proof.
   replace (- (- i + M - j + 1))%Z with (i - M + j - 1)%Z by lia. reflexivity.
 Qed.
 
-Section Loads.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
-  Variable F : forces.
-  Variables i j : Z.
-  Hypothesis at_contact : contact M i j.
-  Local Notation n_y := (n_y G).
+Lemma surface_f_plus G M rho X F i j f : packing G M rho X -> carries M X (surface M f) F -> contact M i j ->
+  expands (f_plus F i j) (f / (2 * n_y G)) (f / (2 * n_y G) * change_plus G rho M i j).
+Proof.
+  intros P C H. pose proof (n_y_pos G).
+  assert (Top : forall h, Sum (j + 1) M (fun l => (if (l =? M)%Z then f else 0) * h l) = f * h M).
+  { intros h. rewrite Sum_last, Z.eqb_refl, (Sum_zero (j + 1) (M - 1)); [ring| |site].
+    intros l Hl. replace (l =? M)%Z with false by lia. ring. }
+  eapply expands_to; [apply (layered_f_plus G M j ltac:(site) rho X _ F
+    (fun l => if (l =? M)%Z then f else 0) P C); [|site]|..].
+  - intros k l. unfold surface. destruct (l =? M)%Z; [reflexivity|apply zero_is].
+  - rewrite <- (Rmult_1_r (Sum _ _ _)), <- Sum_times, Top, Rmult_1_r. reflexivity.
+  - rewrite Top. field. lra.
+Qed.
 
-  Lemma Sum_top s low high f : (low <= high)%Z -> s high = 1 ->
-    (forall l, (l < high)%Z -> s l = 0) -> Sum low high (fun l => s l * f l) = f high.
-  Proof.
-    intros H One Zero. rewrite Sum_last, One, (Sum_zero low (high - 1)); [ring| |lia].
-    intros l Hl. rewrite Zero by lia. ring.
-  Qed.
+(** A load f on every bead of the surface: Eq. 11, and its mirror image. *)
+Theorem surface_force G M rho X (P : packing G M rho X) F i j (H : contact M i j) f :
+  carries M X (surface M f) F ->
+  expands (f_plus F i j) (f / (2 * n_y G)) (f / (2 * n_y G) * change_plus G rho M i j) /\
+  expands (f_minus F i j) (f / (2 * n_y G)) (f / (2 * n_y G) * change_minus G rho M i j).
+Proof.
+  intros C. split; [exact (surface_f_plus G M rho X F i j f P C H)|]. rewrite f_minus_is.
+  apply (surface_f_plus G M _ (mirrored_centres X)); [exact (mirrored_packing G M rho X P)| |site].
+  apply (mirrored_carries M X _ _ F C). intros k l. unfold surface.
+  destruct (l =? M)%Z; rewrite ?zero_is; symmetry; apply flipped_downwards.
+Qed.
 
-  Definition at_top (l : Z) : R := if (l =? M)%Z then 1 else 0.
-  Lemma of_top f : Sum (j + 1) M (fun l => at_top l * f l) = f M.
-  Proof.
-    apply Sum_top; unfold at_top; [site|rewrite Z.eqb_refl; reflexivity|].
-    intros l Hl. replace (l =? M)%Z with false by lia. reflexivity.
-  Qed.
-  Lemma once : Sum (j + 1) M at_top = 1.
-  Proof. rewrite <- (of_top (fun _ => 1)). apply Sum_eq; auto. intros. ring. Qed.
-
-  (** A surface load −(a n⁺ + b n⁻) on every bead at j = M (Eq. B1). *)
-  Theorem leaning_f_plus a b t : carries M X (leaning_surface G M a b) F -> b = t * a ->
-    expands (f_plus F i j) a (a * change_plus G t rho M i j).
-  Proof.
-    intros C ->. eapply expands_to; [apply (f_plus_of_layers G M rho X P F i j _ at_top a t at_contact C)
-      |rewrite once; ring|rewrite of_top; reflexivity].
-    intros. unfold leaning_surface, at_top.
-    destruct (l =? M)%Z; [f_equal; ring|rewrite (zero_leans G); f_equal; ring].
-  Qed.
-
-  Theorem leaning_f_minus a b t : carries M X (leaning_surface G M a b) F -> a = t * b ->
-    expands (f_minus F i j) b (b * change_minus G t rho M i j).
-  Proof.
-    intros C ->. eapply expands_to; [apply (f_minus_of_layers G M rho X P F i j _ at_top b t at_contact C)
-      |rewrite once; ring|rewrite of_top; reflexivity].
-    intros. unfold leaning_surface, at_top.
-    destruct (l =? M)%Z; [f_equal; ring|rewrite (zero_leans G); f_equal; ring].
-  Qed.
-
-  Lemma same_load load other : carries M X load F -> (forall k l, other k l = load k l) -> carries M X other F.
-  Proof.
-    intros C L. split; [apply (free_surface _ _ _ _ C)|]. intros k l H Hl. rewrite L.
-    exact (balance _ _ _ _ C k l H Hl).
-  Qed.
-
-  (** A surface load f straight down: Eq. 11, and its mirror image. *)
-  Theorem surface_force f : carries M X (surface M f) F ->
-    expands (f_plus F i j) (f / (2 * n_y)) (f / (2 * n_y) * change_plus G 1 rho M i j) /\
-    expands (f_minus F i j) (f / (2 * n_y)) (f / (2 * n_y) * change_minus G 1 rho M i j).
-  Proof.
-    intros C. split; (eapply leaning_f_plus || eapply leaning_f_minus);
-      [apply (same_load _ _ C); intros; unfold surface, leaning_surface; rewrite (downwards_leans G); reflexivity
-      |ring|apply (same_load _ _ C); intros; unfold surface, leaning_surface; rewrite (downwards_leans G); reflexivity
-      |ring].
-  Qed.
-
-  (** A weight g on every bead: loads superpose; layer l acts as the surface of a height l. *)
-  Theorem bulk_force g : carries M X (bulk g) F ->
-    expands (f_plus F i j) (IZR (M - j) * (g / (2 * n_y)))
-      (g / (2 * n_y) * Sum (j + 1) M (fun l => change_plus G 1 rho l i j)) /\
-    expands (f_minus F i j) (IZR (M - j) * (g / (2 * n_y)))
-      (g / (2 * n_y) * Sum (j + 1) M (fun l => change_minus G 1 rho l i j)).
-  Proof.
-    intros C. assert (N : Sum (j + 1) M (fun _ => 1) = IZR (M - j))
-      by (rewrite Sum_const by site; replace (M - (j + 1) + 1)%Z with (M - j)%Z by lia; ring).
-    split; (eapply expands_to;
-      [first [apply (f_plus_of_layers G M rho X P F i j _ (fun _ => 1) (g / (2 * n_y)) 1 at_contact C)
-             |apply (f_minus_of_layers G M rho X P F i j _ (fun _ => 1) (g / (2 * n_y)) 1 at_contact C)];
-       intros; rewrite !Rmult_1_l; apply downwards_leans
-      |rewrite N; reflexivity
-      |f_equal; apply Sum_eq; auto; intros; ring]).
-  Qed.
-End Loads.
+(** A weight g on every bead: loads superpose; layer l acts as the surface of a height l. *)
+Theorem bulk_force G M rho X (P : packing G M rho X) F i j (H : contact M i j) g :
+  carries M X (bulk g) F ->
+  expands (f_plus F i j) (IZR (M - j) * (g / (2 * n_y G)))
+    (g / (2 * n_y G) * Sum (j + 1) M (fun l => change_plus G rho l i j)).
+Proof.
+  intros C. pose proof (n_y_pos G).
+  eapply expands_to; [apply (layered_f_plus G M j ltac:(site) rho X _ F (fun _ => g) P C); [reflexivity|site]|..].
+  - rewrite Sum_const by site. replace (M - (j + 1) + 1)%Z with (M - j)%Z by lia. field. lra.
+  - rewrite Sum_scale. field. lra.
+Qed.
 
 (** ** Beads without load *)
 
 Section Unloaded.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
+  Context (G : lattice) (M : Z) (rho : radii) (X : centres) (P : packing G M rho X).
   Variable F : forces.
   Local Notation n_y := (n_y G).
 
@@ -526,9 +419,9 @@ Proof.
   pattern j. apply (down_from _ (l - 1)); [| |exact Hj]; clear j Hj.
   - intros rho X F k P K C i Hi.
     destruct (above_load G M rho X P F k l f C l ltac:(lia) ltac:(site) (i + 1) ltac:(site)) as [Sp Sm].
-    pose proof (fun a b => f_plus_below G M rho X P _ F C i (l - 1) a b 0 0 0 0 Hi) as B.
-    rewrite Z.sub_add in B. rewrite load_at, (downwards_leans G) in B.
-    eapply expands_to; [exact (B _ _ eq_refl Sp Sm)|..];
+    pose proof (fun g => f_plus_below G M rho X P _ F C i (l - 1) g 0 0 0 0 Hi) as B.
+    rewrite Z.sub_add, load_at in B.
+    eapply expands_to; [exact (B _ eq_refl Sp Sm)|..];
       unfold ordered_plus, response_plus, turn_plus; cbv zeta; decide_conditions; same_values; field; lra.
   - intros j Hj IH rho X F k P K C i Hi.
     pose proof (IH rho X F k P K C (i + 1)%Z ltac:(site)) as Sp.
@@ -537,35 +430,24 @@ Proof.
     { rewrite f_minus_is. eexists. refine (IH _ _ _ _ (mirrored_packing G M rho X P) _
         (mirrored_carries M X _ _ F C (mirrored_single k l f)) _ _); site. }
     destruct Sm as [c Sm].
-    pose proof (f_plus_below G M rho X P _ F C i j 0 0 _ _ _ _ Hi
-      (eq_trans (no_load k l f (i + 1) (j + 1) ltac:(lia)) (zero_leans G)) Sp Sm) as B.
+    pose proof (f_plus_below G M rho X P _ F C i j 0 _ _ _ _ Hi
+      (eq_trans (no_load k l f (i + 1) (j + 1) ltac:(lia)) zero_is) Sp Sm) as B.
     eapply expands_to; [exact B|..];
       unfold ordered_plus, response_plus, turn_plus; cbv zeta; decide_conditions; same_values; field; lra.
 Qed.
 
-Section Single.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
-  Variable F : forces.
-  Variable k l : Z.
-  Variable f : R.
-  Hypothesis loaded : bead M k l.
-  Hypothesis lifted : (1 <= l)%Z.
-  Hypothesis C : carries M X (single k l f) F.
+Definition ordered_minus (k l i j : Z) : R := ordered_plus (- k) l (- i) j.
+Definition response_minus (G : lattice) (rho : radii) (k l i j : Z) : R :=
+  response_plus G (mirrored rho) (- k) l (- i) j.
 
-  Definition ordered_minus (i j : Z) : R := ordered_plus (- k) l (- i) j.
-  Definition response_minus (i j : Z) : R := response_plus G (mirrored rho) (- k) l (- i) j.
-
-  Theorem single_force j : (j <= l - 1)%Z -> forall i, contact M i j ->
-    expands (f_plus F i j) (f / (2 * n_y G) * ordered_plus k l i j)
-      (f / (2 * n_y G) * response_plus G rho k l i j) /\
-    expands (f_minus F i j) (f / (2 * n_y G) * ordered_minus i j) (f / (2 * n_y G) * response_minus i j).
-  Proof.
-    intros Hj i Hi. split; [exact (single_f_plus G M l f j lifted Hj rho X F k P loaded C i Hi)|].
-    rewrite f_minus_is. apply (single_f_plus G M l f j lifted Hj _ _ _ (- k) (mirrored_packing G M rho X P)
-      ltac:(site) (mirrored_carries M X _ _ F C (mirrored_single k l f))). site.
-  Qed.
-End Single.
+Theorem single_force G M rho X (P : packing G M rho X) F k l f (K : bead M k l) :
+  (1 <= l)%Z -> carries M X (single k l f) F -> forall j, (j <= l - 1)%Z -> forall i, contact M i j ->
+  expands (f_plus F i j) (f / (2 * n_y G) * ordered_plus k l i j)
+    (f / (2 * n_y G) * response_plus G rho k l i j) /\
+  expands (f_minus F i j) (f / (2 * n_y G) * ordered_minus k l i j)
+    (f / (2 * n_y G) * response_minus G rho k l i j).
+Proof.
+  intros Hl C j Hj i Hi. split; [exact (single_f_plus G M l f j Hl Hj rho X F k P K C i Hi)|].
+  rewrite f_minus_is. apply (single_f_plus G M l f j Hl Hj _ _ _ (- k) (mirrored_packing G M rho X P)
+    ltac:(site) (mirrored_carries M X _ _ F C (mirrored_single k l f))). site.
+Qed.

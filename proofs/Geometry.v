@@ -50,11 +50,7 @@ Proof.
 Qed.
 
 Section Packing.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
+  Context (G : lattice) (M : Z) (rho : radii) (X : centres) (P : packing G M rho X).
   Local Notation r := (r G).
   Local Notation n_x := (n_x G).
   Local Notation n_y := (n_y G).
@@ -201,22 +197,14 @@ Section Packing.
   Qed.
 
   (** Displacements: the same slopes, on values 0. *)
-  Lemma delta_x_x_expands i j : bead M i j ->
-    expands (fun e => x_of (delta_x X i j e)) 0
-      ((along_plus rho i j - along_minus rho i j) / (2 * n_x)).
+  Lemma delta_x_expands i j : bead M i j ->
+    expands (fun e => x_of (delta_x X i j e)) 0 ((along_plus rho i j - along_minus rho i j) / (2 * n_x)) /\
+    expands (fun e => y_of (delta_x X i j e)) 0 ((along_plus rho i j + along_minus rho i j) / (2 * n_y)).
   Proof.
-    intros H. destruct (centre_expands j ltac:(site) i H) as [D _].
-    pose proof D as [E _]. cbv beta in E. unfold delta_x, minus, add, scale. cbn [x_of y_of].
-    eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|rewrite E; ring|ring].
-  Qed.
-
-  Lemma delta_x_y_expands i j : bead M i j ->
-    expands (fun e => y_of (delta_x X i j e)) 0
-      ((along_plus rho i j + along_minus rho i j) / (2 * n_y)).
-  Proof.
-    intros H. destruct (centre_expands j ltac:(site) i H) as [_ D].
-    pose proof D as [E _]. cbv beta in E. unfold delta_x, minus, add, scale. cbn [x_of y_of].
-    eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|rewrite E; ring|ring].
+    intros H. destruct (centre_expands j ltac:(site) i H) as [Dx Dy].
+    pose proof Dx as [Ex _]. pose proof Dy as [Ey _]. cbv beta in Ex, Ey.
+    unfold delta_x, minus, add, scale. cbn [x_of y_of]. rewrite Ex, Ey.
+    split; (eapply expands_to; [apply expands_plus; [eassumption|apply expands_const]|ring|ring]).
   Qed.
 
   (** ** Directions *)
@@ -275,18 +263,12 @@ Section Packing.
     - replace (n_x * n_x) with (1 - n_y * n_y) by ring [(n_y_squared G)]. field. lra.
   Qed.
 
-  Lemma delta_n_plus_x_expands i j : contact M i j ->
-    expands (fun e => x_of (delta_n_plus G X i j e)) 0 (- tilt_plus i j / (2 * n_x)).
-  Proof.
-    intros H. destruct (N_plus_expands i j H) as [D _]. unfold delta_n_plus, n_plus, minus, add, scale.
-    cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
-  Qed.
-
-  Lemma delta_n_plus_y_expands i j : contact M i j ->
+  Lemma delta_n_plus_expands i j : contact M i j ->
+    expands (fun e => x_of (delta_n_plus G X i j e)) 0 (- tilt_plus i j / (2 * n_x)) /\
     expands (fun e => y_of (delta_n_plus G X i j e)) 0 (tilt_plus i j / (2 * n_y)).
   Proof.
-    intros H. destruct (N_plus_expands i j H) as [_ D]. unfold delta_n_plus, n_plus, minus, add, scale.
-    cbn [x_of y_of]. eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|ring|ring].
+    intros H. destruct (N_plus_expands i j H). unfold delta_n_plus, n_plus, minus, add, scale. cbn [x_of y_of].
+    split; (eapply expands_to; [apply expands_plus; [eassumption|apply expands_const]|ring|ring]).
   Qed.
 End Packing.
 

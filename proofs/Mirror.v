@@ -17,6 +17,9 @@ Proof.
   unfold mirrored. rewrite Z.opp_involutive. reflexivity.
 Qed.
 
+Lemma flipped_downwards g : flipped (downwards g) = downwards g.
+Proof. unfold flipped, downwards. cbn. f_equal. ring. Qed.
+
 Lemma flipped_distance u v : dot (minus (flipped u) (flipped v)) (minus (flipped u) (flipped v)) =
   dot (minus u v) (minus u v).
 Proof. unfold dot, minus, add, scale, flipped. cbn [x_of y_of]. ring. Qed.
@@ -40,11 +43,7 @@ Proof.
 Qed.
 
 Section Packing.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
+  Context (G : lattice) (M : Z) (rho : radii) (X : centres) (P : packing G M rho X).
 
   Theorem mirrored_packing : packing G M (mirrored rho) (mirrored_centres X).
   Proof.
@@ -107,11 +106,7 @@ Proof.
 Qed.
 
 Section Directions.
-  Variable G : lattice.
-  Variable M : Z.
-  Variable rho : radii.
-  Variable X : centres.
-  Hypothesis P : packing G M rho X.
+  Context (G : lattice) (M : Z) (rho : radii) (X : centres) (P : packing G M rho X).
   Local Notation n_x := (n_x G).
   Local Notation n_y := (n_y G).
 
@@ -132,17 +127,11 @@ Section Directions.
     - apply near_always. intros e. rewrite N_plus_mirrored. reflexivity.
   Qed.
 
-  Lemma delta_n_minus_x_expands i j : contact M i j ->
-    expands (fun e => x_of (delta_n_minus G X i j e)) 0 (tilt_minus G rho i j / (2 * n_x)).
-  Proof.
-    intros H. destruct (N_minus_expands i j H) as [D _].
-    eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|cbn; ring|ring].
-  Qed.
-
-  Lemma delta_n_minus_y_expands i j : contact M i j ->
+  Lemma delta_n_minus_expands i j : contact M i j ->
+    expands (fun e => x_of (delta_n_minus G X i j e)) 0 (tilt_minus G rho i j / (2 * n_x)) /\
     expands (fun e => y_of (delta_n_minus G X i j e)) 0 (tilt_minus G rho i j / (2 * n_y)).
   Proof.
-    intros H. destruct (N_minus_expands i j H) as [_ D].
-    eapply expands_to; [apply expands_plus; [exact D|apply expands_const]|cbn; ring|ring].
+    intros H. destruct (N_minus_expands i j H). unfold delta_n_minus, n_minus, minus, add, scale. cbn [x_of y_of].
+    split; (eapply expands_to; [apply expands_plus; [eassumption|apply expands_const]|ring|ring]).
   Qed.
 End Directions.

@@ -1,9 +1,8 @@
 (** What the equations speak of: sums, first order, packings, forces, loads, laws of the radii.
 
-    The statements that are generated from the printed equations, and from exact packings, are read with
-    the words defined here, and [root] of Roots.v in Eq. 15, before anything else is loaded; whoever
-    wants to know what "accepted" means has to read these two files, and the statements. Nothing is
-    proved here. *)
+    The statements that are generated from the printed equations are read with the words defined here,
+    and [root] of Roots.v in Eq. 15, before anything else is loaded; whoever wants to know what
+    "accepted" means has to read these two files, and the statements. Nothing is proved here. *)
 
 From Coq Require Import ZArith Reals.
 
@@ -85,14 +84,6 @@ Definition contact (M i j : Z) : Prop := ((i + j) mod 2 = 0 /\ 0 <= j < M)%Z.
 (** The radius of bead (i, j) is r + δr with δr = ε ρ. *)
 Definition radii := Z -> Z -> R.
 
-(** Radii that are listed for one period in i; 0 where none is listed. *)
-Fixpoint listed (l : list (Z * Z * R)) (i j : Z) : R :=
-  match l with
-  | nil => 0
-  | cons (a, b, x) rest => if ((i =? a) && (j =? b))%bool%Z then x else listed rest i j
-  end.
-Definition periodic (period : Z) (l : list (Z * Z * R)) : radii := fun i j => listed l (i mod period) j.
-
 Definition delta_r (rho : radii) (i j : Z) (e : R) : R := e * rho i j.
 
 (** Δ_ij, and the braces of Eq. 12: one value up to a layer, another above it. *)
@@ -170,12 +161,6 @@ Definition surface (M : Z) (load : R) (_ j : Z) : vector :=
   if (j =? M)%Z then downwards load else zero.
 Definition bulk (weight : R) (_ _ : Z) : vector := downwards weight.
 
-(** Loads in any direction, in components along the contacts: −(a n⁺ + b n⁻), on the whole surface. *)
-Definition leaning (G : lattice) (a b : R) : vector :=
-  scale (-1) (add (scale a (n_plus G)) (scale b (n_minus G))).
-Definition leaning_surface (G : lattice) (M : Z) (a b : R) (_ j : Z) : vector :=
-  if (j =? M)%Z then leaning G a b else zero.
-
 (** ** Random radii *)
 
 (** Beads at most W from i = 0: where the radii's second moments are given. *)
@@ -207,9 +192,6 @@ Arguments expect {W M sigma}.
 Definition variance {W M sigma} (L : law W M sigma) (f : radii -> R) : R :=
   expect L (fun rho => (f rho - expect L f) ^ 2).
 
-Definition covariance {W M sigma} (L : law W M sigma) (f g : radii -> R) : R :=
-  expect L (fun rho => (f rho - expect L f) * (g rho - expect L g)).
-
 (** f is g to first order in δr, where δr = ρ: value and slope of g, added. *)
 Definition linearised (g : radii -> R -> R) (f : radii -> R) : Prop :=
   forall rho, exists v d, expands (g rho) v d /\ f rho = v + d.
@@ -217,8 +199,6 @@ Definition linearised (g : radii -> R -> R) (f : radii -> R) : Prop :=
 (** σ_f²/⟨f⟩², and the root of its mean over one contact of each layer. *)
 Definition relative_variance {W M sigma} (L : law W M sigma) (f : radii -> R) : R :=
   variance L f / expect L f ^ 2.
-Definition relative_covariance {W M sigma} (L : law W M sigma) (f g : radii -> R) : R :=
-  covariance L f g / (expect L f * expect L g).
 Definition root_mean_square {W M sigma} (L : law W M sigma) (f : Z -> radii -> R) : R :=
   sqrt (Sum 0 (M - 1) (fun j => relative_variance L (f j)) / IZR M).
 

@@ -39,9 +39,7 @@ Fixpoint overlap (l k : layer) : R :=
   end.
 
 Section Moments.
-  Variables W M : Z.
-  Variable sigma : R.
-  Variable L : law W M sigma.
+  Context (W M : Z) (sigma : R) (L : law W M sigma).
 
   Definition inside (l : layer) (m : Z) : Prop := Forall (fun one => within W M (snd one) m) l.
 
@@ -124,10 +122,8 @@ Section Moments.
 
   (** A linear form whose weights are listed layer by layer. *)
   Definition whole (form : Z -> layer) (rho : radii) : R := Sum 0 M (fun m => weigh (form m) m rho).
-  Definition products (form other : Z -> layer) : R := Sum 0 M (fun m => overlap (form m) (other m)).
-  Definition squares (form : Z -> layer) : R := products form form.
+  Definition squares (form : Z -> layer) : R := Sum 0 M (fun m => overlap (form m) (form m)).
 
-  (** Its mean is 0. That of a product of two: *)
   Variable form : Z -> layer.
   Hypothesis form_inside : forall m, (0 <= m <= M)%Z -> inside (form m) m.
 
@@ -137,71 +133,35 @@ Section Moments.
     apply (known_Sum 0 M (fun m => weigh (form m) m)). intros. apply known_weigh, form_inside. lia.
   Qed.
 
-  Variable other : Z -> layer.
-  Hypothesis other_inside : forall m, (0 <= m <= M)%Z -> inside (other m) m.
-
-  Theorem whole_product : known (fun rho => whole form rho * whole other rho) (sigma ^ 2 * products form other).
+  Lemma whole_square : known (fun rho => whole form rho * whole form rho) (sigma ^ 2 * squares form).
   Proof.
     apply (known_as (fun rho => Sum 0 M (fun m => Sum 0 M (fun n =>
-      weigh (form m) m rho * weigh (other n) n rho)))).
-    - unfold products. rewrite <- Sum_scale.
-      apply (known_Sum 0 M (fun m rho => Sum 0 M (fun n => weigh (form m) m rho * weigh (other n) n rho))).
+      weigh (form m) m rho * weigh (form n) n rho)))).
+    - unfold squares. rewrite <- Sum_scale.
+      apply (known_Sum 0 M (fun m rho => Sum 0 M (fun n => weigh (form m) m rho * weigh (form n) n rho))).
       intros m Hm.
-      replace (sigma ^ 2 * overlap (form m) (other m)) with
-        (Sum 0 M (fun n => if (m =? n)%Z then sigma ^ 2 * overlap (form m) (other n) else 0)).
-      + apply (known_Sum 0 M (fun n rho => weigh (form m) m rho * weigh (other n) n rho)).
-        intros n Hn. apply known_overlap; [apply form_inside|apply other_inside]; lia.
-      + rewrite <- (Sum_pick 0 M m (sigma ^ 2 * overlap (form m) (other m))) by lia.
+      replace (sigma ^ 2 * overlap (form m) (form m)) with
+        (Sum 0 M (fun n => if (m =? n)%Z then sigma ^ 2 * overlap (form m) (form n) else 0)).
+      + apply (known_Sum 0 M (fun n rho => weigh (form m) m rho * weigh (form n) n rho)).
+        intros n Hn. apply known_overlap; apply form_inside; lia.
+      + rewrite <- (Sum_pick 0 M m (sigma ^ 2 * overlap (form m) (form m))) by lia.
         apply Sum_eq; auto. intros n Hn. destruct (Z.eqb_spec m n) as [->|]; reflexivity.
     - intros rho. unfold whole. rewrite <- Sum_times. apply Sum_eq; auto. intros m Hm. apply Sum_scale.
   Qed.
+
+  (** Mean and variance of a constant plus a multiple of the form. *)
+  Theorem form_variance c w f : (forall rho, f rho = c + w * whole form rho) ->
+    expect L f = c /\ variance L f = w ^ 2 * (sigma ^ 2 * squares form).
+  Proof.
+    intros E. assert (D : expect L f = c).
+    { pose proof (known_sum _ _ _ _ (known_constant c) (known_multiple w _ _ whole_mean)) as K.
+      apply (known_as _ f) in K; [|intros; symmetry; apply E]. destruct K as [_ ->]. ring. }
+    split; [exact D|]. unfold variance. rewrite D.
+    pose proof (known_multiple (w ^ 2) _ _ whole_square) as K.
+    apply (known_as _ (fun rho => (f rho - c) ^ 2)) in K; [exact (proj2 K)|].
+    intros rho. rewrite E. ring.
+  Qed.
 End Moments.
-
-Section Forms.
-  Variables W M : Z.
-  Variable sigma : R.
-  Variable L : law W M sigma.
-  Variables form other : Z -> layer.
-  Hypothesis form_inside : forall m, (0 <= m <= M)%Z -> inside W M (form m) m.
-  Hypothesis other_inside : forall m, (0 <= m <= M)%Z -> inside W M (other m) m.
-
-  Lemma form_mean c w f : (forall rho, f rho = c + w * whole M form rho) -> expect L f = c.
-  Proof.
-    intros E. pose proof (known_sum _ _ _ L _ _ _ _ (known_constant _ _ _ L c)
-      (known_multiple _ _ _ L w _ _ (whole_mean W M sigma L form form_inside))) as K.
-    apply (known_as _ _ _ L _ f) in K; [|intros; symmetry; apply E]. destruct K as [_ ->]. ring.
-  Qed.
-
-  (** The covariance of two constants plus multiples of forms. *)
-  Theorem form_covariance c w f d v g : (forall rho, f rho = c + w * whole M form rho) ->
-    (forall rho, g rho = d + v * whole M other rho) -> expect L g = d ->
-    covariance L f g = w * v * (sigma ^ 2 * products M form other).
-  Proof.
-    intros Ef Eg D. unfold covariance. rewrite (form_mean c w f Ef), D.
-    pose proof (known_multiple _ _ _ L (w * v) _ _ (whole_product W M sigma L form form_inside other other_inside)) as K.
-    apply (known_as _ _ _ L _ (fun rho => (f rho - c) * (g rho - d))) in K; [exact (proj2 K)|].
-    intros rho. rewrite Ef, Eg. ring.
-  Qed.
-End Forms.
-
-Section Variance.
-  Variables W M : Z.
-  Variable sigma : R.
-  Variable L : law W M sigma.
-  Variable form : Z -> layer.
-  Hypothesis form_inside : forall m, (0 <= m <= M)%Z -> inside W M (form m) m.
-
-  (** The variance of a constant plus a multiple of the form. *)
-  Theorem form_variance c w f : (forall rho, f rho = c + w * whole M form rho) ->
-    expect L f = c /\ variance L f = w ^ 2 * (sigma ^ 2 * squares M form).
-  Proof.
-    intros E. pose proof (form_mean W M sigma L form form_inside c w f E) as D. split; [exact D|].
-    replace (variance L f) with (covariance L f f)
-      by (unfold variance, covariance; f_equal; apply functional_extensionality; intros; ring).
-    rewrite (form_covariance W M sigma L form form form_inside form_inside c w f c w f E E D).
-    unfold squares. ring.
-  Qed.
-End Variance.
 
 (** ** Laws exist: every bead of a window tosses a coin for +σ or −σ *)
 
@@ -253,50 +213,38 @@ Proof.
   - rewrite !IH by assumption. field.
 Qed.
 
+(** What is not tossed comes out of the mean. *)
+Lemma coins_factor sigma sites (f : radii -> R) i j : ~ In (i, j) sites -> forall rho,
+  coins sigma sites (fun x => x i j * f x) rho = rho i j * coins sigma sites f rho.
+Proof.
+  induction sites as [|a rest IH]; intros H rho; cbn [coins]; [reflexivity|].
+  rewrite !IH by (intros E; apply H; right; exact E).
+  rewrite !put_other by (intros E; apply H; left; symmetry; exact E). field.
+Qed.
+
+Lemma coins_as sigma sites f g : (forall x, f x = g x) -> forall rho,
+  coins sigma sites f rho = coins sigma sites g rho.
+Proof. intros E. induction sites as [|a rest IH]; intros rho; cbn [coins]; [apply E|rewrite !IH; reflexivity]. Qed.
+
 Lemma coins_product sigma sites i j k l : NoDup sites -> forall rho,
   In (i, j) sites -> In (k, l) sites ->
   coins sigma sites (fun x => x i j * x k l) rho =
     if ((i =? k) && (j =? l))%bool%Z then sigma ^ 2 else 0.
 Proof.
+  assert (Apart : forall i j k l (rest : list (Z * Z)), ~ In (i, j) rest -> In (k, l) rest ->
+    ((i =? k) && (j =? l))%bool%Z = false).
+  { intros a b c d rest A B. destruct (Z.eqb_spec a c) as [->|]; [destruct (Z.eqb_spec b d) as [->|]|]; auto.
+    contradiction. }
   induction sites as [|a rest IH]; intros D rho H K; [destruct H|].
-  inversion D as [|x y Ha Hr]; subst. cbn [coins].
-  assert (Out : forall b, In b rest -> b <> a) by (intros b Hb E; subst; contradiction).
-  destruct H as [->|H], K as [E|K].
-  - injection E as -> ->. rewrite !Z.eqb_refl. cbn [andb].
+  inversion D as [|x y Ha Hr]; subst. cbn [coins]. destruct H as [->|H], K as [E|K].
+  - injection E as -> ->. rewrite !Z.eqb_refl, !coins_factor by exact Ha. cbn [andb].
     rewrite !coins_ignore, !put_same; [field|
-      intros b s x Hb; rewrite !put_other by (intros E; subst; exact (Out _ Hb eq_refl)); reflexivity..].
-  - replace ((i =? k) && (j =? l))%bool%Z with false.
-    2:{ destruct (Z.eqb_spec i k) as [->|]; [destruct (Z.eqb_spec j l) as [->|]|]; auto.
-        all: exfalso; exact (Out _ K eq_refl). }
-    assert (S : forall s x, coins sigma rest (fun y => y i j * y k l) (put s (i, j) x) =
-      x * coins sigma rest (fun y => y k l) (put s (i, j) x)).
-    { intros s x. rewrite <- coins_multiple. clear IH K D Hr.
-      assert (G : forall t, t i j = x ->
-        coins sigma rest (fun y => y i j * y k l) t = coins sigma rest (fun y => x * y k l) t).
-      { revert Ha Out. induction rest as [|b rest IH]; intros Ha Out t Ht; cbn [coins]; [rewrite Ht; reflexivity|].
-        assert (Hb : b <> (i, j)) by (apply Out; left; reflexivity).
-        rewrite !IH; try reflexivity;
-          try (intros Hin; apply Ha; right; exact Hin);
-          try (intros c Hc; apply Out; right; exact Hc);
-          rewrite put_other; auto. }
-      apply G, put_same. }
-    rewrite !S, !coins_mean by assumption. field.
-  - subst a. replace ((i =? k) && (j =? l))%bool%Z with false.
-    2:{ destruct (Z.eqb_spec i k) as [->|]; [destruct (Z.eqb_spec j l) as [->|]|]; auto.
-        all: exfalso; exact (Out _ H eq_refl). }
-    assert (S : forall s x, coins sigma rest (fun y => y i j * y k l) (put s (k, l) x) =
-      x * coins sigma rest (fun y => y i j) (put s (k, l) x)).
-    { intros s x. rewrite <- coins_multiple. clear IH H D Hr.
-      assert (G : forall t, t k l = x ->
-        coins sigma rest (fun y => y i j * y k l) t = coins sigma rest (fun y => x * y i j) t).
-      { revert Ha Out. induction rest as [|b rest IH]; intros Ha Out t Ht; cbn [coins]; [rewrite Ht; ring|].
-        assert (Hb : b <> (k, l)) by (apply Out; left; reflexivity).
-        rewrite !IH; try reflexivity;
-          try (intros Hin; apply Ha; right; exact Hin);
-          try (intros c Hc; apply Out; right; exact Hc);
-          rewrite put_other; auto. }
-      apply G, put_same. }
-    rewrite !S, !coins_mean by assumption. field.
+      intros b s x Hb; apply put_other; intros E; subst; contradiction..].
+  - rewrite (Apart _ _ _ _ rest Ha K), !coins_factor, !coins_mean by assumption. field.
+  - subst a. rewrite (Z.eqb_sym i), (Z.eqb_sym j), (Apart _ _ _ _ rest Ha H).
+    assert (S : forall t, coins sigma rest (fun x => x i j * x k l) t = coins sigma rest (fun x => x k l * x i j) t)
+      by (apply coins_as; intros; apply Rmult_comm).
+    rewrite !S, !coins_factor, !coins_mean by assumption. field.
   - rewrite !IH by assumption. field.
 Qed.
 

@@ -30,9 +30,6 @@ Proof.
   cbn [sum_from]. do 2 f_equal. lia.
 Qed.
 
-Lemma Sum_one low f : Sum low low f = f low.
-Proof. rewrite Sum_last, Sum_empty by lia. ring. Qed.
-
 (** Induction on the upper bound: from the empty sum on. *)
 Lemma up_from (P : Z -> Prop) low :
   P low -> (forall n, (low <= n)%Z -> P n -> P (n + 1)%Z) -> forall n, (low <= n)%Z -> P n.

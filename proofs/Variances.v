@@ -34,43 +34,19 @@ Proof.
     rewrite (Sum_eq 0 M 0 M _ (fun m => on (m =? j)%Z (2 * rho i m - rho (i - 2)%Z m - rho (i + 2)%Z m))); auto.
     + rewrite Sum_at by site. unfold second_difference, delta_r. ring.
     + intros m Hm. destruct (m =? j)%Z; cbn [weigh on]; ring.
-  - rewrite V. unfold squares, products, form.
+  - rewrite V. unfold squares, form.
     rewrite (Sum_eq 0 M 0 M _ (fun m => on (m =? j)%Z 6)); auto.
     + rewrite (Sum_at 0 M j (fun _ => 6)) by site. ring.
     + intros m Hm. destruct (m =? j)%Z; cbn [overlap on_one_radius on]; [|reflexivity]. compare_indices. ring.
 Qed.
-
-(** The law of the mirror images. *)
-Definition mirrored_law {W M sigma} (L : law W M sigma) : law W M sigma.
-Proof.
-  refine {| integrable f := integrable L (fun rho => f (mirrored rho));
-    expect f := expect L (fun rho => f (mirrored rho)) |}; intros; unfold mirrored.
-  - apply integrable_constant.
-  - apply (integrable_sum _ _ _ L (fun rho => f (mirrored rho)) (fun rho => g (mirrored rho))); assumption.
-  - apply (integrable_multiple _ _ _ L c (fun rho => f (mirrored rho))); assumption.
-  - apply expect_constant.
-  - apply (expect_sum _ _ _ L (fun rho => f (mirrored rho)) (fun rho => g (mirrored rho))); assumption.
-  - apply (expect_multiple _ _ _ L c (fun rho => f (mirrored rho))); assumption.
-  - apply (radii_integrable _ _ _ L (- i)%Z j). unfold within in *. site.
-  - apply (products_integrable _ _ _ L (- i)%Z j (- k)%Z l); unfold within in *; site.
-  - apply (mean_radius _ _ _ L (- i)%Z j). unfold within in *. site.
-  - rewrite (second_moments _ _ _ L (- i)%Z j (- k)%Z l) by (unfold within in *; site).
-    replace (- i =? - k)%Z with (i =? k)%Z by lia. reflexivity.
-Defined.
 
 (** A force a (1 + change), the change being given by weights of radii. *)
 Definition linear_force (G : lattice) (M i j : Z) (a : R) (w : weights) (rho : radii) : R :=
   a * (1 + whole M (layers i j w) rho / (2 * r G * (1 - phi G * phi G))).
 
 Section Variances.
-  Variable G : lattice.
-  Variables M W : Z.
-  Variable sigma : R.
-  Hypothesis spread : 0 < sigma.
-  Variable L : law W M sigma.
-  Variable X : radii -> centres.
-  Variable F : radii -> forces.
-  Hypothesis P : forall rho, packing G M rho (X rho).
+  Context (G : lattice) (M W : Z) (sigma : R) (spread : 0 < sigma) (L : law W M sigma).
+  Context (X : radii -> centres) (F : radii -> forces) (P : forall rho, packing G M rho (X rho)).
   Local Notation unit := (unit_of G sigma).
 
   Section Contact.
@@ -104,77 +80,63 @@ Section Variances.
       apply (Rmult_le_compat_l (unit / 4)) in H; lra.
     Qed.
 
-    (** A force of that value and that relative change: under a load on the surface (B2), and on every bead (B3). *)
-    Definition surface_linear a t := linear_force G M i j a (surface_weights G j t M).
-    Definition bulk_linear a t := linear_force G M i j (above * a) (averaged j M (surface_weights G j t)).
+    (** The force to first order under a load on the surface, and on every bead. *)
+    Definition surface_linear a := linear_force G M i j a (surface_weights G j M).
+    Definition bulk_linear a := linear_force G M i j (above * a) (averaged j M (surface_weights G j)).
 
-    Theorem surface_linear_is f a t : a <> 0 ->
-      (forall rho, expands (f rho) a (a * change_plus G t rho M i j)) ->
-      let f1 := surface_linear a t in
-      linearised f f1 /\ expect L f1 = a /\ relative_variance L f1 = unit / 4 * surface_squares G t j M.
+    Theorem surface_linear_is f a : a <> 0 ->
+      (forall rho, expands (f rho) a (a * change_plus G rho M i j)) ->
+      let f1 := surface_linear a in
+      linearised f f1 /\ expect L f1 = a /\ relative_variance L f1 = unit / 4 * surface_squares G j M.
     Proof.
       intros Ha E f1. pose proof (r_pos G). pose proof (divisor_positive G). split.
       - intros rho. eexists _, _. split; [apply E|].
         unfold f1, surface_linear, linear_force, whole.
-        rewrite <- (surface_in_layers G rho i j ltac:(site) t M M) by site. field. lra.
-      - rewrite <- (surface_squares_are G t i j M) by site. apply linear_force_variance, Ha.
+        rewrite <- (surface_in_layers G rho i j ltac:(site) M M) by site. field. lra.
+      - rewrite <- (surface_squares_are G i j M) by site. apply linear_force_variance, Ha.
     Qed.
 
-    Theorem bulk_linear_is f a t : a <> 0 ->
-      (forall rho, expands (f rho) (above * a) (a * Sum (j + 1) M (fun l => change_plus G t rho l i j))) ->
-      let f1 := bulk_linear a t in
-      linearised f f1 /\ expect L f1 = above * a /\ relative_variance L f1 = unit / 4 * bulk_squares G t j M.
+    Theorem bulk_linear_is f a : a <> 0 ->
+      (forall rho, expands (f rho) (above * a) (a * Sum (j + 1) M (fun l => change_plus G rho l i j))) ->
+      let f1 := bulk_linear a in
+      linearised f f1 /\ expect L f1 = above * a /\ relative_variance L f1 = unit / 4 * bulk_squares G j M.
     Proof.
       intros Ha E f1. pose proof (r_pos G). pose proof (divisor_positive G).
       assert (Hk : 1 <= above) by (apply (IZR_le 1); site). split.
       - intros rho. eexists _, _. split; [apply E|].
         unfold f1, bulk_linear, linear_force, whole.
-        rewrite <- (bulk_in_layers G t rho i j M) by site. field. lra.
-      - rewrite <- (bulk_squares_are G t i j M) by site. apply linear_force_variance.
+        rewrite <- (bulk_in_layers G rho i j M) by site. field. lra.
+      - rewrite <- (bulk_squares_are G i j M) by site. apply linear_force_variance.
         apply Rmult_integral_contrapositive_currified; [lra|exact Ha].
     Qed.
 
     (** Eq. 13: exactly, and near the printed form. *)
     Theorem surface_variance f : 0 < f ->
       (forall rho, carries M (X rho) (surface M f) (F rho)) ->
-      let f1 := surface_linear (f / (2 * n_y G)) 1 in
+      let f1 := surface_linear (f / (2 * n_y G)) in
       linearised (fun rho => f_plus (F rho) i j) f1 /\ expect L f1 = f / (2 * n_y G) /\
-        relative_variance L f1 = unit / 4 * surface_squares G 1 j M /\
+        relative_variance L f1 = unit / 4 * surface_squares G j M /\
         Rabs (relative_variance L f1 - unit * (2 * (above * above) * (2 * IZR j + height)))
           <= (2 * height ^ 2 + height) * unit.
     Proof.
       intros Hf C f1. pose proof (n_y_pos G).
-      destruct (surface_linear_is (fun rho => f_plus (F rho) i j) (f / (2 * n_y G)) 1) as (A & E & V).
+      destruct (surface_linear_is (fun rho => f_plus (F rho) i j) (f / (2 * n_y G))) as (A & E & V).
       - apply Rgt_not_eq, Rdiv_lt_0_compat; lra.
       - intros rho. apply (surface_force G M rho (X rho) (P rho) (F rho) i j at_contact f (C rho)).
       - repeat split; auto. eapply in_units; [exact V|exact (surface_near G j M ltac:(site) ltac:(site))|ring].
     Qed.
 
-    (** Eq. B2: the same for a load in any direction, L⁻ = t L⁺. *)
-    Definition about_leaning (f : radii -> R -> R) (a t : R) : Prop := exists f1,
-      linearised f f1 /\ expect L f1 = a /\ relative_variance L f1 = unit / 4 * surface_squares G t j M /\
-      Rabs (relative_variance L f1 - unit * (2 * t ^ 2 * (above * above) * (2 * IZR j + height)))
-        <= ((2 * height ^ 2 + height) * t ^ 2 + 2 * height * t + height / 2) * unit.
-
-    Theorem leaning_variance f a t : 0 < a -> 0 <= t ->
-      (forall rho, expands (f rho) a (a * change_plus G t rho M i j)) -> about_leaning f a t.
-    Proof.
-      intros Ha Ht E. destruct (surface_linear_is f a t ltac:(lra) E) as (A & Ex & V).
-      exists (surface_linear a t). repeat split; auto.
-      eapply in_units; [exact V|exact (leaning_surface_near G j M ltac:(site) ltac:(site) t Ht)|ring].
-    Qed.
-
     (** Eq. 14: the same. *)
     Theorem bulk_variance g : 0 < g ->
       (forall rho, carries M (X rho) (bulk g) (F rho)) ->
-      let f1 := bulk_linear (g / (2 * n_y G)) 1 in
+      let f1 := bulk_linear (g / (2 * n_y G)) in
       linearised (fun rho => f_plus (F rho) i j) f1 /\ expect L f1 = above * (g / (2 * n_y G)) /\
-        relative_variance L f1 = unit / 4 * bulk_squares G 1 j M /\
+        relative_variance L f1 = unit / 4 * bulk_squares G j M /\
         Rabs (relative_variance L f1 - unit * (3 / 10 * (above * above) * (4 * IZR j + height)))
           <= (3 / 8 * height ^ 2 + 5 / 4 * height) * unit.
     Proof.
       intros Hg C f1. pose proof (n_y_pos G).
-      destruct (bulk_linear_is (fun rho => f_plus (F rho) i j) (g / (2 * n_y G)) 1) as (A & E & V).
+      destruct (bulk_linear_is (fun rho => f_plus (F rho) i j) (g / (2 * n_y G))) as (A & E & V).
       - apply Rgt_not_eq, Rdiv_lt_0_compat; lra.
       - intros rho. apply (bulk_force G M rho (X rho) (P rho) (F rho) i j at_contact g (C rho)).
       - repeat split; auto. eapply in_units; [exact V|exact (bulk_near G j M ltac:(site) ltac:(site))|field].
@@ -186,17 +148,17 @@ Section Variances.
         (2 * rho (i - j + m)%Z m - rho (i - j + m - 2)%Z m - rho (i - j + m + 2)%Z m))).
 
     Theorem braces_miss :
-      expect L (fun rho => (change_plus G 1 rho M i j - by_braces rho) ^ 2)
+      expect L (fun rho => (change_plus G rho M i j - by_braces rho) ^ 2)
         <= 29 * (height * height) * unit.
     Proof.
       pose proof (r_pos G). pose proof (divisor_positive G).
-      set (w := less_main (surface_weights G j 1 M) (braces_at j M)).
+      set (w := less_main (surface_weights G j M) (braces_at j M)).
       destruct (form_variance W M sigma L (layers i j w)
         (layers_inside W M i j w at_contact no_boundary) 0 (1 / (2 * r G * (1 - phi G * phi G)))
-        (fun rho => change_plus G 1 rho M i j - by_braces rho)) as [E V].
+        (fun rho => change_plus G rho M i j - by_braces rho)) as [E V].
       { intros rho. rewrite Rplus_0_l. unfold whole, w.
         rewrite (Sum_eq 0 M 0 M _ _ eq_refl eq_refl (fun m _ => less_main_weigh i j _ _ m rho)).
-        rewrite Sum_plus, <- (surface_in_layers G rho i j ltac:(site) 1 M M) by site.
+        rewrite Sum_plus, <- (surface_in_layers G rho i j ltac:(site) M M) by site.
         rewrite (Sum_first 0 M (fun m => on (1 <=? m)%Z _)) by site.
         replace (0 + 1)%Z with 1%Z by lia.
         rewrite (Sum_eq 1 M 1 M (fun m => on (1 <=? m)%Z _) (fun m => 2 * (braces_at j M m *
@@ -204,8 +166,8 @@ Section Variances.
         - unfold on, by_braces. rewrite Sum_scale. cbn [Z.leb Z.compare]. field. lra.
         - intros m Hm. unfold on. replace (1 <=? m)%Z with true by lia. reflexivity. }
       unfold variance in V. rewrite E in V.
-      replace (fun rho => (change_plus G 1 rho M i j - by_braces rho - 0) ^ 2)
-        with (fun rho => (change_plus G 1 rho M i j - by_braces rho) ^ 2) in V
+      replace (fun rho => (change_plus G rho M i j - by_braces rho - 0) ^ 2)
+        with (fun rho => (change_plus G rho M i j - by_braces rho) ^ 2) in V
         by (apply FunctionalExtensionality.functional_extensionality; intros; ring).
       rewrite V.
       replace ((1 / (2 * r G * (1 - phi G * phi G))) ^ 2 * (sigma ^ 2 * squares M (layers i j w)))
@@ -260,7 +222,7 @@ Section Variances.
 
     Theorem surface_average f : 0 < f ->
       (forall rho, carries M (X rho) (surface M f) (F rho)) ->
-      let f1 j := surface_linear (across j) j (f / (2 * n_y G)) 1 in
+      let f1 j := surface_linear (across j) j (f / (2 * n_y G)) in
       (forall j, (0 <= j < M)%Z -> linearised (fun rho => f_plus (F rho) (across j) j) (f1 j)) /\
       Rabs (mean_square f1 - unit * (height * height * height)) <= 4 * (height * height) * unit.
     Proof.
@@ -280,7 +242,7 @@ Section Variances.
 
     Theorem bulk_average g : 0 < g ->
       (forall rho, carries M (X rho) (bulk g) (F rho)) ->
-      let f1 j := bulk_linear (across j) j (g / (2 * n_y G)) 1 in
+      let f1 j := bulk_linear (across j) j (g / (2 * n_y G)) in
       (forall j, (0 <= j < M)%Z -> linearised (fun rho => f_plus (F rho) (across j) j) (f1 j)) /\
       Rabs (mean_square f1 - unit * (1 / 5 * (height * height * height))) <= 2 * (height * height) * unit.
     Proof.
@@ -300,44 +262,6 @@ Section Variances.
     Qed.
   End Average.
 End Variances.
-
-(** Both branches under a surface load in any direction. *)
-Section Leaning.
-  Variable G : lattice.
-  Variables M W : Z.
-  Variable sigma : R.
-  Hypothesis spread : 0 < sigma.
-  Variable L : law W M sigma.
-  Variable X : radii -> centres.
-  Variable F : radii -> forces.
-  Hypothesis P : forall rho, packing G M rho (X rho).
-  Variables i j : Z.
-  Hypothesis at_contact : contact M i j.
-  Hypothesis no_boundary : (Z.abs i + M + 2 <= W)%Z.
-  Variables a b t : R.
-  Hypothesis C : forall rho, carries M (X rho) (leaning_surface G M a b) (F rho).
-
-  Theorem variance_of_f_plus : 0 < a -> 0 <= t -> b = t * a ->
-    about_leaning G M W sigma L j (fun rho => f_plus (F rho) i j) a t.
-  Proof.
-    intros Ha Ht E. eapply leaning_variance; try eassumption.
-    intros rho. apply (leaning_f_plus G M rho (X rho) (P rho) (F rho) i j at_contact a b t (C rho) E).
-  Qed.
-
-  Theorem variance_of_f_minus : 0 < b -> 0 <= t -> a = t * b ->
-    about_leaning G M W sigma L j (fun rho => f_minus (F rho) i j) b t.
-  Proof.
-    intros Hb Ht E. assert (E1 : forall rho, expands (f_minus (F (mirrored rho)) i j) b
-      (b * change_plus G t rho M (- i) j)).
-    { intros rho. rewrite <- (mirrored_back rho) at 2.
-      apply (leaning_f_minus G M _ _ (P (mirrored rho)) _ i j at_contact a b t (C _) E). }
-    assert (V : about_leaning G M W sigma (mirrored_law L) j (fun rho => f_minus (F (mirrored rho)) i j) b t)
-      by (eapply leaning_variance with (i := (- i)%Z); try eassumption; [site|lia]).
-    destruct V as (f1 & A & Q).
-    exists (fun rho => f1 (mirrored rho)). split; [|exact Q].
-    intros rho. specialize (A (mirrored rho)). cbv beta in A. rewrite mirrored_back in A. exact A.
-  Qed.
-End Leaning.
 
 (** ** Roots *)
 

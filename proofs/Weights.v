@@ -34,7 +34,7 @@ Proof.
   replace (a =? m)%Z with false by lia. reflexivity.
 Qed.
 
-(** ** One form under all loads of whole layers *)
+(** ** One form under both loads *)
 
 (** Weights on the places i − j + m − 2, i − j + m, i − j + m + 2 of the diagonal along n⁺ and, below
     the contact, i + j − m and i + j − m + 2 of the one along n⁻. *)
@@ -52,20 +52,14 @@ Proof.
 Qed.
 
 Section Surface.
-  Variable G : lattice.
-  Variable rho : radii.
-  Variables i j : Z.
-  Hypothesis base : (0 <= j)%Z.
+  Context (G : lattice) (rho : radii) (i j : Z) (base : (0 <= j)%Z).
   Local Notation phi := (phi G).
   Local Notation r := (r G).
 
-  (** L⁻ = t L⁺ of the load. *)
-  Variable t : R.
-
   (** A height more adds the difference of two tilts: the sum over branches, by parts. *)
   Lemma change_plus_higher M : (j < M)%Z ->
-    change_plus G t rho (M + 1) i j = change_plus G t rho M i j
-      - t * (tilt_minus G rho (i - j + M + 2) M - tilt_minus G rho (i - j + M) M) / (1 - phi * phi).
+    change_plus G rho (M + 1) i j = change_plus G rho M i j
+      - (tilt_minus G rho (i - j + M + 2) M - tilt_minus G rho (i - j + M) M) / (1 - phi * phi).
   Proof.
     intros H. pose proof (divisor_positive G). unfold change_plus, turned.
     replace (M + 1 - j - 1)%Z with (M - j)%Z by lia.
@@ -77,14 +71,14 @@ Section Surface.
 
   (** The weights of 2r (1 − φ²) times the relative change under a surface load at height l. *)
   Definition surface_weights (l : Z) : weights := {|
-    w_a m := t * (on (m <=? l)%Z (twice m * IZR (l - Z.max m (j + 1)))
-      + on ((j + 2 <=? m) && (m <=? l))%bool%Z (1 - phi));
-    w_b m := t * (on (m <=? l)%Z (-2 * (twice m * IZR (l - Z.max m (j + 1)))) - on (m <=? j)%Z (twice m)
+    w_a m := on (m <=? l)%Z (twice m * IZR (l - Z.max m (j + 1)))
+      + on ((j + 2 <=? m) && (m <=? l))%bool%Z (1 - phi);
+    w_b m := on (m <=? l)%Z (-2 * (twice m * IZR (l - Z.max m (j + 1)))) - on (m <=? j)%Z (twice m)
       + on ((j + 1 <=? m) && (m <=? l - 1))%bool%Z (1 - phi)
-      - on ((j + 2 <=? m) && (m <=? l))%bool%Z (1 - phi))
-      + on (m =? j)%Z (phi * (1 - phi)) + on (m =? j + 1)%Z ((phi - t) * (1 - phi));
-    w_c m := t * (on (m <=? l)%Z (twice m * IZR (l - Z.max m (j + 1))) + on (m <=? j)%Z (twice m)
-      - on ((j + 1 <=? m) && (m <=? l - 1))%bool%Z (1 - phi) - on (m =? j)%Z (1 - phi));
+      - on ((j + 2 <=? m) && (m <=? l))%bool%Z (1 - phi)
+      + on (m =? j)%Z (phi * (1 - phi)) - on (m =? j + 1)%Z ((1 - phi) * (1 - phi));
+    w_c m := on (m <=? l)%Z (twice m * IZR (l - Z.max m (j + 1))) + on (m <=? j)%Z (twice m)
+      - on ((j + 1 <=? m) && (m <=? l - 1))%bool%Z (1 - phi) - on (m =? j)%Z (1 - phi);
     w_p m := on (m <=? j)%Z (- phi * twice m);
     w_q m := on (m <=? j)%Z (phi * twice m) |}.
 
@@ -97,29 +91,29 @@ Section Surface.
   Qed.
 
   Theorem surface_in_layers M l : (j < l)%Z -> (l <= M)%Z ->
-    2 * r * (1 - phi * phi) * change_plus G t rho l i j =
+    2 * r * (1 - phi * phi) * change_plus G rho l i j =
     Sum 0 M (fun m => weigh (layers i j (surface_weights l) m) m rho).
   Proof.
     pose proof (divisor_positive G) as Hd. pose proof (r_pos G) as Hr.
     intros H. pattern l. apply (up_from _ (j + 1)); [| |lia]; clear l H.
     - intros HM. unfold change_plus. rewrite turned_at_top.
       rewrite (Sum_eq 0 M 0 M _ (fun m =>
-        on (m <=? j)%Z (twice m * (t * (rho (i - j + m + 2)%Z m - rho (i - j + m)%Z m)
+        on (m <=? j)%Z (twice m * (rho (i - j + m + 2)%Z m - rho (i - j + m)%Z m
           + phi * (rho (i + j - m + 2)%Z m - rho (i + j - m)%Z m)))
-        + on (m =? j)%Z (phi * (1 - phi) * rho (i - j + m)%Z m - t * (1 - phi) * rho (i - j + m + 2)%Z m)
-        + on (m =? j + 1)%Z ((phi - t) * (1 - phi) * rho (i - j + m)%Z m))).
+        + on (m =? j)%Z (phi * (1 - phi) * rho (i - j + m)%Z m - (1 - phi) * rho (i - j + m + 2)%Z m)
+        + on (m =? j + 1)%Z (- (1 - phi) * (1 - phi) * rho (i - j + m)%Z m))).
       2, 3: reflexivity.
       2:{ intros m Hm. unfold layers, surface_weights. cbn [weigh w_a w_b w_c w_p w_q].
           decide_on; try (replace (j + 1 - Z.max m (j + 1))%Z with 0%Z by lia); ring. }
       rewrite !Sum_plus, Sum_up_to, !Sum_at, Sum_twice by lia.
       replace (_ * _ * _ * (_ / _))
-        with (phi * (2 * r * tilt_plus G rho i j) - t * (2 * r * tilt_minus G rho (i + 2) j)) by (field; lra).
+        with (phi * (2 * r * tilt_plus G rho i j) - 2 * r * tilt_minus G rho (i + 2) j) by (field; lra).
       rewrite tilt_plus_is, tilt_minus_is by lia.
       normal_form. ring.
     - intros l Hl IH HM. rewrite change_plus_higher by lia.
       rewrite (Sum_eq 0 M 0 M _ (fun m =>
         weigh (layers i j (surface_weights l) m) m rho
-        + t * (on (m <=? l)%Z (twice m * (rho (i - j + m - 2)%Z m - 2 * rho (i - j + m)%Z m + rho (i - j + m + 2)%Z m))
+        + (on (m <=? l)%Z (twice m * (rho (i - j + m - 2)%Z m - 2 * rho (i - j + m)%Z m + rho (i - j + m + 2)%Z m))
            + on (m =? l)%Z ((1 - phi) * (rho (i - j + m)%Z m - rho (i - j + m + 2)%Z m))
            + on (m =? l + 1)%Z ((1 - phi) * (rho (i - j + m - 2)%Z m - rho (i - j + m)%Z m))))).
       2, 3: reflexivity.
@@ -127,10 +121,10 @@ Section Surface.
           replace (IZR (l + 1 - Z.max m (j + 1))) with (IZR (l - Z.max m (j + 1)) + 1)
             by (rewrite <- plus_IZR; f_equal; lia).
           decide_on; try (replace (l - Z.max m (j + 1))%Z with (-1)%Z by lia); ring. }
-      rewrite Sum_plus, <- IH by lia. rewrite Sum_scale, !Sum_plus, Sum_up_to, !Sum_at, Sum_twice by lia.
+      rewrite Sum_plus, <- IH by lia. rewrite !Sum_plus, Sum_up_to, !Sum_at, Sum_twice by lia.
       replace (2 * r * (1 - phi * phi) * (_ - _))
-        with (2 * r * (1 - phi * phi) * change_plus G t rho l i j -
-          t * (2 * r * tilt_minus G rho (i - j + l + 2) l - 2 * r * tilt_minus G rho (i - j + l) l))
+        with (2 * r * (1 - phi * phi) * change_plus G rho l i j -
+          (2 * r * tilt_minus G rho (i - j + l + 2) l - 2 * r * tilt_minus G rho (i - j + l) l))
         by (field; lra).
       rewrite !tilt_minus_is by lia.
       normal_form. ring.
@@ -152,13 +146,13 @@ Proof.
   rewrite !Sum_plus, !Sum_times, (Sum_zero _ _ (fun _ => 0)) by auto. unfold Rdiv. ring.
 Qed.
 
-Theorem bulk_in_layers G t rho i j M : (0 <= j < M)%Z ->
+Theorem bulk_in_layers G rho i j M : (0 <= j < M)%Z ->
   2 * r G * (1 - phi G * phi G) *
-    (Sum (j + 1) M (fun l => change_plus G t rho l i j) / IZR (M - j)) =
-  Sum 0 M (fun m => weigh (layers i j (averaged j M (surface_weights G j t)) m) m rho).
+    (Sum (j + 1) M (fun l => change_plus G rho l i j) / IZR (M - j)) =
+  Sum 0 M (fun m => weigh (layers i j (averaged j M (surface_weights G j)) m) m rho).
 Proof.
   intros H. rewrite (Sum_eq 0 M 0 M _ _ eq_refl eq_refl
-    (fun m _ => averaged_weigh i j M (surface_weights G j t) m rho)).
+    (fun m _ => averaged_weigh i j M (surface_weights G j) m rho)).
   rewrite Sum_over, <- Sum_swap. unfold Rdiv. rewrite <- Rmult_assoc. f_equal.
   rewrite <- Sum_scale. apply Sum_eq; auto. intros l Hl. apply surface_in_layers; lia.
 Qed.
@@ -222,7 +216,7 @@ Lemma square_at_most x b : - b <= x <= b -> x ^ 2 <= b ^ 2.
 Proof. intros H. assert (0 <= (b - x) * (b + x)) by (apply Rmult_le_pos; lra). lra. Qed.
 
 Theorem left_out_squares G i j M : (0 <= j < M)%Z ->
-  squares M (layers i j (less_main (surface_weights G j 1 M) (braces_at j M))) <= 116 * (IZR M * IZR M).
+  squares M (layers i j (less_main (surface_weights G j M) (braces_at j M))) <= 116 * (IZR M * IZR M).
 Proof.
   intros H. real_bounds G. assert (One : 1 <= IZR M) by (apply (IZR_le 1); lia).
   assert (MM : 1 * IZR M <= IZR M * IZR M) by (apply Rmult_le_compat_r; lra).
@@ -242,7 +236,7 @@ Proof.
       unfold w, less_main, surface_weights, braces_at, twice; cbn [w_a w_b w_c w_p w_q];
       (destruct (Z.le_gt_cases (j + 1) m);
        [rewrite ?Z.max_l by lia|rewrite ?Z.max_r by lia; rewrite ?minus_IZR, ?plus_IZR]; decide_on; lra). }
-  unfold squares, products. rewrite Sum_first by lia. replace (0 + 1)%Z with 1%Z by lia.
+  unfold squares. rewrite Sum_first by lia. replace (0 + 1)%Z with 1%Z by lia.
   apply (Sum_le 1 M _ (fun _ => 58)) in Other. rewrite Sum_const in Other by lia.
   replace (M - 1 + 1)%Z with M in Other by lia. lra.
 Qed.

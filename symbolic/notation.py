@@ -42,9 +42,6 @@ class Symbol(sympy.Symbol):  # type: ignore[misc]
         text: its plain text; the name where none is given.
         code: its name in Python source and in tables of names; the name where none is given.
         assumptions: SymPy's, such as ``positive=True``.
-
-    Raises:
-        ValueError: one of these holds a control character.
     """
 
     __slots__ = ("in_code", "in_latex", "in_text")
@@ -53,9 +50,6 @@ class Symbol(sympy.Symbol):  # type: ignore[misc]
         cls, name: str, latex: str = "", text: str = "", code: str = "", **assumptions: bool
     ) -> Self:
         """Make the symbol."""
-        for written in (name, latex, text, code):
-            if any(ord(one) < 32 for one in written):  # "\f", as of "\frac" without an r before it
-                raise ValueError(f'{written!r} holds a control character: write r"…"')
         cls._sanitize(assumptions, cls)
         made: Self = sympy.Symbol.__xnew__(cls, name, **assumptions)
         made.in_latex, made.in_text, made.in_code = latex, text or name, code or name

@@ -7,7 +7,7 @@ from importlib import import_module
 import pytest
 
 # Modules that import these may lack them: extras.
-EXTRAS = {"distributed", "jinja2", "markupsafe", "math_core", "matplotlib", "numba"}
+EXTRAS = {"distributed", "matplotlib", "numba"}
 MODULES = ["force_diffusion"] + [
     module.name
     for room in ("derivations", "numeric", "symbolic")
@@ -21,7 +21,6 @@ LONG = {
         "derivations.api.derived",
         "derivations.api.equation",
         "numeric.figures.catalogue",
-        "numeric.studies.cascade.cascade",
         "numeric.studies.cost.cost",
     )
 }

@@ -5,8 +5,8 @@ A case is drawn by its number alone, so that it can be tried again.
 
 import io
 import json
-import sys
 import traceback
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
 from random import Random
 from typing import NamedTuple
@@ -29,35 +29,24 @@ class Said(NamedTuple):
 
 def said(command: list[str]) -> Said:
     """Give a command to the program, in this process."""
-    before = sys.stdout, sys.stderr
-    streams = [io.TextIOWrapper(io.BytesIO(), encoding="utf-8") for _ in range(2)]
-    sys.stdout, sys.stderr = streams
-    try:
-        status = program(command)
-    except SystemExit as end:
-        status = end.code if isinstance(end.code, int) else 1
-    except Exception:
-        status = 1
-        traceback.print_exc()
-    finally:
-        sys.stdout, sys.stderr = before
-    return Said(status, *(_written(one) for one in streams))
-
-
-def _written(stream: io.TextIOWrapper) -> str:
-    stream.seek(0)
-    return stream.read()
+    out, err = (io.TextIOWrapper(io.BytesIO(), "utf-8", write_through=True) for _ in range(2))
+    with redirect_stdout(out), redirect_stderr(err):
+        try:
+            status = program(command)
+        except SystemExit as end:
+            status = end.code if isinstance(end.code, int) else 1
+        except Exception:
+            status = 1
+            traceback.print_exc()
+    return Said(status, *(one.buffer.getvalue().decode() for one in (out, err)))
 
 
 def wrong(command: list[str], found: Said) -> str:
     """Say what was wrong with the end of a command, or nothing."""
-    words = found.err
-    if command[0] == "check-packings" and found.status == 3:  # a verdict, which is no message
-        words += found.out
-    silent = found.status in {2, 3} and not words.strip()
-    if found.status not in ENDED or "Traceback" in words or "Warning:" in words or silent:
-        return f"ended with status {found.status} and said\n{words[-2500:]}"
-    raw = {c for c in words if not c.isprintable() and c != "\n"}
+    silent = found.status in {2, 3} and not found.err.strip()
+    if found.status not in ENDED or "Traceback" in found.err or "Warning:" in found.err or silent:
+        return f"ended with status {found.status} and said\n{found.err[-2500:]}"
+    raw = {c for c in found.err if not c.isprintable() and c != "\n"}
     if raw:
         return f"echoed {raw} raw"
     if "--json" in command and found.status == 0:
@@ -68,54 +57,49 @@ def wrong(command: list[str], found: Said) -> str:
     return ""
 
 
-def of_scene(random: Random, folder: Path, *, mildly: bool) -> list[str]:
-    """Give a scene to a command."""
+def of_mild_scene(random: Random, folder: Path) -> list[str]:
+    """Give a scene to a command, about half of which are answered."""
+    return _of_scene(random, folder, questions.mild(random).encode())
+
+
+def of_wild_scene(random: Random, folder: Path) -> list[str]:
+    """Give an example scene with anything changed to a command."""
+    return _of_scene(random, folder, questions.wild(random, folder))
+
+
+def _of_scene(random: Random, folder: Path, content: bytes) -> list[str]:
     name = random.choice(NAMES)
-    text = questions.mild(random).encode() if mildly else questions.wild(random, folder)
-    (folder / name).write_bytes(text)
+    (folder / name).write_bytes(content)
     # one in a hundred is drawn or measured, which takes a second
-    usual = ["explain"] + ["run"] * 4 + ["ensemble"] * 3
-    command = random.choice(usual if random.random() < 0.99 else ["figures", "cost"])
-    return [command, name, *_options(random, command)]
+    if random.random() < 0.01:
+        return [random.choice(["figures", "cost"]), name, "--out", "out"]
+    command = random.choice(["explain"] + ["run"] * 4 + ["ensemble"] * 3)
+    few = ["--realisations", random.choice(["2", "3", "40", "1"]), "--workers", "1"]
+    more = random.choice(_options(random)[command]) if random.random() < 0.5 else []
+    return [command, name, *few * (command == "ensemble"), *more]
 
 
-def _options(random: Random, command: str) -> list[str]:
-    key = random.choice(list(questions.GOOD))
-    value = random.choice([random.choice(questions.GOOD[key]), random.choice(questions.VALUES)])
-    changes: dict[str, list[list[str]]] = {
-        "explain": [[], ["--json"], ["--tolerance", "1e-30"]],
+def _options(random: Random) -> dict[str, list[list[str]]]:
+    key = random.choice([*questions.GOOD, *questions.KEYS])
+    value = random.choice([*questions.GOOD.get(key, []), *questions.VALUES])
+    written = ["--out", "out", "--format", random.choice(["npz", "parquet", "csv"])]
+    return {
+        "explain": [["--json"], ["--tolerance", "1e-30"]],
         "run": [
-            [],
             ["--json"],
-            ["--out", "out"],
-            ["--out", "out", "--format", random.choice(["npz", "parquet"])],
+            written,
             ["--tolerance", random.choice(["1e-20", "1e-9", "0", "1e-99999", "x"])],
             ["--tolerance", "1e-15", "--certified"],
             ["--seed", random.choice(["5", "-1", "1,2", "3..5", "9" * 99])],
             ["--set", f"{key}={value}"],
             ["--set", f"{key}={value}", "--set", "disorder.seed=3", "--json"],
-            ["--set", f"{random.choice(questions.KEYS)}={value}"],
-            ["--checkpoint", random.choice(["kept", ".", "/dev/null", "scene.toml"])],
         ],
         "ensemble": [
-            [],
             ["--json"],
-            ["--covariance", "--out", "out"],
-            ["--covariance", "--json"],
-            ["--out", "out", "--format", random.choice(["npz", "parquet"])],
+            written,
             ["--until", random.choice(["1e-300", "0.5", "nan", "-1", "1e-9999", "1e300"])],
             ["--until", "0.9", "--confidence", random.choice(["0.5", "1", "0", "nan"])],
             ["--reach", random.choice(["1", "1e-300", "1e300", "inf", "0"])],
             ["--store", random.choice(["new", "scene.toml", ".", "no/where"])],
         ],
-        "figures": [["--json"]],
-        "cost": [["--json"]],
     }
-    if random.random() < 0.5:
-        return _few(random, command)
-    return [*_few(random, command), *random.choice(changes[command])]
-
-
-def _few(random: Random, command: str) -> list[str]:
-    few = ["--realisations", random.choice(["2", "3", "3", "40", "1"]), "--workers", "1"]
-    return {"ensemble": few, "figures": ["--out", "out"], "cost": ["--out", "out"]}.get(command, [])

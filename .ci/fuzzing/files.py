@@ -1,73 +1,10 @@
-"""Files that a case reads: stores, arrays, tables and packings in which something is odd."""
+"""Files that a case reads: arrays and tables in which something is odd."""
 
 import io
-import json
-import shutil
-import sqlite3
 from pathlib import Path
 from random import Random
-from typing import Any
 
 import numpy as np
-
-SCENE_OF_A_STORE = """
-packing = {height = 4, width = 6}
-disorder = {kind = "uniform", relative_std = 0.01, seed = 3}
-ask = {quantity = "profile"}
-"""
-
-
-def store(random: Random, folder: Path, whole: Path) -> list[str]:
-    """Damage a store, its bytes or what it says, and look at it or go on from it."""
-    path = folder / "store"
-    shutil.copy(whole, path)
-    shutil.copy(whole.with_name("scene.toml"), folder)
-    kind = random.randrange(4)
-    if kind == 0:
-        content = bytearray(path.read_bytes())
-        for _ in range(random.choice([1, 1, 2, 20])):
-            content[random.randrange(len(content))] ^= 1 << random.randrange(8)
-        path.write_bytes(content)
-    elif kind == 1:
-        content = bytearray(path.read_bytes())
-        path.write_bytes(content[: random.randrange(len(content))] + random.randbytes(9) * 9)
-    else:
-        _forge(random, path)
-    if random.random() < 0.5:
-        return ["ensemble-status", "store", *random.choice([[], ["--json"]])]
-    return ["ensemble", "scene.toml", "--store", "store", "--workers", "1"]
-
-
-def _forge(random: Random, path: Path) -> None:
-    database = sqlite3.connect(path, isolation_level=None)
-    tables = {"about": ["name", "content", "checksum"], "sums": ["first", "stop", "content"]}
-    values = [
-        None, 0, -1, 2**63 - 1, 1.5, "", "[", "null", "[" * 50_000, '{"a": 1}', "\x1b[2J",
-        "nan", b"", b"\xff\xfe", random.randbytes(64), "9" * 5000, "x" * 10**6,
-    ]  # fmt: skip
-    statements: list[tuple[str, tuple[object, ...]]] = []
-    for _ in range(random.choice([1, 1, 3])):
-        table = random.choice(list(tables))
-        column = random.choice(tables[table])
-        statements.append(
-            random.choice(
-                [
-                    (f"UPDATE {table} SET {column} = ?", (random.choice(values),)),
-                    (f"DELETE FROM {table} WHERE rowid = ?", (random.randrange(4),)),
-                    (f"DROP TABLE {table}", ()),
-                    (f"ALTER TABLE {table} ADD COLUMN x CHECK (abs(x) > randomblob(9))", ()),
-                    ("INSERT INTO sums VALUES (?, ?, ?, ?)", (5, 3, b"", "")),
-                    (f"PRAGMA user_version = {random.randrange(-5, 5)}", ()),
-                    ("CREATE VIEW v AS SELECT * FROM v", ()),
-                ]
-            )
-        )
-    for statement, arguments in statements:
-        try:
-            database.execute(statement, arguments)
-        except (sqlite3.Error, OverflowError):
-            continue
-    database.close()
 
 
 def _damaged(random: Random, content: bytes) -> bytes:
@@ -80,10 +17,8 @@ def _damaged(random: Random, content: bytes) -> bytes:
 
 
 def _number(random: Random) -> str:
-    usual = ["1", "1", "1.001", "0.99"]
-    return random.choice(
-        [*usual, "0", "-1", "1e400", "1e308", "-1e-400", "1e999", "2", "x", str(2**70)]
-    )
+    odd = ["0", "-1", "1e400", "1e308", "-1e-400", "1e999", "2", "x", str(2**70)]
+    return random.choice(["1", "1", "1.001", "0.99", *odd])
 
 
 def array(random: Random, folder: Path) -> list[str]:
@@ -94,9 +29,9 @@ def array(random: Random, folder: Path) -> list[str]:
     values[random.randrange(4), random.randrange(5)] = random.choice(odd)
     kinds = ["<f8"] * 9 + [">f8", "<f4", "<i8", "|b1", "<c16", "<U3"]
     with np.errstate(all="ignore"):
-        kept: Any = values.astype(random.choice(kinds))
+        given = values.astype(random.choice(kinds))
     buffer = io.BytesIO()
-    random.choice([np.save] * 8 + [np.savez])(buffer, kept)
+    random.choice([np.save] * 8 + [np.savez])(buffer, given)
     content = buffer.getvalue()
     content = content if random.random() < 0.3 else _damaged(random, content)
     (folder / "radii.npy").write_bytes(content)
@@ -128,35 +63,3 @@ def _of_file(folder: Path, name: str, random: Random) -> list[str]:
     (folder / "scene.toml").write_text("\n".join(lines), encoding="utf-8")
     command = random.choice([["run"]] * 12 + [["explain"]] * 7 + [["figures", "--out", "out"]])
     return [*command, "scene.toml"]
-
-
-PACKING: dict[str, Any] = {
-    "period": "12",
-    "fixed": 2,
-    "radii": ["1"] * 3,
-    "loads": [["0", "0"], ["0", "0"], ["0", "-1"]],
-    "centres": [["0", "0"], ["3", "0"], ["1.5", "1.32287565553229529525080787681963021285513"]],
-    "contacts": [[2, 0], [2, 1]],
-}
-
-
-def packings(random: Random, folder: Path) -> list[str]:
-    """Give a file of packings in which something is odd."""
-    packing = json.loads(json.dumps(PACKING))
-    for _ in range(random.choice([0, 1, 1, 1, 1, 2])):
-        key = random.choice(list(PACKING))
-        odd: Any = random.choice(
-            [_number(random), 2**70, -1, [], None, 1.5, [[_number(random)] * 2]]
-        )
-        if isinstance(packing[key], list) and packing[key] and random.random() < 0.8:
-            at = random.randrange(len(packing[key]))
-            if isinstance(packing[key][at], list) and packing[key][at]:
-                packing[key][at][random.randrange(len(packing[key][at]))] = odd
-            else:
-                packing[key][at] = odd
-        else:
-            packing[key] = odd
-    text = json.dumps({"format": "force-diffusion packings 1", "packings": [packing]}).encode()
-    damaged = _damaged(random, text) if random.random() < 0.2 else text
-    (folder / "packings.json").write_bytes(damaged)
-    return ["check-packings", "packings.json", *random.choice([[], ["--json"]])]

@@ -12,7 +12,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.printing.text import text
 
-from ..coq.record import Recorded, recorded
+from ..coq.record import recorded
 from ..export.prose import both, either
 from ..export.terminal import statement_text
 from ..framework.catalogue import Number as EquationNumber
@@ -24,7 +24,6 @@ from ..framework.catalogue import (
     theorem_of,
 )
 from ..framework.loading import load, with_premises
-from ..framework.own import assert_allowed, is_own
 from ..framework.record import Derivation, ExactCase
 from ..framework.runner import run, run_all
 from .arrays import evaluate
@@ -153,17 +152,17 @@ class Equation(Formula):
         >>> [premise.number for premise in fd.equation(13).premises]
         [11, 12]
         """
-        return tuple(equation(premise) for premise in self._derivation.premises)
+        return tuple(_equation(premise.number) for premise in self._derivation.premises)
 
     @property
-    def coq(self) -> Recorded:
+    def coq(self) -> str:
         """What Coq said of it when it was last asked; :func:`certify` asks again.
 
         >>> import force_diffusion as fd
-        >>> print(fd.equation(13).coq)
-        accepted by Coq 8.16.1
+        >>> fd.equation(13).coq
+        'accepted by Coq 8.16.1'
         """
-        return recorded(self._derivation)
+        return recorded(self.number)
 
     @property
     def _domain(self) -> str:
@@ -356,9 +355,9 @@ base+1 or surface.
         return Steps.of(self._derivation)
 
     def prove(self, *, premises: bool = True) -> Proof:
-        """Run its proofs, its witnesses and its mutants, and those of all that it rests on.
+        """Prove it, its steps and its claims, and all that it rests on.
 
-        This takes seconds. With ``premises=False`` the equations that it rests on are taken as
+        With ``premises=False`` the equations that it rests on are taken as
         proved, and the result says so.
 
         >>> import force_diffusion as fd
@@ -368,7 +367,7 @@ base+1 or surface.
         >>> print(str(proof).splitlines()[0])
         Eq. 9 is proved. Its premise, Eq. 8: taken as proved, not run.
         >>> [check.kind for check in proof.checks]
-        ['proof', 'step', 'step', 'step', 'step', 'step', 'witness']
+        ['proof', 'step', 'step', 'step', 'step', 'step']
         """
         if premises:
             return Proof(tuple(run_all(with_premises([self._derivation]))), premises_run=True)
@@ -430,10 +429,8 @@ def _equation(number: EquationNumber) -> Equation:
     return Equation(load(number))
 
 
-def equation(number: EquationNumber | Derivation) -> Equation:
+def equation(number: EquationNumber) -> Equation:
     """The equation with this number of the paper, or with this label: "B1" and so on.
-
-    For a derivation of your own it gives an equation that can do all that the paper's can.
 
     >>> import force_diffusion as fd
     >>> fd.equation(13).title
@@ -444,15 +441,11 @@ def equation(number: EquationNumber | Derivation) -> Equation:
     force_diffusion...NoSuchFormError: there is no equation 99: give a number from 1 to 16...
 
     Args:
-        number: such as 13, "13" or "B1"; or a derivation.
+        number: such as 13, "13" or "B1".
 
     Raises:
         NoSuchFormError: there is none.
-        OwnDerivationError: the derivation's label is not allowed.
     """
-    if isinstance(number, Derivation):
-        assert_allowed(number)
-        return Equation(number) if is_own(number) else _equation(number.number)
     known = number_of(number) if isinstance(number, str) else number
     is_number = isinstance(known, Integral | str) and not isinstance(known, bool)
     if not is_number or known not in modules():

@@ -25,12 +25,10 @@ from force_diffusion.derivations.framework.vocabulary import (
     equation,
     induct,
     minus,
-    on_packings,
     rewrite,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import each_tilted
 from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED, Loading
 from force_diffusion.symbolic.mechanics.lattice import mirror
@@ -309,14 +307,7 @@ B1 = Derivation(
     premises=tuple(one.DERIVATION for one in (eq06, eq07, eq08, eq10, eq11)),
     printed=PRINTED,
     steps=steps,
-    loads=("surface tilted",),
     where=WHERE,
-    witnesses=tuple(
-        on_packings(
-            equation(PRINTED[part].lhs, in_radii(part)), "tilted", each_tilted, f"{name} part"
-        )
-        for part, name in enumerate(("first", "second"))
-    ),
     remarks=(
         "Only the changes along the other branch carry t: what turns into f⁺ is what came along "
         "n⁻. As L⁻ is taken away, f⁺ stays near L⁺ and feels the tilt of its own contact alone.",

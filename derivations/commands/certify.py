@@ -2,7 +2,6 @@
 
 import json
 import re
-from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,27 +17,16 @@ if TYPE_CHECKING:
     from ..coq.record import Certificate
 
 STATUSES = (
-    "Takes about two minutes, the first time. Exit status: 0 all accepted, 1 something is not, or "
-    "Coq is absent, 2 wrong usage, 3 the disk or a pipe failed, 130 interrupted."
+    "Takes about two minutes. Exit status: 0 all accepted, 1 something is not, 2 wrong usage, "
+    "3 Coq is absent, or the disk or a pipe failed, 130 interrupted."
 )
 
 
 def certify(
     numbers: Annotated[
         list[str] | None,
-        typer.Argument(
-            metavar="[N...]",
-            help="Equations to ask about; by default all that are stated.",
-        ),
+        typer.Argument(metavar="[N...]", help="Equations of the paper; by default all."),
     ] = None,
-    mutants: Annotated[
-        bool,
-        typer.Option(
-            "--mutants",
-            help="Ask also about every printed equation with one change: whether it is false, and "
-            "accepted is none that 'derive' refutes. Takes several minutes.",
-        ),
-    ] = False,
     out: Annotated[
         Path | None, out_option("the theory, the statements and the verdicts as JSON")
     ] = None,
@@ -46,60 +34,32 @@ def certify(
     overwrite: Overwrite = False,
 ) -> None:
     """Ask Coq, an independent proof assistant, whether it accepts the printed equations."""
-    from ..api.certificates import stated
-    from ..coq.files import files_of, sha256, theory
+    from ..api.certificates import sources, stated
     from ..coq.record import RECORD
 
     wanted = [equation_number(word) for word in numbers] if numbers else None
-    files = theory() | files_of(stated(wanted))
+    files = sources(stated(wanted))
     with output(out, "certify", [*files, RECORD], overwrite) as folder:
-        told: dict[object, Certificate] = {}
         with noticing() as notice:
-
-            def tell(one: "Certificate") -> None:
-                told[one.number] = one
-                notice("")
-                if not as_json:
-                    print(_line(one), flush=True)
-
-            found = fd.certify(wanted, mutants=mutants, notice=notice, told=tell)
-        data = {**found.data(), "files": {name: sha256(text) for name, text in files.items()}}
+            found = fd.certify(wanted, notice=notice)
+        data = json.dumps(found.data(), indent=2)
         if folder:
-            folder.write({**files, RECORD: json.dumps(data, indent=2) + "\n"})
+            folder.write({**files, RECORD: f"{data}\n"})
     if as_json:
-        print(json.dumps(data, indent=2))
+        print(data)
     else:
-        for one in (*found.equations, *found.packings):
-            if one != told[one.number]:  # coqchk took it back, or there were mutants
-                print(_line(one))
-        counts = Counter(str(one) for one in found.equations)
-        print(", ".join(f"{count} {verdict}" for verdict, count in counts.items()) + ".")
+        print(*map(_line, found.equations), sep="\n")
+        accepted = sum(one.accepted for one in found.equations)
+        print(f"{accepted} of {len(found.equations)} accepted.")
     raise typer.Exit(0 if found.passed else 1)
 
 
 def _line(one: "Certificate") -> str:
-    """One line about an equation or a packing, and what is wrong with it."""
-    from ..framework.loading import load
-    from ..framework.runner import SEEDS
-
-    name, title = str(one.number), "an exact packing's Taylor coefficients, as fractions"
-    if one.number not in SEEDS:
-        name, title = f"Eq. {one.number!s:>2}", load(one.number).title
-    said = f"{name:<6}  {one!s:<24}  {title}"
-    if one.about:
-        shown = ", ".join(re.sub(r"^\((.*)\)%Z$", r"\1", words) for words in one.about)
-        said += f"\n    for {shown.replace('>=', '≥').replace('<=', '≤')}"
-    if one.note:
-        said += f"\n    {one.note}"
-    if one.changes:
-        said += (
-            f"\n    of {one.changes.made} mutants {one.changes.stated} stated, "
-            f"{one.changes.refuted} proved false, {len(one.changes.accepted)} accepted"
-        )
-    return said + "".join(
-        f"\n    accepted, and not equivalent: part {change.part + 1}, {change.change}"
-        for change in one.wrong
-    )
+    """One line about an equation, and below it what it is about and what is wrong with it."""
+    about = (re.sub(r"^\((.*)\)%Z$", r"\1", words) for words in one.about)
+    shown = ", ".join(about).replace(">=", "≥").replace("<=", "≤")
+    said = f"Eq. {one.number!s:>2}  {one!s:<24}  {fd.equation(one.number).title}\n    for {shown}"
+    return f"{said}\n    {one.note}" if one.note else said
 
 
 def register(app: typer.Typer) -> None:

@@ -22,10 +22,7 @@ from ..export.prose import either
 
 # Name: (module, what --help says: the first paragraph of the command's docstring).
 COMMANDS = {
-    "derive": (
-        "equations",
-        "Prove equations and all that they rest on, and check them.",
-    ),
+    "derive": ("equations", "Prove equations and all that they rest on."),
     "certify": (
         "certify",
         "Ask Coq, an independent proof assistant, whether it accepts the printed equations.",
@@ -35,21 +32,9 @@ COMMANDS = {
     "examples": ("examples", "Copy the example scenes into a folder."),
     "run": ("scenes", "Solve the packing of a scene and answer its question."),
     "explain": ("scenes", "Say what 'run' would do, and why."),
-    "check-packings": (
-        "packings",
-        "Prove that packings touch where they say, without tension or overlap.",
-    ),
     "cost": (
         "scenes",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",
-    ),
-    "stability": (
-        "stability",
-        "Measure what stability costs: errors, lost bits and times with and without it.",
-    ),
-    "cascade": (
-        "cascade",
-        "Open one contact that barely pulls, and count what changes.",
     ),
     "ensemble": (
         "ensemble",
@@ -60,14 +45,9 @@ COMMANDS = {
         "Say what the store of an ensemble holds, and check it.",
     ),
     "figures": ("figures", "Draw the paper's figures from new simulations of exact packings."),
-    "report": (
-        "report",
-        "Write all results as one HTML page: derivations, checks, figures, costs, stability.",
-    ),
 }
 STATUSES = (
-    "Exit status: 0 all proved, 1 something refuted or undecided, or the checker at fault, "
-    "2 wrong usage or input, "
+    "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
     "3 the disk or a pipe failed, 130 interrupted."
 )
 

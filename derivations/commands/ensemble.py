@@ -15,7 +15,6 @@ from force_diffusion.numeric.scene.combinations import answered, either
 import force_diffusion as fd
 
 from ..export.answers import Format
-from ..export.tables import csv_text
 from .guard import about, in_range, say, tell
 from .output import Overwrite, out_option, output
 from .shared import (
@@ -81,9 +80,6 @@ def ensemble(
     cluster: Annotated[
         Where | None, typer.Option(help="Make a Dask cluster on this machine.")
     ] = None,
-    covariance: Annotated[
-        bool, typer.Option("--covariance", help="Also give covariances between rows.")
-    ] = False,
     reach: Annotated[
         float | None,
         typer.Option(metavar="X", help="Outer edge of a histogram's bins, in units of force."),
@@ -101,24 +97,18 @@ def ensemble(
     with about(scene.name):
         read = fd.read_scene(scene)
     checked(written, out)
-    names = [
-        "result.json",
-        f"{read.ask.quantity}.{written}",
-        *(["covariance.csv"] if covariance else []),
-    ]
+    names = ["result.json", f"{read.ask.quantity}.{written}"]
     with output(out, f"ensemble {scene}", names, overwrite) as folder:
         found = _solved(
             scene.name, read, realisations, until, store, quiet,
             confidence=confidence, workers=workers, scheduler=scheduler or cluster,
-            covariance=covariance, reach=reach,
+            reach=reach,
         )  # fmt: skip
         warn(scene, found.measurement.plan)
         data = found.data(rows=False)
         data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
         if folder:
-            matrix = data.get("covariance")
-            more = {} if matrix is None else {"covariance.csv": _matrix_text(matrix)}
-            write(folder, found, data, written, more)
+            write(folder, found, data, written)
     lines = str(found).splitlines()
     show(found, data, lines, as_json=as_json, quiet=quiet, folder=folder)
     if found.reached is False:
@@ -198,17 +188,6 @@ def _progress(
             bar.update(task, description=f"σ_f to {width:.2g}, until {until:g}")
 
     return progress
-
-
-def _matrix_text(covariance: dict[str, Any]) -> str:
-    """The matrix as CSV: a column a row of the result, under that row's label.
-
-    A histogram has one group of all that is counted; without a label it is called what it is of.
-    """
-    labels = [":".join(map(str, one)) for one in zip(*covariance["labels"].values(), strict=True)]
-    labels = labels or [covariance["of"]]
-    rows = [dict(zip(labels, map(repr, row), strict=True)) for row in covariance["matrix"]]
-    return csv_text(rows)
 
 
 def ensemble_status(

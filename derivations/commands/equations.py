@@ -1,7 +1,6 @@
 """The commands for equations: a thin layer over ``deriving`` and ``Equation``."""
 
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -18,13 +17,11 @@ from ..framework.catalogue import (
     number_of,
 )
 from .cli import STATUSES
-from .guard import tell
 from .output import Overwrite, folder_of, out_option
 
 if TYPE_CHECKING:
     from ..api.equation import Equation
     from ..api.formula import Formula
-    from ..framework.record import Derivation
 
 
 class Form(StrEnum):
@@ -50,7 +47,7 @@ def equation_number(word: str) -> Number:
     several = " To derive, several have spaces between them, as derive 13 14." * ("," in word)
     raise typer.BadParameter(
         f"'{word}' is not an equation of this package. Give a number {allowed()} ('force-diffusion "
-        f"list' names them), or, of your own, a Python file such as my_file.py.{several}",
+        f"list' names them).{several}",
         param_hint="N",
     )
 
@@ -60,30 +57,9 @@ def equations_of(word: str) -> list[Number]:
     return list(cases_of(word.upper())) or [equation_number(word)]
 
 
-def wanted_of(words: Iterable[str]) -> "list[Number | Derivation]":
-    """Numbers of equations and theorems, and the derivations that Python files state."""
-    found: list[Number | Derivation] = []
-    for word in words:
-        if word.endswith(".py"):
-            from ..framework.own import derivations_in
-
-            found += derivations_in(Path(word))
-        else:
-            found += equations_of(word)
-    return found
-
-
-@contextmanager
-def blamed(words: Iterable[str]) -> Iterator[None]:
-    """Tell what goes wrong in the Python files among these words by their lines."""
-    paths = [Path(word) for word in words if word.endswith(".py")]
-    if not paths:
-        yield
-        return
-    from ..framework.own import blamed_on
-
-    with blamed_on(*paths):
-        yield
+def wanted_of(words: Iterable[str]) -> list[Number]:
+    """Numbers of equations, and of all cases of theorems."""
+    return [number for word in words for number in equations_of(word)]
 
 
 def derive(
@@ -91,8 +67,7 @@ def derive(
         list[str] | None,
         typer.Argument(
             metavar="[N...]",
-            help="Equations, theorems such as T4, or Python files with derivations of your own, "
-            "which are run; all equations by default.",
+            help="Equations, or theorems such as T4; all equations by default.",
         ),
     ] = None,
     out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
@@ -111,37 +86,20 @@ def derive(
     ] = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Prove equations and all that they rest on, and check them."""
+    """Prove equations and all that they rest on.
+
+    Of a single equation all steps and claims are printed, of several a line each.
+    """
     from . import deriving
 
-    with blamed(numbers or ()):
-        wanted = wanted_of(numbers or ()) or list(modules())
-        status = deriving.derive(wanted, out, as_json, overwrite, columns, article)
-        if not status:  # else there is no proof that rests on any
-            _tell_of_premises([one for one in wanted if not isinstance(one, int | str)])
-    raise typer.Exit(status)
-
-
-def _tell_of_premises(own: "Iterable[Derivation]") -> None:
-    """Say what derivations of one's own rest on and do not name."""
-    from ..framework.own import premises_unnamed
-
-    for one in own:
-        if unnamed := [f"premise({number!r})" for number in premises_unnamed(one)]:
-            tell(
-                f"{one.number}: its steps rest on more than its premises name, taken as proved "
-                f"here: add {', '.join(unnamed)}"
-            )
+    wanted = wanted_of(numbers or ()) or list(modules())
+    raise typer.Exit(deriving.derive(wanted, out, as_json, overwrite, columns, article))
 
 
 def show(
     numbers: Annotated[
         list[str],
-        typer.Argument(
-            metavar="N",
-            help="Numbers of equations, a theorem's name, or a Python file with a derivation of "
-            "your own, which is run.",
-        ),
+        typer.Argument(metavar="N", help="Numbers of equations, or a theorem's name."),
     ],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
@@ -163,16 +121,11 @@ def show(
     columns: Columns = 1,
 ) -> None:
     """Print equations, or all of a theorem, without deriving them."""
-    with blamed(numbers):
-        _show(numbers, form, exact, at_j, columns)
-
-
-def _show(words: list[str], form: Form, exact: bool, at_j: str | None, columns: int) -> None:
-    numbers = wanted_of(words)
-    if exact and len(numbers) > 1:
-        names = ", ".join(str(getattr(one, "number", one)) for one in numbers)
+    wanted = wanted_of(numbers)
+    if exact and len(wanted) > 1:
+        names = ", ".join(map(str, wanted))
         raise typer.BadParameter(
-            f"--exact goes with one, and {' '.join(words)} are several; name one: {names}.",
+            f"--exact goes with one, and {' '.join(numbers)} are several; name one: {names}.",
             param_hint="N",
         )
     if at_j is not None and not exact:
@@ -184,17 +137,17 @@ def _show(words: list[str], form: Form, exact: bool, at_j: str | None, columns: 
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
     written = []
-    for wanted in map(fd.equation, numbers):
+    for whole in map(fd.equation, wanted):
         try:
-            shown = wanted.exact(at_j) if exact else wanted
+            shown = whole.exact(at_j) if exact else whole
         except NoSuchFormError as unknown:
             hint = "--exact" if unknown.hint == "exact" else "--at-j / --case"
             raise typer.BadParameter(str(unknown), param_hint=hint) from None
-        written.append(_written(shown, wanted, form, columns))
+        written.append(_written(shown, whole, form, columns))
     print("\n\n".join(written))
 
 
-def _written(shown: "Formula", wanted: "Equation", form: Form, columns: int) -> str:
+def _written(shown: "Formula", whole: "Equation", form: Form, columns: int) -> str:
     match form:
         case Form.LATEX:
             return f"\\begin{{equation}}\n{shown.latex(columns)}\n\\end{{equation}}"
@@ -203,7 +156,7 @@ def _written(shown: "Formula", wanted: "Equation", form: Form, columns: int) -> 
         case Form.PYTHON:
             return shown.python_code()
         case Form.STEPS:
-            return str(wanted.steps())
+            return str(whole.steps())
     return str(shown)
 
 
@@ -213,9 +166,8 @@ def list_equations() -> None:
     Beside each stands what Coq said of it when it was last asked.
     """
     for one in map(fd.equation, modules()):
-        theorem = one.theorem or ""
         print(
-            f"{one.number!s:>3}  {theorem:<2}  {one.name:<26}  {one.coq.verdict:<13}  {one.title}"
+            f"{one.number!s:>3}  {one.theorem or '':<2}  {one.name:<26}  {one.coq:<22}  {one.title}"
         )
 
 

@@ -1,15 +1,12 @@
 """The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
-from collections.abc import Callable
-from contextlib import ExitStack, nullcontext
+from contextlib import ExitStack
 from fractions import Fraction
-from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic import processes
 from force_diffusion.numeric.arithmetic.errors import printable
 from force_diffusion.numeric.figures.names import (
     FIGURES,
@@ -35,8 +32,6 @@ if TYPE_CHECKING:
 
 MOST_REALISATIONS = 1_000_000
 HIGHEST, MOST_HEIGHTS = 10_000, 6
-# So few figures are drawn sooner than another process has loaded what draws.
-FEW = 2
 STATUSES = (
     "Exit status: 0 made, 2 wrong usage, 3 matplotlib is missing, or the disk or the memory "
     "failed, 130 interrupted."
@@ -217,42 +212,25 @@ def _made(
     own: dict[str, tuple[Fraction | None, tuple[str, ...]]],
     **options: Any,
 ) -> tuple[dict[str, Any], dict[str, dict[str, str | bytes]]]:
-    """Make figures, drawn in a process beside: what was found, and the files of each."""
+    """Make figures: what was found, and the files of each."""
     data: dict[str, Any] = {"command": command, "figures": {}}
     files: dict[str, dict[str, str | bytes]] = {}
-    with processes.beside() if len(wanted) > FEW else nullcontext(partial) as start:
-        begun: dict[str, Callable[[], PaperFigure]] = {}
-        for name in wanted:
-            models = [model for model in beside if MODELS[model] == name]
-            chosen = {key: value for key, (value, those) in own.items() if name in those}
-            more = {**options, **chosen, "beside": models, "start": start}
-            begun[name] = _begun(name, command, more)
-        # Those that were not begun beside are drawn here.
-        drawn = {name: begun[name]() for name in reversed(wanted)}
     for name in wanted:
-        made = drawn[name]
-        found = {
-            "title": made.title,
-            "files": list(made.files),
-            "says": made.lines,
-            **made.facts,
-        }
+        with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
+            if name.endswith(".toml"):
+                made = _own(Path(name), command, options["notice"])
+            else:
+                models = [model for model in beside if MODELS[model] == name]
+                chosen: dict[str, Any] = {
+                    key: value for key, (value, those) in own.items() if name in those
+                }
+                made = fd.figure(name, command=command, beside=models, **options, **chosen)
+        found = {"title": made.title, "files": list(made.files), "says": made.lines, **made.facts}
         data["figures"][name] = found
         text = json.dumps({"command": command, **found}, indent=2, allow_nan=False)
         stem = next(iter(made.files)).partition(".")[0]
         files[name] = {**made.files, f"{stem}.json": text + "\n"}
     return data, files
-
-
-def _begun(name: str, command: str, options: dict[str, Any]) -> "Callable[[], PaperFigure]":
-    """Make what a figure shows, and start to draw it; a scene of one's own is drawn at once."""
-    from force_diffusion.numeric.figures import catalogue
-
-    with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
-        if name.endswith(".toml"):
-            own = _own(Path(name), command, options["notice"])
-            return lambda: own
-        return catalogue.begun(name, command=command, **options)
 
 
 def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":

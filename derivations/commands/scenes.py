@@ -16,6 +16,7 @@ from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 import force_diffusion as fd
 
 from ..export.answers import Format
+from ..export.tables import csv_text
 from .cli import command_line, shell_line
 from .guard import about as named
 from .guard import in_range, say
@@ -24,13 +25,13 @@ from .shared import (
     Quiet,
     Written,
     checked,
+    drawn,
     images,
     noticing,
     show,
     sourced,
     warn,
     write,
-    write_study,
 )
 from .sweep import Seed, Settings, name_of, variants
 
@@ -122,13 +123,6 @@ def run(
     quiet: Quiet = False,
     tolerance: _Tolerance = None,
     certified: _Certified = False,
-    checkpoint: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="FILE",
-            help="Where a packing that the memory does not hold goes on after an interruption.",
-        ),
-    ] = None,
     settings: Settings = None,
     seed: Seed = None,
     overwrite: Overwrite = False,
@@ -136,8 +130,6 @@ def run(
     """Solve the packing of a scene and answer its question."""
     checked(written, out)
     asked = variants(settings, seed)
-    if len(asked) > 1 and checkpoint is not None:
-        raise ForceDiffusionError("--checkpoint is of one scene: leave it out, or set one value")
     plans = [_planned(scene, tolerance, certified, one) for one in asked]  # all are checked first
     listed = as_json and len(asked) > 1
     for place, (planned, changes) in enumerate(zip(plans, asked, strict=True)):
@@ -151,7 +143,7 @@ def run(
             if not (as_json or quiet):
                 say(f"# {', '.join(f'{key} = {value}' for key, value in varied.items())}")
         question = shell_line(["run", str(scene), *words]) if words else f"run {scene}"
-        _answer(planned, scene, question, folder, written, as_json, quiet, checkpoint, overwrite)
+        _answer(planned, scene, question, folder, written, as_json, quiet, overwrite)
     if listed:
         print("]")
 
@@ -164,27 +156,21 @@ def _answer(
     written: Format,
     as_json: bool,
     quiet: bool,
-    checkpoint: Path | None,
     overwrite: bool,
 ) -> None:
     """Answer one scene, and print or write the answer."""
     from force_diffusion.numeric.run.outcome import outcome_lines
 
     warn(scene, planned)
-    unilateral = planned.scene.effects.contacts == "unilateral"
     names = ["result.json", f"{planned.scene.ask.quantity}.{written}"]
-    names += ["packings.json"] * unilateral
     with output(out, question, names, overwrite) as folder:
-        found = _solved(planned, scene, quiet, checkpoint)
+        found = _solved(planned, scene, quiet)
         about = found.data(rows=False)
         about["source"] = sourced(about["source"], scene, command_line())
         if folder:
-            more = {"packings.json": json.dumps(found.packings())} if unilateral else {}
-            write(folder, found, about, written, more)
+            write(folder, found, about, written)
     lines = outcome_lines(about, found.count)
     show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
-    if checkpoint is not None and planned.problem.segment:
-        checkpoint.unlink(missing_ok=True)  # nothing is left to be gone on with
 
 
 def cost(
@@ -203,18 +189,24 @@ def cost(
             read = fd.read_scene(scene)
             found = fd.cost(read, notice)
         source = sourced(source_of(read), scene, None)
-        title = printable(scene.stem)
-        about = {"command": command, "source": source}
-        plot = partial(found.plot, title)
-        data = write_study(folder, found, f"Cost of accuracy: {title}", about, plot)
+        data = json.dumps({"command": command, "source": source, **found.data()}, indent=2)
+        if folder:
+            title = printable(scene.stem)
+            plot = partial(found.plot, title)
+            files: dict[str, str | bytes] = {
+                "cost.json": data + "\n",
+                "cost.csv": csv_text([{**row, "command": command} for row in found.listed()]),
+                **drawn(plot, "cost", f"Cost of accuracy: {title}", command),
+            }
+            folder.write(files, seed=source["seed"], inputs=source["sha256"])
     print(data if as_json else found)
 
 
-def _solved(planned: "Plan", scene: Path, quiet: bool, checkpoint: Path | None) -> "Outcome":
+def _solved(planned: "Plan", scene: Path, quiet: bool) -> "Outcome":
     """Run a plan under a progress bar."""
     bar, progress = (nullcontext(), None) if quiet else _progress(planned)
     with named(scene.name), in_range(), bar:
-        return fd.run(planned, progress, checkpoint=checkpoint)
+        return fd.run(planned, progress)
 
 
 def _progress(

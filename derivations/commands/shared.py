@@ -1,8 +1,7 @@
 """What several commands share: a line that tells how far they are, and plots if they can be."""
 
-import json
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,13 +13,11 @@ from force_diffusion.numeric.tables import csv_bytes
 
 from ..export import answers
 from ..export.answers import Format
-from ..export.tables import csv_text, with_command
 from .guard import tell
 from .output import Folder
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
-    from force_diffusion.numeric.studies.study import Study
     from matplotlib.figure import Figure
 
 
@@ -60,15 +57,11 @@ def write(
     answer: answers.Answered,
     about: dict[str, Any],
     written: Format,
-    more: Mapping[str, str],
 ) -> None:
-    """Write an answer and ``more`` files beside it into a folder, and what they came from."""
+    """Write an answer into a folder, and what it came from."""
     source = about["source"]
-    folder.write(
-        {**answers.files_of(answer, about, written), **more},
-        seed=source["seed"],
-        inputs=source["sha256"],
-    )
+    files = answers.files_of(answer, about, written)
+    folder.write(files, seed=source["seed"], inputs=source["sha256"])
 
 
 def show(
@@ -109,29 +102,6 @@ def noticing() -> Iterator[Callable[[str], None]]:
         yield notice
     finally:
         notice("")
-
-
-def write_study(
-    folder: Folder | None,
-    found: "Study",
-    title: str,
-    about: dict[str, Any],
-    plot: "Callable[[], Figure] | None" = None,
-) -> str:
-    """Write a study into a folder, if there is one; give it as JSON, the words about it first."""
-    command, source = about["command"], about.get("source", {})
-    data = json.dumps({**about, **found.data()}, indent=2)
-    if folder:
-        tables = {
-            file: csv_text(with_command(rows, command)) for file, rows in found.files().items()
-        }
-        images = drawn(plot or found.plot, found.name, title, command)
-        folder.write(
-            {f"{found.name}.json": data + "\n", **tables, **images},
-            seed=source.get("seed"),
-            inputs=source.get("sha256"),
-        )
-    return data
 
 
 def drawn(plot: "Callable[[], Figure]", name: str, title: str, command: str) -> dict[str, bytes]:

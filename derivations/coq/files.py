@@ -2,7 +2,6 @@
 
 import hashlib
 import re
-from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -20,10 +19,9 @@ def theory() -> dict[str, str]:
     return {file.name: file.read_text(encoding="utf-8") for file in sorted(PROOFS.glob("*.v"))}
 
 
-def theory_hash(sources: Mapping[str, str] | None = None) -> str:
-    """Hash of the theory, or of such files: of their names and hashes."""
-    files = theory() if sources is None else sources
-    return sha256("".join(f"{name} {sha256(source)}\n" for name, source in files.items()))
+def theory_hash() -> str:
+    """Hash of the theory: of the names and hashes of its files."""
+    return sha256("".join(f"{name} {sha256(source)}\n" for name, source in theory().items()))
 
 
 _IMPORTS = re.compile(rf"^From {LIBRARY} Require (?:Import |Export )?([\w\s]+)\.$", re.MULTILINE)
@@ -47,10 +45,9 @@ class Companion:
     proof: str
 
 
-HEAD = "Open Scope R_scope.\n"
 WORDS = (
-    "From Coq Require Import ZArith Reals List.\nImport ListNotations.\n"
-    f"From {LIBRARY} Require Import Roots Model.\n"
+    "From Coq Require Import ZArith Reals.\n"
+    f"From {LIBRARY} Require Import Roots Model.\nOpen Scope R_scope.\n"
 )
 """All that a statement is read with."""
 
@@ -70,11 +67,7 @@ class Statement:
         tactic: of ``proofs/Certify.v``, which should prove it.
         companions: that the hypotheses can be fulfilled, and that no sum's bounds are reversed
             under them (SymPy reads such sums in another way).
-        theory: the file of ``proofs/`` that holds the tactic.
         about: its ranges and sites, from among the hypotheses.
-        disproof: tactics of ``proofs/Counterexamples.v`` that should prove its contrary, if it is
-            wrong; nothing where there are none.
-        beside: the printed statement, if the disproof needs it, as a lemma of its name.
     """
 
     name: str
@@ -82,10 +75,7 @@ class Statement:
     conclusion: str
     tactic: str
     companions: tuple[Companion, ...] = ()
-    theory: str = "Certify"
     about: tuple[str, ...] = ()
-    disproof: str = ""
-    beside: "Statement | None" = None
 
     @property
     def proposition(self) -> str:
@@ -95,36 +85,36 @@ class Statement:
     @property
     def stated(self) -> str:
         """The file that says it."""
-        return words_of(
-            {"statement": self.proposition} | {c.name: c.proposition for c in self.companions}
+        says = {"statement": self.proposition} | {c.name: c.proposition for c in self.companions}
+        return "\n".join(
+            (WORDS, *(f"Definition {name} : Prop :=\n{one}.\n" for name, one in says.items()))
         )
 
     @property
     def proof(self) -> str:
         """The file that proves it, and the companions."""
-        return proof_of(
-            self.theory,
-            self.statement_in,
-            ("Theorem", self.name, "statement", f"{self.tactic}."),
-            *(("Lemma", f"{self.name}_{c.name}", c.name, c.proof) for c in self.companions),
+        proofs = {"statement": f"{self.tactic}."} | {c.name: c.proof for c in self.companions}
+        return (
+            f"From {LIBRARY} Require Import Certify.\nFrom {LIBRARY} Require {self.statement_in}.\n"
+            "Open Scope R_scope.\nLtac Zify.zify_post_hook ::= Z.div_mod_to_equations.\n"
+        ) + "".join(
+            f"\nTheorem {name} : {self.statement_in}.{name}.\n"
+            f"Proof. cbv delta [{self.statement_in}.{name}]. {proof} Qed.\n"
+            for name, proof in proofs.items()
         )
 
     @property
     def acceptance(self) -> str:
         """The file that compares both; it ends by naming the axioms."""
-        proved = {self.name: "statement"} | {
-            f"{self.name}_{c.name}": c.name for c in self.companions
-        }
-        return "\n".join(
-            (
-                f"From {LIBRARY} Require {self.statement_in} {self.module}.",
-                *(
-                    f"Definition accepted_{says} : {LIBRARY}.{self.statement_in}.{says} :=\n"
-                    f"  {LIBRARY}.{self.module}.{name}."
-                    for name, says in proved.items()
-                ),
-                "Print Assumptions accepted_statement.\n",
-            )
+        names = ("statement", *(c.name for c in self.companions))
+        compared = (
+            f"Definition accepted_{name} : {LIBRARY}.{self.statement_in}.{name} :=\n"
+            f"  {LIBRARY}.{self.module}.{name}.\n"
+            for name in names
+        )
+        return (
+            f"From {LIBRARY} Require {self.statement_in} {self.module}.\n{''.join(compared)}"
+            "Print Assumptions accepted_statement.\n"
         )
 
     @property
@@ -134,7 +124,7 @@ class Statement:
 
     @property
     def module(self) -> str:
-        """The name of the file that proves it; also of ``accepted_in`` without its ending."""
+        """The name of the file that proves it."""
         return self.name.capitalize()
 
     @property
@@ -144,13 +134,8 @@ class Statement:
 
     @property
     def accepted_in(self) -> str:
-        """The file in which it is accepted."""
-        return self.accepted_file(self.name)
-
-    @staticmethod
-    def accepted_file(name: str) -> str:
-        """The file in which a theorem is accepted."""
-        return f"{name.capitalize()}_accepted.v"
+        """The name of the file in which it is accepted."""
+        return f"{self.module}_accepted"
 
     @property
     def files(self) -> dict[str, str]:
@@ -158,42 +143,5 @@ class Statement:
         return {
             f"{self.statement_in}.v": self.stated,
             f"{self.module}.v": self.proof,
-            self.accepted_in: self.acceptance,
+            f"{self.accepted_in}.v": self.acceptance,
         }
-
-
-def words_of(propositions: Mapping[str, str]) -> str:
-    """A file of propositions, by name, which nothing but ``WORDS`` has a say in."""
-    return "\n".join(
-        (
-            f"{WORDS}{HEAD}",
-            *(f"Definition {name} : Prop :=\n{says}.\n" for name, says in propositions.items()),
-        )
-    )
-
-
-def head_of(theory: str, stated_in: str) -> str:
-    """What stands at the head of a file of proofs."""
-    return (
-        f"From {LIBRARY} Require Import {theory}.\nFrom {LIBRARY} Require {stated_in}.\n"
-        f"{HEAD}Ltac Zify.zify_post_hook ::= Z.div_mod_to_equations.\n"
-    )
-
-
-def files_of(made: Iterable[Statement]) -> dict[str, str]:
-    """Names and sources of all files of several statements."""
-    return {name: source for one in made for name, source in one.files.items()}
-
-
-def proof_of(theory: str, stated_in: str, *proofs: tuple[str, str, str, str]) -> str:
-    """A file of proofs: kind, name, which proposition of ``stated_in``, and the proof."""
-    return "\n".join(
-        (
-            head_of(theory, stated_in),
-            *(
-                f"{kind} {name} : {stated_in}.{says}.\n"
-                f"Proof. cbv delta [{stated_in}.{says}]. {proof} Qed.\n"
-                for kind, name, says, proof in proofs
-            ),
-        )
-    )

@@ -6,25 +6,19 @@ import shutil
 import signal
 import subprocess
 import time
-import zlib
 from collections.abc import Callable, Iterable, Mapping
-from contextlib import suppress
 from dataclasses import dataclass
 from graphlib import TopologicalSorter
-from itertools import chain
 from pathlib import Path
 from tempfile import TemporaryFile
-from zipfile import BadZipFile, ZipFile
 
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.numeric.arithmetic.machine import user_cache
 from force_diffusion.numeric.arithmetic.processes import ending_with, without_interrupts
 
-from .files import LIBRARY, imports, sha256, theory_hash
+from .files import LIBRARY, imports
 
 WRITTEN_FOR = "Coq 8.16.1"
 INSTALL = "on Debian and Ubuntu: apt-get install coq; elsewhere: https://coq.inria.fr"
-EXISTENCE = "Existence"  # no theorem rests on it: it says that hypotheses can be fulfilled
 LIMIT = 900.0  # seconds for one file; the slowest takes about ten
 
 ALLOWED = frozenset(
@@ -35,9 +29,6 @@ ALLOWED = frozenset(
     }
 )
 """Axioms that a theorem may rest on: those of Coq's real numbers, and equality of functions."""
-
-LIBRARIES = ("Coq.", "Stdlib.", "Corelib.")
-"""What the names of Coq's own library begin with, by version."""
 
 IN_THE_LIBRARY = frozenset(
     {
@@ -111,8 +102,6 @@ class CoqFolder:
     Attributes:
         checker: such as "Coq 8.16.1".
         said: what Coq said of each file.
-        theory: names and sources of the files that were looked for in the user's cache.
-        kept: whether the compiled theory is from the user's cache.
 
     Raises:
         CoqAbsentError: when there is no Coq.
@@ -124,8 +113,6 @@ class CoqFolder:
                 raise CoqAbsentError(f"{program} is not there. Install Coq: {INSTALL}")
         self.folder = folder
         self.said: dict[str, Said] = {}
-        self.theory: dict[str, str] = {}
-        self.kept = False
         version = self._wait("coqc", "--print-version")
         found = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
         if version.failed or not found:
@@ -146,51 +133,10 @@ class CoqFolder:
             said = running.end() if running else Said()
         return said
 
-    @property
-    def _cached(self) -> Path | None:
-        """Where the theory lies compiled: by its content, and that of Coq's version."""
-        folder = user_cache()
-        hashed = sha256(f"{self.checker} {theory_hash(self.theory)}")
-        return folder and folder / "coq" / f"theory-{hashed[:32]}.zip"
-
-    def restore(self, sources: Mapping[str, str]) -> None:
-        """Take the compiled theory from the user's cache, if this very one is there, whole."""
-        self.theory = dict(sources)
-        try:
-            with ZipFile(self._cached or "") as held:
-                compiled = {f"{name}o": held.read(f"{name}o") for name in sources}
-        except (OSError, LookupError, ValueError, RuntimeError, EOFError, BadZipFile, zlib.error):
-            return
-        for name, content in compiled.items():
-            (self.folder / name).write_bytes(content)
-        for name, source in sources.items():
-            (self.folder / name).write_text(source, encoding="utf-8")
-            self.said[name] = Said()
-        self.kept = True
-
-    def keep(self) -> None:
-        """Put the theory that was looked for into the user's cache, if that can be written."""
-        whole = self._cached
-        if whole is None or self.kept or not self.theory:
-            return
-        part = whole.with_suffix(f".{os.getpid()}.part")
-        with suppress(OSError):
-            whole.parent.mkdir(parents=True, exist_ok=True)
-            with ZipFile(part, "w") as held:
-                for name in self.theory:
-                    held.write(self.folder / f"{name}o", f"{name}o")
-            part.replace(whole)
-
-    def compile(
-        self,
-        sources: Mapping[str, str],
-        notice: Notice,
-        told: Callable[[], None] = lambda: None,
-    ) -> None:
+    def compile(self, sources: Mapping[str, str], notice: Notice) -> None:
         """Compile files, those first that others import; ``said`` tells of each.
 
-        ``told`` is called whenever there is more in it. What is under way is ended when this is
-        interrupted.
+        What is under way is ended when this is interrupted.
         """
         for name, source in sources.items():
             (self.folder / name).write_text(source, encoding="utf-8")
@@ -208,16 +154,13 @@ class CoqFolder:
                 while ready and len(running) < (os.cpu_count() or 1):
                     name = ready.pop(0)
                     notice(name)
-                    with without_interrupts(
-                        signal.SIGTERM
-                    ):  # so that no program is started and then lost
+                    with without_interrupts(signal.SIGTERM):  # or a program that starts is lost
                         running[name] = _Running(
                             self.folder, "coqc", "-q", "-R", ".", LIBRARY, name
                         )
                 for name in [name for name, one in running.items() if one.over()]:
                     self.said[name] = running.pop(name).end()
                     order.done(name)
-                    told()
                 if running:
                     time.sleep(0.02)
         finally:
@@ -234,19 +177,10 @@ class CoqFolder:
         return ""
 
     def check(self, names: Iterable[str]) -> str:
-        """Let coqchk check compiled files and all they rest on; what went wrong, or nothing.
-
-        Coq's own library is checked with them when the theory was compiled, and not again when that
-        is from the cache. The theory always is.
-        """
-        files, each = [*names, f"{EXISTENCE}.v"], []
-        if self.kept:
-            files, each = [name for name, said in self.said.items() if not said.failed], ["-norec"]
-        modules = [[*each, f"{LIBRARY}.{name.removesuffix('.v')}"] for name in files]
-        said = self._wait("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *chain(*modules))
-        if said.failed:
-            return f"coqchk: {said.failed}"
-        return unexpected(said.printed, library_too=not self.kept)
+        """Let coqchk check compiled modules and all they rest on; what went wrong, or nothing."""
+        modules = [f"{LIBRARY}.{name}" for name in names]
+        said = self._wait("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *modules)
+        return f"coqchk: {said.failed}" if said.failed else unexpected(said.printed)
 
 
 def _error(message: str) -> str:
@@ -278,11 +212,8 @@ _NONE = {
 """Of what there must be none; versions to come may add to it."""
 
 
-def unexpected(summary: str, *, library_too: bool = True) -> str:
-    """What coqchk's summary holds that must not be there, or nothing.
-
-    Where Coq's library was not checked too, all that is sealed in it is named as an axiom.
-    """
+def unexpected(summary: str) -> str:
+    """What coqchk's summary holds that must not be there, or nothing."""
     sections = [(name, said.strip()) for name, said in _SECTION.findall(summary)]
     theories = {said for name, said in sections if name == "Theory"}
     if not {name for name, _ in sections} >= {"Theory", "Axioms", *_NONE}:
@@ -292,8 +223,6 @@ def unexpected(summary: str, *, library_too: bool = True) -> str:
     for name, said in sections:
         if name == "Axioms":
             for axiom in said.removesuffix("<none>").split():
-                if not library_too and axiom.startswith(LIBRARIES):
-                    continue
                 if axiom.replace("Stdlib.", "Coq.", 1) not in IN_THE_LIBRARY:
                     return f"coqchk: the axiom {axiom}"
         elif name != "Theory" and said != "<none>":

@@ -4,7 +4,9 @@ The source is ``beyond.md`` beside this module, in Markdown. Beside words it hol
 code knows: ``{{…}}`` is a number that ``quoted`` computes, a fence ``{statement} B5`` a printed
 equation, ``{step} B5 some words`` the formula of the one step of its derivation that has these
 words, the fence ``{exact-forms}`` all exact forms, and ``![…](B5)`` figure B5, whose caption is the
-paragraph below, in italics. Dashes below the head of a table say how wide its columns are.
+paragraph below, in italics. Dashes below the head of a table say how wide its columns are. Of
+Markdown it has headings, paragraphs, quotations, the numbered list of references, emphasis, code,
+and mathematics between dollars.
 """
 
 import re
@@ -18,9 +20,6 @@ from force_diffusion.numeric.figures.names import FIGURES
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import column_width, latex_body
-from markdown_it import MarkdownIt
-from markdown_it.tree import SyntaxTreeNode as Node
-from mdit_py_plugins.dollarmath import dollarmath_plugin
 from sympy import Basic, Eq
 
 from ..framework.catalogue import THEOREMS, modules, number_of
@@ -49,7 +48,21 @@ _QUOTE = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
 _IMAGE = re.compile(r"^!\[([^]]*)\]\((\w+)\)\n\n", re.MULTILINE)
 _MADE = re.compile(r"^(> |)```(\{(?:statement|step|exact-forms)\}.*)\n(?:> |)```$", re.MULTILINE)
 _BEFORE_DISPLAY = re.compile(r"\n\n(?=\\setcounter\{equation\}|\\begin\{equation\*\})")
-_DASHES = re.compile(r"^[|-]+$", re.MULTILINE)
+_BLOCK = re.compile(
+    r"^```(?P<fence>.*)\n(?P<inner>(?:.*\n)*?)```$"
+    r"|^\$\$\n(?P<display>(?:.*\n)*?)\$\$$"
+    r"|^!\[[^]]*\]\((?P<figure>\w+)\)\s*(?P<caption>(?:^.+\n?)*)"
+    r"|^(?P<level>#+) (?P<heading>.*)"
+    r"|(?P<quote>(?:^>.*\n?)+)"
+    r"|(?P<items>(?:^\d+\. .*\n?)+)"
+    r"|(?P<paragraph>(?:^(?!```|\$\$|>).+\n?)+)",
+    re.MULTILINE,
+)
+_NO_STAR = r"(?:\$[^$]*\$|`[^`]*`|[^*$`])+"
+_INLINE = re.compile(
+    rf"`([^`]*)`|(?<!\\)(\$[^$]*\$)|\*\*({_NO_STAR})\*\*|(?<!\\)\*({_NO_STAR})(?<!\\)\*"
+)
+_ESCAPED = re.compile(r"\\([\\`*_$<\[\]])")
 _LABEL = re.compile(r"(?<!fig:)\b(B\d+)\b")
 _FIGURES = re.compile(r"\bFigs?\.~(?:(?:, | and )?B\d+)+")
 
@@ -99,12 +112,12 @@ def article_and_figures(
     ``command`` is what the figures say that made them; ``notice`` is told which is made next.
     Raises ``MissingLibraryError``.
     """
-    from force_diffusion.numeric.figures.catalogue import begun
+    from force_diffusion.numeric.figures.catalogue import figure
 
     markdown, plates = source(), {}
     drawn: dict[str, str | bytes] = {}
     for name in figures_of(markdown):
-        made = begun(name, command=command, kinds=("pdf",), notice=notice)()
+        made = figure(name, command=command, kinds=("pdf",), notice=notice)
         file = f"{FIGURES[name].file}.pdf"
         drawn[file] = made.files[file]
         plates[name] = Plate(file, made.wide, tuple(made.lines))
@@ -218,35 +231,35 @@ def article(markdown: str, plates: Mapping[str, Plate], run: str) -> str:
 
 @dataclass
 class _Writer:
-    """Markdown as LaTeX: a method for each construct, and an error for any other.
-
-    ``numbers``: of the equations beyond the paper.
-    """
+    """Markdown as LaTeX. ``numbers``: of the equations beyond the paper."""
 
     plates: Mapping[str, Plate]
     numbers: Mapping[str, int]
     section: str = ""
 
     def written(self, markdown: str) -> str:
-        parser = MarkdownIt("commonmark").enable("table").use(dollarmath_plugin)
-        return self._all(Node(parser.parse(markdown)))
+        """All blocks, each by the method of its kind."""
+        return "".join(map(self._block, _BLOCK.finditer(markdown)))
 
-    def _all(self, node: Node) -> str:
-        children = iter(node.children)
-        return "".join(
-            self._figure(image, next(children, None)) if (image := _image(one)) else self._one(one)
-            for one in children
-        )
+    def _block(self, block: re.Match[str]) -> str:
+        if block["fence"]:
+            return self._fence(block["fence"], block["inner"])
+        if block["display"]:
+            return f"\\begin{{equation*}}\n{block['display'].strip()}\n\\end{{equation*}}\n"
+        if block["figure"]:
+            return self._figure(block["figure"], block["caption"].strip())
+        if block["heading"]:
+            return self._heading(len(block["level"]), _inline(block["heading"]))
+        if block["quote"]:
+            inner = re.sub(r"^> ?", "", block["quote"], flags=re.MULTILINE)
+            return f"\\begin{{theorem}}\n{self.written(inner)}\\end{{theorem}}\n"
+        if block["items"]:
+            items = re.sub(r"^(\d+)\. ", r"\\bibitem{\1} ", _inline(block["items"]), flags=re.M)
+            items = items.strip().replace("\n", "\n\n")
+            return f"\\begin{{thebibliography}}{{9}}\n{items}\n\n\\end{{thebibliography}}\n"
+        return f"{_inline(block['paragraph'].strip())}\n\n"
 
-    def _one(self, node: Node) -> str:
-        write: Callable[[Node], str] | None = getattr(self, f"_{node.type}", None)
-        if write is None:
-            place = f" in line {node.map[0] + 1}" if node.map else ""
-            raise ArticleError(f"the article has a {node.type}{place}, which has no LaTeX here")
-        return write(node)
-
-    def _heading(self, node: Node) -> str:
-        title, level = self._all(node), int(node.tag[1])
+    def _heading(self, level: int, title: str) -> str:
         if level > len(_HEADINGS):
             raise ArticleError(f"the heading '{title}' of the article is of level {level}, below 3")
         before = "\\end{abstract}\n\\maketitle\n" if self.section == "Abstract" else ""
@@ -260,104 +273,70 @@ class _Writer:
             return before
         if title.startswith("Appendix: "):
             title = title.removeprefix("Appendix: ")
-            before += "\\label{end}\\appendix\n\\setcounter{figure}{0}\n"
-            before += "\\renewcommand{\\thefigure}{A\\arabic{figure}}\n"
+            before += "\\label{end}\\appendix\n"
         return f"{before}\\{_HEADINGS[level - 1]}{{{title[:1].upper()}{title[1:]}}}\n"
 
-    def _paragraph(self, node: Node) -> str:
-        return f"{self._all(node)}\n\n"
-
-    def _figure(self, name: str, below: Node | None) -> str:
-        parts = below.children[0].children if below and below.type == "paragraph" else []
-        if [one.type for one in parts] != ["em"]:
+    def _figure(self, name: str, below: str) -> str:
+        caption = _INLINE.fullmatch(below)
+        if not caption or not caption[4]:
             raise ArticleError(f"figure {name} has no caption below it, in italics")
         plate = self.plates[name]
         kind = "figure*" if plate.wide else "figure"
         found = " ".join(_referring(sentence(line)) for line in plate.says)
         return (
             f"\\begin{{{kind}}}\n\\centering\n\\includegraphics{{{plate.file}}}\n"
-            f"\\caption{{{self._all(parts[0])} {found}}}\n\\label{{fig:{name}}}\n"
+            f"\\caption{{{_inline(caption[4])} {found}}}\n\\label{{fig:{name}}}\n"
             f"\\end{{{kind}}}\n"
         )
 
-    def _inline(self, node: Node) -> str:
-        return self._all(node)
-
-    def _text(self, node: Node) -> str:
-        return _referring(node.content)
-
-    def _softbreak(self, _: Node) -> str:
-        return "\n"
-
-    def _em(self, node: Node) -> str:
-        return f"\\emph{{{self._all(node)}}}"
-
-    def _strong(self, node: Node) -> str:
-        return f"\\textbf{{{self._all(node)}}}"
-
-    def _code_inline(self, node: Node) -> str:
-        return f"\\texttt{{{text_latex(node.content)}}}"
-
-    def _math_inline(self, node: Node) -> str:
-        return f"${node.content}$"
-
-    def _math_block(self, node: Node) -> str:
-        return f"\\begin{{equation*}}\n{node.content.strip()}\n\\end{{equation*}}\n"
-
-    def _blockquote(self, node: Node) -> str:
-        return f"\\begin{{theorem}}\n{self._all(node)}\\end{{theorem}}\n"
-
-    def _bullet_list(self, node: Node) -> str:
-        return self._list("itemize", "\\item ", node)
-
-    def _ordered_list(self, node: Node) -> str:
-        if self.section != "References":
-            return self._list("enumerate", "\\item ", node)
-        items = "".join(
-            f"\\bibitem{{{place}}} {self._all(one)}"
-            for place, one in enumerate(node.children, start=1)
-        )
-        return f"\\begin{{thebibliography}}{{9}}\n{items}\\end{{thebibliography}}\n"
-
-    def _list(self, kind: str, mark: str, node: Node) -> str:
-        items = "".join(f"{mark}{self._all(one).strip()}\n" for one in node.children)
-        return f"\\begin{{{kind}}}\n{items}\\end{{{kind}}}\n\n"
-
-    def _fence(self, node: Node) -> str:
-        kind, _, more = node.info.partition(" ")
+    def _fence(self, info: str, inner: str) -> str:
+        kind, _, more = info.partition(" ")
         if kind == "{table}":
-            return self._captioned(self.written(more).strip(), node.content)
+            return _table(_inline(more), inner)
         if kind == "{statement}" and (number := number_of(more)):
             shown = statement_latex(load(number), COLUMNS)
             place = number if isinstance(number, int) else self.numbers[number]
             return f"\\setcounter{{equation}}{{{place - 1}}}\n{shown}"
-        return self.written(_made(node.info, COLUMNS))
+        return self.written(_made(info, COLUMNS))
 
-    def _captioned(self, caption: str, markdown: str) -> str:
-        if not (below := _DASHES.search(markdown)):
-            raise ArticleError(f"the table '{caption}' of the article has no line of dashes")
-        dashes = [len(one) for one in below[0].strip("|").split("|")]
-        columns = "".join(
-            f">{{\\raggedright\\arraybackslash}}p{{\\dimexpr {one / sum(dashes):.3f}\\textwidth"
-            "-2\\tabcolsep}"
-            for one in dashes
-        )
-        return (
-            f"\\begin{{table*}}\n\\caption{{{caption}}}\n\\begin{{tabular}}{{{columns}}}\n"
-            f"\\hline\\hline\n{self.written(markdown)}\\hline\\hline\n"
-            "\\end{tabular}\n\\end{table*}\n"
-        )
 
-    def _table(self, node: Node) -> str:
-        return self._all(node)
+def _table(caption: str, rows: str) -> str:
+    head, dashes, *others = (row.strip("|").split("|") for row in rows.strip().split("\n"))
+    whole = sum(map(len, dashes))
+    columns = "".join(
+        f">{{\\raggedright\\arraybackslash}}p{{\\dimexpr {len(one) / whole:.3f}\\textwidth"
+        "-2\\tabcolsep}"
+        for one in dashes
+    )
+    first, *body = (
+        " & ".join(_inline(cell.strip()) for cell in row) + " \\\\[2pt]\n"
+        for row in (head, *others)
+    )
+    return (
+        f"\\begin{{table*}}\n\\caption{{{caption}}}\n\\begin{{tabular}}{{{columns}}}\n"
+        f"\\hline\\hline\n{first}\\hline\n{''.join(body)}\\hline\\hline\n"
+        "\\end{tabular}\n\\end{table*}\n"
+    )
 
-    def _thead(self, node: Node) -> str:
-        return f"{self._all(node)}\\hline\n"
 
-    _tbody = _table
+def _inline(markdown: str) -> str:
+    """Words with emphasis, code and mathematics as LaTeX."""
+    written, last = "", 0
+    for found in _INLINE.finditer(markdown):
+        code, mathematics, strong, emphasis = found.groups()
+        written += _words(markdown[last : found.start()])
+        if code is not None:
+            written += f"\\texttt{{{text_latex(code)}}}"
+        elif strong or emphasis:
+            written += f"\\{'textbf' if strong else 'emph'}{{{_inline(strong or emphasis)}}}"
+        else:
+            written += mathematics
+        last = found.end()
+    return written + _words(markdown[last:])
 
-    def _tr(self, node: Node) -> str:
-        return " & ".join(self._all(cell) for cell in node.children) + " \\\\[2pt]\n"
+
+def _words(markdown: str) -> str:
+    return "\n".join(map(_referring, _ESCAPED.sub(r"\1", markdown).split("\n")))
 
 
 def _referring(words: str) -> str:
@@ -365,12 +344,6 @@ def _referring(words: str) -> str:
     latex = re.sub(r"\b(Eqs?|Figs?)\. ", r"\1.~", prose_latex(words))
     latex = _FIGURES.sub(lambda found: _LABEL.sub(r"\\ref{fig:\1}", found[0]), latex)
     return _LABEL.sub(r"\\ref{eq:fd\1}", latex)
-
-
-def _image(node: Node) -> str:
-    """The name of the figure that is all of a paragraph; else nothing."""
-    parts = node.children[0].children if node.type == "paragraph" else []
-    return str(parts[0].attrs["src"]) if [one.type for one in parts] == ["image"] else ""
 
 
 def verdicts(outcomes: Sequence[Outcome]) -> str:

@@ -13,7 +13,6 @@ from force_diffusion.symbolic.printing.latex import latex
 from .. import eq13_surface_diffusion as eq13
 from .. import eq14_bulk_diffusion as eq14
 from ..beyond import t6_correlations as t6
-from ..coq.statements import STATED
 from ..framework.catalogue import modules
 from ..framework.layered import UNIT
 from ..framework.loading import load
@@ -35,9 +34,6 @@ def quoted(words: str) -> str:
     ('4 M (z - \\phi)', '2.31', '0.28')
     """
     match words.split():
-        case ["beyond", "in", "Coq"]:
-            *others, last = (one for one in STATED if isinstance(one, str))
-            return f"{', '.join(others)} and {last}"
         case ["calm", which]:
             return str(_calm()[which])
         case ["version"]:

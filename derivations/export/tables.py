@@ -14,8 +14,3 @@ def csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
         writer.writeheader()
         writer.writerows(rows)
     return text.getvalue()
-
-
-def with_command(rows: Sequence[Mapping[str, Any]], command: str) -> list[dict[str, Any]]:
-    """End each row with the command behind it."""
-    return [{**row, "command": command} for row in rows]

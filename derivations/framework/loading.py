@@ -3,9 +3,6 @@
 import copyreg
 from collections.abc import Callable, Iterable
 from importlib import import_module
-from pickle import PicklingError
-
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 from .catalogue import Number, modules
 from .record import Derivation
@@ -23,8 +20,6 @@ def load(number: Number) -> Derivation:
 
 def _pickled(derivation: Derivation) -> tuple[Callable[[Number], Derivation], tuple[Number]]:
     """Say how a derivation is had again: by its number, since it is made of functions."""
-    if load(derivation.number) is not derivation:
-        raise PicklingError(f"{derivation.name} is none of this program's derivations")
     return load, (derivation.number,)
 
 
@@ -32,11 +27,7 @@ copyreg.pickle(Derivation, _pickled)
 
 
 def with_premises(wanted: Iterable[Derivation]) -> list[Derivation]:
-    """The derivations wanted and all that they rest on, premises first.
-
-    Raises:
-        ForceDiffusionError: two of a user's own have one label.
-    """
+    """The derivations wanted and all that they rest on, premises first."""
     ordered: dict[Number, Derivation] = {}
 
     def visit(derivation: Derivation) -> None:
@@ -44,8 +35,6 @@ def with_premises(wanted: Iterable[Derivation]) -> list[Derivation]:
             for premise in derivation.premises:
                 visit(premise)
             ordered[derivation.number] = derivation
-        elif derivation.number not in modules() and ordered[derivation.number] is not derivation:
-            raise ForceDiffusionError(f"two derivations are called {derivation.number!r}")
 
     for derivation in wanted:
         visit(derivation)

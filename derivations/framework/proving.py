@@ -33,7 +33,6 @@ from force_diffusion.symbolic.kernel.theorem import (
     subject,
 )
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.search.values import WithoutValue
@@ -151,10 +150,7 @@ class Line:
         if sign == meant and (sign != "=" or not where.limit):
             return ""
         how = _PROVED.get(meant if where.limit else "", "in a limit only")
-        ways = [f'write relation="{meant}"'] if sign != meant and meant in RELATIONS else []
-        ways += ["print the exact form"] if sign == "=" else []
-        said = f"the printed sign of {name} is {sign}, but its line is proved {how}"
-        return f"{said}: {', or '.join(ways)}" if ways else said
+        return f"the printed sign of {name} is {sign}, but its line is proved {how}"
 
     def prove(self, part: int, candidate: sympy.Eq) -> Theorem:
         """The theorem that a candidate for one of its equations is.

@@ -1,1 +1,1 @@
-"""Number systems: float64, long double, mpmath, balls and power series; exact decimals."""
+"""Number systems: float64, mpmath and balls; exact decimals."""

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from .systems import FLOAT64, LONGDOUBLE, Array, BigFloat, NumberSystem, midpoint
+from .systems import FLOAT64, Array, midpoint
 
 _SPLIT = 2.0**27 + 1
 
@@ -101,10 +101,9 @@ class Carried:
         return Carried(found, off / (found + found))
 
     @property
-    def nearest(self) -> tuple[Any, Any]:
-        """The value with its error, rounded, and what that leaves of the (smaller) error."""
-        found = self.value + self.error
-        return found, (self.value - found) + self.error
+    def nearest(self) -> Any:
+        """The value with its error, rounded."""
+        return self.value + self.error
 
 
 def scalar(value: Fraction) -> Carried:
@@ -214,28 +213,6 @@ class Carrying:
 
 
 CARRYING = Carrying()
-
-
-@dataclass(frozen=True)
-class Pairs(BigFloat):
-    """Numbers that float64 gave with their errors, both together: about 31 digits of each."""
-
-    dps: int = 35
-
-    @property
-    def name(self) -> str:
-        """How plans and results call it."""
-        return "float64 pairs"
-
-    @property
-    def bits(self) -> int:
-        """Bits of a value and its error."""
-        return 106
-
-
-PAIRS = Pairs()
-# What answers are gathered in beside float64, to compare: a longer significand, where there is one.
-LONGER: NumberSystem = LONGDOUBLE if LONGDOUBLE.bits > FLOAT64.bits else BigFloat(35)
 
 
 @dataclass(frozen=True)

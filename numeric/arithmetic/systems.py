@@ -1,4 +1,4 @@
-"""Number systems: the one place that knows floats, balls, big floats and power series apart.
+"""Number systems: the one place that knows floats, balls and big floats apart.
 
 Every formula of the packing is written once, on NumPy arrays. What differs between number
 systems is how a rational enters, how a square root is taken where the elements need help,
@@ -6,9 +6,8 @@ what is certain about a sign, and which global precision must be set and put bac
 """
 
 import copyreg
-import math
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -21,7 +20,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[Any]
-MOST_DIGITS = 2400  # of big numbers; balls never get more than 8192 bits
 
 
 class NumberSystem(Protocol):
@@ -35,7 +33,7 @@ class NumberSystem(Protocol):
 
     @property
     def dtype(self) -> Any:
-        """NumPy's element type; ``object`` for everything but hardware floats."""
+        """NumPy's element type; ``object`` for everything but float64."""
 
     def number(self, value: Fraction) -> Any:
         """Turn a rational into the nearest number (balls: into an enclosure)."""
@@ -97,7 +95,7 @@ def from_floats(system: NumberSystem, values: Array) -> Array:
     if hasattr(system, "from_floats"):
         return like_array(system.from_floats(values))
     if system.dtype is not object:
-        return values.astype(system.dtype)
+        return values
     result = np.empty(values.shape, dtype=object)
     flat = result.reshape(-1)
     for q, value in enumerate(values.reshape(-1).tolist()):
@@ -113,26 +111,20 @@ def as_floats(values: Array) -> Array:
 
 
 @dataclass(frozen=True)
-class Hardware:
-    """float64, or the platform's long double (80 bits on x86, maybe no more than 64 elsewhere)."""
+class Float64:
+    """Doubles."""
 
-    name: str
-    dtype: Any
-
-    @property
-    def bits(self) -> int:
-        """Bits of the significand."""
-        return int(np.finfo(self.dtype).nmant) + 1
+    name: str = "float64"
+    dtype: Any = np.float64
+    bits: int = 53
 
     def number(self, value: Fraction) -> Any:
-        """Round to nearest even (long double: within one unit in the last place)."""
-        if self.dtype is np.float64:
-            return np.float64(value.numerator / value.denominator)
-        return _longdouble(value)
+        """Round to nearest even."""
+        return np.float64(value.numerator / value.denominator)
 
     def from_float(self, value: float) -> Any:
-        """Convert without loss."""
-        return self.dtype(value)
+        """Keep it."""
+        return np.float64(value)
 
     def from_ball(self, value: Any) -> Any:
         """Round the midpoint."""
@@ -157,7 +149,7 @@ class Hardware:
 
     def __reduce__(self) -> str:
         """Stay the one that there is: a plan asks whether a system *is* that of float64."""
-        return self.name.upper()
+        return "FLOAT64"
 
     @contextmanager
     def active(self) -> Iterator[None]:
@@ -166,15 +158,7 @@ class Hardware:
             yield
 
 
-def _longdouble(value: Fraction) -> Any:
-    """Divide the 70 leading bits: exact scaling, so that no step overflows or loses digits."""
-    if not value:
-        return np.longdouble(0)
-    shift = 70 - (value.numerator.bit_length() - value.denominator.bit_length())
-    scaled = round(value * Fraction(2) ** shift)
-    high, low = divmod(abs(scaled), 1 << 40)
-    whole = np.ldexp(np.longdouble(high), 40) + np.longdouble(low)
-    return np.ldexp(whole if scaled > 0 else -whole, -shift)
+FLOAT64 = Float64()
 
 
 def midpoint(ball: Any) -> Fraction:
@@ -223,10 +207,6 @@ def in_flint(**settings: int) -> Iterator[None]:
         finally:
             for name, value in before.items():
                 setattr(flint.ctx, name, value)
-
-
-FLOAT64 = Hardware("float64", np.float64)
-LONGDOUBLE = Hardware("longdouble", np.longdouble)
 
 
 @dataclass(frozen=True)
@@ -394,75 +374,3 @@ class Balls:
         """Set flint's global precision and put it back."""
         with in_flint(prec=self.bits):
             yield
-
-
-@dataclass(frozen=True)
-class Series:
-    """Power series in ε with exact rational coefficients, up to and including ε^``order``."""
-
-    order: int
-    dtype: Any = field(default=object, init=False, repr=False)
-
-    @property
-    def name(self) -> str:
-        """Such as ``rational series to order 2``."""
-        return f"rational series to order {self.order}"
-
-    def number(self, value: Fraction) -> Any:
-        """Give the constant series."""
-        return self.series([value])
-
-    @property
-    def bits(self) -> int:
-        """Rationals are exact: 0 stands for no limit."""
-        return 0
-
-    def from_float(self, value: float) -> Any:
-        """Give the constant series."""
-        return self.number(Fraction(value))
-
-    def from_ball(self, value: Any) -> Any:
-        """Give the constant series of the midpoint."""
-        return self.number(midpoint(value))
-
-    def scalar(self, value: Fraction) -> Any:
-        """Give a plain rational: NumPy would take a series for a sequence of numbers."""
-        return flint.fmpq(value.numerator, value.denominator)
-
-    def series(self, coefficients: Sequence[Fraction]) -> Any:
-        """Give the series with these coefficients of ε⁰, ε¹, …"""
-        return flint.fmpq_series([flint.fmpq(c.numerator, c.denominator) for c in coefficients])
-
-    def sqrt(self, values: Array) -> Array:
-        """Square roots; the constant term must be the square of a rational.
-
-        Flint takes the root of a series with constant term 1, so the constant is divided out.
-        """
-        return np.asarray(np.frompyfunc(_series_sqrt, 1, 1)(values))
-
-    def root(self, value: Fraction) -> Any:
-        """Give the rational root; ``ValueError`` where there is none."""
-        return _rational_root(flint.fmpq(value.numerator, value.denominator))
-
-    def signs(self, values: Array) -> tuple[Array, Array]:
-        """Look at the constant term: the sign for small enough ε."""
-        good = np.asarray(np.frompyfunc(lambda value: value[0] > 0, 1, 1)(values), dtype=bool)
-        return good, ~good
-
-    @contextmanager
-    def active(self) -> Iterator[None]:
-        """Set flint's global truncation order and put it back."""
-        with in_flint(cap=self.order + 1):
-            yield
-
-
-def _rational_root(value: Any) -> Any:
-    root = flint.fmpq(math.isqrt(int(value.p)), math.isqrt(int(value.q)))
-    if root * root != value:
-        raise ValueError(f"the square root of {value} is no rational number")
-    return root
-
-
-def _series_sqrt(value: Any) -> Any:
-    constant = value[0]
-    return (value / constant).sqrt() * _rational_root(constant)

@@ -19,8 +19,8 @@ import numpy as np
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import (
+    FLOAT64,
     Array,
-    Hardware,
     NumberSystem,
     array,
     from_floats,
@@ -305,9 +305,9 @@ def rows_of(
     """Give δr/r of several rows, one array a row; rows of equal length lie in one block."""
     rows = []
     block = None
-    if isinstance(system, Hardware) and len({layer.count for layer in layers}) == 1:
+    if system is FLOAT64 and len({layer.count for layer in layers}) == 1:
         batch = (len(realisations),) if len(realisations) > 1 else ()
-        block = np.empty((*batch, len(layers), layers[0].count), dtype=system.dtype)
+        block = np.empty((*batch, len(layers), layers[0].count))
     for n, layer in enumerate(layers):
         row = radii.row(layer, realisations, system)
         if block is None:

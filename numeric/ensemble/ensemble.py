@@ -40,7 +40,6 @@ def ensemble(
     confidence: float = 0.95,
     workers: int | None = 1,
     scheduler: str | None = None,
-    covariance: bool = False,
     reach: float | None = None,
     progress: Callable[[int, float | None], None] = lambda done, width: None,
 ) -> Ensemble:
@@ -53,9 +52,9 @@ def ensemble(
     goes on from there. ``workers`` are processes, None for as many as are good here (compiled
     sweeps take all cores in one); above 1 they start the program anew, so that a script needs its
     ``if __name__ == "__main__"``. ``scheduler`` is the address of a Dask scheduler, or "local" for
-    a cluster made here. ``covariance`` asks for that between groups. ``reach`` is the outer edge of
-    a histogram's bins, in units of force; by default six times the largest σ_f of theory.
-    ``progress`` is told how many packings are done, and the half-width at the last look.
+    a cluster made here. ``reach`` is the outer edge of a histogram's bins, in units of force; by
+    default six times the largest σ_f of theory. ``progress`` is told how many packings are done,
+    and the half-width at the last look.
 
     Raises ``TypeError`` for what is no scene, ``ArgumentError``, ``SceneError``, ``StoreError`` for
     a file that can't serve, ``StoreFailedError`` where it can't be written, ``RealisationError``
@@ -87,7 +86,7 @@ def ensemble(
         raise ArgumentError("store", store, "must be the name of a file")
     # Loaded before the memory is shared out: in a full one its library waits for ever.
     import_module("scipy.special")
-    m = replace(measurement(scene, covariance=covariance, reach=reach), expected=size)
+    m = replace(measurement(scene, reach=reach), expected=size)
     solvers = _workers(m, size, workers, scheduler)
     rule = None if until is None else Rule(until, confidence)
     path = None if store is None else Path(store)

@@ -10,7 +10,7 @@ from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
 from ..lattice.branch import ORDER
 from ..statistics.confidence import half_width
-from ..statistics.ratios import from_products
+from ..statistics.moments import with_errors
 from .measure import Measurement
 from .sums import Sums
 
@@ -22,7 +22,7 @@ class Estimates:
     """Statistics over N packings of G groups, in the unit in which the load's magnitude is written.
 
     Arrays are float64 of shape (G,), in the order of the rows: by j, i (or p, q), branch and
-    component; of unilateral contacts, groups without any sample are left out.
+    component.
     """
 
     measurement: Measurement
@@ -35,18 +35,12 @@ class Estimates:
 
     @property
     def samples(self) -> int:
-        """Contacts of a group in all N packings; where these differ, of all groups.
-
-        Those of one packing are correlated.
-        """
-        samples = self.sums.samples
-        return int(samples.sum() if self.measurement.of_networks else samples[0])
+        """Contacts of a group in all N packings; those of one packing are correlated."""
+        return self.realisations * self.measurement.members
 
     @cached_property
     def _order(self) -> Array:
         """Where the rows stand among the groups."""
-        if self.measurement.of_networks:
-            return np.flatnonzero(self.sums.samples)
         labels = self.measurement.labels
         names = ("component", *ORDER)
         keys = [labels[name] for name in names if name in labels]
@@ -60,11 +54,7 @@ class Estimates:
     @cached_property
     def _found(self) -> tuple[Array, Array, Array, Array]:
         """Mean change, standard deviation, and their standard errors, as they were summed up."""
-        means, products = self.sums.means, self.sums.products
-        if len(means) == 2:  # all packings count as much
-            ones, zeros = np.ones((1, means.shape[1])), np.zeros((3, means.shape[1]))
-            means, products = np.concatenate([ones, means]), np.concatenate([zeros, products])
-        return from_products(self.realisations, self.sums.held, means, products)
+        return with_errors(self.realisations, self.sums.means, self.sums.products)
 
     def _rows(self, values: Array, power: int = 1) -> Array:
         """Give what was summed up row by row, in the unit of force to that power.
@@ -84,7 +74,7 @@ class Estimates:
 
     @cached_property
     def mean(self) -> Array:
-        """Mean force; of forces that differ to zeroth order already, their mean."""
+        """Mean force."""
         change = np.ldexp(self._found[0], self.measurement.unit)
         return np.asarray((self.measurement.ordered() + change)[self._order] * self._unit)
 
@@ -101,8 +91,7 @@ class Estimates:
     @cached_property
     def mean_square(self) -> Array:
         """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory."""
-        means = self.sums.means
-        return self._rows(means[1] if len(means) == 2 else means[2] / means[0], 2)
+        return self._rows(self.sums.means[1], 2)
 
     @cached_property
     def std(self) -> Array:
@@ -113,18 +102,6 @@ class Estimates:
     def std_error(self) -> Array:
         """Standard error of ``std``; NaN where nothing varies."""
         return self._rows(self._found[3])
-
-    @cached_property
-    def covariance(self) -> Array | None:
-        """Covariance between groups from packing to packing, (G, G); None if not asked for.
-
-        Of a profile that of mean squares of g over a packing's contacts, else that of g. Divided by
-        N it is that of the means over all packings.
-        """
-        if not self.measurement.covariance:
-            return None
-        matrix = self.sums.pairs[:, self._order] / (self.realisations - 1)
-        return self._rows(matrix, 2 + 2 * self.measurement.row)
 
     def width(self, confidence: float, look: int) -> float:
         """Give the half-width of all σ_f together, relative: see ``statistics.confidence``."""

@@ -22,7 +22,6 @@ from ..mechanics.problem import Problem, Route
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
-from ..quantities.contacts_that_open import NetworkQuantity
 from ..scene.scene import Scene, refuse
 from ..scene.sections import SceneError
 from ..statistics.moments import unit_near
@@ -30,14 +29,6 @@ from ..statistics.moments import unit_near
 DEFAULT_BINS = 60
 # Outer edges of a histogram, in units of the largest theoretical σ_f.
 REACH = 6
-# Of one of forces under unilateral contacts, in units of the mean ordered force.
-FORCES = 8
-# Variables of a covariance matrix, whose numbers grow with their square.
-MOST_VARIABLES = 2048
-# Magnitude of a load up to which, and down to whose inverse, fourth powers of forces are float64.
-# Units of force: sums over a packing must stay below 1e308.
-MOST_UNIT = 10**280
-MOST_MAGNITUDE = 10**60
 
 
 class ArgumentError(ForceDiffusionError, ValueError):
@@ -52,13 +43,12 @@ class ArgumentError(ForceDiffusionError, ValueError):
 class Measurement:
     """What is measured, and how it is summed up; ``plan`` has one realisation.
 
-    ``edges`` are those of the bins, float64; ``covariance`` asks for that of the groups.
-    ``expected`` is how many packings there will be; it decides who sweeps, never a number.
+    ``edges`` are those of the bins, float64. ``expected`` is how many packings there will be; it
+    decides who sweeps, never a number.
     """
 
     plan: Plan
-    edges: tuple[float, ...]
-    covariance: bool
+    edges: tuple[float, ...] = ()
     expected: int = 1
 
     @property
@@ -67,9 +57,9 @@ class Measurement:
         return self.plan.problem
 
     @property
-    def quantity(self) -> ContactQuantity | NetworkQuantity:
+    def quantity(self) -> ContactQuantity:
         """What is asked of each packing."""
-        assert isinstance(self.plan.quantity, ContactQuantity | NetworkQuantity)
+        assert isinstance(self.plan.quantity, ContactQuantity)
         return self.plan.quantity
 
     @cached_property
@@ -83,16 +73,6 @@ class Measurement:
         return self.problem.route == Route.EXACT and compiles(self.many, FLOAT64)
 
     @property
-    def of_networks(self) -> bool:
-        """Whether contacts are unilateral, and differ from packing to packing."""
-        return self.problem.route == Route.UNILATERAL
-
-    @property
-    def row(self) -> int:
-        """Whether covariances are of mean squares of packings, 1, or of changes, 0."""
-        return int(self.quantity.squares)
-
-    @property
     def counted(self) -> int:
         """B + 2: bins, and what lies outside; 0 where none are asked for."""
         return len(self.edges) + 1 if self.edges else 0
@@ -100,8 +80,6 @@ class Measurement:
     @cached_property
     def unit(self) -> int:
         """The power of two in whose units changes are summed up (σ/r is near it)."""
-        if self.of_networks:
-            return 0
         return math.frexp(unit_near(self.problem.radii.relative_std()))[1] - 1
 
     @cached_property
@@ -116,18 +94,13 @@ class Measurement:
 
     @cached_property
     def members(self) -> int:
-        """Contacts in a group; 0 where they differ from packing to packing."""
+        """Contacts in a group."""
         return self.quantity.members(self.problem)
-
-    @property
-    def variables(self) -> int:
-        """Size of the covariance matrix."""
-        return self.groups if self.covariance else 0
 
     @cached_property
     def blocks(self) -> list[Block]:
         """Give the whole rows of contacts that groups are made of, in order; none of contacts."""
-        if self.members < 2 or isinstance(self.quantity, NetworkQuantity):
+        if self.members < 2:
             return []
         return self.quantity.blocks(self.problem)
 
@@ -156,60 +129,33 @@ class Measurement:
 
     def theory(self) -> PerBranch[Sequence[Fraction]] | None:
         """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
-        return None if self.of_networks else first_order_std(self.problem)
+        return first_order_std(self.problem)
 
 
-def measurement(
-    scene: Scene, *, covariance: bool = False, reach: float | None = None
-) -> Measurement:
+def measurement(scene: Scene, *, reach: float | None = None) -> Measurement:
     """Say what is measured of an ensemble of a scene's packings.
 
     ``reach`` is the outer edge of a histogram, in units of force; by default six times the largest
     theoretical σ_f. Raises ``SceneError`` for what has no statistics over an ensemble.
     """
     ask = scene.ask
-    refuse("ensemble", scene, covariance=covariance, reach=reach is not None)
+    refuse("ensemble", scene, reach=reach is not None)
     one = scene.model_copy(update={"ask": ask.model_copy(update={"realisations": 1})})
     planned = plan(one)
     if planned.problem.route == Route.ORDERED:
         why = planned.skipped[-1].reason
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")
-    made = Measurement(planned, (), covariance)
-    magnitude = scene.load.magnitude
-    if made.of_networks and made.problem.most_seconds is not None:
-        why = "which packings come to rest in time depends on the machine: give most_events"
-        raise SceneError("effects.most_seconds", made.problem.most_seconds, why)
-    if made.of_networks and not 1 <= magnitude * MOST_UNIT <= MOST_UNIT**2:
-        why = "must lie between 1e-280 and 1e280, as sums are float64: choose another unit"
-        raise SceneError("load.magnitude", magnitude, why)
-    if not made.of_networks and not (made.groups and made.members):
+    made = Measurement(planned)
+    if not (made.groups and made.members):
         allowed = "bears on no contact that is asked for: there is nothing to gather"
         raise SceneError("load.kind", scene.load.kind, allowed)
     if ask.quantity == "histogram":
         made = replace(made, edges=_edges(made, reach))
-    if covariance and not 1 <= magnitude * MOST_MAGNITUDE <= MOST_MAGNITUDE**2:
-        raise SceneError(
-            "load.magnitude",
-            magnitude,
-            "a covariance of forces leaves the range of float64: give a magnitude from 1e-60 to "
-            "1e60, or leave the covariance out",
-        )
-    if made.variables > MOST_VARIABLES:
-        raise SceneError(
-            "ask.quantity",
-            ask.quantity,
-            f"the covariance of {made.variables} variables is too large, and {MOST_VARIABLES} "
-            "are allowed: ask for a smaller packing, or leave the covariance out",
-        )
     return made
 
 
 def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
-    """Edges that are fixed before anything is drawn.
-
-    They are symmetric about no change at all; of unilateral contacts they are those of the forces
-    themselves, and begin at 0.
-    """
+    """Edges that are fixed before anything is drawn, symmetric about no change at all."""
     if reach is None:
         reach = _usual_reach(made)
     else:
@@ -217,7 +163,7 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
     if not 0 < reach < 1e300:
         raise ArgumentError("reach", reach, "must be a positive number below 1e300")
     bins = made.plan.scene.ask.bins or DEFAULT_BINS
-    low = 0 if made.of_networks else -Fraction(reach)
+    low = -Fraction(reach)
     width = (Fraction(reach) - low) / bins
     edges = tuple(float(low + k * width) for k in range(bins + 1))
     if len(set(edges)) <= bins:
@@ -227,9 +173,7 @@ def _edges(made: Measurement, reach: float | None) -> tuple[float, ...]:
 
 def _usual_reach(made: Measurement) -> float:
     """Give the outer edge that is taken where none is named."""
-    theory, quantity = made.theory(), made.quantity
-    if isinstance(quantity, NetworkQuantity) and (mean := quantity.mean_force(made.problem)):
-        return FORCES * mean
+    theory = made.theory()
     if theory is None:
         raise SceneError(
             "ask.quantity",

@@ -31,11 +31,6 @@ class Ensemble(Estimates):
     says whether the σ_f are known as well as ``until`` asked, and is None if nothing was asked;
     ``looks`` counts how often that was tested. ``solved`` packings were solved now, the others
     were read from a store.
-
-    Under unilateral contacts forces are those of the contacts that there are: a group is a layer of
-    a profile, a contact of the lattice, a bead of a response (which has the vertical force that the
-    bead bears), or all contacts of a histogram. Their number differs from packing to packing: means
-    are ratios of sums, and so are their errors. Eqs. 13 and 14 are of contacts that may pull.
     """
 
     confidence: float
@@ -64,14 +59,12 @@ class Ensemble(Estimates):
     def std_over_mean(self) -> Array | None:
         """σ_f/⟨f⟩, as the paper plots it; None where a mean may be zero: only loads straight down.
 
-        NaN where a contact has opened in all packings. Its standard error is that of ``std``, over
-        ⟨f⟩.
+        Its standard error is that of ``std``, over ⟨f⟩.
         """
         load = self.measurement.problem.load
         if load.loaded is not None or load.angle_deg or "component" in self.index:
             return None
-        with np.errstate(invalid="ignore"):
-            ratio: Array = self.std / self.mean
+        ratio: Array = self.std / self.mean
         return ratio
 
     @cached_property
@@ -115,19 +108,18 @@ class Ensemble(Estimates):
 
     @cached_property
     def _groups(self) -> dict[str, Array]:
-        theory, ratio, change = self.first_order_std, self.std_over_mean, self.mean_change_error
-        of_change = {"mean_change": self.mean_change, "mean_change_error": change}
-        networks = self.measurement.of_networks
+        theory, ratio = self.first_order_std, self.std_over_mean
         return {
             **self.index,
-            "samples": self.sums.samples[self._order],
+            "samples": np.full(self.measurement.groups, self.samples),
             "mean": self.mean,
-            **({"mean_error": change} if networks else of_change),
+            "mean_change": self.mean_change,
+            "mean_change_error": self.mean_change_error,
             "std": self.std,
             "std_error": self.std_error,
             **({} if ratio is None else {"std_over_mean": ratio}),
             **({} if theory is None else {"first_order_std": theory}),
-            **({} if networks else {"tensile": self.tensile}),
+            "tensile": self.tensile,
         }
 
     def rows(self) -> list[Row]:
@@ -186,10 +178,8 @@ class Ensemble(Estimates):
                 "unbuildable": self.unbuildable,
                 "unbuildable_share": self.unbuildable / self.sums.tried,
                 "first_unbuildable": self.sums.first_unbuildable,
-                **({"contacts_in_a_group": m.members} if m.members else {}),
-                "arithmetic": "each packing proved in balls, forces rounded to float64"
-                if m.of_networks
-                else "float64",
+                "contacts_in_a_group": m.members,
+                "arithmetic": "float64",
             },
             "skipped": [{"effect": s.effect, "reason": s.reason} for s in m.plan.skipped],
             "results": {self.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
@@ -206,12 +196,6 @@ class Ensemble(Estimates):
             whole = [name for name, column in self._groups.items() if column.dtype.kind == "i"]
             # of all that was counted
             (data["statistics"],) = rows_of_text(self._text_of(self._groups), whole)
-        if self.covariance is not None:
-            data["covariance"] = {
-                "of": "mean square change of a packing" if m.row else "change",
-                "labels": {name: column.tolist() for name, column in self.index.items()},
-                "matrix": self.covariance.tolist(),
-            }
         return data
 
     def plot(self) -> "Figure":
@@ -236,12 +220,9 @@ class Ensemble(Estimates):
         lines = [f"{self.quantity}: {self.count} rows"]
         lines.append(f"{self.realisations} packings, {data['ensemble']['arithmetic']}")
         if self.unbuildable:
-            why = "can't be built"
-            if self.measurement.of_networks:
-                why = "did not come to rest, or could not be proved to,"
             lines.append(
                 f"{self.unbuildable} more, {data['ensemble']['unbuildable_share']:.2g} of all, "
-                f"{why} and are left out, the first of them realisation "
+                "can't be built and are left out, the first of them realisation "
                 f"{data['ensemble']['first_unbuildable']}: what is said holds for the others"
             )
         if math.isfinite(self.half_width):

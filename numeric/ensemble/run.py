@@ -4,9 +4,8 @@ from bisect import bisect_right, insort
 from collections.abc import Callable, Iterator
 from itertools import chain
 
-from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
+from ..arithmetic.errors import ForceDiffusionError
 from ..statistics.confidence import Rule, looks
-from ..unilateral import UnfinishedError
 from .estimates import Estimates
 from .measure import Measurement
 from .result import Ensemble
@@ -24,12 +23,6 @@ MEANS = 2_000_000
 
 class RealisationError(ForceDiffusionError, ValueError):
     """Hardly a realisation can be built; the message says which can't, and why."""
-
-
-class UnsettledError(RealisationError):
-    """Hardly a packing comes to rest, or is proved to, within what was asked."""
-
-    exit_status = NOT_REACHED
 
 
 Told = Callable[[int, float | None], None]
@@ -94,7 +87,7 @@ class _Blocks:
                     f"{block.first or block.stop} or {block.stop}, or give another name"
                 )
         if store is not None:
-            store.begin(size, self._all)
+            store.begin(size)
         ends = () if store is None else store.about.ends
         last = max([size, *(block.stop for block in self._all)])
         # Where ranges begin and end that are looked at, or were asked for: none lies across.
@@ -123,8 +116,6 @@ class _Blocks:
         m, beads = self.m, max(self.m.problem.region.beads, 1)
         large = min(LARGE[m.compiled] // beads, self.size // SHARES, MEANS // max(m.groups, 1))
         step = max(1, min(BLOCK // beads, 4096), large)
-        if m.of_networks:  # each takes a second, or many
-            step = 1
         step = 1 << (step.bit_length() - 1)
         held = {block.first: block.stop for block in self._all}
         ends, at = sorted({*self.cuts, *held}), 0
@@ -148,9 +139,7 @@ def _refuse_unbuildable(m: Measurement, sums: Sums) -> None:
     if sums.realisations >= 2:
         return
     number = sums.first_unbuildable or 0
-    why = why_left_out(m, number)
-    unsettled = isinstance(why, UnfinishedError | UndecidedError)
-    raise (UnsettledError if unsettled else RealisationError)(
+    raise RealisationError(
         f"{sums.unbuildable} of {sums.tried} packings are left out, and statistics need two: "
-        f"realisation {number}: {why}"
+        f"realisation {number}: {why_left_out(m, number)}"
     )

@@ -7,11 +7,9 @@ from fractions import Fraction
 from typing import Any
 
 from ..arithmetic.decimals import short
+from ..scene.scene import PROGRAM, program_version
 from .measure import Measurement
 
-# Since this version of the package an ensemble's numbers are the same, but for rounding: its store
-# goes on. A change of what is drawn, or of what it means, has to put its own version here.
-SINCE = "0.1.0"
 # Keys of a scene that say how much is asked, not what.
 _NOT_IN_IT = {"ask": {"realisations", "tolerance", "bins"}}
 
@@ -21,18 +19,14 @@ def ensemble_key(m: Measurement) -> dict[str, Any]:
     scene = m.plan.scene
     sections = scene.model_dump(exclude={"folder": True, **_NOT_IN_IT})
     sections["packing"]["spacing"] = scene.spacing
-    if scene.ask.layers is None:  # as in stores that were made before there were any
-        del sections["ask"]["layers"]
-    if scene.effects.contacts == "bilateral":  # its default then
-        sections["effects"]["protocol"] = "linear-programs"
     if scene.load.file is not None:  # its content counts, not its name
         loads = m.problem.load.single.items()
         forces = sorted((list(site), list(map(str, force))) for site, force in loads)
         digest = hashlib.sha256(json.dumps(forces).encode()).hexdigest()
         sections["load"]["file"] = f"sha256 {digest}"
     key: dict[str, Any] = json.loads(json.dumps(sections, default=str))  # of fractions
-    key["measured"] = {"covariance": m.covariance, "edges": [edge.hex() for edge in m.edges]}
-    key["version"] = {"force-diffusion": SINCE}
+    key["measured"] = {"edges": [edge.hex() for edge in m.edges]}
+    key["version"] = {PROGRAM: program_version()}
     return key
 
 

@@ -8,7 +8,7 @@ trusted only after all of it was checked, and one that is not this scene's is ne
 import hashlib
 import json
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator
 from contextlib import closing, contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -19,11 +19,10 @@ from pydantic import Field, JsonValue, TypeAdapter
 
 from ..arithmetic.errors import ForceDiffusionError, NotReachedError, printable
 from .measure import Measurement
-from .older import blocks_of_layout_2
 from .scene_key import differences
 from .sums import Block, from_bytes
 
-APPLICATION, SCHEMA, OLDER = 0x46444546, 3, 2  # "FDEF", layouts
+APPLICATION, SCHEMA = 0x46444546, 1  # "FDEF", and the layout
 # Looks at a store that is being written to, and seconds between them.
 LOOKS, PAUSE = 20, 0.05
 _MAGIC = b"SQLite format 3\x00"
@@ -33,7 +32,7 @@ _TABLES = (
     "checksum TEXT NOT NULL)",
 )
 _SETTINGS = "locking_mode = EXCLUSIVE", "synchronous = FULL", "trusted_schema = 0"
-# Bytes of what a store says of itself, and of a block: a covariance of 2048 variables has 50 MB.
+# Bytes of what a store says of itself, and of a block: of a million contacts it has 60 MB.
 LARGEST_TEXT, LARGEST_BLOCK = 1_000_000, 500_000_000
 _Number = Annotated[int, Field(ge=0, le=10**12)]  # of a realisation
 _KEY = TypeAdapter(dict[str, dict[str, JsonValue] | None])
@@ -67,7 +66,6 @@ class About:
 
     key: dict[str, Any]
     ends: tuple[int, ...]
-    layout: int = SCHEMA
 
 
 class Store:
@@ -84,15 +82,12 @@ class Store:
         found = list[Block]()
         for first, stop, content in self._rows():
             try:
-                if self.about.layout == OLDER:
-                    blocks = blocks_of_layout_2(content, m, first, stop)
-                else:
-                    blocks = [Block(first, stop, from_bytes(content, m))]
-                if sum(block.sums.tried for block in blocks) != stop - first:
+                block = Block(first, stop, from_bytes(content, m))
+                if block.sums.tried != stop - first:
                     raise ValueError("it holds more or fewer realisations than it says")
             except ValueError as error:
                 raise _damaged(self.path, str(error)) from None
-            found += blocks
+            found.append(block)
         return found
 
     def ranges(self) -> list[tuple[int, int]]:
@@ -114,39 +109,33 @@ class Store:
                 before = stop
                 yield first, stop, content
 
-    def begin(self, end: int, blocks: Sequence[Block]) -> None:
-        """Remember a size that was asked for: blocks on its two sides are never joined.
-
-        ``blocks`` are those of the store; in an older layout they are written anew.
-        """
-        older = self.about.layout == OLDER
-        if older or end not in self.about.ends:
+    def begin(self, end: int) -> None:
+        """Remember a size that was asked for: blocks on its two sides are never joined."""
+        if end not in self.about.ends:
             self.about = About(self.about.key, tuple(sorted({*self.about.ends, end})))
-            self._put(blocks if older else (), self.about)
+            self._commit(lambda: _write_about(self._database, self.about))
 
     def put(self, block: Block) -> None:
         """Write a block in one transaction, in place of its parts."""
-        self._put((block,))
+        content = block.sums.to_bytes()
+        own = block.first, block.stop
+        row = (*own, content, _checksum(self.about.key, *own, content))
 
-    def _put(self, blocks: Sequence[Block], about: About | None = None) -> None:
+        def write() -> None:
+            self._database.execute("DELETE FROM sums WHERE first >= ? AND first < ?", own)
+            self._database.execute("INSERT INTO sums VALUES (?, ?, ?, ?)", row)
+
+        self._commit(write)
+
+    def _commit(self, write: Callable[[], None]) -> None:
+        """Write in one transaction: all of it, or none, also when interrupted."""
         self.check_it_is_there()
         try:
-            with self._database:  # which commits all of it, or none, also when interrupted
+            with self._database:
                 self._database.execute("BEGIN IMMEDIATE")
-                for block in blocks:
-                    self._write(block)
-                if about is not None:
-                    _write_about(self._database, about)
-                    self._database.execute(f"PRAGMA user_version = {SCHEMA}")
+                write()
         except sqlite3.Error as error:
             raise OSError(None, f"{error}", str(self.path)) from None
-
-    def _write(self, block: Block) -> None:
-        content = block.sums.to_bytes()
-        checksum = _checksum(self.about.key, block.first, block.stop, content)
-        own = block.first, block.stop
-        self._database.execute("DELETE FROM sums WHERE first >= ? AND first < ?", own)
-        self._database.execute("INSERT INTO sums VALUES (?, ?, ?, ?)", (*own, content, checksum))
 
     def check_it_is_there(self) -> None:
         """Raise ``OSError`` where the file was deleted or replaced since it was opened."""
@@ -166,7 +155,7 @@ def open_store(path: Path, key: dict[str, Any] | None, *, peek: bool = False) ->
     """
     if str(path) == ":memory:":
         raise StoreError(f"{path} would be kept nowhere: give the name of a file")
-    new = _looked_at(path, may_be_new=key is not None)
+    _look_at(path, may_be_new=key is not None)
     # from the root, since SQLite obeys other names, such as file:x?mode=memory
     name = f"{path.absolute().as_uri()}?immutable=1" if peek else path.absolute()
     with _reading(path):
@@ -177,8 +166,8 @@ def open_store(path: Path, key: dict[str, Any] | None, *, peek: bool = False) ->
                 for setting in _SETTINGS:
                     database.execute(f"PRAGMA {setting}")
                 database.execute("BEGIN EXCLUSIVE")  # takes the lock, or fails at once
-                if new and not database.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]:
-                    assert key is not None
+                (tables,) = database.execute("SELECT count(*) FROM sqlite_master").fetchone()
+                if key is not None and not tables:  # a new file, or one that was never finished
                     _create(database, key)
                 database.execute("COMMIT")
         return Store(path, database, _checked(path, database, key))
@@ -252,15 +241,15 @@ def _content(opened: Store, *, in_use: bool) -> StoreContent:
     return StoreContent(total, ranges, tuple(opened.about.ends), opened.about.key, in_use)
 
 
-def _looked_at(path: Path, *, may_be_new: bool) -> bool:
-    """Say whether a file still has to be made; refuse what is plainly no store of ours."""
+def _look_at(path: Path, *, may_be_new: bool) -> None:
+    """Refuse what is plainly no store of ours."""
     try:
         if path.is_dir() or (path.exists() and not path.is_file()):
             raise StoreError(f"{path} is no ordinary file: give another name")
         if not path.exists() or not path.stat().st_size:
             if not may_be_new:
                 raise StoreError(f"{path}: there is no such store")
-            return True
+            return
         with path.open("rb") as file:
             head = file.read(100)
     except OSError as error:
@@ -270,7 +259,6 @@ def _looked_at(path: Path, *, may_be_new: bool) -> bool:
         raise StoreError(
             f"{path} is not the store of an ensemble, and is left as it is: give another name"
         )
-    return False
 
 
 @contextmanager
@@ -316,11 +304,10 @@ def _checked(path: Path, database: sqlite3.Connection, key: dict[str, Any] | Non
     with _reading(path):
         database.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, LARGEST_TEXT)
         (schema,) = database.execute("PRAGMA user_version").fetchone()
-        if schema not in (OLDER, SCHEMA):
+        if schema != SCHEMA:
             raise StoreError(
                 f"{path} has the layout {schema} of another version of force-diffusion, and this "
-                f"one reads layouts {OLDER} and {SCHEMA}: finish it with that version, or give "
-                "another name"
+                f"one reads layout {SCHEMA}: finish it with that version, or give another name"
             )
         written = database.execute("SELECT sql FROM sqlite_master WHERE sql IS NOT NULL")
         if set(written.fetchmany(len(_TABLES) + 1)) != {(table,) for table in _TABLES}:
@@ -338,7 +325,6 @@ def _checked(path: Path, database: sqlite3.Connection, key: dict[str, Any] | Non
         about = About(
             _KEY.validate_json(found["ensemble"], strict=True),
             _ENDS.validate_json(found["ends"], strict=True),
-            schema,
         )
     except ValueError:
         raise _damaged(path, "what it says of itself is not understood") from None

@@ -1,10 +1,9 @@
 """Sums over packings, joined in an order that nothing but the packings' numbers decides.
 
 A packing says of each group of n contacts with changes g from the ordered force: a = Σ g/n and
-b = Σ g²/n. Where contacts differ from packing to packing, it says n, Σ g and Σ g². Of several
-packings the means of these are kept, and sums of products of deviations from the means. A block
-holds the packings k 2^l … (k + 1) 2^l − 1, and its sums are those of its two halves joined: who
-solved which, in which order and how many at a time, decides no bit.
+b = Σ g²/n. Of several packings the means of these are kept, and sums of products of deviations from
+the means. A block holds the packings k 2^l … (k + 1) 2^l − 1, and its sums are those of its two
+halves joined: who solved which, in which order and how many at a time, decides no bit.
 """
 
 from collections.abc import Generator, Iterable, Iterator, Sequence
@@ -15,54 +14,43 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import FLOAT64, Array, Balls
+from ..arithmetic.systems import FLOAT64, Array
 from ..disorder.radii import RadiusError
 from ..mechanics import engine
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import NotStandingError, UnbuildableError
-from ..mechanics.work import Work
-from ..quantities.contacts_that_open import NetworkQuantity
 from ..statistics.moments import by_halves
-from ..unilateral import Relaxed, UnfinishedError
 from .measure import Measurement
 
 # What is raised for a packing that is left out.
-TROUBLE = (UnbuildableError, NotStandingError, RadiusError, UnfinishedError, UndecidedError)
-# Bits with which a packing of unilateral contacts is proved, one after the other until it is.
-BITS = (64, 128, 256)
+TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
 # Numbers that are joined at once: few enough for a cache.
 AT_ONCE = 20_000
 # Of no packing, where the lowest number of one is looked for.
 NEVER = 2**62
 
 
-_COUNTS = ("packings", "held", "samples", "tensile", "bins")
+_COUNTS = ("packings", "tensile", "bins")
 
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """Sums over packings, of G groups, V variables and B bins; a first axis may list several.
+    """Sums over packings, of G groups and B bins; a first axis may list several.
 
     ``first`` is the lowest number of a packing that is left out; ``packings`` (2,) counts those
-    that are summed up, and left out. (G,): ``held`` packings have ``samples`` in the group, of
-    which so many are ``tensile``. ``bins`` (3, B + 2): counts below, in and above the bins, their
-    squares, and their products with all that a packing counts. ``means`` (K, G) are those of a, b,
-    or of n, Σ g, Σ g², over packings, ``products`` (K (K + 1)/2, G) the sums of products of
-    deviations from them, row by row; ``pairs`` (V, V) those of the variables, the ``row`` of means.
-    a and Σ g are in units of 2^unit of the measurement, b and Σ g² of its square.
+    that are summed up, and left out; ``tensile`` (G,) contacts that pull. ``bins`` (3, B + 2):
+    counts below, in and above the bins, their squares, and their products with all that a packing
+    counts. ``means`` (2, G) are those of a and b over packings, ``products`` (3, G) the sums of
+    products of deviations from them, row by row. a is in units of 2^unit of the measurement, b of
+    its square.
     """
 
-    row: int
     first: Array
     packings: Array
-    held: Array
-    samples: Array
     tensile: Array
     bins: Array
     means: Array
     products: Array
-    pairs: Array
 
     @property
     def realisations(self) -> int:
@@ -85,11 +73,11 @@ class Sums:
         return int(self.packings.sum())
 
     def _arrays(self) -> list[Array]:
-        return [getattr(self, field.name) for field in fields(self)[1:]]
+        return [getattr(self, field.name) for field in fields(self)]
 
     def __getitem__(self, key: Any) -> "Sums":
         """Give some of several."""
-        return Sums(self.row, *(array[key] for array in self._arrays()))
+        return Sums(*(array[key] for array in self._arrays()))
 
     @np.errstate(all="ignore")  # in a forged file numbers may be of any size
     def __add__(self, other: "Sums") -> "Sums":
@@ -98,7 +86,6 @@ class Sums:
         share = more / np.maximum(own + more, 1)
         step, weight = other.means - self.means, own * share
         rows, columns = np.triu_indices(step.shape[-2])
-        x = step[..., self.row, : self.pairs.shape[-1]]
         return replace(
             self,
             first=np.minimum(self.first, other.first),
@@ -107,27 +94,23 @@ class Sums:
             products=self.products
             + other.products
             + step[..., rows, :] * step[..., columns, :] * weight,
-            pairs=self.pairs + other.pairs + x[..., :, None] * (x[..., None, :] * weight),
         )
 
     def to_bytes(self) -> bytes:
         """Write as bytes; equal sums give equal bytes."""
-        parts = [*self._arrays()[:-1], self.pairs[np.triu_indices(len(self.pairs))]]
-        return b"".join(part.astype(f"<{part.dtype.kind}8").tobytes() for part in parts)
+        return b"".join(one.astype(f"<{one.dtype.kind}8").tobytes() for one in self._arrays())
 
 
 def _shapes(m: Measurement) -> list[tuple[str, tuple[int, ...]]]:
     """Give kind and shape of each array."""
-    G, V, K = m.groups, m.variables, 3 if m.of_networks else 2
-    whole = [(), (2,), (G,), (G,), (G,), (3, m.counted)]
-    parts = [(K, G), (K * (K + 1) // 2, G), (V, V)]
-    return [("i8", shape) for shape in whole] + [("f8", shape) for shape in parts]
+    G = m.groups
+    whole = [(), (2,), (G,), (3, m.counted)]
+    return [("i8", shape) for shape in whole] + [("f8", (2, G)), ("f8", (3, G))]
 
 
 def from_bytes(content: bytes, m: Measurement) -> Sums:
     """Read what ``to_bytes`` wrote. Raises ``ValueError`` where it is nothing of the kind."""
-    V, at, arrays = m.variables, 0, list[Array]()
-    shapes = [*_shapes(m)[:-1], ("f8", (V * (V + 1) // 2,))]
+    at, arrays, shapes = 0, list[Array](), _shapes(m)
     if len(content) != 8 * sum(int(np.prod(shape)) for _, shape in shapes):
         raise ValueError("sums are shorter or longer than they should be")
     for kind, shape in shapes:
@@ -137,19 +120,16 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
             raise ValueError("sums are no numbers, or count less than nothing")
         arrays.append(array)
         at += 8 * count
-    pairs, upper = np.zeros((V, V)), np.triu_indices(V)
-    pairs[upper] = pairs.T[upper] = arrays[-1]
-    arrays[-1] = pairs
-    return Sums(m.row, *arrays)
+    return Sums(*arrays)
 
 
 def nothing(m: Measurement, packings: int) -> Sums:
-    """Give the sums of no packing, so many times; products and pairs can't be written to."""
-    *small, products, pairs = _shapes(m)
+    """Give the sums of no packing, so many times; products can't be written to."""
+    *small, (_, products) = _shapes(m)
     arrays = [np.zeros((packings, *shape), kind) for kind, shape in small]
     arrays[0] += NEVER
-    arrays += [np.broadcast_to(np.zeros(s), (packings, *s)) for _, s in (products, pairs)]
-    return Sums(m.row, *arrays)
+    arrays.append(np.broadcast_to(np.zeros(products), (packings, *products)))
+    return Sums(*arrays)
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,7 +207,7 @@ def blocks_of(packings: Sums, first: int) -> list[Block]:
 
 def _join(packings: Sums) -> Sums:
     count = len(packings.first)
-    if count > 1 and count * (packings.means[0].size + packings.pairs[0].size) > AT_ONCE:
+    if count > 1 and count * packings.means[0].size > AT_ONCE:
         return _join(packings[: count // 2]) + _join(packings[count // 2 :])
     while len(packings.first) > 1:
         packings = packings[0::2] + packings[1::2]
@@ -237,11 +217,10 @@ def _join(packings: Sums) -> Sums:
 def _solve(m: Measurement, numbers: Sequence[int], first: int, found: Sums) -> None:
     """Fill in single packings; those that can't be built are found by halving."""
     try:
-        for some, samples, means, tensile, counts in _each(m, numbers):
+        for some, means, tensile, counts in _each(m, numbers):
             at = np.asarray(some) - first
             found.packings[at] = 1, 0
-            found.held[at], found.samples[at], found.tensile[at] = samples > 0, samples, tensile
-            found.means[at] = means
+            found.means[at], found.tensile[at] = means, tensile
             whole = counts.sum(axis=1, keepdims=True)
             found.bins[at] = np.stack([counts, counts**2, counts * whole], axis=1)
     except TROUBLE:
@@ -253,20 +232,13 @@ def _solve(m: Measurement, numbers: Sequence[int], first: int, found: Sums) -> N
             _solve(m, part, first, found)
 
 
-# Numbers of packings, their samples (packings, 1 or G), means (packings, K, G), contacts that pull
-# (packings, G), and counts of bins (packings, B + 2).
-_Solved = tuple[Sequence[int] | Array, Array, Array, Array, Array]
+# Numbers of packings, their means (packings, 2, G), contacts that pull (packings, G), and counts of
+# bins (packings, B + 2).
+_Solved = tuple[Sequence[int] | Array, Array, Array, Array]
 
 
 def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
-    quantity = m.quantity
-    if isinstance(quantity, NetworkQuantity):
-        for number in numbers:
-            samples, counts = _at_rest(m, quantity, number)
-            none = np.zeros((1, 1), np.int64)
-            yield [number], samples[None, 0].astype(np.int64), samples[None], none, counts
-        return
-    problem = m.many
+    quantity, problem = m.quantity, m.many
     if m.expected < len(numbers):
         problem = replace(problem, realisations=len(numbers))
     if problem.route == Route.EXACT and engine.compiles(problem, FLOAT64):
@@ -278,37 +250,15 @@ def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
         tensile = np.zeros((len(some), m.groups), np.int64)
         if F.min() + g.min() < 0:  # else no sum below can be negative
             tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
-        yield some, *_of(m, np.moveaxis(sums, 2, 0)), tensile, _counted(m, g[0])
+        yield some, _means(m, np.moveaxis(sums, 2, 0)), tensile, _counted(m, g[0])
 
 
-def _of(m: Measurement, sums: Array) -> tuple[Array, Array]:
-    """Give samples and means from sums of g and of g², (packings, 2, groups, blocks)."""
+def _means(m: Measurement, sums: Array) -> Array:
+    """Give means from sums of g and of g², (packings, 2, groups, blocks)."""
     means = by_halves(sums) / m.members
     if not np.isfinite(means).all():
         raise ArithmeticError("a change, or its square, is not finite")
-    return np.array([[m.members]]), means
-
-
-def _at_rest(m: Measurement, quantity: NetworkQuantity, number: int) -> tuple[Array, Array]:
-    """Solve a realisation whose contacts are unilateral, and prove it with as few bits as will do.
-
-    Gives its samples, their sums and those of their squares, (3, groups), and counts (1, B + 2).
-    What the protocol raises is passed on.
-    """
-    from ..unilateral import packings  # SciPy's solvers take 35 MB
-
-    for bits in BITS:
-        system = Balls(bits)
-        try:
-            with system.active():
-                ((solved, _),) = packings(m.problem, [number], system, Work())
-                assert isinstance(solved, Relaxed)
-                _, values = quantity.samples(m.problem, solved.network)
-                return quantity.sums(m.problem, solved.network), _counted(m, values[None])
-        except UndecidedError:
-            if bits == BITS[-1]:
-                raise
-    raise AssertionError
+    return np.asarray(means)
 
 
 def _counted(m: Measurement, values: Array) -> Array:
@@ -351,7 +301,7 @@ def _compiled(
             tally(g, descent.F, m.runs, 2.0**-m.unit, edges, *own)
     engine.keep(problem, sweeps, loads)
     shape = m.groups, runs // m.groups
-    samples, means = _of(m, sums[good].reshape(good.sum(), 2, *shape))
+    means = _means(m, sums[good].reshape(good.sum(), 2, *shape))
     tensile = negative[good].reshape(good.sum(), *shape).sum(axis=-1)
-    yield np.array(numbers)[good], samples, means, tensile, counts[good]
+    yield np.array(numbers)[good], means, tensile, counts[good]
     return [number for number, one in zip(numbers, good, strict=True) if not one]

@@ -1,6 +1,6 @@
 """Figures of one answer: of a run, or of an ensemble."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -9,7 +9,7 @@ from ..arithmetic.systems import Array, as_floats
 from ..planning.plan import Plan
 from ..scene.scene import refuse
 from ..scene.sections import SceneError
-from ..unilateral import Network
+from ..unilateral.network import Network
 from .library import drawing
 
 if TYPE_CHECKING:
@@ -23,11 +23,11 @@ def figure_of(
     plan: Plan,
     columns: Mapping[str, Array],
     errors: Mapping[str, Array],
-    networks: Sequence[Network] = (),
+    network: Network | None = None,
 ) -> "Figure":
     """Draw an answer; ``columns`` are those of its table, ``errors`` standard errors of some.
 
-    ``networks``: where beads came to rest under unilateral contacts.
+    ``network``: where beads came to rest under unilateral contacts.
 
     Raises ``MissingLibraryError``, and ``SceneError`` for a quantity that has no figure, for an
     answer of no rows, or for numbers beyond what floats can draw.
@@ -43,7 +43,7 @@ def figure_of(
         if not len(next(iter(columns.values()), [])):
             raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
         _check_sizes(plan, columns)
-        return draw(DRAWN[quantity](plan, columns, errors, networks))
+        return draw(DRAWN[quantity](plan, columns, errors, network))
 
 
 def _check_sizes(plan: Plan, columns: Mapping[str, Array]) -> None:

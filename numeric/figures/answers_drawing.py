@@ -1,6 +1,6 @@
 """Pictures of one answer, by quantity; of listed packings the first one. Lengths in units of r."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from math import ceil, radians, sqrt, tan
 
 import numpy as np
@@ -8,11 +8,10 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import Branch, PerBranch, per_direction
-from ..mechanics.problem import Route
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.sections import SceneError
-from ..unilateral import Network
+from ..unilateral.network import Network
 from . import specification as spec
 from .elements import base, cone, point_load, surface_load
 
@@ -42,7 +41,7 @@ def _axes(plan: Plan) -> tuple[float, float]:
 def _theory(plan: Plan) -> PerBranch[Array] | None:
     """Give σ_f of layers 0 … M − 1 to first order; None where no closed form applies."""
     found = first_order_std(plan.problem)
-    if found is None or plan.problem.route == Route.UNILATERAL:
+    if found is None:
         return None
     unit = plan.scene.load.magnitude
     rows = [np.array([float(v * unit) for v in layers]) for _, layers in found]
@@ -50,15 +49,15 @@ def _theory(plan: Plan) -> PerBranch[Array] | None:
 
 
 def contact_forces(
-    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+    plan: Plan, columns: Columns, errors: Columns, network: Network | None
 ) -> spec.Picture:
     """Draw force chains on the ordered lattice: a line as thick as the force of its contact.
 
     Of an ensemble, which has no one packing, lines are as thick as σ_f. Under unilateral contacts
     they lie where the beads rest.
     """
-    if networks:
-        ends, forces, surface = _at_rest(plan, networks[0])
+    if network is not None:
+        ends, forces, surface = _at_rest(plan, network)
         panel = _chains(plan, ends, forces, "f", surface)
     else:
         rows = of_first(columns)
@@ -164,7 +163,7 @@ def _height(points: Array) -> float:
 
 
 def positions(
-    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+    plan: Plan, columns: Columns, errors: Columns, network: Network | None
 ) -> spec.Picture:
     """Draw the beads where they lie, each with its radius, as dark as it is displaced."""
     rows = of_first(columns)
@@ -179,38 +178,27 @@ def positions(
     return spec.Picture([panel], _height(centres / unit) + 0.4, page=True)
 
 
-def profile(
-    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
-) -> spec.Picture:
-    """Draw σ_f over the relative height, with its standard errors, beside Eq. 13 or 14.
-
-    Under unilateral contacts, for which there is no theory, ⟨f⟩ stands beside it.
-    """
+def profile(plan: Plan, columns: Columns, errors: Columns, network: Network | None) -> spec.Picture:
+    """Draw σ_f over the relative height, with its standard errors, beside Eq. 13 or 14."""
     M, theory, load = plan.problem.height, _theory(plan), plan.problem.load
     z, layers, what = columns["j"] / M, np.arange(M) / M, r"$\sigma_f$"
     elements: list[spec.Line | spec.Points] = []
-    if plan.problem.route == Route.UNILATERAL:
-        for c, (name, symbol) in enumerate((("std", r"$\sigma_f$"), ("mean", r"$⟨f⟩$"))):
-            error = columns.get(f"{name}_error")
-            elements.append(spec.Points(z, floats(columns[name]), c, symbol, error))
-        what = "force"
-    else:
-        if theory is not None and load.angle_deg:
-            for dashes, (own, exact) in zip("-:", theory, strict=True):
-                name = f"exact at finite $M$, $f^{own}$"
-                elements.append(spec.Line(layers, exact, dashes=dashes, name=name))
-        elif theory is not None:
-            elements.append(spec.Line(layers, theory.plus, name="exact at finite $M$"))
-            if plan.problem.dimension == 2:
-                name = f"Eq. ({14 if load.kind == 'bulk' else 13}), printed"
-                printed = theory.plus * _printed_over_exact(plan)
-                elements.append(spec.Line(layers, printed, "black", "--", name))
-        for c, own in enumerate(plan.quantity.branches):
-            rows = columns["branch"] == own
-            error = errors["std"][rows] if "std" in errors else None
-            std, name = floats(columns["std"])[rows], f"simulated, $f^{own}$"
-            elements.append(spec.Points(z[rows], std, c, name, error, 5.2 * NESTED**c))
-        what = what if load.loaded is None else r"$\sigma$ of the change"
+    if theory is not None and load.angle_deg:
+        for dashes, (own, exact) in zip("-:", theory, strict=True):
+            name = f"exact at finite $M$, $f^{own}$"
+            elements.append(spec.Line(layers, exact, dashes=dashes, name=name))
+    elif theory is not None:
+        elements.append(spec.Line(layers, theory.plus, name="exact at finite $M$"))
+        if plan.problem.dimension == 2:
+            name = f"Eq. ({14 if load.kind == 'bulk' else 13}), printed"
+            printed = theory.plus * _printed_over_exact(plan)
+            elements.append(spec.Line(layers, printed, "black", "--", name))
+    for c, own in enumerate(plan.quantity.branches):
+        rows = columns["branch"] == own
+        error = errors["std"][rows] if "std" in errors else None
+        std, name = floats(columns["std"])[rows], f"simulated, $f^{own}$"
+        elements.append(spec.Points(z[rows], std, c, name, error, 5.2 * NESTED**c))
+    what = what if load.loaded is None else r"$\sigma$ of the change"
     return spec.Picture([spec.Panel(elements, spec.RELATIVE_HEIGHT, spec.Axis(what, 0))], 2.8)
 
 
@@ -225,14 +213,13 @@ def _printed_over_exact(plan: Plan) -> Array:
 
 
 def histogram(
-    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+    plan: Plan, columns: Columns, errors: Columns, network: Network | None
 ) -> spec.Picture:
     """Draw P of the changes, with the Gaussian of theory where there is one.
 
     All contacts together have a Gaussian a layer. Errors are drawn where they are known: of one
-    contact, or of an ensemble. Under unilateral contacts it is P(f).
+    contact, or of an ensemble.
     """
-    free = plan.problem.route == Route.UNILATERAL
     known, contact = _theory(plan), plan.problem.contact
     asked = slice(None) if plan.scene.ask.layers is None else list(plan.scene.ask.layers)
     theory = None if known is None else np.concatenate([rows[asked] for _, rows in known])
@@ -246,7 +233,7 @@ def histogram(
     some = np.isfinite(columns["low"]) & np.isfinite(columns["high"])
     low, high = columns["low"][some] / unit, columns["high"][some] / unit
     error = columns.get("share_error")
-    if error is None and contact is not None and not free:  # one a packing: these are independent
+    if error is None and contact is not None:  # one a packing: these are independent
         error = np.sqrt(count) / count.sum()
     full = count[some] > 0
     with np.errstate(all="ignore"):
@@ -265,25 +252,23 @@ def histogram(
         name = "Gaussian of theory" if contact is not None else "theory: a Gaussian a layer"
         elements.append(spec.Line(v, gauss.mean(axis=0), "black", name=name, width=1.0))
         least = 0.3 / count.sum() / (high - low).max()
-    change = "f" if free else r"f-f^{\rm ordered}"
+    change = r"f-f^{\rm ordered}"
     panel = spec.Panel(
         elements,
         spec.Axis(f"$({change})\\,/\\,{own}$" if unit != 1 else f"${change}$"),
         spec.Axis(f"${own}\\,P$" if unit != 1 else "$P$", least, log=True),
-        legend="" if free else "lower center",
+        legend="lower center",
     )
     return spec.Picture([panel], 2.8)
 
 
 def response(
-    plan: Plan, columns: Columns, errors: Columns, networks: Sequence[Network]
+    plan: Plan, columns: Columns, errors: Columns, network: Network | None
 ) -> spec.Picture:
     """Draw p, the vertical force that a bead gets from both its upper contacts, and the contacts.
 
     Of one packing these are as thick as their force, of several as σ of it; p is the mean then.
     """
-    if networks:
-        return contact_forces(plan, columns, errors, networks)
     one = "vertical" in columns
     rows = {name: floats(column) for name, column in columns.items()}
     rows["i"] = _unwrapped(plan, rows["i"])
@@ -299,7 +284,7 @@ def response(
     return spec.Picture([left, _chains(plan, _contacts(plan, rows), forces, what)], 2.9, page=True)
 
 
-DRAWN: dict[str, Callable[[Plan, Columns, Columns, Sequence[Network]], spec.Picture]] = {
+DRAWN: dict[str, Callable[[Plan, Columns, Columns, Network | None], spec.Picture]] = {
     "contact_forces": contact_forces,
     "positions": positions,
     "profile": profile,

@@ -2,10 +2,9 @@
 
 import csv
 import io
-from collections.abc import Callable, Collection, Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
 from importlib import import_module
 from operator import index
 from typing import Any, SupportsIndex
@@ -13,7 +12,6 @@ from typing import Any, SupportsIndex
 import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError
-from ..arithmetic.processes import Start
 from ..scene.sections import SceneError
 from .library import KINDS, drawing
 from .names import FIGURES, HEIGHTS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
@@ -63,6 +61,7 @@ def figure(
     relative_std: Any = None,
     notice: Notice = lambda _: None,
     command: str | None = None,
+    kinds: Sequence[str] = KINDS,
 ) -> PaperFigure:
     """One of the paper's figures from exact packings, as files in memory.
 
@@ -88,6 +87,7 @@ def figure(
         relative_std: σ_δr/r of figures 3, 4, pf and chains.
         notice: told what is made next.
         command: what every file says that made it.
+        kinds: images to draw, of "png", "svg" and "pdf".
 
     Raises:
         NoSuchFigureError: there is no such figure or model.
@@ -95,33 +95,13 @@ def figure(
         UnbuildableError, NotStandingError: radii of such a height can't be built or stand.
         MissingLibraryError: there is no matplotlib.
     """
-    return begun(
-        name, heights=heights, realisations=realisations, seed=seed, beside=beside,
-        spacing=spacing, relative_std=relative_std, notice=notice, command=command,
-    )()  # fmt: skip
-
-
-def begun(
-    name: int | str,
-    *,
-    heights: Sequence[int] = HEIGHTS,
-    realisations: int | None = None,
-    seed: int = 1,
-    beside: str | Collection[str] = (),
-    spacing: Any = None,
-    relative_std: Any = None,
-    notice: Notice = lambda _: None,
-    command: str | None = None,
-    kinds: Sequence[str] = KINDS,
-    start: Start = partial,
-) -> Callable[[], PaperFigure]:
-    """Make what ``figure`` shows, and ``start`` to draw it; give what waits for it."""
-    if str(name) not in FIGURES:
+    name = str(name)
+    if name not in FIGURES:
         *names, last = (key if key.isdigit() else repr(key) for key in FIGURES)
         raise NoSuchFigureError(f"there is no figure {name}: give {', '.join(names)} or {last}")
     beside = (beside,) if isinstance(beside, str) else tuple(beside)
     for model in beside:
-        if MODELS.get(model) != str(name):
+        if MODELS.get(model) != name:
             raise NoSuchFigureError(
                 f"there is no model {model!r} beside figure {name}: give 'q-model' with figure 3 "
                 "or 'double-y' with figure 4"
@@ -135,24 +115,16 @@ def begun(
     layers = tuple(heights) if listed else ()
     if not layers:
         raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
-    chosen = _chosen(str(name), spacing, relative_std)
-    with drawing():  # or leave before anything is solved
-        entry = FIGURES[str(name)]
-        options = Options(
-            layers, realisations or entry.realisations, seed, frozenset(beside), *chosen, notice
-        )  # fmt: skip
-        data = import_module(f".{entry.module}", __package__).figure(options)
-    notice(f"{entry.file}: drawing")
+    chosen = _chosen(name, spacing, relative_std)
+    file, title, module, usual = FIGURES[name]
     made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"
-    return start(_finished, str(name), data, made_by, kinds)
-
-
-def _finished(name: str, data: Figure, made_by: str, kinds: Sequence[str]) -> PaperFigure:
-    file, title, *_ = FIGURES[name]
-    with drawing():
+    with drawing():  # or leave before anything is solved
         from . import style
         from .drawing import draw
 
+        options = Options(layers, realisations or usual, seed, frozenset(beside), *chosen, notice)
+        data: Figure = import_module(f".{module}", __package__).figure(options)
+        notice(f"{file}: drawing")
         files: dict[str, str | bytes] = {
             **style.images(lambda: draw(data.picture), file, title, made_by, kinds),
             **{f"{own}.csv": csv_file(table, title, made_by) for own, table in data.tables.items()},

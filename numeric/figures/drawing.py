@@ -12,8 +12,6 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Circle, Patch
 from matplotlib.ticker import LogFormatterSciNotation, LogLocator, NullFormatter
-from mpl_toolkits.mplot3d import Axes3D
-from mpl_toolkits.mplot3d.art3d import Line3DCollection
 
 from . import specification as spec
 from . import style
@@ -28,17 +26,12 @@ def draw(picture: spec.Picture) -> Figure:
     """Draw all panels, with their letters where there are several."""
     figure = style.figure(style.PAGE if picture.page else style.COLUMN, picture.height)
     letters = "abcdef"[: len(picture.panels)]
-    projections: Any = {
-        letter: {"projection": "3d" if panel.spatial else None}
-        for letter, panel in zip(letters, picture.panels, strict=True)
-    }
     found = figure.subplot_mosaic(
         picture.mosaic or letters,
         sharex="x" in picture.share,
         sharey="y" in picture.share,
         height_ratios=picture.rows,
         width_ratios=picture.columns,
-        per_subplot_kw=projections,
     )
     if len(letters) > 1:
         style.letter([found[letter] for letter in letters])
@@ -64,16 +57,8 @@ def _draw(axes: Axes, panel: spec.Panel) -> list[Artist]:
     lists = [one if isinstance(one, Sequence) else [one] for one in panel.elements]
     elements = [element for one in lists for element in one]
     keys = [key for element in elements for key in _PUT[type(element)](axes, element)]
-    if isinstance(axes, Axes3D):
-        axes.set_proj_type("ortho")
-        axes.view_init(elev=22, azim=-90)
     if panel.scaled:
         axes.set_aspect("equal")
-        if isinstance(axes, Axes3D):
-            sides = [
-                high - low for low, high in (axes.get_xlim(), axes.get_ylim(), axes.get_zlim())
-            ]
-            axes.set_box_aspect(sides, zoom=1.45)
     if panel.bare:
         axes.set_anchor("N")
         axes.axis("off")
@@ -125,7 +110,7 @@ def _line(axes: Axes, one: spec.Line) -> Iterable[Artist]:
     colour = _colour(one.colour)
     alone: Any = {"marker": "_", "ms": 7, "mew": 0.9, "clip_on": False} if len(one.x) == 1 else {}
     drawn = axes.plot(
-        one.x, one.y, *one.z, color=colour, ls=one.dashes, lw=one.width, label=one.name or None,
+        one.x, one.y, color=colour, ls=one.dashes, lw=one.width, label=one.name or None,
         **alone,
     )  # fmt: skip
     return drawn if one.name else ()
@@ -174,11 +159,6 @@ def _arrow(axes: Axes, one: spec.Arrow) -> Iterable[Artist]:
         "arrowstyle": one.style, "color": _colour(one.colour), "lw": one.width,
         "mutation_scale": one.size, "shrinkA": 0, "shrinkB": 0,
     }  # fmt: skip
-    if isinstance(axes, Axes3D):
-        along = np.subtract(one.tip, one.tail)
-        axes.quiver(*one.tail, *along, color=_colour(one.colour), lw=one.width)
-        axes.text(*one.tail, one.words, ha="center", va="bottom", fontsize=7.5)
-        return ()
     axes.annotate(
         one.words, one.tip, one.tail, ha="center", va="bottom", fontsize=7.5, arrowprops=look,
         zorder=7,
@@ -187,16 +167,6 @@ def _arrow(axes: Axes, one: spec.Arrow) -> Iterable[Artist]:
 
 
 def _beads(axes: Axes, one: spec.Beads) -> Iterable[Artist]:
-    if isinstance(axes, Axes3D):
-        look: dict[str, Any] = {"c": "white"}
-        if one.shades is not None:
-            look = {"c": one.shades, "cmap": "Greys", "vmin": one.least, "vmax": _darkest(one)}
-        beads: Any = axes.scatter(
-            *one.centres.T, s=one.size**2, ec=one.edge, lw=one.width, depthshade=False, **look
-        )
-        if one.bar:
-            _bar(axes, beads, one)
-        return ()
     radii = np.broadcast_to(one.radii, len(one.centres))
     circles = [
         Circle((x, y), radius) for (x, y), radius in zip(one.centres, radii, strict=True)
@@ -208,32 +178,22 @@ def _beads(axes: Axes, one: spec.Beads) -> Iterable[Artist]:
     else:
         beads.set_cmap(greys)
         beads.set_array(one.shades)
-        beads.set_clim(one.least, _darkest(one))
+        beads.set_clim(0, 1.15 * one.most)  # the darkest grey that is used still shows circles
     axes.add_collection(beads)
     axes.autoscale_view()
     if one.bar:
-        _bar(axes, beads, one)
+        bar = axes.figure.colorbar(
+            beads, ax=axes, location=one.side, shrink=0.8, aspect=18, pad=0.03, label=one.bar
+        )
+        (bar.ax.set_xlim if one.side == "bottom" else bar.ax.set_ylim)(0, one.most)
     return ()
-
-
-def _darkest(one: spec.Beads) -> float:
-    """Give what would be black: the darkest grey that is used still lets circles be seen."""
-    return one.most + 0.15 * (one.most - one.least)
-
-
-def _bar(axes: Axes, beads: Any, one: spec.Beads) -> None:
-    bar = axes.figure.colorbar(
-        beads, ax=axes, location=one.side, shrink=0.8, aspect=18, pad=0.03, label=one.bar
-    )
-    (bar.ax.set_xlim if one.side == "bottom" else bar.ax.set_ylim)(one.least, one.most)
 
 
 def _chains(axes: Axes, one: spec.Chains) -> Iterable[Artist]:
     widths = one.thickness(one.forces)
     for pulls, colour, order in ((False, PRESSING, 1), (True, PULLING, 2)):
         own = (one.forces < 0) == pulls
-        kind = Line3DCollection if isinstance(axes, Axes3D) else LineCollection
-        lines = kind(
+        lines = LineCollection(
             list(one.ends[own]), linewidths=widths[own].tolist(), colors=colour,
             capstyle="round", zorder=order,
         )  # fmt: skip

@@ -1,11 +1,11 @@
 """What several scale drawings have: loads, the base, the cone of a response. In units of r."""
 
-from math import ceil, sqrt
+from math import ceil
 
 import numpy as np
 
 from ..arithmetic.systems import Array
-from .specification import Arrow, Axis, Beads, Colour, Element, Line, Panel
+from .specification import Arrow, Axis, Beads, Element, Line, Panel
 
 MOST_ARROWS = 40
 NOTHING = 0.01
@@ -34,27 +34,6 @@ def point_load(x: float, y: float) -> list[Element]:
     """Draw the loaded bead and the arrow of its load."""
     arrow = Arrow((x, y + 6), (x, y + 1), r"$\mathbf{F}^{\rm load}$", width=1.0, size=7)
     return [Beads(np.array([[x, y]]), edge="black", width=0.6, above=True), arrow]
-
-
-def base_vectors(phi: float) -> Array:
-    """Give n¹, n² and n³ of a packing of spheres, (vector, xyz); n¹ − n³ is along x."""
-    up, out = sqrt((1 + 2 * phi) / 3), sqrt(2 * (1 - phi) / 3)
-    turns = np.radians([-30, 90, 210])
-    return np.stack([out * np.cos(turns), out * np.sin(turns), np.full(3, up)], axis=1)
-
-
-def across_cone(phi: float, layers: int, colour: Colour, name: str = "") -> Line:
-    """Draw the edge of the cone of a bead at the origin, so many layers below it."""
-    corners = -2 * layers * base_vectors(phi)
-    x, y, z = np.concatenate([corners, corners[:1]]).T
-    return Line(x, y, colour, name=name, z=[z])
-
-
-def point_load_in_space(phi: float, layers: int) -> list[Element]:
-    """Draw the load of the bead at the origin, and the edge of its cone on the base."""
-    arrow = Arrow((0, 0, 6), (0, 0, 1.5), r"$\mathbf{F}^{\rm load}$", width=1.0)
-    loaded = Beads(np.zeros((1, 3)), edge="black", width=0.6)
-    return [across_cone(phi, layers, "black"), loaded, arrow]
 
 
 def cone(

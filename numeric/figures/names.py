@@ -26,7 +26,6 @@ FIGURES = {
     ),
     "pf": Entry("pf", "P(f) against the Gaussian", "distribution", 4000),
     "chains": Entry("chains", "Force chains", "chains"),
-    "B1": Entry("figureB1", "What a contact force depends on, and paths of a point load", "paths"),
     "B2": Entry(
         "figureB2", "Fluctuation of the forces under a load at an angle", "directions", 400
     ),
@@ -38,18 +37,7 @@ FIGURES = {
     "B9": Entry(
         "figureB9", "Mean response to a point load at second order", "mean_response", 20000
     ),
-    "B10": Entry("figureB10", "Mean stress ratio to second order", "stress"),
-    "B11": Entry(
-        "figureB11", "Diffusion of forces in two, three and four dimensions", "dimensions"
-    ),
-    "B12": Entry("figureB12", "Covariance of forces along a diagonal", "along_a_diagonal", 1000),
     "B13": Entry("figureB13", "Diffusion of forces in packings of spheres", "spheres", 100),
-    "B15": Entry(
-        "figureB15", "What the load of either branch gives to a mean force", "sharing"
-    ),
-    "B19": Entry(
-        "figureB19", "Fluctuations of the response to a point load on spheres", "faces", 1000
-    ),
 }  # fmt: skip
 
 OF_ENSEMBLES = tuple(name for name, one in FIGURES.items() if one.realisations)

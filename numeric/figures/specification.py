@@ -55,10 +55,7 @@ RELATIVE_HEIGHT = Axis("relative height $z=j/M$", 0, 1)
 
 @dataclass(frozen=True)
 class Line:
-    """A curve through (x, y), in space through (x, y, z); of a single point, a dash.
-
-    ``z`` is empty, or one array in a list.
-    """
+    """A curve through (x, y); of a single point, a dash."""
 
     x: Any = ()
     y: Any = ()
@@ -66,7 +63,6 @@ class Line:
     dashes: Any = "-"
     name: str = ""
     width: float = 0.9
-    z: Any = ()
 
 
 def in_parts(x: Any, y: Any, bulk: slice, colour: Colour, dashes: Any = "-") -> list[Line]:
@@ -148,11 +144,10 @@ class Arrow:
 
 @dataclass(frozen=True)
 class Beads:
-    """Beads at ``centres``, (beads, d), as grey as ``shades``, (beads,), are large.
+    """Beads at ``centres``, (beads, 2), as grey as ``shades``, (beads,), are large.
 
     Negative shades are vermillion. With ``bar``, the name of the shades, there is a bar of greys
-    from ``least`` to ``most``, on a side of the panel. Without shades ``face`` fills them.
-    In space they are so many points in ``size``, and white without shades.
+    up to ``most``, on a side of the panel. Without shades ``face`` fills them.
     """
 
     centres: Array
@@ -165,13 +160,11 @@ class Beads:
     edge: str = "0.75"
     width: float = 0.25
     above: bool = False
-    size: float = 5.0
-    least: float = 0.0
 
 
 @dataclass(frozen=True)
 class Chains:
-    """Contacts as lines between ``ends``, (contacts, 2, d), as thick as ``forces``, (contacts,).
+    """Contacts as lines between ``ends``, (contacts, 2, 2), as thick as ``forces``, (contacts,).
 
     Pressing ones are dark, pulling ones vermillion. ``shown``: forces that the legend shows, with
     their names.
@@ -212,7 +205,7 @@ class Panel:
 
     ``legend`` is its place, "below" under the whole figure, "" nowhere.
 
-    ``scaled``: both axes alike; ``bare``: no axes. ``spatial``: in three dimensions.
+    ``scaled``: both axes alike; ``bare``: no axes.
     """
 
     elements: Sequence[Element | Sequence[Element]]
@@ -224,7 +217,6 @@ class Panel:
     columns: int = 1
     scaled: bool = False
     bare: bool = False
-    spatial: bool = False
 
 
 @dataclass(frozen=True)

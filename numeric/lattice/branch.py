@@ -1,4 +1,4 @@
-"""Along which base vector contacts lead up: two branches, or d axes; what there is of each."""
+"""Along which base vector contacts lead up: two branches, or three axes; what there is of each."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ class Direction(StrEnum):
 
     @property
     def side(self) -> int:
-        """The change of i; 0 in three dimensions and more, where nothing is called i."""
+        """The change of i; 0 in three dimensions, where nothing is called i."""
         return 0
 
     @property
@@ -45,26 +45,24 @@ class Branch(Direction):
 
 
 class Axis(Direction):
-    """One of the d base vectors in three dimensions and more.
+    """One of the three base vectors in three dimensions.
 
-    >>> [(axis.value, axis.number) for axis in Axis][:3], Branch.MINUS.number
+    >>> [(axis.value, axis.number) for axis in Axis], Branch.MINUS.number
     ([('1', 0), ('2', 1), ('3', 2)], 1)
     """
 
     FIRST = "1"
     SECOND = "2"
     THIRD = "3"
-    FOURTH = "4"
-    FIFTH = "5"
 
 
 def directions(dimension: int) -> tuple[Direction, ...]:
     """Give the directions along which contacts lead up.
 
-    >>> [one.value for one in directions(2)], [one.value for one in directions(4)]
-    (['+', '-'], ['1', '2', '3', '4'])
+    >>> [one.value for one in directions(2)], [one.value for one in directions(3)]
+    (['+', '-'], ['1', '2', '3'])
     """
-    return tuple(Branch) if dimension == 2 else tuple(Axis)[:dimension]
+    return tuple(Branch if dimension == 2 else Axis)
 
 
 def direction(name: str) -> Direction:
@@ -76,28 +74,22 @@ def direction(name: str) -> Direction:
     return Axis(name) if name.isdigit() else Branch(name)
 
 
-COLUMNS = "pqst"
-"""What the columns of a bead are called in three dimensions and more."""
-ORDER = ("branch", *reversed(COLUMNS), "i", "j")
+ORDER = ("branch", "q", "p", "i", "j")
 """By what rows are sorted, the last first."""
 
 
 def bead_names(dimension: int) -> tuple[str, ...]:
-    """Give what the numbers that name a bead are called, its layer last.
-
-    >>> bead_names(2), bead_names(4)
-    (('i', 'j'), ('p', 'q', 's', 'j'))
-    """
-    return ("i", "j") if dimension == 2 else (*COLUMNS[: dimension - 1], "j")
+    """Give what the numbers that name a bead are called, its layer last."""
+    return ("i", "j") if dimension == 2 else ("p", "q", "j")
 
 
 def axis_names(dimension: int) -> str:
     """Give what Cartesian coordinates are called, the vertical one last."""
-    return "xyzwv"[:dimension]
+    return "xyz"[:dimension]
 
 
 class AxisContact(NamedTuple):
-    """A contact in three dimensions or more: its lower bead (p, q, …, j), and its axis."""
+    """A contact in three dimensions: its lower bead (p, q, j), and its axis."""
 
     bead: tuple[int, ...]
     axis: Axis
@@ -158,8 +150,8 @@ class PerAxis(PerBranch[T]):
     _values: tuple[T, ...]
 
     def __init__(self, *values: T) -> None:
-        """``values``: one an axis, three or more."""
-        first, second, *_ = values
+        """``values``: one an axis."""
+        first, second, _ = values
         super().__init__(first, second)
         object.__setattr__(self, "_values", values)
 
@@ -167,7 +159,7 @@ class PerAxis(PerBranch[T]):
         return self._values[int(axis.value) - 1]
 
     def __iter__(self) -> Iterator[tuple[Direction, T]]:
-        yield from zip(Axis, self._values, strict=False)
+        yield from zip(Axis, self._values, strict=True)
 
 
 def per_direction(values: Sequence[T]) -> PerBranch[T]:

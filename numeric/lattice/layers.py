@@ -4,7 +4,7 @@ A bead sits at site (i, j) with i + j even; it rests on x − e₊ = (i − 1, j
 x − e₋ = (i + 1, j − 1). A layer of a periodic packing has ``width`` = W beads, and column
 q of layer j is i = 2q + (j mod 2), 0 ≤ i < 2W. Lengths are in units of the mean radius r.
 
-Beads and contacts are named (i, j) and a branch, or (p, q, …, j) and an axis. Columns of names have
+Beads and contacts are named (i, j) and a branch, or (p, q, j) and an axis. Columns of names have
 one entry a bead, or a contact, row by row.
 """
 
@@ -57,37 +57,36 @@ def column(i: int, j: int, width: int) -> int:
 
 
 Bead = tuple[int, ...]
-"""A bead (p, q, …, j) in three dimensions or more, p, q, … being columns.
+"""A bead (p, q, j) in three dimensions.
 
-A layer of W^(d−1) beads is one row here, in which q neighbours q + 1: column (p W + q) W + ….
+A layer of W² beads is one row here, in which q neighbours q + 1: column p W + q.
 """
 
 
-def bead_of(site: tuple[Any, Any], side: int, dimension: int) -> Bead:
-    """Name a bead (p, q, …, j), of a site of the row of W^(d−1) beads, W the ``side``.
+def bead_of(site: tuple[Any, Any], side: int) -> Bead:
+    """Name a bead (p, q, j), of a site of the row of W² beads, W the ``side``.
 
-    Or give columns p, q, … and j, of columns i and j.
+    Or give columns p, q and j, of columns i and j.
     """
     i, j = site
     number = (i - j % 2) // 2
-    return (*(number // side**k % side for k in reversed(range(dimension - 1))), j)
+    return number // side, number % side, j
 
 
 def site_of(bead: Sequence[int], side: int) -> Site:
-    """Give the site in the row of W^(d−1) beads.
+    """Give the site in the row of W² beads.
 
-    >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5, 3)
+    >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5)
     ((23, 3), (2, 1, 3))
     """
-    *columns, j = bead
-    number = sum(one % side * side**k for k, one in enumerate(reversed(columns)))
-    return 2 * number + j % 2, j
+    p, q, j = bead
+    return 2 * (p % side * side + q % side) + j % 2, j
 
 
 def lower_bead(upper: Bead, axis: Direction, side: int) -> Bead:
     """Give the bead below a contact."""
-    *columns, j = upper
-    return (*((one - (axis.number == a)) % side for a, one in enumerate(columns)), j - 1)
+    p, q, j = upper
+    return (p - (axis.number == 0)) % side, (q - (axis.number == 1)) % side, j - 1
 
 
 @dataclass(frozen=True)
@@ -222,8 +221,8 @@ class Rows(Sequence[Layer]):
 class Region:
     """Rows of beads, one a layer from the base (``rows[0]``) up; ``width`` None: infinite slab.
 
-    In d ≥ 3 dimensions a row is a whole layer of W^(d−1) beads, and ``width`` their number: a step
-    along e_1 (e_2, …) is one of p (q, …), and one along e_d keeps all of these.
+    In three dimensions a row is a whole layer of W² beads, and ``width`` their number: a step along
+    e_1 (e_2) is one of p (q), and one along e_3 keeps both.
     """
 
     width: int | None
@@ -242,13 +241,13 @@ class Region:
 
     @property
     def side(self) -> int:
-        """W, in three dimensions or more."""
-        return round(math.pow(self.width or 0, 1 / (self.dimension - 1)))
+        """W, in three dimensions."""
+        return math.isqrt(self.width or 0)
 
     def bead(self, layer: Layer, column: int) -> tuple[int, ...]:
-        """Name a bead of a row: (i, j), or (p, q, …, j)."""
+        """Name a bead of a row: (i, j), or (p, q, j)."""
         site = layer.first + 2 * column, layer.j
-        return site if self.dimension == 2 else bead_of(site, self.side, self.dimension)
+        return site if self.dimension == 2 else bead_of(site, self.side)
 
     def contact_below(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
         """Name the contact below a bead of a row."""
@@ -316,10 +315,9 @@ def _itself(values: Array) -> Array:
 
 
 def _turned(values: Array, side: int, steps: tuple[int, ...]) -> Array:
-    """Turn the columns of a layer, each by its step."""
-    shape, axes = values.shape, tuple(range(-len(steps), 0))
-    columns = values.reshape(*shape[:-1], *[side] * len(steps))
-    return np.roll(columns, tuple(-step for step in steps), axes).reshape(shape)
+    """Turn the columns p and q of a layer, each by its step."""
+    columns = values.reshape(*values.shape[:-1], side, side)
+    return np.roll(columns, tuple(-step for step in steps), (-2, -1)).reshape(values.shape)
 
 
 @lru_cache(maxsize=4)
@@ -395,7 +393,7 @@ class Block(NamedTuple):
 
 
 class Naming(NamedTuple):
-    """Names of a packing of layers of W (None: the slab), or in d dimensions W^(d−1), beads."""
+    """Names of a packing of layers of W (None: the slab), or in three dimensions W², beads."""
 
     dimension: int
     side: int | None
@@ -426,7 +424,7 @@ class Naming(NamedTuple):
         if self.dimension == 2:
             return site
         assert self.side is not None
-        return bead_of(site, self.side, self.dimension)
+        return bead_of(site, self.side)
 
     def contact(self, at: Sequence[Any]) -> Block:
         """Give the contact that a scene names by its lower bead and its branch."""
@@ -435,19 +433,18 @@ class Naming(NamedTuple):
         if self.dimension == 2:
             i, j = self.site(below)
             return Block(branch, Layer(j + 1, i + branch.side, 1))
-        *columns, j = map(int, below)
-        above = [one + (a == branch.number) for a, one in enumerate(columns)]
-        i, j = self.site([*above, j + 1])
+        p, q, j = map(int, below)
+        i, j = self.site([p + (branch.number == 0), q + (branch.number == 1), j + 1])
         return Block(branch, Layer(j, i, 1))
 
     def beads(self, rows: Sequence[Layer]) -> dict[str, Array]:
-        """Give the columns i and j, or p, q, … and j, of beads."""
+        """Give the columns i and j, or p, q and j, of beads."""
         j = np.repeat([row.j for row in rows] or _NONE, [row.count for row in rows] or _NONE)
         i = np.concatenate([_NONE, *(row.first + 2 * np.arange(row.count) for row in rows)])
         if self.dimension == 2:
             return {"i": self.home(i), "j": j}
         assert self.side is not None
-        return self._named(bead_of((i, j), self.side, self.dimension))
+        return self._named(bead_of((i, j), self.side))
 
     def contacts(self, blocks: Sequence[Block]) -> dict[str, Array]:
         """Give the columns of the lower beads, and branch, of contacts."""
@@ -457,9 +454,8 @@ class Naming(NamedTuple):
             lower = [Layer(row.j - 1, row.first - b.side, row.count) for b, row in blocks]
             return {**self.beads(lower), "branch": branch}
         assert self.side is not None
-        *columns, j = self.beads([row for _, row in blocks]).values()
-        along = zip(columns, self.branches, strict=False)
-        below = [(one - (branch == axis.value)) % self.side for one, axis in along]
+        p, q, j = self.beads([row for _, row in blocks]).values()
+        below = [(p - (branch == "1")) % self.side, (q - (branch == "2")) % self.side]
         return {**self._named([*below, j - 1]), "branch": branch}
 
     def _named(self, numbers: Sequence[Any]) -> dict[str, Array]:

@@ -1,1 +1,1 @@
-"""Packings and forces: loads, deposit, force balance; exact, to first order and in plain form."""
+"""Packings and forces: loads, deposit, force balance; exact and to first order."""

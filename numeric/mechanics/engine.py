@@ -18,7 +18,6 @@ from ..lattice.branch import Branch
 from ..lattice.layers import Layer, Region
 from . import first_order
 from .physicality import PHYSICAL, Physicality
-from .plain_form import solve_plainly
 from .problem import Problem, Route, Solved, rounded
 from .sweep import Loads, deposit, radii_named, sweep_down
 from .work import Work
@@ -69,8 +68,7 @@ def at_once(problem: Problem) -> int:
 
 def _in_batches(problem: Problem, system: NumberSystem) -> bool:
     """Say whether several realisations may be swept together."""
-    one_by_one = problem.stop_at_tension or problem.route == Route.LINE_SUMS
-    return not (system.dtype is object or one_by_one)
+    return not (system.dtype is object or problem.route == Route.LINE_SUMS)
 
 
 def packings(
@@ -80,7 +78,6 @@ def packings(
     work: Work | None = None,
     physical: Physicality | None = None,
     *,
-    plainly: bool = False,
     any_number: bool = False,
     carried: bool = False,
     copied: bool = False,
@@ -90,15 +87,15 @@ def packings(
     Gives what was solved together and its realisations: the first axis of arrays, which a single
     one lacks. The next ones take the memory of the last: what is to stay has to be copied. So do
     those of the next call, if of the last ones all is ``copied``. The
-    caller activates ``system``. ``physical`` looks at every packing. ``plainly`` takes the plain
-    form. With ``carried`` numbers carry their errors: ``system`` is float64, and ``Solved.rest``
-    holds what one rounding left of them. With ``any_number`` more may come together, so that all
+    caller activates ``system``. ``physical`` looks at every packing. With ``carried``
+    numbers carry their errors: ``system`` is float64, and ``Solved.rest`` holds what one rounding
+    left of them. With ``any_number`` more may come together, so that all
     cores have some. Raises what the sweeps raise for a packing that can't be built, or not be
     decided.
     """
     work = Work() if work is None else work
     size = chunk_size(problem, system)
-    sweeps, loads = (None, None) if plainly else ready(problem, system, carried=carried)
+    sweeps, loads = ready(problem, system, carried=carried)
     together = size
     if sweeps is not None and _in_batches(problem, system):
         together = size * -(-cores() // size)
@@ -120,9 +117,7 @@ def packings(
                 parts = [slice(0, len(batch))]
             for part in parts:
                 chunk = batch[part]
-                if plainly:
-                    solved = solve_plainly(problem, chunk, system, work)
-                elif all_solved is None:
+                if all_solved is None:
                     solved = _solved(problem, chunk, system, work, sweeps, loads, carried=carried)
                 else:
                     solved = all_solved if len(parts) == 1 else all_solved.some(part)
@@ -200,7 +195,7 @@ def _solved(
             return sweeps.told(rho, block, None, None)
         with work.timed("balance forces"):
             descent = sweeps.descent(rows, loads)
-            g = None if problem.stop_at_tension else descent(block)
+            g = descent(block)
         if g is not None:
             work.did_rows("balanced", rows[1:], descent.beads * n)
             return sweeps.told(rho, block, descent, g)
@@ -208,10 +203,7 @@ def _solved(
     forces = None
     if loads is not None:
         with work.timed("balance forces"):
-            forces = sweep_down(
-                packing, rows, loads, linear=linear, stop_at_tension=problem.stop_at_tension,
-                work=work,
-            )  # fmt: skip
+            forces = sweep_down(packing, rows, loads, linear=linear, work=work)
     found = Solved(own, packing, forces, None)
     return rounded(found) if carried else found
 

@@ -33,7 +33,7 @@ def components(force: Sequence[Any], n_x: Any, up: Any) -> Components:
     found = [-force[-1] / (d * up)] * d
     for k, (part, row) in enumerate(zip(force, level(d), strict=False), 1):
         # k (k + 1) (1 − φ) is the square of the level vector, and 1 − φ = 2 n_x²
-        size = n_x * (2 if k == 1 else flint.arb(2 * k * (k + 1)).sqrt())
+        size = n_x * (2 if k == 1 else flint.arb(12).sqrt())
         found = [of - h * part / size if h else of for of, h in zip(found, row, strict=True)]
     return tuple(found)
 
@@ -105,8 +105,8 @@ class LoadSpec:
     """A load of unit magnitude: "surface", "bulk", "point" (on ``at``) or "file" (``single``).
 
     ``angle_deg`` turns the load away from straight down, positive towards +i; in three dimensions
-    and more towards +x. ``single`` holds {(i, j): (fx, fy)} in units of the magnitude, or (fx, fy,
-    …, fz). ``height`` and ``width`` are the packing's; in d dimensions a row has W^(d−1) beads.
+    towards +x. ``single`` holds {(i, j): (fx, fy)} in units of the magnitude, or (fx, fy, fz).
+    ``height`` is the packing's, ``width`` the beads of a row: W, or in three dimensions W².
     """
 
     kind: str

@@ -1,4 +1,4 @@
-"""One bead: how it rests on its d supports, what its contacts bear, its gap to another; any d.
+"""One bead: how it rests on its d supports, what its contacts bear, its gap to another; d = 2, 3.
 
 The one source of all sweeps. Vectors are tuples of components, and components are what the caller
 calculates with: NumPy arrays of floats or of objects, numbers that carry their rounding errors
@@ -61,17 +61,11 @@ def metric(dimension: int, phi: Fraction, scalar: Callable[[Fraction], Any]) -> 
 
 
 def level(dimension: int) -> tuple[tuple[int, ...], ...]:
-    """Give d − 1 level vectors as whole numbers of n^1 … n^d: n^1 − n^d, 2 n^2 − n^1 − n^d, ….
+    """Give level vectors as whole numbers of the n^a: n^1 − n^d, and 2 n^2 − n^1 − n^3 of three.
 
-    They are perpendicular; the square of number k = 1 … d − 1 is k (k + 1) (1 − φ).
-
-    >>> level(2), level(4)
-    (((1, -1),), ((1, 0, 0, -1), (-1, 2, 0, -1), (-1, -1, 3, -1)))
+    They are perpendicular; the square of number k = 1, 2 is k (k + 1) (1 − φ).
     """
-    rows = [(1, *(0,) * (dimension - 2), -1)]
-    for k in range(2, dimension):
-        rows.append((*(-1,) * (k - 1), k, *(0,) * (dimension - k - 1), -1))
-    return tuple(rows)
+    return ((1, -1),) if dimension == 2 else ((1, 0, -1), (-1, 2, -1))
 
 
 def total(values: Iterable[Any]) -> Any:

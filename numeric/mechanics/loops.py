@@ -159,10 +159,9 @@ def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Ar
 
 @compiled
 def settle(g: Array, words: Array, at: int, n: int, most: Array) -> None:
-    """Round numbers that carry their errors once, and put what that leaves in place of the errors.
+    """Round numbers that carry their errors once, in place.
 
-    ``g`` is (packings, parts D, …). ``most``, (parts D,), keeps what was largest before, and at its
-    end, (1,), what of all that is left.
+    ``g`` is (packings, parts D, …). ``most``, (parts D,), keeps what was largest before.
     """
     g, words = borrowed(g), borrowed(words)
     for k in range(len(g)):
@@ -173,10 +172,7 @@ def settle(g: Array, words: Array, at: int, n: int, most: Array) -> None:
                 most[a] = _largest(words[k, a, low:high], most[a])
                 most[a + D] = _largest(words[k, a + D, low:high], most[a + D])
                 for i in range(high - low):
-                    value, error = values[i], errors[i]
-                    near = value + error
-                    values[i], errors[i] = near, (value - near) + error
-                most[2 * D] = _largest(words[k, a + D, low:high], most[2 * D])
+                    values[i] += errors[i]
 
 
 @compiled

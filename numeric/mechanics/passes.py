@@ -35,31 +35,22 @@ def _supports(region: Region) -> Array:
 class Deposition:
     """Deposits packings of one region, in memory that is used again for the next ones."""
 
-    def __init__(
-        self, phi: Fraction, region: Region, *, carried: bool = False, block: Array | None = None
-    ) -> None:
-        """``carried``: numbers carry their errors; ``block``: memory of the last ones."""
+    def __init__(self, phi: Fraction, region: Region, *, carried: bool = False) -> None:
+        """``carried``: numbers carry their errors."""
         self.region, self.carried = region, carried
         d = region.dimension
         self.constants = constants(d, phi, carried=carried)
         self.runs = _supports(region)
         self.counts = region.rows.counts
         self.quantities = d + d * d
-        fits = block is not None and block.shape[1:] == self.shape
-        self.block = block if block is not None and fits else np.empty((0, 0, 0))
-        self.most = np.empty((0, 0))
+        self.block: Array = np.empty((0, 0, 0))
+        self.most: Array = np.empty((0, 0))
 
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Quantities, and the numbers of each, in memory."""
-        return padded((1 + self.carried) * self.quantities, self.region.beads)
-
-    def __call__(self, rho: Array, base: Array | None = None) -> Array | None:
+    def __call__(self, rho: Array) -> Array | None:
         """Deposit packings of δr/r, (packings, parts, beads); None where not all rest.
 
-        Gives the ``block`` of ``loops.deposit``. ``base`` holds c of the lowest row, if it is not
-        the ordered base. What was given before is overwritten. ``most`` says how large each
-        quantity is, (packings, quantities).
+        Gives the ``block`` of ``loops.deposit``. What was given before is overwritten. ``most``
+        says how large each quantity is, (packings, quantities).
         """
         batch, (parts, beads) = len(rho), rho.shape[1:]
         lowest = 1 + rho[:, 0, : self.counts[0]]
@@ -72,9 +63,7 @@ class Deposition:
         self.most = np.zeros((batch, parts * self.quantities))
         for k in range(parts):
             own = slice(k * self.quantities, k * self.quantities + d)
-            block[:, own, : self.counts[0]] = 0 if base is None else base[k * d : (k + 1) * d]
-            if base is not None:
-                self.most[:, own] = np.abs(base[k * d : (k + 1) * d]).max(axis=1, initial=0)
+            block[:, own, : self.counts[0]] = 0
         words, most = block.view(np.int64), self.most.view(np.int64)
 
         def part(of: slice) -> bool:
@@ -143,11 +132,8 @@ def _loads(region: Region, own: Region, lowest: int) -> Array:
 class Descent:
     """Carries loads down through packings of one region, in memory that is used again."""
 
-    def __init__(
-        self, region: Region, rows: Rows, loads: Loads, *, carried: bool = False,
-        g: Array | None = None,
-    ) -> None:  # fmt: skip
-        """``rows``: those that are balanced, of these ``loads``; ``g``: memory of the last ones."""
+    def __init__(self, region: Region, rows: Rows, loads: Loads, *, carried: bool = False) -> None:
+        """``rows``: those that are balanced, of these ``loads``."""
         d, self.carried = region.dimension, carried
         self.region, self.rows = region, rows
         own = Region(region.width, rows, d)
@@ -157,16 +143,14 @@ class Descent:
         self.lowest = int(empty[-1]) + 2 if len(empty) else 1
         self.beads = int(self.starts[-1] - self.starts[1])  # that pass forces on
         self.runs = _loads(region, own, self.lowest)
-        self.lost = np.empty((0, 0))
-        fits = g is not None and g.shape[1:] == self.shape
-        self.g = g if g is not None and fits else memory(1, self.shape[0], int(self.starts[-1]))
+        self.g = memory(1, (1 + carried) * d, int(self.starts[-1]))
         self.set(loads)
 
     @cached_property
-    def nearest(self) -> tuple[Array, Array]:
-        """The ordered forces below beads, (d, …), rounded once, and what that leaves."""
+    def nearest(self) -> Array:
+        """The ordered forces below beads, (d, …), rounded once."""
         d, F = self.region.dimension, self.F[:, self.beads_below]
-        return Carried(F[:d], F[d:]).nearest
+        return np.asarray(F[:d] + F[d:]) if self.carried else F
 
     @cached_property
     def bounds(self) -> tuple[float, float]:
@@ -175,15 +159,11 @@ class Descent:
         least, most = float(F.min(initial=np.inf)), float(F.max(initial=-np.inf))
         return least, max(most, -least, 0.0)
 
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Quantities, and the numbers of each, in memory."""
-        return padded((1 + self.carried) * self.region.dimension, int(self.starts[-1]))
-
     def set(self, loads: Loads) -> None:
         """Take other loads."""
         d, self.loads = self.region.dimension, loads
-        self.F, shares = np.zeros(self.shape), self.g[0]  # whose changes are not there yet
+        self.F: Array = np.zeros_like(self.g[0])
+        shares = self.g[0]  # whose changes are not there yet
         shares[:] = 0
         for a, (_, rows) in enumerate(loads):
             for j in range(self.lowest, len(self.rows)):
@@ -194,63 +174,42 @@ class Descent:
                     shares[a, of] = share
         kernels(d).straight_down(self.F, shares, self.runs, np.empty(0))
 
-    def settled(self, g: Array) -> tuple[float, float, float]:
-        """Round changes that carry errors once, in place; rests take the place of errors.
-
-        Give the largest change, the largest error of one, and the largest rest.
-        """
+    def settle(self, g: Array) -> tuple[float, float]:
+        """Round changes that carry errors once, in place; give the largest change, and error."""
         d, of = self.region.dimension, self.beads_below
-        most = np.zeros(2 * d + 1)
+        most = np.zeros(2 * d)
         loop, words = kernels(d).settle, g.view(np.int64)
         loop(g, words, of.start, of.stop - of.start, most.view(np.int64))
-        return float(most[:d].max()), float(most[d : 2 * d].max()), float(most[-1])
+        return float(most[:d].max()), float(most[d:].max())
 
-    def __call__(self, block: Array, above: Array | None = None) -> Array | None:
+    def __call__(self, block: Array) -> Array | None:
         """Balance the forces of packings whose ``block`` that is; None where not all is in order.
 
-        Gives ``g`` of ``loops.sweep_down``. ``above`` holds what ``row`` gave of the highest row,
-        if that is balanced already.
+        Gives ``g`` of ``loops.sweep_down``.
         """
-        batch, rows, top = len(block), self.F.shape[0], len(self.rows) - 1
+        batch, rows = len(block), self.F.shape[0]
         if len(self.g) < batch:
             self.g = memory(batch, rows, int(self.starts[-1]))
-        g, runs = self.g[:batch], self.runs
-        loop = kernels(self.region.dimension)
-        if above is not None:
-            runs = runs[runs[:, 0] < self.starts[top]]
+        g, loop = self.g[:batch], kernels(self.region.dimension)
 
         def part(of: slice) -> bool:
             lost = np.zeros((rows, 2 * self.widest + NONE))
-            if above is not None:
-                g[of, :, self.starts[top] : self.starts[top + 1]] = above[0]
-                lost[:, top % 2 * self.widest :][:, : self.counts[top]] = above[1]
-            good = loop.sweep_down(self.F, block[of], g[of], lost, runs, np.empty(0))
-            if batch == 1:
-                self.lost = lost
+            good: bool = loop.sweep_down(self.F, block[of], g[of], lost, self.runs, np.empty(0))
             return good
 
         return g if on_all_cores(part, batch) else None
-
-    def row(self, j: int) -> Array:
-        """Give g and what was lost of the lowest row but one that was balanced, (2, …, beads)."""
-        turn = j % 2 * self.widest
-        lost = self.lost[:, turn : turn + self.counts[j]]
-        return np.stack([self.g[0, :, self.starts[j] : self.starts[j + 1]], lost])
 
     @property
     def beads_below(self) -> slice:
         """Which of all numbers belong to beads that bear something."""
         return slice(self.starts[self.lowest], self.starts[-1])
 
-    def told(
-        self, F: Array, g: Array, most: float | None = None, left: float | None = None
-    ) -> Forces:
-        """Tell ``beads_below`` row by row: ordered forces (d, …), changes (packings, d, …).
+    def told(self, g: Array, most: float | None) -> Forces:
+        """Tell ``beads_below`` row by row, of changes ``g`` (packings, d, …).
 
-        ``most``: the largest change, if that is known; ``left``: as ``Forces`` have it.
+        ``most``: the largest change, if that is known.
         """
-        d = self.region.dimension
-
+        d, F = self.region.dimension, self.nearest
         starts = self.starts - self.starts[self.lowest]
 
         def row(values: Array, j: int) -> Array:
@@ -270,5 +229,4 @@ class Descent:
             F=F,
             g=g,
             hold=most is not None and self.bounds[0] - most > 2 * SIGNS * most,
-            left=left,
         )

@@ -33,7 +33,7 @@ ROOM = 1 + 1e-9
 
 @dataclass
 class Physicality:
-    """What was found, merged over layers and realisations.
+    """What was found, merged over realisations.
 
     ``smallest_gap`` is that of two beads that do not touch, or of a bead and its own image. In an
     answer's ``physical`` it is in the unit that radii are given in, here in units of r.
@@ -59,36 +59,11 @@ class Physicality:
         pulls = self.tensile or self.undecided_signs
         return not (self.overlaps or self.undecided_gaps or pulls)
 
-    def above(self, other: "Physicality") -> None:
-        """Merge with what was found in layers further up."""
-        if other.between is not None and (self.between is None or other._rank() < self._rank()):
-            self.smallest_gap, self.between = other.smallest_gap, other.between
-        self.overlaps += other.overlaps
-        self.undecided_gaps += other.undecided_gaps
-        self.tensile += other.tensile
-        self.undecided_signs += other.undecided_signs
-        self.contacts += other.contacts
-        self.forces_known |= other.forces_known
-        self.first_tensile = self.first_tensile or other.first_tensile
-
-    def _rank(self) -> tuple[float, int, int]:
-        """Give what decides which gap is named: of equal ones that of the nearest layers."""
-        assert self.smallest_gap is not None
-        assert self.between is not None
-        lower, upper = self.between
-        return self.smallest_gap, upper[-1] - lower[-1], lower[-1]
-
-    def look_at_gaps(
-        self, packing: SolvedPacking, layers: range | None = None, *, more: bool = False
-    ) -> None:
-        """Measure the gaps of all pairs of beads that could meet within the region.
-
-        Of the lower bead's ``layers`` only, if some are given; ``more``: rows above are not there.
-        """
-        layers = range(packing.region.top + 1) if layers is None else layers
-        found = gaps(packing, layers, more=more)
+    def look_at_gaps(self, packing: SolvedPacking) -> None:
+        """Measure the gaps of all pairs of beads that could meet."""
+        found = gaps(packing)
         self.overlaps += found.overlaps
-        self.undecided_gaps += found.undecided + found.unseen
+        self.undecided_gaps += found.undecided
         if found.between is not None and not found.smallest >= self._smallest:
             lower, upper = found.between
             self.smallest_gap, self.smallest_in = found.smallest, self.looks_at[found.packing]
@@ -98,23 +73,15 @@ class Physicality:
     def _smallest(self) -> float:
         return math.inf if self.smallest_gap is None else self.smallest_gap
 
-    def look_at_forces(self, forces: Forces, layers: range | None = None) -> None:
-        """Count the contacts that surely pull and those whose sign stays open.
-
-        Of the upper bead's ``layers`` only, if some are given.
-        """
+    def look_at_forces(self, forces: Forces) -> None:
+        """Count the contacts that surely pull and those whose sign stays open."""
         self.forces_known = True
-        if layers is not None and forces.hold:
-            rows = forces.rows[max(layers.start, 1) : layers.stop]
-            self.contacts += forces.region.dimension * rows.beads
-            return
-        if layers is None and forces.F is not None and forces.g is not None:
+        if forces.F is not None and forces.g is not None:
             self.contacts += forces.g.size
             pulling_rows = [] if forces.hold else self._count(forces.rows, forces.F, forces.g)
         else:
-            every = range(len(forces.rows))
             pulling_rows = []
-            for j in every if layers is None else every[layers.start : layers.stop]:
+            for j in range(len(forces.rows)):
                 for _, F, g in forces.below(j):
                     pulls, undecided = pulling(F + g, g, forces.system)
                     self.contacts += g.size
@@ -158,7 +125,7 @@ class Physicality:
 class Gaps:
     """The smallest gap, the number of its packing and its two beads; overlaps; what is too close.
 
-    Beads are named as (row, column). ``unseen``: pairs may be closer for which rows are lacking.
+    Beads are named as (row, column).
     """
 
     smallest: float = math.inf
@@ -166,7 +133,6 @@ class Gaps:
     between: tuple[tuple[int, int], tuple[int, int]] | None = None
     overlaps: int = 0
     undecided: int = 0
-    unseen: bool = False
 
     @property
     def matters(self) -> float:
@@ -212,12 +178,8 @@ def by_distance(dimension: int, phi: Fraction) -> Iterator[tuple[float, Steps]]:
         reach, given = 2 * reach, len(shell)
 
 
-def gaps(packing: SolvedPacking, layers: range, *, more: bool = False) -> Gaps:
-    """Measure gaps, of pairs whose lower bead lies in the rows ``layers``.
-
-    Of packings of any arithmetic, in float64 from the deviations. ``more``: there are rows above
-    the region.
-    """
+def gaps(packing: SolvedPacking) -> Gaps:
+    """Measure gaps of packings of any arithmetic, in float64 from the deviations."""
     region, found = packing.region, Gaps()
     d, phi = region.dimension, packing.phi
     turn, moved, widest = _bounds(packing, phi)
@@ -231,17 +193,14 @@ def gaps(packing: SolvedPacking, layers: range, *, more: bool = False) -> Gaps:
         if distance > farthest:
             return found
         nearest = max(distance * slack, distance - moved) - thick
-        if nearest > found.matters or not layers:
+        if nearest > found.matters:
             return found
         if distance - min(sum(map(abs, steps)) * turn, moved) - thick > found.matters:
             continue
-        on = sum(steps)
-        own = range(layers.start, min(layers.stop, region.top + 1 - on))
-        found.unseen |= more and len(own) < len(layers)
         if compiled is not None:
-            compiled.measure(found, steps, phi, own)
+            compiled.measure(found, steps, phi)
             continue
-        for j in own:
+        for j in range(region.top + 1 - sum(steps)):
             _measure(found, packing, steps, phi, j)
     return found
 
@@ -323,12 +282,12 @@ class _Compiled:
         self.gaps = np.empty((1, kernels.MOST + 1))
         self.loop = kernels.kernels(region.dimension).gaps
 
-    def measure(self, found: Gaps, steps: Steps, phi: Fraction, layers: range) -> None:
+    def measure(self, found: Gaps, steps: Steps, phi: Fraction) -> None:
         """Take in the gaps of one kind of pairs."""
         packing, region = self.packing, self.packing.region
         assert packing.memory is not None
         runs, first = _pairs(region, steps)
-        of_layer = first[layers.start : layers.stop + 1]
+        of_layer = first[: max(region.top + 1 - sum(steps), 0) + 1]
         square = square_of(phi, steps)
         m = np.array([*self.m, *steps, float(square), float(square - 4)])
         counted = np.zeros(6, np.int64)

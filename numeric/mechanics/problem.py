@@ -10,13 +10,18 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.carried import NONE, Sizes
-from ..arithmetic.systems import FLOAT64, NumberSystem, from_floats
+from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import Radii
 from ..lattice.branch import Contact, PerBranch, Site, per_direction
 from ..lattice.layers import LazyRows, Region, Rows
 from .loads import LoadSpec
 from .local import cosine
 from .sweep import Forces, Memory, SolvedPacking
+
+
+def axes(n_x: Fraction, system: NumberSystem) -> tuple[Any, Any]:
+    """Give (n_x, n_y) with n_y = √(1 − n_x²)."""
+    return system.scalar(n_x), system.root(1 - n_x**2)
 
 
 class Route(StrEnum):
@@ -36,10 +41,8 @@ class Problem:
     ``region``: the beads that are deposited. ``force_rows``: those whose forces are balanced, empty
     where only positions are asked for. ``contact`` or ``site``: the one that is asked for, if it is
     one. ``realisations``: how many there are in all; it decides who sweeps, never a number.
-    ``protocol``: how beads come to rest where contacts are unilateral, and when that is given up:
-    after ``most_events``, or ``most_seconds`` of the processor. ``segment``: how many layers are in
-    memory at a time, 0 for all of them; a layer is kept below each ``every``-th of these parts. In
-    three dimensions layers of W² beads count as one row.
+    ``most_programs``, ``most_seconds`` of the processor: after which a packing is given up where
+    contacts are unilateral. In three dimensions layers of W² beads count as one row.
     """
 
     n_x: Fraction
@@ -51,23 +54,14 @@ class Problem:
     needs_forces: bool
     contact: Contact | None = None
     site: Site | None = None
-    stop_at_tension: bool = False
     realisations: int = 1
-    protocol: str = ""
-    most_events: int | None = None
+    most_programs: int | None = None
     most_seconds: Fraction | None = None
-    segment: int = 0
-    every: int = 1
 
     @property
     def dimension(self) -> int:
         """2 for discs, 3 for spheres."""
         return self.region.dimension
-
-    @property
-    def segments(self) -> int:
-        """In how many parts a packing is swept, one below the other; 1 for all in memory."""
-        return max(1, -(-self.region.top // self.segment)) if self.segment else 1
 
     @property
     def side(self) -> int:
@@ -96,14 +90,13 @@ class Solved:
 
     ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
     line sums give alone. Where the sweep carried errors, all numbers are rounded only once, and
-    ``rest`` holds what that left of them, number by number, and ``sizes`` how large errors were.
+    ``sizes`` says how large errors were.
     """
 
     system: NumberSystem
     packing: SolvedPacking | None
     forces: Forces | None
     single: tuple[Any, Any] | None
-    rest: "Solved | None" = None
     sizes: Sizes = NONE
 
     def one(self, number: int) -> "Solved":
@@ -113,47 +106,6 @@ class Solved:
     def some(self, of: slice) -> "Solved":
         """Give some of those that were solved together; one alone has no axis of realisations."""
         return self.one(of.start) if of.stop == of.start + 1 else self._at(of)
-
-    def longer(self, system: NumberSystem) -> "Solved":
-        """Give all numbers in a longer arithmetic, with what rounding left of them."""
-        rest = self.rest
-        assert rest is not None
-
-        def sums(pairs: Any, empty: bool = False) -> Any:
-            a, b = pairs
-            if isinstance(a, tuple):
-                return tuple(map(sums, zip(a, b, strict=True)))
-            if isinstance(a, np.ndarray):
-                return from_floats(system, a) + from_floats(system, b)
-            return system.from_float(float(a)) + system.from_float(float(b))
-
-        def rows(near: Sequence[Any], rests: Sequence[Any]) -> LazyRows[Any]:
-            return LazyRows(len(near), lambda j: sums((near[j], rests[j])))
-
-        def each(near: PerBranch[Any], rests: PerBranch[Any]) -> PerBranch[Any]:
-            both = zip(near, rests, strict=True)
-            return per_direction([rows(a, b) for (_, a), (_, b) in both])
-
-        packing, forces, single = self.packing, self.forces, self.single
-        if packing is not None:
-            own = rest.packing
-            assert own is not None
-            packing = SolvedPacking(
-                packing.phi,
-                system,
-                packing.region,
-                rows(packing.rho, own.rho),
-                each(packing.c, own.c),
-                each(packing.dn, own.dn),
-            )
-        if forces is not None:
-            of = rest.forces
-            assert of is not None
-            ordered, change = each(forces.ordered, of.ordered), each(forces.change, of.change)
-            forces = Forces(system, forces.region, forces.rows, ordered, change, forces.stopped)
-        if single is not None:
-            single = sums((tuple(single), tuple(rest.single or ())))
-        return Solved(system, packing, forces, single)
 
     def _at(self, at: int | slice) -> "Solved":
         def of(rows: Sequence[Any]) -> LazyRows[Any]:
@@ -184,42 +136,36 @@ class Solved:
         if forces is not None:
             g = None if forces.g is None else forces.g[part]
             forces = replace(forces, change=each(forces.change), g=g)
-        rest = None if self.rest is None else self.rest._at(at)
-        return Solved(self.system, packing, forces, self.single, rest, self.sizes)
+        return Solved(self.system, packing, forces, self.single, self.sizes)
 
 
 def rounded(solved: Solved) -> Solved:
-    """Round numbers that carry their errors once, and keep what that leaves."""
+    """Round numbers that carry their errors once."""
 
-    def part(values: Any, which: int) -> Any:
-        if isinstance(values, tuple):
-            return tuple(part(x, which) for x in values)
-        return values.nearest[which]
+    def near(values: Any) -> Any:
+        return tuple(map(near, values)) if isinstance(values, tuple) else values.nearest
 
-    def rows(values: Sequence[Any], which: int) -> LazyRows[Any]:
-        return LazyRows(len(values), lambda j: part(values[j], which))
+    def rows(values: Sequence[Any]) -> LazyRows[Any]:
+        return LazyRows(len(values), lambda j: near(values[j]))
 
-    def each(values: PerBranch[Any], which: int) -> PerBranch[Any]:
-        return per_direction([rows(one, which) for _, one in values])
+    def each(values: PerBranch[Any]) -> PerBranch[Any]:
+        return per_direction([rows(one) for _, one in values])
 
-    def parts(which: int) -> Solved:
-        packing, forces, single = solved.packing, solved.forces, solved.single
-        if packing is not None:
-            packing = replace(
-                packing,
-                system=FLOAT64,
-                rho=rows(packing.rho, which),
-                c=each(packing.c, which),
-                dn=each(packing.dn, which),
-            )
-        if forces is not None:
-            ordered, change = each(forces.ordered, which), each(forces.change, which)
-            forces = replace(forces, system=FLOAT64, ordered=ordered, change=change)
-        if single is not None:
-            single = part(tuple(single), which)
-        return Solved(FLOAT64, packing, forces, single)
-
-    return replace(parts(0), rest=parts(1), sizes=_sizes(solved))
+    packing, forces, single = solved.packing, solved.forces, solved.single
+    if packing is not None:
+        packing = replace(
+            packing,
+            system=FLOAT64,
+            rho=rows(packing.rho),
+            c=each(packing.c),
+            dn=each(packing.dn),
+        )
+    if forces is not None:
+        ordered, change = each(forces.ordered), each(forces.change)
+        forces = replace(forces, system=FLOAT64, ordered=ordered, change=change)
+    if single is not None:
+        single = near(tuple(single))
+    return Solved(FLOAT64, packing, forces, single, _sizes(solved))
 
 
 def _sizes(solved: Solved) -> Sizes:

@@ -42,9 +42,7 @@ def turns_of(region: Region, steps: tuple[int, ...]) -> Array:
     """Say for each row of a layer in which one the beads lie that are so many steps on."""
     if region.dimension == 2:
         return np.zeros(1, np.int64)
-    side, others = region.side, region.dimension - 2
-    rows = np.arange(side**others).reshape((side,) * others)
-    return np.roll(rows, tuple(-step for step in steps[:others]), range(others)).ravel()
+    return np.roll(np.arange(region.side), -steps[0])
 
 
 def links_of(

@@ -13,10 +13,9 @@ from ..arithmetic.systems import NumberSystem
 from ..disorder.radii import MeasuredRadii
 from ..lattice.branch import Branch
 from ..lattice.layers import column, whole
-from . import engine, plain
+from . import engine
 from .loads import LoadSpec
-from .plain_form import solve_plainly
-from .problem import Problem, Route, Solved
+from .problem import Problem, Route, Solved, axes
 from .work import Work
 
 Site = tuple[int, int]
@@ -34,7 +33,7 @@ class Solution:
         """Cartesian (δx, δy) of a bead, units of r (Eqs. 2, 3)."""
         q, packing = column(i, j, self.problem.region.rows[j].count), self.solved.packing
         assert packing is not None
-        nx, ny = plain.axes(self.problem.n_x, self.solved.system)
+        nx, ny = axes(self.problem.n_x, self.solved.system)
         plus, minus = (c[j][q] for _, c in packing.c)
         return (plus - minus) / (2 * nx), (plus + minus) / (2 * ny)
 
@@ -44,7 +43,7 @@ class Solution:
         return F + g
 
     def change(self, i: int, j: int, branch: str) -> Any:
-        """f^±_ij minus its ordered value (plain form: by that very subtraction)."""
+        """f^±_ij minus its ordered value."""
         return self._parts(i, j, branch)[1]
 
     def _parts(self, i: int, j: int, branch: str) -> tuple[Any, Any]:
@@ -64,13 +63,11 @@ def solve(
     loads: Mapping[Site, tuple[Rational, Rational]],
     strength: Rational,
     system: NumberSystem,
-    plainly: bool = False,
 ) -> Solution:
     """Solve by the engine, in the deviation form: no ordered value is ever subtracted.
 
-    ``rho``: {(i, j): ρ}, 0 for others; ``loads``: {(i, j): (fx, fy)}. ``plainly``: by circle
-    intersection and force balance, the ordered packing subtracted. Raises ``ValueError`` for a site
-    off the lattice, and what the sweeps raise.
+    ``rho``: {(i, j): ρ}, 0 for others; ``loads``: {(i, j): (fx, fy)}. Raises ``ValueError``
+    for a site off the lattice, and what the sweeps raise.
     """
     region = whole(width, height)
     radii = {(i, row.j): Fraction(0) for row in region.rows for i in row.sites()}
@@ -89,5 +86,4 @@ def solve(
         needs_forces=True,
     )
     with system.active():
-        own = solve_plainly if plainly else engine.solve
-        return Solution(problem, own(problem, [0], system, Work()))
+        return Solution(problem, engine.solve(problem, [0], system, Work()))

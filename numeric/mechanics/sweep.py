@@ -1,4 +1,4 @@
-"""Packings and their forces, swept layer by layer: any dimension, any number system.
+"""Packings and their forces, swept layer by layer: discs or spheres, any number system.
 
 The beads of a row are calculated with as arrays, by the one source in ``local``. ``kernels`` runs
 the same source compiled, bit for bit. Forces are in units of the load's magnitude, loads in
@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arithmetic.carried import CARRYING, Carried
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
-from ..arithmetic.systems import MOST_BITS, Array, Balls, NumberSystem, zeros
+from ..arithmetic.systems import Array, NumberSystem, zeros
 from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows, bead_of
@@ -57,7 +57,7 @@ def radii_named(region: Region) -> Iterator[None]:
         if region.dimension == 2:
             raise
         i, j = error.site
-        raise RadiusError(bead_of((i, j), region.side, region.dimension), error.reason) from None
+        raise RadiusError(bead_of((i, j), region.side), error.reason) from None
 
 
 @dataclass(frozen=True)
@@ -102,10 +102,8 @@ class Forces:
     """Contact forces below the beads of ``rows[j]`` (empty at j = 0), indexed by the upper bead.
 
     ``ordered``: F^a, ``change``: g^a = f^a − F^a; per layer arrays of shape (count,), changes of a
-    batch of packings (…, count). ``stopped`` names the first tensile contact where a sweep was
-    asked to stop at one: the layers below it are then empty. ``F`` (d, …) and ``g`` (batch, d, …)
-    hold all of compiled loops, from the lowest row that forces reach on. ``hold``: it is known that
-    none of them pulls. ``left``: the most that rounding left of a change, if that is known.
+    batch of packings (…, count). ``F`` (d, …) and ``g`` (batch, d, …) hold all of compiled loops,
+    from the lowest row that forces reach on. ``hold``: it is known that none of them pulls.
     """
 
     system: NumberSystem
@@ -113,11 +111,9 @@ class Forces:
     rows: Rows
     ordered: PerBranch[Sequence[Array]]
     change: PerBranch[Sequence[Array]]
-    stopped: Contact | AxisContact | None = None
     F: Array | None = None
     g: Array | None = None
     hold: bool = False
-    left: float | None = None
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
         """Give (branch, F, g) of the contacts below row j."""
@@ -136,15 +132,14 @@ def deposit(
     system: NumberSystem,
     work: Work | None = None,
     *,
-    on: tuple[Any, ...] | None = None,
     linear: bool = False,
 ) -> SolvedPacking:
     """Deposit beads layer by layer on the ordered base; to first order only if ``linear``.
 
     ``phi`` is the dot product of any two base vectors.
     ``rho[j]`` holds δr/r of the beads of ``region.rows[j]`` (shape (count,), or (…, count) for a
-    batch of packings). ``on`` holds c of the lowest row, if it is not the ordered base. The caller
-    activates ``system``. Raises ``UnbuildableError``, naming the bead, where a radius is not
+    batch of packings). The caller activates ``system``. Raises ``UnbuildableError``, naming the
+    bead, where a radius is not
     positive (or no number) or the supports are too far apart or too steep, and ``UndecidedError``
     where balls are too wide to tell.
     """
@@ -153,7 +148,7 @@ def deposit(
     nothing = zeros(system, 0)
     base = zeros(system, *_shape(rho[0]))
     down = [region.step(a, -1) for a in range(d)]
-    c: list[tuple[Any, ...]] = [(base,) * d if on is None else tuple(on)]
+    c: list[tuple[Any, ...]] = [(base,) * d]
     dn: list[tuple[tuple[Any, ...], ...]] = [((nothing,) * d,) * d]
     layers = tuple(region.rows)
     for j, layer in enumerate(layers):
@@ -193,7 +188,6 @@ def sweep_down(
     loads: Loads,
     *,
     linear: bool = False,
-    stop_at_tension: bool = False,
     work: Work | None = None,
 ) -> Forces:
     """Carry loads down from the highest of ``rows`` through the beads of ``rows``.
@@ -203,8 +197,7 @@ def sweep_down(
 
     ``rows[j]`` for j = 0 … top lie within the packing's region; ``loads`` belong to them. Beads
     above or beside the rows pass no force on to them. The caller activates the number system.
-    ``stop_at_tension`` ends the sweep below the first layer with a tensile contact. Raises
-    ``NotStandingError`` where contacts are parallel within the arithmetic.
+    Raises ``NotStandingError`` where contacts are parallel within the arithmetic.
     """
     top, region, system = len(rows) - 1, packing.region, packing.system
     d = region.dimension
@@ -214,7 +207,6 @@ def sweep_down(
     ordered: list[tuple[Any, ...]] = [(nothing,) * d] * (top + 1)
     change: list[tuple[Any, ...]] = [(nothing,) * d] * (top + 1)
     lost: tuple[Any, ...] = ()
-    stopped = None
     dn = [rows_of for _, rows_of in packing.dn]
     shares = [of for _, of in loads]
     up = [region.step(a, 1) for a in range(d)]
@@ -254,17 +246,12 @@ def sweep_down(
         if work is not None:
             work.did("balanced", layer, _beads(found.g[0]) // layer.count)
         ordered[j], change[j], lost = F, found.g, found.lost
-        if stop_at_tension:
-            stopped = first_tension(layer, region, F, found.g, system)
-        if stopped is not None:
-            break
     return Forces(
         system,
         region,
         rows,
         per_direction([tuple(row[a] for row in ordered) for a in range(d)]),
         per_direction([tuple(row[a] for row in change) for a in range(d)]),
-        stopped,
     )
 
 
@@ -288,29 +275,6 @@ def straight_down(
             parts.append(F if share[j] is None else F + share[j])
         found[j] = tuple(parts)
     return found
-
-
-def first_tension(
-    layer: Layer,
-    region: Region,
-    F: Sequence[Any],
-    g: Sequence[Any],
-    system: NumberSystem,
-) -> Contact | AxisContact | None:
-    """Name the first contact below ``layer`` that surely pulls, or None.
-
-    ``F`` and ``g`` hold ordered forces and changes by direction. Raises ``UndecidedError`` where
-    balls leave a sign open; what floats leave open counts as holding, and what balls of the most
-    bits do: a force that is exactly zero has no sign.
-    """
-    for (branch, _), force, change in zip(per_direction(range(len(F))), F, g, strict=True):
-        pulls, undecided = pulling(force + change, change, system)
-        if pulls.any():
-            q = int(np.argwhere(pulls)[0][-1])
-            return region.contact_below(layer, branch, q)
-        if undecided.any() and isinstance(system, Balls) and system.bits < MOST_BITS:
-            raise UndecidedError(f"layer {layer.j}: balls are too wide for the sign of a force")
-    return None
 
 
 # A float64 force has no sign within so much of its layer's largest change.

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.carried import CARRYING, Carried, Sizes
+from ..arithmetic.carried import CARRYING, NONE, Carried, Sizes
 from ..arithmetic.compiling import on_all_cores
 from ..arithmetic.systems import FLOAT64, Array
 from ..disorder import compiled as drawing
@@ -27,15 +27,19 @@ from .sweep import Loads, SolvedPacking
 class Drawing:
     """Gives radii of one region, in memory that is used again."""
 
-    def __init__(
-        self, radii: Radii, region: Region, *, carried: bool = False, rho: Array | None = None
-    ) -> None:
-        """``radii`` are drawn here, if they are drawn at all; ``rho``: memory of the last ones."""
-        self.radii, self.region, self.carried = radii, region, carried
-        self.runs = drawing.runs_of(radii, region.rows) if isinstance(radii, DrawnRadii) else None
-        fits = rho is not None and rho.shape[1:] == self.shape
-        self.rho = rho if rho is not None and fits else np.empty((0, 0, 0))
-        self._deviates = np.empty((0, 0, 0))
+    def __init__(self, radii: Radii, region: Region, *, carried: bool = False) -> None:
+        """``radii`` are drawn here, if they are drawn at all."""
+        self.region, self.carried = region, carried
+        self.rho: Array = np.empty((0, 0, 0))
+        self._deviates: Array = np.empty((0, 0, 0))
+        self.take(radii)
+
+    def take(self, radii: Radii) -> None:
+        """Take other radii."""
+        self.radii = radii
+        self.runs = None
+        if isinstance(radii, DrawnRadii):
+            self.runs = drawing.runs_of(radii, self.region.rows)
 
     def __call__(self, realisations: Sequence[int]) -> Array:
         """Give δr/r, (packings, parts, beads). Raises what ``radii`` raises."""
@@ -45,18 +49,12 @@ class Drawing:
         system, region = (CARRYING if self.carried else FLOAT64), self.region
         rho, radii = self._memory(len(realisations)), self.radii
         if isinstance(radii, ArrayRadii) and region.is_whole:
-            first = region.rows[0].j
-            values = radii.values[np.asarray(realisations), first : first + len(region.rows)]
+            values = radii.values[np.asarray(realisations), : len(region.rows)]
             return self._scaled(values.reshape(len(rho), 1, -1), radii.origin, radii.radius)
         for j, row in enumerate(region.rows):
             of = slice(region.starts[j], region.starts[j + 1])
             self._put(rho, of, self.radii.row(row, realisations, system))
         return rho
-
-    @property
-    def shape(self) -> tuple[int, int]:
-        """Parts, and the numbers of each, in memory."""
-        return 1 + self.carried, self.region.beads
 
     def _memory(self, batch: int) -> Array:
         if len(self.rho) < batch:
@@ -112,30 +110,13 @@ class Sweeps:
     What was given for the last is overwritten.
     """
 
-    def __init__(
-        self,
-        problem: Problem,
-        region: Region | None = None,
-        *,
-        carried: bool = False,
-        last: "Sweeps | None" = None,
-    ) -> None:
-        """``region``: of these beads alone; ``carried``: numbers carry their errors.
-
-        The memory of the ``last`` sweeps is taken over.
-        """
+    def __init__(self, problem: Problem, *, carried: bool = False) -> None:
+        """``carried``: numbers carry their errors."""
         self._shape, self.carried = _shape(problem), carried
-        self.phi, self.region = problem.phi, problem.region if region is None else region
-        rho, block, g = (None, None, None) if last is None else last._memory
-        self._draw = Drawing(problem.radii, self.region, carried=carried, rho=rho)
-        self._deposit = Deposition(problem.phi, self.region, carried=carried, block=block)
-        self._g: Array | None = g
+        self.phi, self.region = problem.phi, problem.region
+        self._draw = Drawing(problem.radii, self.region, carried=carried)
+        self._deposit = Deposition(problem.phi, self.region, carried=carried)
         self._descent: tuple[Loads, Descent] | None = None
-
-    @property
-    def _memory(self) -> tuple[Array, Array, Array | None]:
-        g = self._g if self._descent is None else self._descent[1].g
-        return self._draw.rho, self._deposit.block, g
 
     @property
     def bytes(self) -> int:
@@ -150,7 +131,7 @@ class Sweeps:
         if carried != self.carried or self._shape != _shape(problem):
             return False
         if self._draw.radii is not problem.radii:
-            self._draw = Drawing(problem.radii, self.region, carried=carried, rho=self._draw.rho)
+            self._draw.take(problem.radii)
         return True
 
     def radii(self, realisations: Sequence[int]) -> Array:
@@ -163,15 +144,14 @@ class Sweeps:
         parts = [np.split(part, self.region.starts[1:-1], axis=-1) for part in values]
         return [Carried(*one) for one in zip(*parts, strict=True)] if self.carried else parts[0]
 
-    def deposit(self, rho: Array, base: Array | None = None) -> Array | None:
-        """Deposit what was drawn last, on the ordered base or on c; None where not all rest."""
-        return self._deposit(rho, base)
+    def deposit(self, rho: Array) -> Array | None:
+        """Deposit what was drawn last; None where not all rest."""
+        return self._deposit(rho)
 
     def descent(self, rows: Rows, loads: Loads) -> Descent:
         """Give what balances, the same for the same ``loads``."""
         if self._descent is None or self._descent[0] is not loads:
-            made = Descent(self.region, rows, loads, carried=self.carried, g=self._memory[2])
-            self._descent = loads, made
+            self._descent = loads, Descent(self.region, rows, loads, carried=self.carried)
         return self._descent[1]
 
     def changes(self, realisations: Sequence[int], descent: Descent) -> Array | None:
@@ -191,7 +171,7 @@ class Sweeps:
         return replace(told(*parts, Carried), system=CARRYING, memory=None)
 
     def told(self, rho: Array, block: Array, descent: Descent | None, g: Array | None) -> Solved:
-        """Tell what was solved row by row, with what rounding left if that is known."""
+        """Tell what was solved row by row."""
         return tell(self.phi, self._deposit, rho, descent, g)
 
 
@@ -212,28 +192,17 @@ def tell(
 
     Changes are rounded in place: no sweep goes on from them.
     """
-    region, most = deposition.region, deposition.most
-    parts = phi, region, rho, deposition.block[: len(rho)], most
-    forces = left = None
-    if not deposition.carried:
-        if g is not None and descent is not None:
-            of = descent.beads_below
-            forces = descent.told(descent.F[:, of], g[..., of])
-        return Solved(FLOAT64, told(*parts), forces, None)
-    d = region.dimension
-    moved, turned = most[:, d + d * d : 2 * d + d * d], most[:, 2 * d + d * d :]
-    sizes = Sizes(float(moved.max()), float(turned.max()))
+    region, most, carried = deposition.region, deposition.most, deposition.carried
+    d, forces, sizes = region.dimension, None, NONE
+    if carried:
+        moved, turned = most[:, d + d * d : 2 * d + d * d], most[:, 2 * d + d * d :]
+        sizes = Sizes(float(moved.max()), float(turned.max()))
     if g is not None and descent is not None:
-        largest, off, after = descent.settled(g)
-        near, rest = descent.nearest
-        sizes |= Sizes(changed=off, force=descent.bounds[1] + largest)
-        g = g[..., descent.beads_below]
-        forces = descent.told(near, g[:, :d], largest, after)
-        left = descent.told(rest, g[:, d:])
-    beside = Solved(FLOAT64, told(*parts, _left), left, None)
-    return Solved(FLOAT64, told(*parts, add), forces, None, beside, sizes)
-
-
-def _left(value: Array, error: Array) -> Any:
-    """Give what one rounding leaves of a value and its error."""
-    return Carried(value, error).nearest[1]
+        largest = None
+        if carried:
+            largest, off = descent.settle(g)
+            sizes |= Sizes(changed=off, force=descent.bounds[1] + largest)
+        forces = descent.told(g[:, :d, descent.beads_below], largest)
+    block = deposition.block[: len(rho)]
+    packing = told(phi, region, rho, block, most, add if carried else None)
+    return Solved(FLOAT64, packing, forces, None, sizes)

@@ -20,7 +20,7 @@ class Work:
 
     ``again`` counts every visit of a pass that only repeats an earlier one, to estimate its error.
     ``arithmetic`` names the number systems of the passes. With ``trace`` on, rows are kept too.
-    ``kept``: what a realisation was found to be, for passes with more bits.
+    ``settled``: where beads came to rest in float64, for passes with more bits.
     """
 
     radii: int = 0
@@ -36,7 +36,7 @@ class Work:
     trace: bool = False
     rows: dict[str, list[Layer]] = field(default_factory=dict)
     repeating: bool = False
-    kept: dict[int, Any] = field(default_factory=dict)
+    settled: Any = None
 
     def did(self, kind: str, layer: Layer, times: int = 1) -> None:
         """Count a row of beads: "radii", "deposited", "balanced", "summed" or "checked"."""

@@ -6,7 +6,6 @@ from functools import cached_property
 from importlib.util import find_spec
 from typing import Any
 
-from ..arithmetic.carried import Pairs
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii
@@ -40,26 +39,15 @@ _WHOLE = "spheres are always swept in whole layers"
 
 @dataclass(frozen=True)
 class Method:
-    """An arithmetic, and how the error of its answer becomes known.
-
-    In float64 and pairs, sweeps of the first ``repeated`` realisations carry their errors, and
-    ``longer`` holds both together; what is longer still is repeated in ``longer``. None stands for
-    balls, which certify.
-    """
+    """An arithmetic; in float64, sweeps of the first ``repeated`` realisations carry errors."""
 
     system: NumberSystem
-    longer: NumberSystem | None = None
     repeated: int = 0
 
     @property
     def certified(self) -> bool:
         """Whether the error is a rigorous bound."""
         return isinstance(self.system, Balls)
-
-    @property
-    def carries(self) -> bool:
-        """Whether sweeps carry their own errors."""
-        return self.system is FLOAT64 or isinstance(self.system, Pairs)
 
 
 @dataclass(frozen=True)
@@ -144,11 +132,7 @@ class Choice:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan:
-    """What will be done.
-
-    ``why_segments``: why the packing is swept part by part, if it is. ``choice`` says what a
-    tolerance led to, None without one.
-    """
+    """What will be done; ``choice`` says what a tolerance led to, None without one."""
 
     scene: Scene
     quantity: Quantity
@@ -157,7 +141,6 @@ class Plan:
     method: Method
     skipped: tuple[Skipped, ...]
     memory: int
-    why_segments: str = ""
     choice: Choice | None = None
 
     @property
@@ -174,7 +157,7 @@ class Plan:
     @cached_property
     def steps(self) -> tuple[Step, ...]:
         """What is done for all realisations, each step with its reason."""
-        return steps_of(self.quantity, self.problem, self.method, self.why_segments)
+        return steps_of(self.quantity, self.problem, self.method)
 
     @cached_property
     def tension(self) -> ExpectedTension | None:
@@ -255,10 +238,8 @@ class Plan:
     __repr__ = __str__
 
 
-def steps_of(
-    quantity: Quantity, problem: Problem, method: Method, why_segments: str = ""
-) -> tuple[Step, ...]:
-    """List what is done for all realisations; ``why_segments``: why a packing is swept by parts."""
+def steps_of(quantity: Quantity, problem: Problem, method: Method) -> tuple[Step, ...]:
+    """List what is done for all realisations."""
     name, n = method.system.name, problem.realisations
     if problem.route == Route.ORDERED:
         return (Step("closed form", "the ordered packing is known: nothing is swept", 0, name),)
@@ -273,48 +254,29 @@ def steps_of(
         ]
     elif problem.route == Route.UNILATERAL:
         beads = n * problem.region.beads
-        moves = f"{problem.protocol}: contacts that pull open, others close"
+        moves = "linear programs: contacts that pull open, others close"
         steps = [
             Step(source, "every bead may move", beads, name),
             Step("relax", moves, beads, name),
         ]
     else:
-        steps = _sweeping(source, quantity, problem, method, why_segments)
+        steps = _sweeping(source, problem, method)
     return (*steps, _judging(steps, problem, method))
 
 
-def _sweeping(
-    source: str, quantity: Quantity, problem: Problem, method: Method, why_segments: str
-) -> list[Step]:
-    """List the steps of a sweep; by segments some are done more than once."""
-    name, n, region = method.system.name, problem.realisations, problem.region
-    exact = problem.route == Route.EXACT
-    why, why_forces, times, balanced = _why_region(problem), _why_forces(problem), 1, 1
+def _sweeping(source: str, problem: Problem, method: Method) -> list[Step]:
+    """List the steps of a sweep."""
+    name, n = method.system.name, problem.realisations
+    exact, beads = problem.route == Route.EXACT, n * problem.region.beads
     how, done = "line sums", "displacements to first order, layer by layer"
     if exact:
         quick = worth_compiling(problem, method.system) and find_spec("numba") is not None
         done = "exact positions, as deviations in line-sum coordinates"
         how, done = "deposit", f"{done}{', by compiled code' if quick else ''}"
-    if problem.segment:
-        counts, k, kept = quantity.name == "histogram", problem.segment, problem.every
-        down = 1 + (kept > 1)
-        times = 1 + down * (1 + counts)
-        often = {2: "twice", 3: "three times", 5: "five times"}[times]
-        again = "again" if down == 1 else f"twice again, {kept} segments at a time,"
-        why = f"{often}, on the way up and down"
-        done = (
-            f"{often}, {k} of {region.top + 1} layers at a time, because {why_segments}: on the "
-            f"way up every {k * kept}-th layer is kept, and those between are deposited {again} "
-            f"on the way down{', and once more to count' if counts else ''}"
-        )
-        if counts:
-            balanced = 2
-            why_forces = "twice: the bins lie between the smallest and the largest change"
-    beads = n * region.beads
-    steps = [Step(source, why, times * beads, name), Step(how, done, times * beads, name)]
+    steps = [Step(source, _why_region(problem), beads, name), Step(how, done, beads, name)]
     if problem.needs_forces:
-        visited = n * balanced * problem.force_rows[1:].beads
-        steps.append(Step("balance forces", why_forces, visited, name))
+        visited = n * problem.force_rows[1:].beads
+        steps.append(Step("balance forces", _why_forces(problem), visited, name))
     if exact:
         steps.append(Step(PHYSICAL, "gaps, overlaps and signs, always", beads, name))
     return steps
@@ -326,19 +288,14 @@ def _judging(steps: list[Step], problem: Problem, method: Method) -> Step:
     if problem.route == Route.UNILATERAL:
         why = "Kantorovich's theorem in balls: beads touch exactly, forces and gaps are positive"
         return Step(CERTIFY, why, 0, name)
-    if method.longer is None:
+    if method.certified:
         why = "balls enclose the answer; bits are added, and all is done again, until it fits"
         return Step(CERTIFY, why, 0, name)
-    whole = method.repeated == problem.realisations
-    if method.carries and whole:
+    if method.repeated == problem.realisations:
         return Step(ESTIMATE, "the sweep carried the rounding error of every number along", 0, name)
     visits = sum(step.beads for step in steps if step.step != PHYSICAL) // problem.realisations
-    again = "their rounding errors carried along" if method.carries else "a longer significand"
-    longer = method.longer.name
-    if not whole:
-        longer = name if method.carries else f"{name}, then {longer}"
-    beads = (1 if whole else 2) * method.repeated * visits
-    return Step(ESTIMATE, f"the first realisations again with {again}", beads, longer)
+    why = "the first realisations again with their rounding errors carried along"
+    return Step(ESTIMATE, why, 2 * method.repeated * visits, name)
 
 
 def _why_region(problem: Problem) -> str:

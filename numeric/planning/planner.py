@@ -3,10 +3,10 @@
 One planner serves both explaining and running: ``run`` takes its problem and its method from here
 and adds nothing but the measured cost.
 
-A tolerance chooses the arithmetic: the first of float64, pairs and balls that should do. What is
-promised is measured afterwards: a bound by balls, or an estimate, and a method whose estimate
-misses the tolerance gives way to the next (see ``run``). Last come balls, whose bits are raised
-until their bound fits. What a scene names is never replaced: all methods answer the same question
+A tolerance chooses the arithmetic: float64 where that should do, and balls. What is promised is
+measured afterwards: a bound by balls, or an estimate, and a method whose estimate misses the
+tolerance gives way to the next (see ``run``). Last come balls, whose bits are raised until their
+bound fits. What a scene names is never replaced: all methods answer the same question
 about the same packings.
 """
 
@@ -14,13 +14,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache
+from math import isqrt
 from time import monotonic
 
-from ..arithmetic.carried import LONGER, PAIRS, Pairs
 from ..arithmetic.decimals import short
-from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.machine import memory_limit as free_memory
-from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
+from ..arithmetic.systems import FLOAT64, Balls
 from ..disorder.radii import Monodisperse, Radii
 from ..lattice.layers import Region, Rows
 from ..mechanics.engine import chunk_size, worth_compiling
@@ -30,25 +29,25 @@ from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 from ..theory.expected import critical_height
-from .memory import COMPILED, TooLargeError, divided, memory, refuse_beads, refuse_memory, size
+from .memory import COMPILED, TooLargeError, fitting, memory, refuse_beads, refuse_memory
 from .plan import ALGORITHMS, Candidate, Choice, Method, Plan, Skipped
 from .sources import load_of, radii_of, refuse_beyond_floats
 
-# Where so many realisations agree with a longer significand, the others are taken to do so, too;
-# one is enough of packings that are not small.
+# Where the errors of so many realisations are carried, the others are taken to be alike; one is
+# enough of packings that are not small.
 FEW, SMALL = 4, 20_000
 # To which packings are enclosed whose contacts open, relative to the largest force.
 TOUCHING = Fraction(1, 10**17)
 # Nearer to M* than this, disorder itself grows with the height, and rounding errors with it.
 SOUND = 0.5
-# A measured error is doubled: what repeats it is not exact.
-SAFETY = 2
-# Realisations that nobody repeated. Rounding errors of independent packings are alike, and near
-# normal: of N numbers the largest is below 6 standard deviations for every N that is allowed, and
-# that the largest of four is below 6/1000 of one has a chance of 5e-10.
+# Realisations whose errors nobody carried. Rounding errors of independent packings are alike, and
+# near normal: of N numbers the largest is below 6 standard deviations for every N that is allowed,
+# and that the largest of four is below 6/1000 of one has a chance of 5e-10.
 UNSEEN = 1000
 # Room for printing: a number that its error swallows is printed as 0, and digits are cut off.
 PRINTED = 2
+# A float64 is off by so much of itself when it was rounded.
+UNIT = Fraction(1, 2**53)
 
 
 def plan(
@@ -57,14 +56,12 @@ def plan(
     memory_limit: int | None = None,
     *,
     certified: bool = False,
-    system: NumberSystem = FLOAT64,
     text: bool = True,
 ) -> Plan:
     """Plan a scene; ``tolerance`` and ``certified`` override the scene's own.
 
-    With a tolerance the first of float64, pairs and balls is chosen that should meet it;
-    ``certified`` keeps the choice to balls. Without one ``system`` is the arithmetic. Room is left
-    for rows as ``text``, as files and screens have them. Reads the
+    With a tolerance balls are chosen where float64 should not meet it; ``certified`` keeps the
+    choice to balls. Room is left for rows as ``text``, as files and screens have them. Reads the
     scene's files. Raises ``SceneError`` for a scene that is too large for the memory
     (``memory_limit`` bytes, by default most of what is free), and ``TableError``.
     """
@@ -73,17 +70,14 @@ def plan(
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
     limit = _free(int(monotonic()), free_memory) if memory_limit is None else memory_limit
+
+    def planned(scene: Scene) -> Plan:
+        return _plan(scene, tolerance, limit, certified=certified, text=text)
+
     try:
-        return _plan(scene, tolerance, limit, system, certified=certified, text=text)
+        return planned(scene)
     except TooLargeError as refused:
-        if tolerance is None or certified:
-            raise
-        try:
-            free = _plan(scene, None, limit, system, certified=False, text=text)
-        except ForceDiffusionError:
-            raise refused from None
-        takes = f"about {size(free.memory)}"
-        said = f"{refused.allowed}; without the tolerance it would take {takes}"
+        said = f"{refused.allowed}{fitting(scene, planned)}"
         raise TooLargeError(refused.key, refused.value, said) from None
 
 
@@ -97,7 +91,6 @@ def _plan(
     scene: Scene,
     tolerance: Fraction | None,
     limit: int,
-    system: NumberSystem,
     *,
     certified: bool,
     text: bool,
@@ -111,7 +104,7 @@ def _plan(
     if problem.route == Route.UNILATERAL:  # found in float64, proved in balls
         return asked.plan(Method(Balls(initial_bits(tolerance or TOUCHING, 1))))
     if tolerance is None:
-        return asked.plan(usual_method(problem, system, merged=asked.quantity.merged))
+        return asked.plan(usual_method(problem, merged=asked.quantity.merged))
     return asked.choose(tolerance, certified=certified)
 
 
@@ -152,7 +145,7 @@ class _Asked:
         beads = 5 * scene.packing.height if self.single else quantity.most_beads()
         if self.ordered and scene.packing.dimension == 2:
             beads = 0
-        refuse_beads(quantity, beads, self.tolerance, self.limit, text=self.text)
+        refuse_beads(quantity, beads, self.limit, text=self.text)
         load = load_of(scene)
         if not quantity.needs_forces:
             if "load" in scene.model_fields_set:
@@ -179,10 +172,8 @@ class _Asked:
             quantity.needs_forces,
             scene.contact,
             scene.site,
-            scene.effects.stop_at_tension,
             realisations,
-            scene.effects.protocol if self.unilateral else "",
-            scene.effects.most_events,
+            scene.effects.most_programs,
             scene.effects.most_seconds,
         )
 
@@ -194,10 +185,7 @@ class _Asked:
         if scene.disorder is not None and not self.ordered:
             radii = radii_of(scene, region.rows)
         if self.unilateral:
-            skipped["stop at tension"] = "contacts open before they pull"
             return radii, Route.UNILATERAL
-        if not scene.effects.stop_at_tension:
-            skipped["stop at tension"] = "not asked for: tensile contacts are counted, not acted on"
         if scene.packing.dimension == 2:
             why = 'contacts = "unilateral" would let beads move where a contact pulls'
             skipped["contacts that open"] = why
@@ -223,15 +211,12 @@ class _Asked:
     def plan(self, method: Method) -> Plan:
         """Plan a method. Raises ``SceneError`` where it takes too much, or numbers can't hold."""
         quantity, problem, scene = self.quantity, self.problem, self.scene
-        if method.carries or method.system.dtype is not object:
+        if not method.certified:
             refuse_beyond_floats(scene, problem.radii, problem.load)
-        problem, needed, because = divided(
-            quantity, problem, method.system, self.tolerance, self._memory(method), self.limit,
-            text=self.text,
-        )  # fmt: skip
+        needed = self._memory(method)
         refuse_memory(scene, needed, self.limit)
         skipped = tuple(Skipped(*one) for one in self.skipped.items())
-        return Plan(scene, quantity, problem, self.tolerance, method, skipped, needed, because)
+        return Plan(scene, quantity, problem, self.tolerance, method, skipped, needed)
 
     def choose(self, tolerance: Fraction, *, certified: bool) -> Plan:
         """Give the plan of the first method that should do, with all that were looked at.
@@ -242,7 +227,7 @@ class _Asked:
         found: list[Candidate] = []
         refused: SceneError | None = None
         for method in methods(tolerance, problem):
-            error = expected(method, problem.height, problem.realisations)
+            error = expected(method, self.quantity, problem)
             out = why_not(method, problem, error, tolerance, certified=certified)
             made = None
             try:
@@ -273,21 +258,24 @@ class _Asked:
         elif problem.route == Route.ORDERED and problem.dimension == 2:
             at_once = 0
         at_once += quantity.gathered(region, together)
-        longest = method.system
-        if not method.carries and method.longer is not None:  # else that is only gathered in
-            longest = method.longer
-        compiler = COMPILED * worth_compiling(problem, method.system, carried=method.carries)
-        return memory(quantity, region, at_once, n, longest, text=self.text) + compiler
+        carried = not method.certified
+        compiler = COMPILED * worth_compiling(problem, method.system, carried=carried)
+        return memory(quantity, region, at_once, n, method.system, text=self.text) + compiler
 
 
-def usual_units(system: NumberSystem, height: int) -> Fraction:
-    """Give the largest rounding error to be expected, in units 2^-bits of the largest change.
+def gathering(quantity: Quantity, problem: Problem) -> int:
+    """Estimate what gathering a number rounds, in ``UNIT`` of the largest change.
 
-    Measured up to height 128, in all quantities, loads and geometries, from σ/r = 1e-3 down to
-    1e-100: at most 17, growing with the height. Hardware floats sum forces with compensation, big
-    floats do not.
+    Of a product with a magnitude two more. Rounding errors have random signs: of sums over a layer,
+    which are added up by halves, and of statistics that are merged realisation by realisation. That
+    is three times what was measured, of 3 × 5 to 40 × 90 beads and up to 300 realisations.
     """
-    return Fraction(8) + (Fraction(height, 4) if system.dtype is not object else 2 * height)
+    units = quantity.roundings
+    if problem.needs_forces and quantity.scene.load.magnitude != 1:
+        units += 2
+    if quantity.merged:
+        units += problem.region.widest.bit_length() // 2 + isqrt(problem.realisations)
+    return units
 
 
 def initial_bits(tolerance: Fraction, height: int) -> int:
@@ -296,45 +284,33 @@ def initial_bits(tolerance: Fraction, height: int) -> int:
     return digits + 4 * height.bit_length() + 48
 
 
-def expected(method: Method, height: int, realisations: int) -> Fraction:
+def expected(method: Method, quantity: Quantity, problem: Problem) -> Fraction:
     """Give the error that an answer is expected to be printed with, relative to its largest change.
 
-    For balls, what they should certify: they lose some bits for the depth of the packing.
+    For balls, what they should certify: they lose some bits for the depth of the packing. What
+    float64 errs by where no errors are carried was measured up to height 128, in all quantities,
+    loads and geometries, from σ/r = 1e-3 down to 1e-100: at most 17 units, growing with the height.
     """
-    bits = method.system.bits
     if method.certified:
-        return Fraction(max(height, 4) ** 2 * 2**12, 2**bits)
-    if method.repeated >= realisations:  # all sweeps carry their errors
-        few = 4 if method.system is FLOAT64 else 8 * height
-        return Fraction(PRINTED * few, 2**bits)
-    units = usual_units(method.system, height) * UNSEEN
-    return (PRINTED * units + merging(method, realisations)) * Fraction(1, 2**bits)
+        return Fraction(max(problem.height, 4) ** 2 * 2**12, 2**method.system.bits)
+    units = Fraction(1 + gathering(quantity, problem))
+    if method.repeated < problem.realisations:
+        units += UNSEEN * (8 + Fraction(problem.height, 4))
+    return PRINTED * units * UNIT
 
 
-def merging(method: Method, realisations: int) -> int:
-    """Bound the roundings of merged statistics, in units 2^-bits: a few for each realisation."""
-    return 0 if method.repeated >= realisations else 8 * realisations
-
-
-def usual_method(problem: Problem, system: NumberSystem, *, merged: bool) -> Method:
-    """Say how the error becomes known of an answer in this arithmetic, without a tolerance."""
-    if isinstance(system, Balls):
-        return Method(system)
+def usual_method(problem: Problem, *, merged: bool) -> Method:
+    """Say of how many realisations errors are carried, without a tolerance."""
     n = problem.realisations
     few = min(n, FEW if problem.region.beads < SMALL else 1)
-    if system is FLOAT64:
-        return Method(system, LONGER, few if merged else n)
-    if isinstance(system, Pairs):
-        return Method(system, system, few if merged else n)
-    return Method(system, Balls(system.bits + 128), few)
+    return Method(FLOAT64, few if merged else n)
 
 
 def methods(tolerance: Fraction, problem: Problem) -> Iterator[Method]:
-    """Give what is tried, in that order; few realisations are repeated rather than all."""
+    """Give what is tried, in that order; the errors of few realisations rather than of all."""
     if problem.realisations > FEW:
-        yield Method(FLOAT64, LONGER, FEW)
-    yield Method(FLOAT64, LONGER, problem.realisations)
-    yield Method(PAIRS, PAIRS, problem.realisations)
+        yield Method(FLOAT64, FEW)
+    yield Method(FLOAT64, problem.realisations)
     yield Method(Balls(initial_bits(tolerance, problem.height)))
 
 
@@ -346,8 +322,6 @@ def why_not(
         return ""
     if certified:
         return "its error would be estimated, and certified was asked for"
-    if problem.stop_at_tension:
-        return "where the sweep stops hangs on the signs of forces, which only balls decide"
     highest = critical_height(problem.radii.relative_std())
     if problem.route == Route.EXACT and problem.height > highest * SOUND:
         return f"the height is above M*/2 = {highest / 2:.3g}, where rounding errors grow with it"

@@ -22,7 +22,6 @@ from ..lattice.layers import Block, LazyRows, Naming, Region, Rows, pick, standi
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.sweep import Forces
 from ..scene.scene import Scene
 from ..theory.expected import std_of_spheres, stds_of_discs
 
@@ -74,7 +73,7 @@ class Table:
         return len(next(iter(self.numbers.values()), []))
 
     def sorted(self) -> "Table":
-        """Give the rows by realisation, j, i (or p, q, …) and branch as numbers, "+" before "-"."""
+        """Give the rows by realisation, j, i (or p, q) and branch as numbers, "+" before "-"."""
         if self.in_order:
             return self
         names = (*ORDER, "realisation")
@@ -93,26 +92,12 @@ class Gatherer(ABC):
     """Collects solved realisations; ``table`` gives what was found."""
 
     @abstractmethod
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
-        """Take in solved realisations (in a batch, the first axis of the arrays).
-
-        What is taken in belongs to the beads of some ``layers``, and to the contacts below them.
-        """
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
+        """Take in solved realisations (in a batch, the first axis of the arrays)."""
 
     @abstractmethod
     def table(self) -> Table:
-        """Give the answer, or that part of it which follows from the layers taken in.
-
-        Parts of layers one above the other, put below each other, are the rows of the answer in
-        order. Where rows have no ``index``, theirs is ``Quantity.names``.
-        """
-
-    def left(self) -> float | None:
-        """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
-
-        None where the rows have to be gathered with them to know that.
-        """
-        return None
+        """Give the answer; where rows have no ``index``, theirs is ``Quantity.names``."""
 
 
 class Quantity(ABC):
@@ -120,14 +105,12 @@ class Quantity(ABC):
 
     name: ClassVar[str]
     needs_forces: ClassVar[bool] = True
-    plain: ClassVar[bool] = False
-    """Whether it can be gathered from a packing that was solved in the plain form."""
     merged: ClassVar[bool] = False
     """Whether realisations are merged into one set of rows."""
-    statistics: ClassVar[bool] = False
-    """Whether an ensemble has statistics of it."""
     numbers: ClassVar[int] = 4
     """How many numbers a row has, at the most."""
+    roundings: ClassVar[int] = 6
+    """Of a number of the answer, sums over many apart, in units 2^-53 of the largest change."""
 
     def __init__(self, scene: Scene) -> None:
         """Ask a scene's question."""
@@ -209,21 +192,9 @@ class Quantity(ABC):
     # How it is gathered
 
     @property
-    def all_layers(self) -> range:
-        """All layers, whose contacts below decide the answer; and the base."""
-        return range(self.height + 1)
-
-    @property
     def names(self) -> Columns:
         """The columns that name all rows of a packing, where tables leave them out."""
         return {}
-
-    def left(self, solved: Solved) -> float | None:
-        """Give how far numbers are, at the most, from those that their sweeps' errors belong to.
-
-        None where the rows have to be gathered with them to know that.
-        """
-        return None
 
     @abstractmethod
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
@@ -243,25 +214,17 @@ class Listing(Gatherer):
         """Start empty."""
         self.quantity, self.problem, self.system = quantity, problem, system
         self.parts: list[Table] = []
-        self._left: float | None = 0.0
 
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in solved realisations."""
-        left = self.quantity.left(solved)
-        known = left is not None and self._left is not None
-        self._left = max(self._left or 0.0, left or 0.0) if known else None
         for number, realisation in enumerate(realisations):
             one = solved if len(realisations) == 1 else solved.one(number)
-            part = self.quantity.rows(self.problem, one, layers)
+            part = self.quantity.rows(self.problem, one)
             if self.problem.realisations > 1:
                 index = part.index or self.quantity.names
                 index["realisation"] = np.full(part.rows, realisation)
                 part = replace(part, index=index)
             self.parts.append(part)
-
-    def left(self) -> float | None:
-        """Give how far numbers are from those of their sweeps' errors, as far as that is known."""
-        return self._left
 
     def table(self) -> Table:
         """Put the realisations below each other."""
@@ -283,8 +246,8 @@ class Listed(Quantity):
         return Listing(self, problem, system)
 
     @abstractmethod
-    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
-        """Give the rows of one realisation that belong to some layers (see ``Gatherer``)."""
+    def rows(self, problem: Problem, solved: Solved) -> Table:
+        """Give the rows of one realisation."""
 
 
 class ContactQuantity(Quantity):
@@ -292,10 +255,6 @@ class ContactQuantity(Quantity):
 
     Its groups hold contacts that are alike: a layer and branch of a profile, or one contact.
     """
-
-    statistics = True
-    squares: ClassVar[bool] = False
-    """Whether covariances between groups are those of mean squares, and not of changes."""
 
     @cached_property
     def layers(self) -> frozenset[int] | None:
@@ -307,16 +266,9 @@ class ContactQuantity(Quantity):
         """Whether contacts below the beads of layer j are asked for."""
         return self.layers is None or j - 1 in self.layers
 
-    def left_of_changes(self, solved: Solved) -> float | None:
-        """Give what rounding left of the changes of all contacts, where they are the answer."""
-        one = self.scene.load.magnitude == 1
-        return solved.forces.left if one and solved.forces is not None else None
-
-    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
-        """Give the contacts below the beads of some layers, in the order of the groups."""
-        layers = self.all_layers if layers is None else layers
-        below = problem.force_rows[max(layers.start, 1) : layers.stop]
-        rows = (row for row in below if row.count and self.is_asked(row.j))
+    def blocks(self, problem: Problem) -> list[Block]:
+        """Give the contacts that are asked for, in the order of the groups."""
+        rows = (row for row in problem.force_rows[1:] if row.count and self.is_asked(row.j))
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
@@ -377,12 +329,6 @@ def contact_changes(
     return found
 
 
-def above_stop(blocks: Sequence[Block], forces: Forces) -> list[Block]:
-    """Leave out what lies below the layer at which a sweep stopped."""
-    lowest = 0 if forces.stopped is None else forces.stopped.j
-    return [block for block in blocks if block.row.j > lowest]
-
-
 def joined(system: NumberSystem, parts: Sequence[Array]) -> Array:
     """Put arrays one after the other, of which there may be none."""
     return np.concatenate([array(system, []), *parts])
@@ -419,15 +365,15 @@ def slope(problem: Problem, system: NumberSystem) -> Any:
 def cartesian(
     components: Sequence[Array], problem: Problem, system: NumberSystem, *, raised: bool
 ) -> tuple[Array, ...]:
-    """Give (x, y), or (x, y, …, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
+    """Give (x, y), or (x, y, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
 
-    The last is up; x is along n^1 − n^d, y along 2 n^2 − n^1 − n^d, and so on.
+    The last is up; x is along n^1 − n^d, the y of three dimensions along 2 n^2 − n^1 − n^3.
     """
     nx, up = system.scalar(problem.n_x), slope(problem, system)
     found = []
     for k, row in enumerate(level(len(components)), 1):
         along = total(v if h == 1 else h * v for h, v in zip(row, components, strict=True) if h)
-        across = along if k == 1 else along * system.root(Fraction(2, k * (k + 1)))
+        across = along if k == 1 else along * system.root(Fraction(1, 3))
         found.append(across * nx if raised else across / (2 * nx))
     rise = total(components)
     return (*found, rise * up if raised else rise / (len(components) * up))

@@ -16,7 +16,6 @@ from .base import (
     ContactQuantity,
     Listed,
     Table,
-    above_stop,
     column,
     contact_changes,
     joined,
@@ -26,17 +25,18 @@ from .base import (
 class SingleContact(ContactQuantity):
     """A question about one contact."""
 
+    roundings = 1
+
     @property
     def contact(self) -> Contact:
         """The contact that is asked for, in two dimensions."""
         assert self.scene.contact is not None
         return self.scene.contact
 
-    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
+    def blocks(self, problem: Problem) -> list[Block]:
         """Give the one contact, with the layer of its upper bead."""
         assert self.scene.ask.at is not None
-        block = self.naming.contact(self.scene.ask.at)
-        return [block] if layers is None or block.row.j in layers else []
+        return [self.naming.contact(self.scene.ask.at)]
 
     def force_rows(self, load: LoadSpec) -> Rows:
         """Give the beads whose force balance decides the contact's force."""
@@ -78,14 +78,13 @@ class SingleContact(ContactQuantity):
         strength = problem.load.strength(problem.n_x, FLOAT64)
         return [Fraction(float(problem.load.ordered_force(self.contact, strength, FLOAT64)))]
 
-    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
-        """Give the contact, with the layer of its upper bead; not where a sweep stopped above."""
-        system, blocks = solved.system, self.blocks(problem, layers)
+    def rows(self, problem: Problem, solved: Solved) -> Table:
+        """Give the contact."""
+        system, blocks = solved.system, self.blocks(problem)
         if solved.single is not None:
             F, g = (column([one], system) for one in solved.single)
         else:
             assert solved.forces is not None
-            blocks = above_stop(blocks, solved.forces)
             found = contact_changes(solved, blocks, 1)
             F = joined(system, [F for _, F, _ in found])
             g = joined(system, [g[0] for _, _, g in found])
@@ -96,7 +95,6 @@ class ContactForce(SingleContact, Listed):
     """One contact force f^±_ij and its change."""
 
     name = "contact"
-    plain = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a realisation."""

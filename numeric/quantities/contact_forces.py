@@ -14,7 +14,6 @@ from .base import (
     Later,
     Listed,
     Table,
-    above_stop,
     contact_changes,
     joined,
 )
@@ -25,27 +24,22 @@ class ContactForces(ContactQuantity, Listed):
 
     name = "contact_forces"
     numbers = 2
-    plain = True
+    roundings = 1
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """The contacts below each bead above the base."""
         beads = region.beads if self.width is None else self.width * self.height
         return len(self.branches) * beads * realisations
 
-    def left(self, solved: Solved) -> float | None:
-        """Give what rounding left of changes."""
-        return self.left_of_changes(solved)
-
-    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
+    def rows(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a contact, layer by layer from the base, "+" before "-"."""
         assert solved.forces is not None
-        layers = range(max(layers.start, 1), min(layers.stop, self.height + 1))
-        if self.at_once(problem, solved, layers):
+        if self.at_once(problem, solved):
             return self._at_once(solved)
-        rows: Sequence[Layer] = problem.force_rows[layers.start : layers.stop]
+        rows: Sequence[Layer] = problem.force_rows[1:]
         if self.width is not None:
-            rows = [full_layer(j, self.width) for j in layers]
-        blocks = above_stop([Block(b, row) for row in rows for b in self.branches], solved.forces)
+            rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
+        blocks = [Block(b, row) for row in rows for b in self.branches]
         found = list(contact_changes(solved, blocks, 1))
         return Table(
             self.naming.contacts(blocks),
@@ -56,17 +50,16 @@ class ContactForces(ContactQuantity, Listed):
             ("change",),
         )
 
-    def at_once(self, problem: Problem, solved: Solved, layers: range) -> bool:
-        """Whether forces below whole layers of discs lie in one block, an even layer the lowest."""
+    def at_once(self, problem: Problem, solved: Solved) -> bool:
+        """Whether forces below whole layers of discs lie in one block."""
         forces = solved.forces
         return (
             forces is not None
             and self.width is not None
             and forces.g is not None
             and problem.dimension == 2
-            and layers.start % 2 == 1
             and problem.region.has_whole(problem.force_rows)
-            and forces.g.shape == (1, 2, len(layers) * self.width)
+            and forces.g.shape == (1, 2, self.height * self.width)
         )
 
     def _at_once(self, solved: Solved) -> Table:

@@ -27,6 +27,7 @@ class Histogram(ContactQuantity, Listed):
 
     name = "histogram"
     numbers = 2
+    roundings = 1
 
     @property
     def bins(self) -> int:
@@ -41,16 +42,12 @@ class Histogram(ContactQuantity, Listed):
         """Two a bin, for its edges as decimals; a change counts for a little."""
         return 2 * (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
 
-    def left(self, solved: Solved) -> float | None:
-        """Give what rounding left of changes, where all are asked for."""
-        return self.left_of_changes(solved) if self.layers is None else None
-
-    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
-        """Give the changes of contacts below the beads of some layers."""
+    def rows(self, problem: Problem, solved: Solved) -> Table:
+        """Give the changes of contacts."""
         forces = solved.forces
         assert forces is not None
-        rows = range(max(layers.start, 1), min(layers.stop, len(forces.rows)))
-        parts = [g for j in filter(self.is_asked, rows) for _, _, g in forces.below(j)]
+        rows = filter(self.is_asked, range(1, len(forces.rows)))
+        parts = [g for j in rows for _, _, g in forces.below(j)]
         return Table({}, {"change": joined(solved.system, parts)}, ("change",))
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:

@@ -21,7 +21,6 @@ class Positions(Listed):
 
     name = "positions"
     needs_forces = False
-    plain = True
 
     def force_rows(self, load: LoadSpec) -> Rows:
         """No forces are needed."""
@@ -51,13 +50,13 @@ class Positions(Listed):
         """One a bead."""
         return (1 if self.scene.ask.at is not None else region.beads) * realisations
 
-    def rows(self, problem: Problem, solved: Solved, layers: range) -> Table:
-        """Give a row a bead of some layers, from the lowest up."""
+    def rows(self, problem: Problem, solved: Solved) -> Table:
+        """Give a row a bead, from the base up."""
         system, at = solved.system, self.scene.ask.at
-        rows: Sequence[Layer] = problem.region.rows[layers.start : layers.stop]
+        rows: Sequence[Layer] = problem.region.rows
         if at is not None:
             i, j = self.naming.site(at)
-            rows = [Layer(j, i, 1)] if j in layers else []
+            rows = [Layer(j, i, 1)]
         r, index = system.number(self.scene.packing.radius), self.naming.beads(rows)
         moved = cartesian(self._line_sums(solved, rows), problem, system, raised=False)
         axes = axis_names(len(moved))

@@ -17,7 +17,6 @@ from .base import (
     ContactQuantity,
     Gatherer,
     Table,
-    above_stop,
     column,
     contact_changes,
     first_order_std,
@@ -33,7 +32,6 @@ class Profile(ContactQuantity):
 
     name = "profile"
     merged = True
-    squares = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a layer and branch."""
@@ -42,17 +40,16 @@ class Profile(ContactQuantity):
     def gathered(self, region: Region, realisations: int) -> int:
         """Whole layers, also where a load reaches few of their contacts: 38 numbers a bead."""
         idle = max((self.width or 0) * (self.height + 1) - region.beads, 0)
-        return 2 * idle * (realisations + 3) // 38
+        return 2 * idle * (realisations + 1) // 38
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> "ProfileMoments":
         """Start to merge moments."""
         return ProfileMoments(self, problem, system)
 
-    def blocks(self, problem: Problem, layers: range | None = None) -> list[Block]:
+    def blocks(self, problem: Problem) -> list[Block]:
         """Give whole layers, those that no load reaches included."""
         assert self.width is not None
-        layers = self.all_layers if layers is None else layers
-        rows = [full_layer(j, self.width) for j in layers if j]
+        rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
@@ -85,10 +82,10 @@ class ProfileMoments(Gatherer):
         self.found: dict[tuple[int, Direction], tuple[Any, Moments]] = {}
         self.scatter = Scatter()
 
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Merge the changes of the contacts; ordered forces only enter the mean."""
         assert solved.forces is not None
-        blocks = above_stop(self.quantity.blocks(self.problem, layers), solved.forces)
+        blocks = self.quantity.blocks(self.problem)
         means, squares = [], []
         for (branch, row), F, g in contact_changes(solved, blocks, len(realisations)):
             with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
@@ -101,8 +98,7 @@ class ProfileMoments(Gatherer):
                 one = self.problem.load.loaded is None
                 self.found[key] = (F[0] if one else F.sum() / len(F), Moments(self.unit))
             self.found[key][1].add(g.reshape(-1))
-        if not self.problem.stop_at_tension:
-            self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
+        self.scatter.add(np.stack(means, axis=1), np.stack(squares, axis=1))
 
     def table(self) -> Table:
         """One row a layer and branch, base first."""
@@ -133,9 +129,7 @@ class ProfileMoments(Gatherer):
         if self.problem.load.loaded is None and not self.problem.load.angle_deg:  # no mean is zero
             numbers[RATIO] = numbers["std"] / numbers["mean"]
         small = ("mean_change", "std")
-        nothing = dict.fromkeys(small, np.full(len(keys), np.nan))
-        errors = nothing if self.problem.stop_at_tension else self._errors()
-        return Table(index, numbers, small, errors)
+        return Table(index, numbers, small, self._errors())
 
     def _errors(self) -> dict[str, Array]:
         mean, std = (error * self.unit for error in self.scatter.errors())

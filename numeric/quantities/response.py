@@ -15,14 +15,13 @@ from .base import (
     ContactQuantity,
     Gatherer,
     Table,
-    above_stop,
     contact_changes,
     joined,
     slope,
 )
 
 # Bytes of a number of one realisation while standard errors are made; measured.
-SCATTERED = 90
+SCATTERED = 56
 
 
 class Response(ContactQuantity):
@@ -32,7 +31,6 @@ class Response(ContactQuantity):
     """
 
     name = "response"
-    plain = True
     merged = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
@@ -88,15 +86,14 @@ class Response(ContactQuantity):
         )
 
     def both(
-        self, problem: Problem, solved: Solved, realisations: int, layers: range | None = None
+        self, problem: Problem, solved: Solved, realisations: int
     ) -> tuple[dict[str, Array], Array, Array, Array]:
         """Give the contacts, F, g and the change of the vertical component f N_y.
 
-        Of the upper beads' ``layers`` only, if some are given. Shapes: (contacts,), (realisations,
-        contacts) and the same.
+        Shapes: (contacts,), (realisations, contacts) and the same.
         """
         assert solved.forces is not None
-        blocks = above_stop(self.blocks(problem, layers), solved.forces)
+        blocks = self.blocks(problem)
         system = solved.system
         ny = slope(problem, system)
         parts = contact_changes(solved, blocks, realisations)
@@ -136,9 +133,9 @@ class _Responses(Gatherer):
         self.scatter = Scatter()
         self.last: tuple[dict[str, Array], Array, Array, Array] | None = None
 
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in realisations, one after the other."""
-        self.last = self.quantity.both(self.problem, solved, len(realisations), layers)
+        self.last = self.quantity.both(self.problem, solved, len(realisations))
         if self.problem.realisations > 1:
             both = np.concatenate(self.last[2:], axis=1)
             for one in both:

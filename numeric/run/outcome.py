@@ -11,7 +11,6 @@ import numpy as np
 from ..accuracy import Accuracy, printed
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
-from ..lattice.branch import AxisContact, Contact
 from ..mechanics.physicality import PHYSICAL, Physicality
 from ..mechanics.work import ESTIMATE, Work
 from ..planning.plan import Plan, plan_lines
@@ -19,7 +18,7 @@ from ..quantities.answer import Answer
 from ..scene.scene import source_of
 from ..statistics import bins
 from ..tables import SHOWN, Row, html_table, rows_of, rows_of_text, text_of
-from ..unilateral import Network
+from ..unilateral.network import Network
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -74,11 +73,6 @@ class Outcome:
     def source(self) -> dict[str, Any]:
         """Where the answer came from."""
         return source_of(self.plan.scene, self.files)
-
-    @property
-    def stopped(self) -> Contact | AxisContact | None:
-        """The contact at which a sweep stopped, if it was asked to."""
-        return self.answer.stopped
 
     @cached_property
     def arrays(self) -> dict[str, Array]:
@@ -166,7 +160,7 @@ class Outcome:
         """
         from ..figures.answers import figure_of
 
-        return figure_of(self.plan, self.arrays, self.standard_errors, self.answer.networks)
+        return figure_of(self.plan, self.arrays, self.standard_errors, self.answer.network)
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
         """Give what JSON can hold of it; the guide to scenes has the schema of each quantity.
@@ -205,19 +199,12 @@ class Outcome:
             data["accuracy"]["note"] = accuracy.note
         if self.answer.physical is not None:
             data["physical"] = _physical_data(self.answer.physical, self.plan)
-        if self.answer.networks:
-            data["networks"] = [_network_data(found) for found in self.answer.networks]
-        if self.stopped is not None:
-            data["stopped_at_tension"] = self.stopped._asdict()
+        if self.answer.network is not None:
+            data["network"] = _network_data(self.answer.network)
         data["seconds"] = round(self.seconds, 6)
         if data["choice"] is not None:
             data["choice"]["missed"] = [asdict(missed) for missed in self.missed]
         return data
-
-    def packings(self) -> dict[str, Any]:
-        """Give the packings whose contacts are unilateral, as ``check_packings`` reads them."""
-        found = [network.data() for network in self.answer.networks]
-        return {"format": "force-diffusion packings 1", "packings": found}
 
     def __str__(self) -> str:
         """Say what was found, how accurately, and what was done for it."""
@@ -308,11 +295,10 @@ def _network_data(found: Network) -> dict[str, Any]:
     return {
         "contacts": len(found.pairs),
         "rattlers": len(found.rattlers),
-        "events": found.events,
+        "programs": found.programs,
         "energy_fall": found.fall,
         "smallest_gap": found.smallest_gap,
         "kantorovich": found.kantorovich,
-        "rung": found.rung,
         "rest": found.rest,
     }
 
@@ -355,19 +341,15 @@ def summary_lines(data: dict[str, Any], rows: int) -> list[str]:
         )
     if "physical" in data:
         lines.append(_physical_line(data["physical"]))
-    for number, found in enumerate(data.get("networks", [])):
-        name = f"packing {number}" if len(data["networks"]) > 1 else "the packing"
+    if "network" in data:
+        found = data["network"]
         lines.append(
-            f"{name}: {found['rest']}; {found['contacts']} contacts bear force, "
+            f"the packing: {found['rest']}; {found['contacts']} contacts bear force, "
             f"{found['rattlers']} rattlers, smallest gap {found['smallest_gap']:.3g} r"
             + (
-                f"; {found['events']} events, energy fell by {found['energy_fall']:.6g}"
-                if found["events"]
+                f"; {found['programs']} linear programs, energy fell by {found['energy_fall']:.6g}"
+                if found["programs"]
                 else ""
             )
         )
-    if "stopped_at_tension" in data:
-        contact = data["stopped_at_tension"]
-        where = f"i = {contact['i']}, j = {contact['j']}, branch {contact['branch']}"
-        lines.append(f"stopped at the tensile contact {where}")
     return lines

@@ -5,14 +5,13 @@
 
 import math
 from collections.abc import Mapping
-from contextlib import nullcontext
 from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from ..accuracy import Accuracy, ToleranceError, enclosed, repeated, shortfall
+from ..accuracy import Accuracy, ToleranceError, enclosed, estimated, shortfall
 from ..arithmetic.decimals import exact, parse
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work
@@ -20,19 +19,13 @@ from ..planning.plan import Choice, Plan
 from ..planning.planner import plan
 from ..quantities.answer import Answer
 from ..scene import reading, scene
-from ..scene.scene import files_read, program_version, source_of
+from ..scene.scene import files_read
 from ..scene.sections import SceneError
-from .checkpoint import Checkpoint, opened
 from .outcome import Missed, Outcome
 
 
-def run(
-    plan: Plan, progress: Progress | None = None, *, checkpoint: str | Path | None = None
-) -> Outcome:
+def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     """Run a plan, to the tolerance that it was made for.
-
-    ``checkpoint`` is a file for a packing that the memory does not hold: after an interruption the
-    same call continues from it. Other plans need none. The file stays, for the next such call.
 
     Where the estimated error of a method misses the tolerance, the next one of the plan's choice is
     taken. Raises ``ToleranceError``, ``TypeError`` for what is no plan, and what the sweeps raise
@@ -47,31 +40,17 @@ def run(
     files = files_read(plan.scene)
     work = Work(progress=progress)
     missed: list[Missed] = []
-    kept = None if checkpoint is None else _kept(Path(checkpoint), plan)
     if plan.choice is not None:
         plan, answer, accuracy = _chosen(plan.choice, work, missed)
     elif plan.method.certified:
         plan, answer, accuracy = enclosed(plan, work)
     else:
-        with kept or nullcontext():
-            answer, accuracy = repeated(plan, work, kept)
+        answer, accuracy = estimated(plan, work)
     if not accuracy.certified and not accuracy.error_bound and _squares_vanish(plan):
         note = "every change is zero, or below what float64 holds: a tolerance tells which"
         accuracy = replace(accuracy, error_bound=math.inf, note=note)
     seconds = perf_counter() - start
     return Outcome(plan, answer, accuracy, work, seconds, files, tuple(missed))
-
-
-def _kept(path: Path, plan: Plan) -> Checkpoint | None:
-    """Open a checkpoint, of what decides the numbers that are kept; None where none is needed."""
-    problem = plan.problem
-    if problem.segment:
-        source, layers = source_of(plan.scene), [problem.segment, problem.every]
-        key = {"scene": source, "layers": layers, "version": program_version()}
-        return Checkpoint(path, key)
-    if (unused := opened(path)) is not None:
-        unused.close()  # it is none of somebody else's
-    return None
 
 
 def _chosen(choice: Choice, work: Work, missed: list[Missed]) -> tuple[Plan, Answer, Accuracy]:
@@ -82,7 +61,7 @@ def _chosen(choice: Choice, work: Work, missed: list[Missed]) -> tuple[Plan, Ans
         if candidate.certified:
             return enclosed(tried, work)
         try:
-            answer, accuracy = repeated(tried, work)
+            answer, accuracy = estimated(tried, work)
             why = shortfall(answer, accuracy, choice.tolerance)
         except (UnbuildableError, NotStandingError, ArithmeticError) as error:
             why = str(error)  # rounding may have made it so: the next method tells
@@ -146,16 +125,14 @@ class Scene(scene.Scene):
         *,
         certified: bool = False,
         progress: Progress | None = None,
-        checkpoint: str | Path | None = None,
     ) -> Outcome:
         """Answer the scene's question; arguments as for ``explain``.
 
-        ``progress`` is called with the kind of work and the number of beads just done;
-        ``checkpoint`` is a file to go on from (see ``run``). Raises also
+        ``progress`` is called with the kind of work and the number of beads just done. Raises also
         ``ToleranceError``, and ``UnbuildableError``, ``NotStandingError`` or ``RadiusError`` for a
         packing that can't be built.
         """
-        return run(self.explain(tolerance, certified=certified), progress, checkpoint=checkpoint)
+        return run(self.explain(tolerance, certified=certified), progress)
 
 
 def read_scene(path: str | Path, changes: Mapping[str, str] | None = None) -> Scene:

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..accuracy import Accuracy
-from ..arithmetic.named import system_of
-from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Axis, axis_names
+from ..arithmetic.systems import Array, as_floats
+from ..lattice.branch import axis_names
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
 from ..planning.planner import plan
@@ -35,10 +34,9 @@ class Solution:
     Layers of spheres hold W × W beads: shapes then have p and q in place of the column, and three
     axes in place of two branches.
 
-    Numbers are float64, or objects of a longer arithmetic where you chose one or a tolerance needs
-    it, such as balls: numbers with a rigorous error each. A ball prints only a few of its digits;
-    ``.astype(float)`` rounds an array, ``forces.decimals()`` and ``positions.decimals()`` write
-    every digit that is known.
+    Numbers are float64, or where a tolerance needs more, balls: numbers of any length with a
+    rigorous error each. A ball prints only a few of its digits; ``.astype(float)`` rounds an array,
+    ``forces.decimals()`` and ``positions.decimals()`` write every digit that is known.
     """
 
     forces: Outcome
@@ -54,7 +52,7 @@ class Solution:
     def force(self) -> Array:
         """f^±_ij, shape (2, M, W): branch (0: "+", 1: "-"), layer j and column q of the lower bead.
 
-        Compressive forces are positive. Of spheres (3, M, W, W): axis, layer j, p and q; and so on.
+        Compressive forces are positive. Of spheres (3, M, W, W): axis, layer j, p and q.
         """
         return self._contacts("force")
 
@@ -103,7 +101,7 @@ class Solution:
         made = self.forces.plan
         scene = self.scene.model_copy(update={"ask": ask})
         certified = made.tolerance is not None and made.method.certified
-        return run(plan(scene, made.tolerance, certified=certified, system=made.system, text=False))
+        return run(plan(scene, made.tolerance, certified=certified, text=False))
 
     @property
     def _dimension(self) -> int:
@@ -156,10 +154,8 @@ def _named_as_here() -> Iterator[None]:
 def _dimension_of(given: GivenRadii, asked: Any) -> int:
     """Give the dimension of a packing, which shapes tell, but for that of a stack of squares."""
     shape = given.values.shape
-    most = len(Axis)
-    if asked is not None and not (isinstance(asked, Integral) and 2 <= int(asked) <= most):
-        allowed = f"must be 2, of discs, 3, of spheres, or more, at most {most}"
-        raise SceneError("dimension", asked, allowed)
+    if asked is not None and not (isinstance(asked, Integral) and int(asked) in {2, 3}):
+        raise SceneError("dimension", asked, "must be 2, of discs, or 3, of spheres")
     if asked is None and len(shape) == 3 and shape[1] == shape[2]:
         count, side = shape[:2]
         raise SceneError(
@@ -170,10 +166,7 @@ def _dimension_of(given: GivenRadii, asked: Any) -> int:
             f"of {side}",
         )
     dimension = int(asked or (3 if len(shape) == 4 else 2))
-    form = f"(layers{', W' * (dimension - 1)})"
-    beads = "discs" if dimension == 2 else "spheres"
-    if dimension > 3:
-        beads += f" in {dimension} dimensions"
+    beads, form = ("discs", "(layers, W)") if dimension == 2 else ("spheres", "(layers, W, W)")
     if len(shape) not in {dimension, dimension + 1} or len(set(shape[1 - dimension :])) > 1:
         allowed = f"shape {shape}: {beads} take {form}, with an axis before it for several packings"
         raise SceneError(given.name, None, allowed)
@@ -190,7 +183,6 @@ def solve(
     dimension: int | None = None,
     tolerance: Any = None,
     certified: bool = False,
-    arithmetic: str | None = None,
     allow_images: bool = False,
 ) -> Solution:
     """Solve periodic packings of given radii exactly: contact forces, positions and their errors.
@@ -206,14 +198,11 @@ def solve(
             2 r < s < √(32/3) r; by default 3 r.
         load: ``SurfaceLoad()`` by default, ``BulkLoad()``, ``PointLoad(at=(k, l))`` or, of spheres,
             ``PointLoad(at=(p, q, l))``.
-        dimension: 2 for discs, 3 for spheres, or more, at most 5. By default the shape says whether
-            it is 2 or 3; an array of shape (N, W, W) could be either, and is refused without.
-        tolerance: error allowed, relative to the largest change; the first of float64, pairs
-            and balls that meets it is taken.
+        dimension: 2 for discs, 3 for spheres. By default the shape says which; an array of shape
+            (N, W, W) could be either, and is refused without.
+        tolerance: error allowed, relative to the largest change: where float64 does not meet it,
+            balls do.
         certified: with a tolerance, only a rigorous bound will do.
-        arithmetic: "float64" (the default), "pairs" (a number
-            and its error, about 28 digits), "longdouble", "mpmath N" or "balls N" with N decimal
-            digits; not with a tolerance, which chooses it.
         allow_images: let W be as small as M or smaller, so that a bead bears on one by two ways
             around the period; without it such an array, a transposed one perhaps, is refused.
 
@@ -235,8 +224,6 @@ def solve(
     if load is not None and not isinstance(load, Load):
         allowed = "must be SurfaceLoad(), BulkLoad(), PointLoad(at=(k, l)) or Load(kind=…)"
         raise SceneError("load", load, allowed)
-    if tolerance is not None and arithmetic is not None:
-        raise SceneError("arithmetic", arithmetic, "a tolerance chooses it: leave one of them out")
     if certified and tolerance is None:
         raise SceneError("certified", True, "needs a tolerance, as tolerance=1e-30")
     dimension = _dimension_of(given, dimension)
@@ -273,9 +260,4 @@ def solve(
             ask=Ask(quantity="contact_forces", realisations=batch[0] if batch else 1),
         )
     asked = None if tolerance is None else read_tolerance(tolerance)
-    try:
-        system = FLOAT64 if arithmetic is None else system_of(arithmetic)
-    except ValueError as error:
-        raise SceneError("arithmetic", arithmetic, str(error)) from None
-    made = plan(scene, asked, certified=certified, system=system, text=False)
-    return Solution(run(made), scene)
+    return Solution(run(plan(scene, asked, certified=certified, text=False)), scene)

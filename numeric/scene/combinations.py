@@ -52,13 +52,12 @@ def either(words: tuple[str, ...]) -> str:
     return ", ".join(quoted[:-1]) + f" or {quoted[-1]}"
 
 
-_OPEN, _SPHERES, _YES, _NO = ("unilateral",), (3, 4, 5), (True,), (False,)
+_OPEN, _SPHERES, _YES, _NO = ("unilateral",), (3,), (True,), (False,)
 _PLACES = ("contact", "histogram", "positions")
 _GATHERED = ("profile", "contact", "contact_forces", "response", "histogram")
-_OF_NETWORKS = ("contact", "histogram", "profile", "response")
-_IN_THREE = "in three dimensions and more"
+_OF_NETWORKS = ("contact_forces", "positions")
+_IN_THREE = "in three dimensions"
 _ENDLESS = "is required: an infinite slab has infinitely many of these"
-_IN_OPEN = 'has no meaning with contacts = "unilateral": beads move, exactly, until none pulls'
 
 TABLE = (
     Refusal(
@@ -80,48 +79,29 @@ TABLE = (
         f"must stay closed {_IN_THREE}",
     ),
     Refusal(
-        {"dimension": _SPHERES, "stop": _YES},
-        "effects.stop_at_tension",
-        f"must be false {_IN_THREE}",
-    ),
-    Refusal(
         {"dimension": _SPHERES, "at": _YES, "quantity": _but("contact", "positions")},
         "ask.at",
         f'is for "contact" and "positions" {_IN_THREE}',
     ),
     Refusal(
-        {"contacts": _OPEN, "geometry": ("ordered", "first-order")}, "effects.geometry", _IN_OPEN
+        {"contacts": _OPEN, "geometry": ("ordered", "first-order")},
+        "effects.geometry",
+        'must be "exact" with contacts = "unilateral": beads move until no contact pulls',
     ),
-    Refusal({"contacts": _OPEN, "stop": _YES}, "effects.stop_at_tension", _IN_OPEN),
     Refusal(
-        {"contacts": _OPEN, "quantity": ("histogram",), "at": _YES},
-        "ask.at",
-        'can\'t be said with contacts = "unilateral": P(f) is of all contacts',
+        {"contacts": _OPEN, "quantity": _but(*_OF_NETWORKS)},
+        "ask.quantity",
+        f'must be {either(_OF_NETWORKS)} with contacts = "unilateral"',
+    ),
+    Refusal(
+        {"contacts": _OPEN, "several": _YES},
+        "ask.realisations",
+        'must be 1 with contacts = "unilateral"',
     ),
     Refusal(
         {"quantity": _but("response", "histogram"), "layers": _YES},
         "ask.layers",
         'needs quantity = "response" or "histogram"',
-    ),
-    Refusal(
-        {"contacts": _OPEN, "layers": _YES},
-        "ask.layers",
-        'can\'t be said with contacts = "unilateral": beads leave their layers',
-    ),
-    Refusal(
-        {"stop": _YES, "layers": _YES},
-        "ask.layers",
-        "can't be said with stop_at_tension: the sweep may not come so far",
-    ),
-    Refusal(
-        {"stop": _YES, "geometry": ("ordered", "first-order")},
-        "effects.stop_at_tension",
-        'only has a meaning with geometry = "exact"',
-    ),
-    Refusal(
-        {"stop": _YES, "quantity": ("response",), "several": _YES},
-        "effects.stop_at_tension",
-        "can't be averaged: each realisation of a response would stop elsewhere",
     ),
     Refusal(
         {"bins": _YES, "quantity": _but("histogram")}, "ask.bins", 'needs quantity = "histogram"'
@@ -151,20 +131,9 @@ TABLE = (
         f"an ensemble is of {either(_GATHERED)}",
     ),
     Refusal(
-        {"command": ("ensemble",), "contacts": _OPEN, "quantity": _but(*_OF_NETWORKS)},
-        "ask.quantity",
-        'contacts = "unilateral" differ from packing to packing: an ensemble is of '
-        f"{either(_OF_NETWORKS)}",
-    ),
-    Refusal(
-        {"command": ("ensemble",), "contacts": _OPEN, "covariance": _YES},
+        {"command": ("ensemble", "cost"), "contacts": _OPEN},
         "effects.contacts",
-        "a covariance is known on the lattice only, in which no contact opens",
-    ),
-    Refusal(
-        {"command": ("ensemble",), "stop": _YES},
-        "effects.stop_at_tension",
-        "an ensemble needs whole packings",
+        'must be "bilateral": a single packing is solved where contacts open',
     ),
     Refusal(
         {"command": ("ensemble",), "tolerance": _YES},
@@ -192,11 +161,6 @@ TABLE = (
         'has figures of "profile" and "histogram" only',
     ),
     Refusal(
-        {"command": ("cost",), "contacts": _OPEN},
-        "effects.contacts",
-        "costs are compared of packings on the lattice, in which no contact opens",
-    ),
-    Refusal(
         {"command": ("cost",), "dimension": _SPHERES},
         "packing.dimension",
         "must be 2: ways are compared for discs",
@@ -214,13 +178,11 @@ PLAIN: dict[str, Any] = {
     "leaning": False,
     "contacts": "bilateral",
     "geometry": "exact",
-    "stop": False,
     "at": False,
     "layers": False,
     "bins": False,
     "several": False,
     "tolerance": False,
-    "covariance": False,
     "reach": False,
 }
 
@@ -257,7 +219,6 @@ KINDS: dict[str, dict[str, Any]] = {
     "discs": {},
     "spheres": {"dimension": 3},
     "contacts that open": {"contacts": "unilateral"},
-    "`stop_at_tension`": {"stop": True},
 }
 
 
@@ -278,13 +239,11 @@ _SAID = {
     "slab": "no `packing.width`",
     "drawn": "radii of a file",
     "leaning": "`load.angle_deg`",
-    "stop": "`stop_at_tension`",
     "at": "`ask.at`",
     "layers": "`ask.layers`",
     "bins": "`ask.bins`",
     "several": "realisations",
     "tolerance": "a tolerance",
-    "covariance": "`--covariance`",
     "reach": "`--reach`",
 }
 

@@ -77,7 +77,7 @@ def _lines(path: Path, file: TextIO) -> Iterator[str]:
 
 
 def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Bead, list[Fraction]]:
-    """Read a bead (i, j) or (p, q, …, j), and the numbers after it."""
+    """Read a bead (i, j) or (p, q, j), and the numbers after it."""
     count, coordinates = header.index("j") + 1, []
     for name, text in zip(header[:count], row, strict=False):
         if not _WHOLE.fullmatch(text.strip()):
@@ -127,7 +127,7 @@ def _on_lattice(
 
 
 def _site(where: str, bead: Bead, width: int | None, height: int) -> Site:
-    """Give the place of a bead (i, j) in its layer, or of (p, q, …, j) in a row of W^(d−1)."""
+    """Give the place of a bead (i, j) in its layer, or of (p, q, j) in a row of W²."""
     *columns, j = bead
     if len(columns) == 1 and (columns[0] + j) % 2:
         raise TableError(f"{where}: bead {bead}: i + j must be even")

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
-from ..lattice.branch import Branch, Contact, Site, bead_names, directions
+from ..lattice.branch import Axis, Branch, Contact, Site
 from .combinations import refusal
 from .sections import (
     Ask,
@@ -79,7 +79,7 @@ def check(scene: Sections) -> None:
     _check_effects(scene.effects, packing)
 
 
-def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bool = False) -> None:
+def refuse(command: str, scene: Sections, *, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
     packing, load, effects, ask = scene.packing, scene.load, scene.effects, scene.ask
     found = refusal(
@@ -92,13 +92,11 @@ def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bo
         leaning=bool(load.angle_deg),
         contacts=effects.contacts,
         geometry=effects.geometry,
-        stop=effects.stop_at_tension,
         at=ask.at is not None,
         layers=ask.layers is not None,
         bins=ask.bins is not None,
         several=ask.realisations > 1,
         tolerance=ask.tolerance is not None,
-        covariance=covariance,
         reach=reach,
     )
     if found is not None:
@@ -109,7 +107,7 @@ def refuse(command: str, scene: Sections, *, covariance: bool = False, reach: bo
 
 def _check_effects(effects: Effects, packing: Packing) -> None:
     if effects.contacts == "bilateral":
-        for key in ("protocol", "most_events", "most_seconds"):
+        for key in ("most_programs", "most_seconds"):
             if key in effects.model_fields_set:
                 allowed = 'only has a meaning with contacts = "unilateral"'
                 raise SceneError(f"effects.{key}", getattr(effects, key), allowed)
@@ -149,17 +147,14 @@ def _check_packing(p: Packing) -> None:
 
 
 def _check_bead(packing: Packing, key: str, at: Any, highest: int) -> None:
-    """Check a bead (p, q, …, j) in three dimensions or more."""
-    d, names = packing.dimension, bead_names(packing.dimension)
-    if len(at) < d or not all(isinstance(number, int) for number in at[:d]):
-        form = f"[{', '.join(names)}]"
-        raise SceneError(key, at, f"must begin with a bead, {form}, in {d} dimensions")
-    if not 0 <= at[d - 1] <= highest:
+    """Check a bead (p, q, j)."""
+    if len(at) < 3 or not all(isinstance(number, int) for number in at[:3]):
+        raise SceneError(key, at, "must begin with a bead, [p, q, j], in three dimensions")
+    if not 0 <= at[2] <= highest:
         raise SceneError(key, at, f"j must be from 0 to {highest}")
     assert packing.width is not None
-    if not all(0 <= number < packing.width for number in at[: d - 1]):
-        columns = " and ".join(names[:-1])
-        raise SceneError(key, at, f"{columns} must be from 0 to {packing.width - 1}")
+    if not all(0 <= number < packing.width for number in at[:2]):
+        raise SceneError(key, at, f"p and q must be from 0 to {packing.width - 1}")
 
 
 def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
@@ -235,11 +230,9 @@ def _check_load(load: Load, packing: Packing) -> None:
     if load.kind == "point":
         if load.at is None:
             raise SceneError("load.at", None, 'is required with kind = "point", as at = [k, l]')
-        count = packing.dimension
-        if len(load.at) != count:
-            names = "k" if count == 2 else ", ".join(bead_names(count)[:-1])
-            allowed = f"must be a bead, [{names}, l]"
-            raise SceneError("load.at", load.at, allowed)
+        if len(load.at) != packing.dimension:
+            form = "[k, l]" if packing.dimension == 2 else "[p, q, l]"
+            raise SceneError("load.at", load.at, f"must be a bead, {form}")
         _check_load_site(packing, load.at)
     elif load.at is not None:
         raise SceneError("load.at", load.at, 'needs kind = "point"')
@@ -313,15 +306,12 @@ def _check_at(ask: Ask, packing: Packing) -> None:
 
 
 def _check_at_axes(ask: Ask, packing: Packing) -> None:
-    contact, d = ask.quantity == "contact", packing.dimension
+    contact = ask.quantity == "contact"
     assert ask.at is not None
-    bead, axes = ", ".join(bead_names(d)), [f'"{axis.value}"' for axis in directions(d)]
-    right = len(ask.at) == d + contact and (not contact or f'"{ask.at[-1]}"' in axes)
-    if not right:
-        others = f"{', '.join(axes[1:-1])} or {axes[-1]}"
-        form = f"a contact, [{bead}, {axes[0]}], {others}, ({bead}) its lower bead"
-        form = form if contact else f"a bead, [{bead}]"
-        raise SceneError("ask.at", ask.at, f"must be {form}, in {d} dimensions")
+    if len(ask.at) != 3 + contact or (contact and ask.at[-1] not in list(Axis)):
+        form = 'a contact, [p, q, j, "1"], "2" or "3", (p, q, j) its lower bead'
+        form = form if contact else "a bead, [p, q, j]"
+        raise SceneError("ask.at", ask.at, f"must be {form}, in three dimensions")
     _check_bead(packing, "ask.at", ask.at, packing.height - contact)
 
 

@@ -17,7 +17,6 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from ..arithmetic.decimals import decimal_string, exact, short
 from ..arithmetic.errors import ForceDiffusionError, rule
 from ..arithmetic.systems import Array
-from ..lattice.branch import Axis
 from .combinations import QuantityName
 
 # Of numbers that are doubles: sums of as many as a memory holds stay finite.
@@ -136,8 +135,8 @@ class Packing(Section):
     neighbours in a layer, 2 r < s < 2√3 r, by default 3 r; both in any one unit of length.
     ``allow_images`` says that a periodic strip as narrow as W ≤ M is meant.
 
-    ``dimension`` = d from 3 to 5: beads rest on d others, layers of W^(d−1) beads, W × W of three
-    dimensions, are periodic every way, and 2 r < s < √(8 + 8/d) r, that is √(32/3) r of three.
+    ``dimension`` 3: spheres rest on three others, layers of W × W beads are periodic both ways, and
+    2 r < s < √(32/3) r.
     """
 
     section = "packing"
@@ -145,7 +144,7 @@ class Packing(Section):
     width: Whole | None = Field(default=None, ge=1, le=10**12)
     radius: Number = Fraction(1)
     spacing: Number | None = None
-    dimension: Whole = Field(default=2, ge=2, le=len(Axis))
+    dimension: Whole = Field(default=2, ge=2, le=3)
     allow_images: bool = False
 
     @property
@@ -155,7 +154,7 @@ class Packing(Section):
 
     @property
     def shape(self) -> tuple[int | None, ...]:
-        """Of an array of its beads: (M + 1, W), or in three dimensions (M + 1, W, W), and so on."""
+        """Of an array of its beads: (M + 1, W), or in three dimensions (M + 1, W, W)."""
         return (self.height + 1, *[self.width] * (self.dimension - 1))
 
 
@@ -201,10 +200,10 @@ def radii_array(value: object) -> Array:
         raise ValueError("must be an array of real numbers, all rows equally long") from None
     if not values.size:
         raise ValueError(f"is empty: its shape is {values.shape}")
-    if not 2 <= values.ndim <= len(Axis) + 1:
+    if not 2 <= values.ndim <= 4:
         raise ValueError(
-            "must be an array of shape (layers, W) or, of spheres, (layers, W, W) and so on; "
-            "with an axis before it for several packings"
+            "must be an array of shape (layers, W) or, of spheres, (layers, W, W); with an axis "
+            "before it for several packings"
         )
     _refuse_infinite(values)
     values.setflags(write=False)
@@ -276,26 +275,17 @@ class PointLoad(Load):
 
 
 class Effects(Section):
-    """What is simulated of the packing, and whether tension stops the sweep.
+    """What is simulated of the packing.
 
     ``contacts``: "bilateral" ones stay closed and may pull; "unilateral" ones open instead, and
-    beads move until none pulls. They may come to rest in more than one way, so the way there, the
-    ``protocol``, is part of the answer: "linear-programs", one after another, or "event-driven",
-    one contact after another along the exact motion, from the deposited packing;
-    "interior-path", for large packings, ends in other, deeper minima; "ladder" and "event-ladder"
-    are the first two, then from beads that are dropped one by one, and for "ladder" last a loaded
-    bead in each pocket of the base. A packing is given up after ``most_events`` programs or
-    contacts, or after ``most_seconds`` of processor time.
+    beads move by linear programs, one after another, until none pulls. A packing is given up after
+    ``most_programs``, by default 400, or after ``most_seconds`` of processor time.
     """
 
     section = "effects"
     geometry: Literal["ordered", "first-order", "exact"] = "exact"
-    stop_at_tension: bool = False
     contacts: Literal["bilateral", "unilateral"] = "bilateral"
-    protocol: Literal[
-        "ladder", "linear-programs", "interior-path", "event-ladder", "event-driven"
-    ] = "ladder"
-    most_events: Whole | None = Field(default=None, ge=1)
+    most_programs: Whole | None = Field(default=None, ge=1)
     most_seconds: Number | None = None
 
 

@@ -9,7 +9,12 @@ import flint
 import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem
-from .ratios import moments
+
+# Of a variance: no sample is so large that its error is less.
+ROUNDING = 1e-9
+# Of the terms of which a squared error is the sum: below lies rounding, as of two samples, which
+# lie equally far from their mean whatever they are.
+CANCELLED = 2.0**-44
 
 
 @dataclass
@@ -77,7 +82,46 @@ class Scatter:
         NaN for a single packing, and for the deviation of what does not vary.
         """
         a, b = np.concatenate(self._mean), np.concatenate(self._square)
-        return moments(np.ones_like(a), a, b)[2:]
+        values = np.stack([a, b])
+        with np.errstate(all="ignore"):  # of numbers beyond floats nothing is known
+            means = values.mean(axis=1)
+            values -= means[:, None]
+            pairs = ((0, 0), (0, 1), (1, 1))
+            products = np.stack([(values[i] * values[k]).sum(axis=0) for i, k in pairs])
+        return with_errors(len(a), means, products)[2:]
+
+
+def with_errors(packings: int, means: Array, products: Array) -> tuple[Array, Array, Array, Array]:
+    """Give mean and standard deviation of each group, and the standard errors of both.
+
+    ``means`` (2, groups): over packings, of the means of x and of x² of each. ``products`` (3,
+    groups): sums over packings of products of deviations from them, of x twice, of x and x², of x²
+    twice. Errors are NaN of one packing, and that of a standard deviation where it is zero, or its
+    error nothing but rounding.
+
+    >>> a = np.array([0.3, 0.7])
+    >>> x, xx = a - a.mean(), a * a - (a * a).mean()
+    >>> of_two = [[a.mean()], [(a * a).mean()]], [[x @ x], [x @ xx], [xx @ xx]]
+    >>> mean, std, mean_error, std_error = with_errors(2, *map(np.array, of_two))
+    >>> [round(float(v[0]), 9) for v in (mean, std, mean_error, std_error)]
+    [0.5, 0.2, 0.2, nan]
+    """
+
+    def error(weights: tuple[Array | float, Array | float]) -> Array:
+        """Give the standard error of a sum of both means with these weights."""
+        a, b = weights
+        terms = np.stack([a * a * products[0], 2 * a * b * products[1], b * b * products[2]])
+        square, size = terms.sum(axis=0), abs(terms).sum(axis=0)
+        square = np.where(square > CANCELLED * size, square, 0)
+        return np.where(packings > 1, np.sqrt(square / packings / (packings - 1)), np.nan)
+
+    with np.errstate(all="ignore"):
+        mean, square = means
+        variance = np.maximum(square - mean**2, 0)
+        of_variance = error((-2 * mean, 1.0))
+        std = np.sqrt(variance)
+        of_std = np.where(of_variance > ROUNDING * variance, of_variance / (2 * std), np.nan)
+        return mean, std, error((1.0, 0.0)), of_std
 
 
 def by_halves(values: Array) -> Array:

@@ -41,8 +41,6 @@ class Enclosed:
         meant = self.best if meant is None else meant
         if found is meant:
             return Decimal(0)
-        if len(found) != len(meant):
-            raise IncomparableError("it stopped at another contact than the reference")
         with self.system.active():
             pairs = zip(found, meant, strict=True)
             return self.relative(largest_of((exactly(a) - b).abs_upper() for a, b in pairs))
@@ -66,15 +64,13 @@ FAILURES = (UnbuildableError, UndecidedError, NotStandingError, RadiusError, Inc
 """What is raised where a packing has no answer in some arithmetic."""
 
 
-def answer(
-    plan: Plan, system: NumberSystem, realisations: Sequence[int], *, plainly: bool = False
-) -> Table:
+def answer(plan: Plan, system: NumberSystem, realisations: Sequence[int]) -> Table:
     """Answer a plan's question for some realisations, and nothing beside it.
 
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     problem, work = plan.problem, Work(repeating=True)  # what is physical was judged before
-    return whole_answer(plan.quantity, problem, realisations, system, work, plainly=plainly).table
+    return whole_answer(plan.quantity, problem, realisations, system, work).table
 
 
 def changes(table: Table) -> Array:

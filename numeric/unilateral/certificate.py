@@ -12,7 +12,6 @@ this way.
 β is the inverse of A's smallest singular value, which one sparse factorisation bounds.
 """
 
-from dataclasses import dataclass
 from typing import Any
 
 import flint
@@ -23,41 +22,52 @@ from scipy.sparse.linalg import splu
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import Array, Balls, as_floats
 from .grains import Grains, Pairs
-from .network import Frame, UnfinishedError
+from .network import Frame, Network, UnfinishedError
 
 # Steps of inverse iteration, which estimate the smallest singular value.
 ITERATIONS = 10
+# Forces that are this small, as a share of the largest, are never told from zero.
+ZERO = 1e-60
 # Gaps are measured of pairs up to this far apart, in units of r; those of all others are larger.
 FAR = 0.5
 # The share of a rounding to nearest, and some room for what is computed with it.
 ROUNDED = 2.0**-53 * (1 + 1e-6)
 
 
-@dataclass(frozen=True)
-class Certificate:
-    """An exact packing, enclosed: ``x`` (N, 2) and ``forces`` (contacts,) in balls.
+def certify(grains: Grains, contacts: Pairs, known: Frame, system: Balls) -> Network:
+    """Prove that a packing near ``grains`` in which ``contacts`` touch is a strict local minimum.
 
-    ``within`` bounds how far each coordinate of the backbone lies from the middle of its ball.
+    Beads that no contact touches stay where they are, and bear no load. The caller activates
+    ``system``. Raises ``UndecidedError`` where more bits may help, and ``UnfinishedError`` where
+    they don't.
     """
-
-    x: Array
-    forces: Array
-    within: float
-    kantorovich: float
-
-
-def certify(
-    grains: Grains, contacts: Pairs, backbone: Array, known: Frame, system: Balls
-) -> Certificate:
-    """Enclose the exact packing near ``grains`` in which ``contacts`` touch.
-
-    ``contacts``: twice as many as ``backbone``, the numbers of its free beads. Beads outside of it
-    stay where they are, and bear no load. The caller activates ``system``. Raises
-    ``UndecidedError`` where more bits may help, and ``UnfinishedError`` where they don't.
-    """
-    for bead in np.setdiff1d(np.arange(grains.fixed, len(grains.radii)), backbone):
+    backbone, rattlers = grains.backbone(contacts), grains.rattlers(contacts)
+    if len(contacts) != 2 * len(backbone):
+        raise UnfinishedError(
+            f"degenerate: {len(contacts)} contacts hold {len(backbone)} beads, and a strict "
+            "minimum needs twice as many"
+        )
+    for bead in rattlers:
         if not all(load == 0 for load in known.load[bead]):
             raise UnfinishedError(f"bead {bead} bears a load, and no contact holds it")
+    x, forces, h = _enclosed(grains, contacts, backbone, known, system)
+    if any(force < 0 for force in forces):
+        raise UnfinishedError("a contact of the settled packing pulls")
+    if not all(force > 0 for force in forces):
+        largest = max(float(force.mid()) for force in forces)
+        if any(abs(force) < ZERO * largest for force in forces if not force > 0):
+            raise UnfinishedError(
+                f"degenerate: a contact bears less than {ZERO:g} of the largest force, if any"
+            )
+        raise UndecidedError("the enclosures are too wide to tell whether all forces are positive")
+    smallest = smallest_gap(x, known, contacts)
+    return Network(x, contacts, forces, rattlers, smallest, known, h)
+
+
+def _enclosed(
+    grains: Grains, contacts: Pairs, backbone: Array, known: Frame, system: Balls
+) -> tuple[Array, Array, float]:
+    """Enclose centres and forces of the packing in which ``contacts`` touch, and give h."""
     place = grains.coordinates(backbone)
     factors = grains.factors(contacts, place)
     least = smallest_singular_value(grains.jacobian(contacts)[:, place].tocsc(), factors)
@@ -93,7 +103,7 @@ def certify(
     for bead in backbone:
         for k in (0, 1):
             enclosed[bead, k] = enclosed[bead, k] + radius
-    return Certificate(enclosed, forces, reach, h)
+    return enclosed, forces, h
 
 
 def smallest_gap(x: Array, known: Frame, touching: Pairs) -> float:

@@ -45,30 +45,43 @@ class Grains:
         first = 2 * (beads - self.fixed)
         return np.asarray(np.stack([first, first + 1], axis=1).ravel())
 
+    def backbone(self, contacts: Pairs) -> Array:
+        """Give the free beads that contacts touch."""
+        free = np.arange(self.fixed, len(self.radii))
+        return np.asarray(free[np.isin(free, contacts)])
+
+    def rattlers(self, contacts: Pairs) -> Array:
+        """Give the free beads that contacts don't touch."""
+        free = np.arange(self.fixed, len(self.radii))
+        return np.asarray(free[~np.isin(free, contacts)])
+
+    def move(self, moves: Array) -> None:
+        """Move all coordinates that may change."""
+        self.x[self.fixed :] += moves.reshape(-1, 2)
+
     def energy(self) -> float:
         """Potential energy of the load, which falls while beads move."""
         return -float((self.load * self.x).sum())
 
-    def differences(self, pairs: Pairs, x: Array | None = None) -> Array:
+    def differences(self, pairs: Pairs) -> Array:
         """Give the vectors from the second to the first bead of each pair, nearest images."""
-        at = self.x if x is None else x
-        d = at[pairs[:, 0]] - at[pairs[:, 1]]
+        d = self.x[pairs[:, 0]] - self.x[pairs[:, 1]]
         d[:, 0] -= self.period * np.round(d[:, 0] / self.period)
         return np.asarray(d)
 
-    def gaps(self, pairs: Pairs, x: Array | None = None) -> Array:
+    def gaps(self, pairs: Pairs) -> Array:
         """Give the distances of the surfaces; negative where beads overlap."""
-        d = self.differences(pairs, x)
+        d = self.differences(pairs)
         return np.asarray(np.hypot(d[:, 0], d[:, 1]) - self.radii[pairs].sum(axis=1))
 
-    def directions(self, pairs: Pairs, x: Array | None = None) -> Array:
+    def directions(self, pairs: Pairs) -> Array:
         """Give the unit vectors from the second to the first bead."""
-        d = self.differences(pairs, x)
+        d = self.differences(pairs)
         return np.asarray(d / np.hypot(d[:, 0], d[:, 1])[:, None])
 
-    def jacobian(self, pairs: Pairs, x: Array | None = None) -> Any:
+    def jacobian(self, pairs: Pairs) -> Any:
         """Give the derivatives of the gaps, a sparse matrix of shape (pairs, unknowns)."""
-        n = self.directions(pairs, x)
+        n = self.directions(pairs)
         rows = np.repeat(np.arange(len(pairs)), 4)
         first = 2 * (pairs - self.fixed)
         columns = np.stack([first[:, 0], first[:, 0] + 1, first[:, 1], first[:, 1] + 1], axis=1)
@@ -79,7 +92,7 @@ class Grains:
             shape=(len(pairs), self.unknowns),
         )
 
-    def factors(self, pairs: Pairs, place: Any = slice(None)) -> Any:
+    def factors(self, pairs: Pairs, place: Array) -> Any:
         """Factorise the derivatives of as many gaps as there are coordinates at ``place``.
 
         Raises ``UnfinishedError`` where they are not independent.
@@ -100,13 +113,6 @@ class Grains:
             f"the widest hole of the base lets radii up to {hole:.3g} r through, and the smallest "
             f"bead has {smallest:.3g} r"
         )
-
-    def rate(self, pair: Array, moves: Array, x: Array) -> float:
-        """Give the derivative of one pair's gap along moves of all coordinates that may change."""
-        n = self.directions(pair[None], x)[0]
-        a, b = 2 * (pair - self.fixed)
-        other = moves[b : b + 2] if b >= 0 else 0.0
-        return float(n @ (moves[a : a + 2] - other))
 
     def near(self, reach: float, *, base: bool = False) -> Pairs:
         """List all pairs with gaps up to ``reach``, and some wider ones.

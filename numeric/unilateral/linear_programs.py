@@ -1,8 +1,8 @@
-"""The protocol of linear programs: in a row, each on the gaps linearised anew, until beads rest.
+"""Linear programs in a row, each on the gaps linearised anew, until beads rest.
 
 Minimise the load's energy over moves u with g + n·Δu ≥ 0 for all near pairs and |u| ≤ Δ a
 coordinate; move; repeat. A gap is never smaller than its linearisation, so that no step overlaps
-beads, and the energy falls. Where it ends depends on Δ, which therefore belongs to the protocol.
+beads, and the energy falls. Where it ends depends on Δ.
 """
 
 from collections.abc import Callable
@@ -11,15 +11,15 @@ from typing import Any
 
 import numpy as np
 
+from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
 from .grains import Grains, Pairs
-from .network import MissingSolverError, UnfinishedError
+from .network import UnfinishedError
 
 # Δ, in units of r.
 TRUST = 0.8
 # The energy of the load, relative to its own scale, that a program must gain for another to follow.
 GAIN = 1e-12
-MOST_PROGRAMS = 400
 # Programs over which the fall of beads that don't come to rest is averaged.
 LATE = 100
 # Gaps up to this are constraints; a move ends where it would close another one.
@@ -29,23 +29,29 @@ CLOSE = 0.8
 FEW = 200
 # Forces below this share of the largest one are none: what float64 and the programs leave.
 NO_FORCE = 1e-7
-# Coordinates from which on HiGHS's newer interior points, if installed, are faster.
-LARGE = 8000
 
 
-def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array]:
+class MissingSolverError(ForceDiffusionError, ImportError):
+    """HiGHS is not installed."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            'contacts that open need highspy: pip install "force-diffusion[unilateral]"'
+        )
+
+
+def relax(grains: Grains, most: int, progress: Callable[[int], None]) -> tuple[Pairs, Array, int]:
     """Move ``grains``, which must not overlap, until they rest.
 
-    Gives near pairs, and the force of each. Raises ``UnfinishedError``, and
-    ``MissingSolverError`` without highspy.
+    Gives near pairs, the force of each, and how many programs it took. Raises ``UnfinishedError``
+    after ``most`` programs, and ``MissingSolverError`` without highspy.
     """
     scale, gains = float(np.abs(grains.weights).sum()), []
     programs, by_simplex, bore = _Programs(grains), False, np.array([])
-    for program in range(1, MOST_PROGRAMS + 1):
+    for program in range(1, most + 1):
         pairs, move, forces = programs.solve(by_simplex)
         before = grains.energy()
-        grains.x = grains.x.copy()
-        grains.x[grains.fixed :] += move.reshape(-1, 2)
+        grains.move(move)
         gain = before - grains.energy()
         gains.append(gain)
         # the solver is exact to about 1e-9 of what it minimises
@@ -56,7 +62,7 @@ def relax(grains: Grains, progress: Callable[[int], None]) -> tuple[Pairs, Array
         progress(program)
         at_rest = gain < GAIN * scale
         if at_rest and by_simplex:
-            return pairs, forces
+            return pairs, forces, program
         bear = grains.named(pairs[forces > NO_FORCE * forces.max(initial=0)])
         by_simplex = at_rest or len(np.setdiff1d(bear, bore)) < FEW
         bore = bear
@@ -69,13 +75,13 @@ def _still_moving(grains: Grains, falls: Array) -> str:
     height = float(grains.x[loaded, 1].mean())
     late = float(falls[-LATE:].mean())
     through = int(np.count_nonzero(grains.x[loaded, 1] < grains.x[: grains.fixed, 1].min()))
-    verdict = f"sliding: after {len(falls)} linear programs"
+    verdict = f"beads still slide after {len(falls)} linear programs (effects.most_programs)"
     if through:
         verdict = (
-            f"fell through the base: {through} beads that bear loads, of {len(loaded)}; "
-            f"{grains.hole_and_smallest()}; after {len(falls)} linear programs"
+            f"{through} beads that bear loads, of {len(loaded)}, fell through the base: "
+            f"{grains.hole_and_smallest()}"
         )
-    return f"{verdict} a loaded bead falls by {late:.2g} r a program, at y = {height:.3g} r"
+    return f"{verdict}; a loaded bead falls by {late:.2g} r a program, at y = {height:.3g} r"
 
 
 @dataclass
@@ -106,7 +112,7 @@ class _Programs:
         try:
             import highspy
         except ImportError:
-            raise MissingSolverError("linear programs", "highspy") from None
+            raise MissingSolverError from None
         program = highspy.HighsLp()
         program.num_col_, program.num_row_ = A.shape[1], A.shape[0]
         program.col_cost_ = -self.grains.weights
@@ -119,23 +125,21 @@ class _Programs:
         program.a_matrix_.index_ = A.indices
         program.a_matrix_.value_ = A.data
         solver = highspy.Highs()  # type: ignore[no-untyped-call]
-        interior = "ipm" if A.shape[1] > LARGE else "ipx"
-        solver.passOptions(_options(highspy, interior, by_simplex, A.shape[1] // 4))
+        solver.setOptionValue("output_flag", False)
         solver.passModel(program)
         names = self.grains.named(pairs).tolist()
         optimal = highspy.HighsModelStatus.kOptimal
         if by_simplex and self.columns:
-            solver.passOptions(_options(highspy, "simplex", by_simplex, A.shape[1] // 4))
+            solver.passOptions(_by_simplex(highspy, A.shape[1] // 4))
             basis, inactive = highspy.HighsBasis(), highspy.HighsBasisStatus.kBasic
             basis.valid = basis.alien = True
             basis.col_status = self.columns
             basis.row_status = [self.rows.get(name, inactive) for name in names]
             solver.setBasis(basis)
             solver.run()
-            if solver.getModelStatus() != optimal:
-                solver.passOptions(_options(highspy, interior, by_simplex, A.shape[1] // 4))
-                solver.clearSolver()
         if solver.getModelStatus() != optimal:
+            solver.passOptions(_by_interior_points(highspy, vertex=by_simplex))
+            solver.clearSolver()
             solver.run()
         status = solver.getModelStatus()
         if status != optimal:
@@ -151,14 +155,19 @@ class _Programs:
         return np.array(solution.col_value), np.array(solution.row_dual)
 
 
-def _options(highspy: Any, method: str, vertex: bool, most: int) -> Any:
-    """Give options of HiGHS; the simplex method is given up after ``most`` steps."""
+def _by_simplex(highspy: Any, most: int) -> Any:
+    """Give options of HiGHS for the simplex method, which is given up after ``most`` steps."""
     options = highspy.HighsOptions()
-    options.output_flag, options.threads, options.solver = False, 1, method
-    if method == "simplex":
-        options.presolve, options.simplex_strategy = "off", 4  # primal
-        options.simplex_iteration_limit = most
-        options.primal_feasibility_tolerance = options.dual_feasibility_tolerance = 1e-10
-    else:
-        options.run_crossover = "on" if vertex else "off"
+    options.output_flag, options.threads, options.solver = False, 1, "simplex"
+    options.presolve, options.simplex_strategy = "off", 4  # primal
+    options.simplex_iteration_limit = most
+    options.primal_feasibility_tolerance = options.dual_feasibility_tolerance = 1e-10
+    return options
+
+
+def _by_interior_points(highspy: Any, *, vertex: bool) -> Any:
+    """Give options of HiGHS for interior points, which end at a ``vertex`` or not."""
+    options = highspy.HighsOptions()
+    options.output_flag, options.threads, options.solver = False, 1, "ipx"
+    options.run_crossover = "on" if vertex else "off"
     return options

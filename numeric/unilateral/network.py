@@ -3,8 +3,6 @@
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
@@ -17,14 +15,8 @@ class UnfinishedError(ForceDiffusionError, ArithmeticError):
     exit_status = NOT_REACHED
 
 
-class MissingSolverError(ForceDiffusionError, ImportError):
-    """A solver that a protocol needs is not installed."""
-
-    def __init__(self, what: str, package: str) -> None:
-        super().__init__(
-            f'{what} need {package}: pip install "force-diffusion[unilateral]"; '
-            'protocol = "event-driven" does without'
-        )
+class ImpossibleError(UnfinishedError):
+    """No packing can stand: that is proved."""
 
 
 @dataclass(frozen=True)
@@ -57,52 +49,32 @@ class Network:
 
     Bead number j W + q is (i, j) of the lattice, i = 2q + j mod 2, where it was deposited.
     ``pairs``: the contacts that bear force, (contacts, 2), with ``forces``; ``x``: (N, 2), of which
-    those of ``rattlers`` are any place without overlap. ``events``: contacts that opened one after
-    the other, or programs; ``fall``: of the energy. ``rung``: which way of the protocol answered;
-    empty where the deposited packing has no tension, and nothing moved.
+    those of ``rattlers`` are any place without overlap. ``smallest_gap``: a lower bound for pairs
+    that bear no force. ``programs`` is 0 where the deposited packing has no tension, and nothing
+    moved; ``fall``: of the energy. ``kantorovich``: h of that theorem, None as deposited.
     """
 
-    width: int
     x: Array
     pairs: Array
     forces: Array
     rattlers: Array
-    events: int
-    fall: float
     smallest_gap: float
     frame: Frame
     kantorovich: float | None = None
-    rung: str = ""
+    programs: int = 0
+    fall: float = 0.0
+
+    @property
+    def width(self) -> int:
+        """W, the beads of the base."""
+        return len(self.frame.base)
 
     @property
     def rest(self) -> str:
         """Say what is proved of where beads rest."""
-        if not self.rung:
+        if self.kantorovich is None:
             return "as deposited: no contact pulls"
         return "a strict local minimum in the coordinates of beads that contacts hold"
-
-    def pushes(self) -> Array:
-        """Give the force of each contact on its first bead, (contacts, 2); the other way back."""
-        d = self.x[self.pairs[:, 0]] - self.x[self.pairs[:, 1]]
-        around = np.round([float(dx) / float(self.frame.period) for dx in d[:, 0]]).astype(int)
-        d[:, 0] = d[:, 0] - around * self.frame.period
-        length = np.sqrt(d[:, 0] * d[:, 0] + d[:, 1] * d[:, 1])
-        return np.asarray(d / length[:, None] * self.forces[:, None])
-
-    def data(self) -> dict[str, Any]:
-        """Give the packing as ``checker`` reads it: decimals of 60 digits, in units of r."""
-
-        def decimal(ball: Any) -> str:
-            return str(ball.mid().str(60, radius=False))
-
-        return {
-            "period": decimal(self.frame.period),
-            "fixed": self.width,
-            "radii": [decimal(r) for r in self.frame.radii],
-            "loads": [[decimal(v) for v in load] for load in self.frame.load],
-            "centres": [[decimal(v) for v in centre] for centre in self.x],
-            "contacts": self.pairs.tolist(),
-        }
 
     def bead(self, number: int) -> tuple[int, int]:
         """Name a bead (i, j)."""
@@ -122,6 +94,6 @@ class Network:
 
 @dataclass(frozen=True, kw_only=True)
 class Relaxed(Solved):
-    """A solved realisation under unilateral contacts."""
+    """A solved packing under unilateral contacts."""
 
     network: Network

@@ -42,8 +42,6 @@ class Order(Protocol):
 class UndeterminedError(NotExactError):
     """An order relation between layers does not hold throughout the region.
 
-    Its text says which, and which bound of the region would settle it.
-
     Args:
         reason: which, in words.
         apart: whose sign is not known; None for what no sign decides.
@@ -52,21 +50,6 @@ class UndeterminedError(NotExactError):
     def __init__(self, reason: str, apart: Affine | None = None):
         super().__init__(reason)
         self.reason, self.apart = reason, apart
-
-    def __str__(self) -> str:
-        number = self.number
-        if number is None or not number.free_symbols:
-            return self.reason
-        number = number.primitive()[1]
-        settled = f"{number} ≥ 1"
-        if len(number.free_symbols) == 1:
-            (index,) = number.free_symbols
-            zero = -number.xreplace({index: sympy.S.Zero}) / number.coeff(index)
-            settled = f"{index} ≥ {sympy.floor(zero) + 1}"
-        return (
-            f"{self.reason}. That depends on the sign of {number}, which the domain leaves open: "
-            f"{settled} settles it, and what lies outside needs a form of its own"
-        )
 
     @property
     def number(self) -> sympy.Expr | None:

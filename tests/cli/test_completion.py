@@ -100,7 +100,7 @@ def test_a_shell_completes_the_names_of_commands(shell: str, tmp_path: Path) -> 
     [
         ("force-diffusion expl", "explain"),
         ("force-diffusion show --as s", "sympy steps"),
-        ("force-diffusion nonsense s", "show stability"),
+        ("force-diffusion nonsense s", "show"),
     ],
 )
 def test_what_is_offered(line: str, offered: str, tmp_path: Path) -> None:

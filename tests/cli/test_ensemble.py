@@ -49,17 +49,15 @@ def test_kept_in_a_file_and_written_out(
     small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     store, out = tmp_path / "ensemble.fd", tmp_path / "out"
-    arguments = [small, "--store", store, "--out", out, "--covariance", "--json"]
+    arguments = [small, "--store", store, "--out", out, "--json"]
     status, shown, err = call(capsys, *arguments)
     assert (status, err) == (0, "")
     data = json.loads(shown)
     assert data["ensemble"]["realisations"] == 40
     assert len(data["results"]["profile"]) == 6
-    assert len(data["covariance"]["matrix"]) == 6
     assert (out / "result.json").read_text() == shown
     lines = (out / "profile.csv").read_text().splitlines()
     assert lines[0].startswith("j,branch,samples,mean,mean_change,mean_change_error,std,std_error,")
-    assert (out / "covariance.csv").read_text().splitlines()[0] == "0:+,0:-,1:+,1:-,2:+,2:-"
     first = (out / "result.json").read_bytes()
     assert call(capsys, *arguments)[0] == 0  # again, from the file alone
     assert (out / "result.json").read_bytes() == first
@@ -74,30 +72,23 @@ def test_kept_in_a_file_and_written_out(
 @pytest.mark.long(sample=11)
 @pytest.mark.parametrize("written", ["csv", "npz", "parquet"])
 @pytest.mark.parametrize("name", CASES)
-def test_covariances_of_every_quantity_are_written_and_printed(
+def test_every_quantity_is_written_and_printed(
     name: str, written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     if written == "parquet":
         pytest.importorskip("pyarrow")
     path = tmp_path / "scene.toml"
     path.write_text(toml(CASES[name]))
-    few = [path, "--realisations", 3, "--covariance", "--workers", 1]
+    few = [path, "--realisations", 3, "--workers", 1]
     status, shown, err = call(capsys, *few, "--json")
     assert (status, err) == (0, "")
     data = json.loads(shown)
-    matrix = data["covariance"]["matrix"]
     for printed in ([], ["--json"]):
         out = tmp_path / f"out{len(printed)}"
         status, shown, err = call(capsys, *few, "--out", out, "--format", written, *printed)
         assert (status, err) == (0, "")
         assert not printed or json.loads(shown) == data
         assert (out / f"{CASES[name]['ask']['quantity']}.{written}").is_file()
-        assert json.loads((out / "result.json").read_text())["covariance"] == data["covariance"]
-        head, *lines = (out / "covariance.csv").read_text().splitlines()
-        assert [[float(number) for number in line.split(",")] for line in lines] == matrix
-        names = head.split(",")
-        assert len(names) == len(set(names)) == len(matrix)
-        assert all(names)
 
 
 def test_more_are_added_and_a_rule_stops_early(
@@ -155,22 +146,6 @@ def test_wrong_usage(
     assert says in err
     assert "Traceback" not in err
     assert SCENE.read_bytes() == before
-
-
-@pytest.mark.parametrize("magnitude", ["1e160", "1e61", "1e-61", "1e-160"])
-def test_covariances_beyond_the_range_of_float64_are_refused_before_solving(
-    magnitude: str, small: Path, tmp_path: Path,
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch,
-) -> None:  # fmt: skip
-    with small.open("a") as file:
-        file.write(f'load = {{kind = "surface", magnitude = {magnitude}}}\n')
-    assert call(capsys, small, "--out", tmp_path / "without")[0] == 0
-    monkeypatch.setattr("force_diffusion.numeric.ensemble.ensemble.run", None)
-    status, shown, err = call(capsys, small, "--out", tmp_path / "out", "--covariance")
-    assert (status, shown) == (2, "")
-    assert f"load.magnitude = {float(magnitude):g}" in err
-    assert "covariance" in err
-    assert not (tmp_path / "out").exists()
 
 
 def test_scenes_without_an_ensemble(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -13,9 +13,7 @@ from force_diffusion.__main__ import main
 EFFECTS = {
     "exact": "",
     "first-order": 'geometry = "first-order"',
-    "stop": "stop_at_tension = true",
-    "linear-programs": 'contacts = "unilateral"',
-    "event-driven": 'contacts = "unilateral"\nprotocol = "event-driven"',
+    "unilateral": 'contacts = "unilateral"',
 }
 LOADS = {
     "surface": 'kind = "surface"',
@@ -49,7 +47,7 @@ QUESTIONS = get_args(fd.Ask.model_fields["quantity"].annotation)
 
 def test_the_questions_are_all() -> None:
     assert "contact_forces" in QUESTIONS
-    assert len(QUESTIONS) >= 7
+    assert len(QUESTIONS) >= 6
 
 
 @pytest.mark.long(sample=14)

@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 import force_diffusion as fd
-from force_diffusion import derivation
 from force_diffusion.__main__ import main
 
 ROOT = Path(__file__).parents[2]
@@ -134,18 +133,8 @@ def test_every_command_is_told(capsys) -> None:
 
 def test_every_name_of_the_face_is_told() -> None:
     page = (REFERENCE / "python.md").read_text(encoding="utf-8")
-    own, rest = _own_derivations(page)
     auto = r"^\.\. auto(?:function|class|exception):: (\w+)(?:\(|$)"
-    assert sorted(re.findall(auto, rest, re.MULTILINE)) == sorted(fd.__all__)
-    told = {*re.findall(auto, own, re.MULTILINE), *re.findall(r"`(\w+)(?:\(.*?\))?`", own)}
-    assert told - {"force_diffusion"} == set(derivation.__all__)
-
-
-def _own_derivations(page: str) -> tuple[str, str]:
-    """The section about the names of ``force_diffusion.derivation``, and the page without it."""
-    before, _, after = page.partition("\n## Own derivations\n")
-    own, _, rest = after.partition("\n## ")
-    return own, f"{before}\n## {rest}"
+    assert sorted(re.findall(auto, page, re.MULTILINE)) == sorted(fd.__all__)
 
 
 @pytest.mark.parametrize(
@@ -186,5 +175,5 @@ def test_the_json_of_a_run_has_the_keys_that_are_told(tmp_path, capsys) -> None:
 def test_the_json_of_an_ensemble_has_the_keys_that_are_told(tmp_path, capsys) -> None:
     scene = _scene(tmp_path, f"{PACKING}[ask]\nrealisations = 40\n{ASKED['histogram']}")
     told = set(re.findall(r"\w+", _answers("The JSON of `ensemble`"))) | set(ASKED)
-    assert main(["ensemble", scene, "--json", "--covariance"]) == 0
+    assert main(["ensemble", scene, "--json"]) == 0
     assert _keys(json.loads(capsys.readouterr().out)) <= told

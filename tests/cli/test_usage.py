@@ -59,7 +59,7 @@ WRONG = [
     (
         ["prove", "13"],
         "no command 'prove'. Use derive, certify, show, list, examples, run, explain, "
-        "check-packings, cost, stability, cascade, ensemble, ensemble-status, figures or report",
+        "cost, ensemble, ensemble-status or figures",
     ),
 ]
 

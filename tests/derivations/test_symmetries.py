@@ -3,13 +3,11 @@
 from fractions import Fraction
 from itertools import combinations
 
+import mpmath
 import pytest
+import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.witnesses.both_sides import ExactSolution, evaluate
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.numeric.arithmetic.systems import BigFloat, array
-from force_diffusion.numeric.mechanics import plain
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.mechanics.lattice import mirror
@@ -17,17 +15,32 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.derivations.strategies import small_packings
+from tests.numeric.mechanics import taylor
+from tests.numeric.mechanics.plain_packing import PlainPacking
+from tests.soundness.witnesses.draws import SmallPacking
 
 FORCE = eq11.in_radii(eq11.PRINTED.rhs)
 LEFT_FORCE = eq11.in_radii(mirror(eq11.PRINTED.rhs))
 
 
 def force_weights(
-    packing: SmallPacking, across: int, layer: int, scale: Fraction = Fraction(1)
+    packing: SmallPacking,
+    across: int,
+    layer: int,
+    scale: Fraction = Fraction(1),
+    form: sympy.Expr = FORCE,
 ) -> explicit.Weights:
     values = explicit.geometry(*packing.n, scale)
     at = {**values, sy.M: packing.height, sy.i: across, sy.j: layer}
-    return explicit.weights(FORCE, at)
+    return explicit.weights(form, at)
+
+
+def solved(packing: SmallPacking) -> taylor.TaylorPacking:
+    """Exactly, to first order, under a surface load."""
+    loads = packing.surface_load()
+    return taylor.solve(
+        packing.width, packing.height, n=packing.n, rho=packing.rho, loads=loads, order=1
+    )
 
 
 @given(small_packings(), st.integers(-3, 3))
@@ -63,13 +76,13 @@ def test_mirror_image(packing: SmallPacking) -> None:
         packing.loaded,
         packing.contacts,
     )
-    truth, image = ExactSolution(packing, "surface"), ExactSolution(mirrored, "surface")
+    truth, image = solved(packing), solved(mirrored)
+    around = 2 * packing.width
     for across, layer in packing.contacts:
-        assert truth.force(across, layer, "+") == image.force(-across, layer, "-")
-        at = {sy.M: packing.height, sy.j: layer}
-        assert evaluate(FORCE, truth, {**at, sy.i: across}) == evaluate(
-            LEFT_FORCE, image, {**at, sy.i: -across}
-        )
+        assert truth.force(across, layer, "+") == image.force(-across % around, layer, "-")
+        here = force_weights(packing, across, layer)
+        there = force_weights(packing, -across, layer, form=LEFT_FORCE)
+        assert here == {(f, -i if f else 0, j): w for (f, i, j), w in there.items()}
 
 
 @given(small_packings(), small_packings(), st.fractions(-9, 9, max_denominator=9))
@@ -85,8 +98,8 @@ def test_linearity_in_the_radii(one: SmallPacking, two: SmallPacking, factor: Fr
         packing = SmallPacking(
             one.width, one.height, one.n, rho, one.load, one.loaded, one.contacts
         )
-        truth = ExactSolution(packing, "surface")
-        return [truth.force(i, j, "+").slope for i, j in one.contacts]
+        truth = solved(packing)
+        return [truth.force(i, j, "+")[1] for i, j in one.contacts]
 
     parts = zip(slopes(one.rho), slopes(sites), strict=True)
     assert slopes(total) == [a + factor * b for a, b in parts]
@@ -100,30 +113,24 @@ def test_isostatic_count(packing: SmallPacking) -> None:
     A contact is a pair of beads exactly R + R′ apart; all pairs across the periodic strip are
     looked at, at 40 digits and ε = 1e-6.
     """
-    system = BigFloat(40)
-    strength = Fraction(1, 10**6)
-    rows = tuple(
-        array(
-            system,
-            [
-                strength * packing.rho.get((i, j), Fraction(0))
-                for i in range(j % 2, 2 * packing.width, 2)
-            ],
-        )
+    width, strength = packing.width, Fraction(1, 10**6)
+    rho = {
+        ((i + j) // 2 % width, j): Fraction(0)
         for j in range(packing.height + 1)
-    )
-    laid = plain.deposit(packing.n[0], rows, system).position
-    period = 4 * packing.width * system.number(packing.n[0])
-    beads = [
-        (x, y, 1 + rho, layer)
-        for layer, (row, radii) in enumerate(zip(laid, rows, strict=True))
-        for x, y, rho in zip(*row, radii, strict=True)
-    ]
-    touching = 0
-    for (x, y, radius, layer), (x2, y2, radius2, layer2) in combinations(beads, 2):
-        if layer == layer2 == 0:
-            continue  # the base is fixed, whether its beads touch or not
-        for image in (-period, 0, period):
-            gap = ((x - x2 + image) ** 2 + (y - y2) ** 2).sqrt() - radius - radius2
-            touching += bool(abs(gap) < 1e-30)  # 40 digits, a few lost from layer to layer
-    assert touching == 2 * packing.width * packing.height
+        for i in range(j % 2, 2 * width, 2)
+    }
+    for (i, j), value in packing.rho.items():
+        rho[(i + j) // 2 % width, j] += strength * value
+    with mpmath.workdps(40):
+        laid = PlainPacking(2, packing.height, width, 1 - 2 * packing.n[0] ** 2, rho)
+        period = 2 * width * (laid.n[0] - laid.n[1])
+        beads = [(laid.at((q, j - q)), 1 + value, j) for (q, j), value in rho.items()]
+        touching = 0
+        for (x, radius, layer), (x2, radius2, layer2) in combinations(beads, 2):
+            if layer == layer2 == 0:
+                continue  # the base is fixed, whether its beads touch or not
+            both = mpmath.mpf((radius + radius2).numerator) / (radius + radius2).denominator
+            for image in (-1, 0, 1):
+                gap = mpmath.norm(x - x2 + image * period) - both
+                touching += bool(abs(gap) < 1e-30)  # 40 digits, a few lost from layer to layer
+    assert touching == 2 * width * packing.height

@@ -86,8 +86,6 @@ def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
         sections["load"]["angle_deg"] = draw(st.integers(-20, 20))
     geometry = draw(st.sampled_from(["ordered", "first-order", "exact"]))
     sections["effects"] = {"geometry": geometry}
-    if geometry == "exact" and draw(st.booleans()):
-        sections["effects"]["stop_at_tension"] = True
     quantities = ["contact", "contact_forces", "positions", "profile", "histogram"]
     if load == "point":
         quantities.append("response")
@@ -96,8 +94,7 @@ def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     if quantity == "contact":
         branch = draw(st.sampled_from("+-"))
         sections["ask"]["at"] = [*draw(site(width, 0, height - 1)), branch]
-    averaged = quantity == "response" and "stop_at_tension" in sections["effects"]
-    if kind and not averaged and draw(st.booleans()):
+    if kind and draw(st.booleans()):
         sections["ask"]["realisations"] = draw(st.integers(1, 3))
     return sections
 

@@ -68,8 +68,6 @@ def test_it_is_drawn_with_the_gaussians_of_these_layers() -> None:
         ({"layers": [0], "at": (0, 0, "+")}, "one contact lies in one layer"),
         ({"layers": [0], "load": fd.PointLoad(at=(0, 4))}, None),
         ({"layers": [4], "load": fd.PointLoad(at=(0, 4))}, "from 0 to 3"),
-        ({"layers": [0], "effects": fd.Effects(contacts="unilateral")}, "beads leave their layers"),
-        ({"layers": [0], "effects": fd.Effects(stop_at_tension=True)}, "may not come so far"),
     ],
 )
 def test_layers_that_can_not_be_asked_for(more: dict[str, Any], says: str | None) -> None:

@@ -10,7 +10,6 @@ from force_diffusion.numeric import quantities
 from force_diffusion.numeric.arithmetic.systems import NumberSystem
 from force_diffusion.numeric.lattice.layers import Region
 from force_diffusion.numeric.mechanics.problem import Problem, Solved
-from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.quantities.base import Gatherer, Quantity, Table, column
 from force_diffusion.numeric.run import run
 from force_diffusion.numeric.scene.sections import SceneError
@@ -37,14 +36,13 @@ class Means(Gatherer):
         self.sums: dict[int, Any] = {}
         self.counts: dict[int, int] = {}
 
-    def add(self, solved: Solved, realisations: Sequence[int], layers: range) -> None:
+    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         assert solved.forces is not None
-        for j in layers:
-            if 0 < j < len(solved.forces.rows):
-                (_, F, g), (_, E, h), *_ = solved.forces.below(j)
-                product = (F + g) * (E + h)
-                self.sums[j] = self.sums.get(j, 0) + product.sum()
-                self.counts[j] = self.counts.get(j, 0) + product.size
+        for j in range(1, len(solved.forces.rows)):
+            (_, F, g), (_, E, h), *_ = solved.forces.below(j)
+            product = (F + g) * (E + h)
+            self.sums[j] = self.sums.get(j, 0) + product.sum()
+            self.counts[j] = self.counts.get(j, 0) + product.size
 
     def table(self) -> Table:
         layers = sorted(self.sums)
@@ -97,16 +95,6 @@ def test_a_new_question_is_answered_in_every_dimension_and_arithmetic(
     allowed = Fraction(tolerance[1:]) if tolerance else Fraction(1, 10**13)  # hundreds of roundings
     for j, mean in found.items():
         assert abs(mean - true[j]) <= allowed * max(true.values())
-
-
-def test_by_segments_it_is_what_it_is_in_memory(monkeypatch: pytest.MonkeyPatch) -> None:
-    pytest.importorskip("numba")
-    sections = basic(60, 61, quantity="profile")
-    whole = run(planned(sections))
-    monkeypatch.setattr(memory, "QUICKER", 1)  # for small packings, too
-    parts = run(planned(sections))
-    assert parts.plan.problem.segment
-    assert parts.decimals() == whole.decimals()
 
 
 def test_without_a_drawing_it_is_said_so() -> None:

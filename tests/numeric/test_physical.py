@@ -3,7 +3,6 @@
 What ``physical`` says against all pairs of the beads where they are said to be, one by one.
 """
 
-from dataclasses import replace
 from fractions import Fraction
 from itertools import product
 from typing import Any
@@ -11,7 +10,6 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.mechanics import engine
-from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run.running import run
@@ -21,6 +19,11 @@ from hypothesis import strategies as st
 import force_diffusion as fd
 
 Array = np.ndarray[Any, Any]
+
+ROUNDING = 1e-9
+"""Of gaps. Of 3000 drawn packings the worst was 1e-14. Where a bead lies a height h above the line
+of its supports rounding is enlarged by 1/h, and such are drawn with a chance of order h²: that one
+is off by 1e-9 has a chance below 1e-13."""
 
 
 def scene(delta: Array, spacing: float, quantity: str = "positions") -> fd.Scene:
@@ -82,12 +85,12 @@ def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> Array:
 def agree(made: Plan, delta: Array, spacing: float) -> None:
     positions = run(plan(scene(delta, spacing)))
     gaps = every_gap(delta, spacing, positions)
-    assume(np.abs(gaps).min() > 1e-11)  # whether these overlap the centres' rounding hides
+    assume(np.abs(gaps).min() > ROUNDING)  # whether smaller ones overlap rounding may hide
     physical = run(made).physical
     assert physical is not None
     assert physical.overlaps == (gaps < 0).sum()
     assert physical.undecided_gaps == 0
-    assert physical.smallest_gap == pytest.approx(gaps.min(), abs=1e-11)
+    assert physical.smallest_gap == pytest.approx(gaps.min(), abs=ROUNDING)
     assert physical.sound == (gaps.min() > 0 and not physical.tensile)
 
 
@@ -157,37 +160,3 @@ def tried(way: str, delta: Array, spacing: float) -> None:
         asked = scene(delta, spacing)
         made = plan(asked, Fraction(1, 10**20), certified=True) if way == "balls" else plan(asked)
         agree(made, delta, spacing)
-
-
-@given(
-    st.integers(3, 9),
-    st.integers(1, 4),
-    SPACINGS,
-    st.sampled_from([0.001, 0.01, 0.05, 0.1, 0.2, 0.3]),
-    st.integers(0, 99),
-)
-def test_segments_find_what_they_can_and_say_what_stays_open(
-    height: int, width: int, spacing: float, std: float, seed: int
-) -> None:
-    pytest.importorskip("numba")
-    asked = fd.Scene(
-        packing=fd.Packing(height=height, width=width, spacing=spacing, allow_images=True),
-        disorder=fd.Disorder(kind="uniform", relative_std=std, seed=seed),
-        ask=fd.Ask(quantity="profile"),
-    )
-    whole = plan(asked)
-    parts = memory.by_segments(whole.problem, whole.system, whole.scene, None)
-    assert parts is not None
-    try:
-        found = run(whole).physical
-    except fd.ForceDiffusionError:
-        assume(False)
-    physical = run(replace(whole, problem=replace(parts[0], segment=2))).physical
-    assert found is not None
-    assert physical is not None
-    if physical.undecided_gaps:
-        assert not physical.sound
-        assert physical.overlaps <= found.overlaps
-        assert std > 0.01  # beads have moved far
-    else:
-        assert physical == found

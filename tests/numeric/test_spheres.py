@@ -97,7 +97,6 @@ def test_images_are_seen_where_a_wider_packing_differs(
         ({"load": {"kind": "point", "at": (1, 1)}}, r"load.at.*\[p, q, l\]"),
         ({"load": {"kind": "point", "at": (9, 1, 1)}}, "p and q must be from 0 to 5"),
         ({"effects": {"contacts": "unilateral"}}, "effects.contacts"),
-        ({"effects": {"stop_at_tension": True}}, "effects.stop_at_tension"),
         ({"ask": {"quantity": "contact", "at": (1, 1, "+")}}, "must be a contact"),
         ({"ask": {"quantity": "contact", "at": (1, 1, 4, "1")}}, "j must be from 0 to 3"),
         ({"ask": {"quantity": "positions", "at": (1, 1)}}, "must be a bead"),

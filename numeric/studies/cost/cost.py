@@ -12,7 +12,7 @@ from typing import Any
 
 import flint
 
-from ...arithmetic.systems import FLOAT64, LONGDOUBLE, Array, NumberSystem, largest_of
+from ...arithmetic.systems import FLOAT64, Array, NumberSystem, largest_of
 from ...mechanics.problem import Route
 from ...planning import planner
 from ...planning.plan import Plan, Skipped
@@ -24,10 +24,9 @@ from .of_profile import study_ensemble
 from .reference import BEYOND, certified
 from .rows import Reference, Way, marked
 from .table import CostStudy
-from .ways import Notice, measured, systems, why_not_plain, with_geometry
+from .ways import Notice, measured, systems, with_geometry
 
-DEVIATIONS, PLAIN = "exact, deviation form", "exact, plain form"
-LINE_SUMS = "first-order line sums"
+EXACT, LINE_SUMS = "exact", "first-order line sums"
 
 
 def cost(scene: Scene, notice: Notice = lambda _: None) -> CostStudy:
@@ -87,22 +86,15 @@ def _study_one(scene: Scene, notice: Notice) -> CostStudy:
         except FAILURES as failed:
             skipped.append(Skipped(f"{way}, {system.name}", str(failed)))
 
-    own = DEVIATIONS
+    own = EXACT
     if plan.problem.route != Route.EXACT:
         own = LINE_SUMS
-        skipped.append(Skipped(DEVIATIONS, "the scene asks for the first-order theory"))
-    elif scene.effects.stop_at_tension:
-        skipped.append(Skipped(LINE_SUMS, "they do not stop at tension"))
+        skipped.append(Skipped(EXACT, "the scene asks for the first-order theory"))
     else:
         first = with_geometry(one, "first-order")
         measure(LINE_SUMS, FLOAT64, planner.plan(first, BEYOND), certified(first).best)
-    why = why_not_plain(plan)
-    if why is not None:
-        skipped.append(Skipped(PLAIN, why))
     for system in systems():
         measure(own, system, plan)
-        if why is None:
-            measure(PLAIN, system, plan, plainly=True)
     what = "the first realisation" if scene.ask.realisations > 1 else "the packing"
     reference = Reference("certified", what, true.system.name, true.relative(true.radius))
     return CostStudy(scene.ask.quantity, reference, marked(rows), tuple(skipped))
@@ -119,5 +111,3 @@ def _never(scene: Scene) -> Iterator[Skipped]:
         why = f"'{scene.ask.quantity}' is studied for one packing, and this is about an ensemble"
     for way in ("printed asymptotic formula", "exact finite-M formula", "Monte Carlo"):
         yield Skipped(way, why)
-    if LONGDOUBLE.bits <= FLOAT64.bits:
-        yield Skipped("longdouble", "on this machine it is no longer than float64")

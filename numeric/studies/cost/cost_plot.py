@@ -17,16 +17,15 @@ from .rows import Reference, Way
 WIDE = 60
 POWERS = (0, -5, -15, -30, -50, -100, -200, -300)
 SERIES = {
-    "exact, deviation form": 0,
+    "exact": 0,
     "Monte Carlo, exact": 0,
-    "exact, plain form": 1,
     "first-order line sums": 2,
     "Monte Carlo, first-order": 2,
     "exact finite-M formula": 3,
     "printed asymptotic formula": 4,
 }
 DASHES: Mapping[str, tuple[str, Any]] = {
-    "hardware": ("float64, long double", "-"),
+    "float64": ("float64", "-"),
     "mpmath": ("mpmath", (0, (5, 2))),
     "arb balls": ("arb balls", (0, (1, 1.2))),
 }
@@ -84,7 +83,7 @@ def _in_vain(row: Way, rows: Sequence[Way]) -> bool:
 
 
 def _family(row: Way) -> str:
-    return next((name for name in DASHES if row.arithmetic.startswith(name)), "hardware")
+    return next(name for name in DASHES if row.arithmetic.startswith(name))
 
 
 def lines(rows: Sequence[Way]) -> list[list[Way]]:

@@ -2,13 +2,14 @@
 
 from dataclasses import asdict, dataclass
 from decimal import ROUND_CEILING, Context, Decimal
+from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from ... import tables
+from ...arithmetic.systems import Array
 from ...figures.library import drawn
 from ...figures.specification import Picture
 from ...planning.plan import Skipped
-from ..study import Study
 from .cost_plot import picture
 from .rows import Reference, Way
 
@@ -23,7 +24,7 @@ SAMPLED = "Standard error of the scene's own ensemble"
 
 
 @dataclass(frozen=True)
-class CostStudy(Study):
+class CostStudy:
     """All ways to one answer, from the largest measured error to the smallest.
 
     ``ways`` are measurements, ``reference`` is what errors are measured against, ``skipped`` says
@@ -36,7 +37,6 @@ class CostStudy(Study):
     ways: tuple[Way, ...]
     skipped: tuple[Skipped, ...]
     sampling_floor: Decimal | None = None
-    name = "cost"
 
     def rows(self) -> list[tables.Row]:
         """One row a way, ready for a data frame; the columns are those of ``Way``.
@@ -45,6 +45,11 @@ class CostStudy(Study):
         decimals). None: does not apply.
         """
         return [tables.plain(asdict(way)) for way in self.ways]
+
+    @cached_property
+    def arrays(self) -> dict[str, Array]:
+        """The columns of ``rows``, each of shape (rows,); NaN where there is no number."""
+        return tables.columns_of(self.rows())
 
     def data(self) -> dict[str, Any]:
         """Give it as JSON can hold it; errors are decimal strings, smaller than floats may be."""
@@ -58,7 +63,7 @@ class CostStudy(Study):
             "skipped": [{"way": s.effect, "reason": s.reason} for s in self.skipped],
         }
 
-    def files(self) -> dict[str, list[tables.Row]]:
+    def listed(self) -> list[tables.Row]:
         """Give the rows as decimals, each with the reference behind it."""
         data = self.data()
         reference = data["reference"]
@@ -68,7 +73,7 @@ class CostStudy(Study):
             "reference_radius": reference["radius"],
             "sampling_floor": data["sampling_floor"],
         }
-        return {"cost.csv": [row | common for row in data["rows"]]}
+        return [row | common for row in data["rows"]]
 
     def picture(self, title: str = "") -> Picture:
         """Say what is drawn: error against time, both logarithmic."""

@@ -1,4 +1,4 @@
-"""Ways to answer a scene: any plan in any number system, also in the plain form; what they take."""
+"""Ways to answer a scene: any plan in any number system; what they take."""
 
 import math
 import tracemalloc
@@ -6,11 +6,9 @@ from collections.abc import Callable, Iterator
 from statistics import median
 from typing import Any, TypeVar
 
-from ...arithmetic.systems import FLOAT64, LONGDOUBLE, Balls, BigFloat, NumberSystem
-from ...mechanics.problem import Route
-from ...planning.plan import Plan
+from ...arithmetic.systems import FLOAT64, Balls, BigFloat, NumberSystem
 from ...scene.scene import Scene
-from ..timing import in_turn
+from ..timing import seconds_of
 from .rows import Way
 
 T = TypeVar("T")
@@ -21,10 +19,8 @@ DIGITS = (20, 30, 50, 100, 300)
 
 
 def systems() -> Iterator[NumberSystem]:
-    """All arithmetics: float64, long double where it is longer, mpmath and balls by digits."""
+    """All arithmetics: float64, mpmath and balls by digits."""
     yield FLOAT64
-    if LONGDOUBLE.bits > FLOAT64.bits:
-        yield LONGDOUBLE
     yield from (BigFloat(digits) for digits in DIGITS)
     yield from (Balls(math.ceil(digits * math.log2(10))) for digits in DIGITS)
 
@@ -50,7 +46,7 @@ def measured(
     finally:
         tracemalloc.stop()
     errors = judged(result)
-    (seconds,) = in_turn(work)
+    seconds = seconds_of(work)
     return Way(
         way=way,
         arithmetic=system.name,
@@ -61,19 +57,5 @@ def measured(
         seconds_max=max(seconds),
         runs=len(seconds),
         peak_bytes=peak,
-        peak_is_bound=system not in (FLOAT64, LONGDOUBLE),
+        peak_is_bound=system is not FLOAT64,
     )
-
-
-def why_not_plain(plan: Plan) -> str | None:
-    """Say why the plain form can't answer a plan; None where it can."""
-    if plan.problem.route != Route.EXACT:
-        return "it solves the exact packing, and the scene asks for less"
-    if plan.problem.width is None:
-        return "it is written for periodic packings; the scene's is an infinite slab"
-    if plan.problem.stop_at_tension:
-        return "it does not stop at tension"
-    if not plan.quantity.plain:
-        name = plan.quantity.name
-        return f"it gives forces and positions, from which '{name}' is not gathered"
-    return None

@@ -9,6 +9,7 @@ import sympy
 from force_diffusion.derivations.api.equation import Equation
 from force_diffusion.derivations.api.exact import ExactForm
 from force_diffusion.derivations.framework.grounds import By
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Lines
 from force_diffusion.derivations.framework.record import Derivation, ExactCase
 from force_diffusion.symbolic import symbols as sy
@@ -257,8 +258,7 @@ def made_up(assuming: tuple[str, ...] = ()) -> Derivation:
     case = ExactCase(twice.lhs, "j ≥ 2", twice.rhs, (sy.j >= 2,), line=line)
     return replace(
         fd.equation(1)._derivation, number=1, printed=(twice,), exact=lambda: {"all": case},
-        steps=lambda: [line], where=where, symbols=(), premises=(), witnesses=(),
-        tries=lambda *_: (),
+        steps=lambda: [line], where=where, symbols=(), premises=(),
     )  # fmt: skip
 
 
@@ -337,3 +337,37 @@ def test_what_a_proof_of_a_leading_order_leaves_open_is_said() -> None:
         )
     assert "lower orders" not in eq.decide(2 * eq.rhs).note
     assert "lower orders" not in eq.exact().decide(eq.exact().rhs).note
+
+
+@pytest.mark.parametrize("sign", ["=", "≈", "∝"])
+def test_what_holds_to_leading_order_is_not_proved_of_another_sign(sign: str) -> None:
+    """Not by any way to ask: every one of them would read the sign that is printed."""
+    eq = Equation(replace(load(13), relation=sign))
+    for candidate in (eq.rhs, eq.rhs + 1, eq.expr):
+        ruling = eq.decide(candidate)
+        assert ruling.verdict is Verdict.UNDECIDED
+        assert f"sign of Eq. 13 is {sign}, but its line is proved to leading order" in ruling.note
+    assert eq.prove(premises=False).verdict is Verdict.UNDECIDED
+
+
+def test_what_holds_exactly_is_not_printed_as_a_leading_order() -> None:
+    eq = Equation(replace(load(9), relation="∼"))
+    assert "its line is proved exactly" in eq.decide(eq.expr).note
+
+
+def test_what_holds_to_leading_order_is_no_exact_form() -> None:
+    eq = fd.equation(13)
+    last = next(line for line in load(13).steps() if eq.expr in line.equations)
+    case = ExactCase(eq.expr.lhs, "j ≥ 2", eq.rhs, line=last)
+    form = Equation(replace(load(13), exact=lambda: {"interior": case})).exact()
+    assert "its line is proved to leading order only" in form.decide(eq.rhs + 1).note
+    assert not form.decide(eq.rhs).verdict.is_proved
+
+
+def test_no_profile_takes_a_leading_order_for_exact() -> None:
+    wrong = replace(load(13), relation="=", domain=(sy.j <= sy.M - 1, sy.j >= 0))
+    given = {"M": 10, "phi": 0, "sigma": 0.01, "r": 1}
+    assert Equation(wrong).profile(layers=[4], **given).cases == ("interior",)
+    none = replace(wrong, exact=lambda: {"base": load(13).exact()["base"]})
+    with pytest.raises(fd.ForceDiffusionError, match="no exact form"):
+        Equation(none).profile(layers=[4], **given)

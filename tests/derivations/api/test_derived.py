@@ -9,7 +9,6 @@ from force_diffusion.numeric.figures.catalogue import NoSuchFigureError
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
-from force_diffusion.derivation import premise
 
 
 @pytest.mark.long
@@ -29,7 +28,7 @@ def test_premises_come_first_and_callbacks_are_told() -> None:
     assert found._repr_markdown_().count("\n") == len(finished) + 1
 
 
-@pytest.mark.parametrize("number", [0, 17, 5.5, "17"])
+@pytest.mark.parametrize("number", [0, 17, 5.5, "17", "eleven", [11]])
 def test_a_number_that_is_no_equation(number: object) -> None:
     with pytest.raises(NoSuchFormError, match="give a number from 1 to 16"):
         fd.derive([number])  # type: ignore[list-item]
@@ -43,13 +42,6 @@ def test_one_number_in_place_of_several_is_told_in_words() -> None:
         fd.derive(fd.equation(13))  # type: ignore[arg-type]
     with pytest.raises(TypeError, match=r"fd\.equation\(13\) gives one"):
         fd.Equation(13)  # type: ignore[arg-type]
-
-
-@pytest.mark.parametrize("number", [0, 17, 11.5, "eleven", [11]])
-def test_a_premise_that_is_no_equation(number: object) -> None:
-    with pytest.raises(NoSuchFormError, match="give a number from 1 to 16"):
-        premise(number)  # type: ignore[arg-type]
-    assert premise("11") is premise(11)
 
 
 @pytest.mark.long

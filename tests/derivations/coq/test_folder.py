@@ -18,7 +18,6 @@ from force_diffusion.derivations.coq.folder import (
     axioms_in,
     unexpected,
 )
-from force_diffusion.derivations.coq.record import Verdict
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
@@ -81,37 +80,22 @@ def test_the_second_check_of_newer_versions_is_read_whole() -> None:
         assert unexpected(rocq.replace(good, bad)) != ""
 
 
-def test_where_the_library_is_not_checked_again_only_its_own_names_are_let_through() -> None:
-    sealed = SUMMARY.replace("* Axioms:\n", "* Axioms:\n    Coq.Reals.Rdefinitions.R0\n")
-    assert unexpected(sealed) != ""
-    assert unexpected(sealed, library_too=False) == ""
-    for name in ("ForceDiffusion.Model.trust_me", "Mine.Coq.trust_me", "Coqs.trust_me"):
-        bad = sealed.replace("Coq.Reals.Rdefinitions.R0", name)
-        assert unexpected(bad, library_too=False) == f"coqchk: the axiom {name}"
-
-
-def test_without_coq_nothing_is_accepted(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def test_without_coq_it_is_said_how_to_have_it(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setenv("PATH", "")
-    assert main(["certify"]) == 1
-    printed = capsys.readouterr().out
-    assert "Coq absent" in printed
-    assert "accepted" not in printed
-    assert "apt-get install coq" in printed
-    assert not fd.certify([3]).passed
+    assert main(["certify", "--out", str(tmp_path / "out")]) == CoqAbsentError.exit_status
+    printed = capsys.readouterr()
+    assert "apt-get install coq" in printed.err
+    assert printed.out == ""
+    assert not (tmp_path / "out").exists()
 
 
-def test_statements_and_hashes_are_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PATH", "")
-    assert main(["certify", "7", "--out", str(tmp_path)]) == 1
-    said = json.loads((tmp_path / "certificate.json").read_text())
-    assert [one["verdict"] for one in said["equations"]] == ["Coq absent"]
-    for name in ("Model.v", "Equation_7_part_1_statement.v", "Equation_7_part_2.v"):
-        content = (tmp_path / name).read_bytes()
-        assert said["files"][name] == hashlib.sha256(content).hexdigest()
-    listed = json.loads((tmp_path / "manifest.json").read_text())["files"]
-    assert set(listed) == {*said["files"], "certificate.json"}
+def test_only_the_paper_s_equations_are_stated(capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(ValueError, match=r"Eq\. B5 is not stated for Coq: give a number from 1 to"):
+        fd.certify([3, "B5"])
+    assert main(["certify", "B5"]) == 2
+    assert "Eq. B5 is not stated for Coq" in capsys.readouterr().err
 
 
 VERSION = 'if [ "$1" = --print-version ]; then echo "8.16.1 4.14.1"; exit; fi\n'
@@ -129,7 +113,6 @@ def programs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = tmp_path / "programs"
     folder.mkdir()
     monkeypatch.setenv("PATH", f"{folder}{os.pathsep}/usr/bin{os.pathsep}/bin")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     put(folder, "coqchk", "exit 1")
     return folder
 
@@ -156,7 +139,6 @@ def test_a_program_that_checks_nothing_accepts_nothing(
     put(programs, "coqc", VERSION + script)
     found = fd.certify([1])
     assert not found.passed
-    assert found.equations[0].verdict is Verdict.NOT_ACCEPTED
     assert trouble in found.equations[0].note
 
 
@@ -167,67 +149,27 @@ def test_trouble_with_another_version_names_the_one_that_it_is_written_for(progr
     assert "written for Coq 8.16.1" in found.note
 
 
-def test_a_compiled_theory_is_kept_by_content_and_version(
-    programs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_statements_and_verdicts_are_written(
+    programs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    put(programs, "coqc", VERSION)
-
-    def shop(name: str) -> CoqFolder:
-        (tmp_path / name).mkdir()
-        return CoqFolder(tmp_path / name)
-
-    first = shop("first")
-    first.restore(theory())
-    assert not first.kept
-    for name in theory():
-        (first.folder / f"{name}o").write_text(f"compiled {name}" * 100)
-    first.keep()
-    again = shop("again")
-    again.restore(theory())
-    assert again.kept
-    assert again.said.keys() == theory().keys()
-    assert (again.folder / "Model.vo").read_text() == "compiled Model.v" * 100
-
-    put(programs, "coqc", VERSION.replace("8.16.1", "8.16.2"))
-    newer = shop("newer")
-    newer.restore(theory())
-    assert not newer.kept
-    put(programs, "coqc", VERSION)
-    other = shop("other")
-    other.restore({**theory(), "Model.v": "Definition r := 1."})
-    assert not other.kept
-
-    (held,) = (tmp_path / "cache" / "force-diffusion" / "coq").iterdir()
-    whole = held.read_bytes()
-    places = {*range(60), *range(0, len(whole), len(whole) // 40), *range(-120, 0)}
-    damaged = shop("damaged")
-    for at in places:
-        flipped = bytearray(whole)
-        flipped[at] ^= 1 << abs(at) % 8
-        held.write_bytes(flipped)
-        damaged.kept = False
-        damaged.restore(theory())
-        for name in theory() if damaged.kept else ():  # what was hit says nothing of the files
-            assert (damaged.folder / f"{name}o").read_text() == f"compiled {name}" * 100
-    held.write_bytes(whole[: len(whole) // 2])
-    cut = shop("cut")
-    cut.restore(theory())
-    assert not cut.kept
-
-
-def test_verdicts_are_told_as_they_come(programs: Path, capsys: pytest.CaptureFixture[str]) -> None:
     put(programs, "coqc", VERSION + "exit 1")
-    told: list[object] = []
-    found = fd.certify([3, 7], told=lambda one: told.append(one.number))
-    assert sorted(told, key=str) == [3, 7]
-    assert [one.number for one in found.equations] == [3, 7]
-    assert main(["certify", "3", "7"]) == 1
+    out = tmp_path / "out"
+    assert main(["certify", "3", "7", "--out", str(out)]) == 1
     printed = capsys.readouterr().out.splitlines()
-    lines = {line for line in printed if line.startswith("Eq.")}
-    assert lines == {
+    lines = [line for line in printed if line.startswith("Eq.")]
+    assert lines == [
         f"Eq. {number:>2}  not accepted by Coq 8.16.1  {fd.equation(number).title}"
         for number in (3, 7)
-    }
+    ]
+    assert printed[-1] == "0 of 2 accepted."
+    said = json.loads((out / "certificate.json").read_text())
+    assert [one["accepted"] for one in said["equations"]] == [False, False]
+    (three, seven) = (one["theorems"] for one in said["equations"])
+    for name, hashed in (three | seven).items():
+        files = (f"{name.capitalize()}{end}.v" for end in ("_statement", "", "_accepted"))
+        content = b"".join((out / file).read_bytes() for file in files)
+        assert hashlib.sha256(content).hexdigest() == hashed
+    assert (out / "Model.v").read_text() == theory()["Model.v"]
 
 
 @pytest.mark.parametrize("script", ["exit 1", "exit 0", "echo coqc"])
@@ -235,7 +177,8 @@ def test_a_program_without_a_version_is_no_coq(programs: Path, tmp_path: Path, s
     put(programs, "coqc", script)
     with pytest.raises(CoqAbsentError, match="apt-get install coq"):
         CoqFolder(tmp_path)
-    assert str(fd.certify([1]).equations[0]) == "Coq absent"
+    with pytest.raises(CoqAbsentError, match="does not say its version"):
+        fd.certify([1])
 
 
 @pytest.mark.long

@@ -43,11 +43,13 @@ def test_every_equation_is_stated_once_below_its_theorem_and_in_order() -> None:
 
 
 def test_every_theorem_is_in_the_table() -> None:
-    rows = re.findall(r"^\| (T\d): (.*) \((B.*)\) \|.*\| Fig\. (B\d+) \|$", source(), re.MULTILINE)
+    rows = re.findall(
+        r"^\| (T\d): (.*) \((B.*)\) \|.*\| (?:Fig\. (B\d+)|–) \|$", source(), re.MULTILINE
+    )
     assert [row[:3] for row in rows] == [
         (one.name, one.title, ", ".join(one.cases)) for one in THEOREMS
     ]
-    assert {row[3] for row in rows} <= set(figures_of(source()))
+    assert {row[3] for row in rows if row[3]} == set(figures_of(source()))
 
 
 @pytest.fixture(scope="module")
@@ -137,7 +139,6 @@ def test_what_is_written() -> None:
     assert written("Eq. 13 and\nEqs. B5 and B16.") == (
         "Eq.~13 and\nEqs.~\\ref{eq:fdB5} and \\ref{eq:fdB16}.\n\n"
     )
-    assert written("- a\n- b\n") == ("\\begin{itemize}\n\\item a\n\\item $b$\n\\end{itemize}\n\n")
     table = "```{table} Two\n| a | it |\n|---|------|\n| is | so |\n```\n"
     assert "p{\\dimexpr 0.333\\textwidth-2\\tabcolsep}" in written(table)
     assert "a & it \\\\[2pt]\n\\hline\nis & so \\\\[2pt]\n" in written(table)
@@ -153,12 +154,7 @@ def test_what_is_written() -> None:
 @pytest.mark.parametrize(
     ("markdown", "said"),
     [
-        ("a <b>c</b>", "html_inline"),
         ("#### Small", "level 4"),
-        ("```{table} Two\nno table\n```", "table 'Two' of the article has no line"),
-        ("<p>", "html_block in line 1"),
-        ("[a](b.md)", "link"),
-        ("so\n\n---\n", "hr in line 3"),
         ("```python\n```", "fence 'python'"),
         ("```{statement} B99\n```", r"fence '\{statement\} B99'"),
         ("```{statement} 17\n```", r"fence '\{statement\} 17'"),
@@ -167,7 +163,6 @@ def test_what_is_written() -> None:
         ("![a](B5)\n\nno caption", "figure B5 has no caption"),
         ("![a](B5)\n\n## Next", "figure B5 has no caption"),
         ("![a](B5)", "figure B5 has no caption"),
-        ("a ![a](B5) b\n\n*b*", "has a image"),
         ("![a](B99)\n\n*b*", "figure B99; there are 1, 2"),
         ("It is {{nothing}}.", "quotes 'nothing'"),
         ("It is {{figure B2 NOTHING}}.", "quotes 'figure B2 NOTHING'"),

@@ -12,14 +12,15 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.export import generate_closed_forms as generator
-from force_diffusion.derivations.witnesses import neighbours, second_order
-from force_diffusion.derivations.witnesses.draws import DIRECTIONS
-from force_diffusion.derivations.witnesses.squared_weights import weights_of_forces
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from hypothesis import given
 from hypothesis import strategies as st
+
+from tests.soundness.witnesses import neighbours, second_order
+from tests.soundness.witnesses.draws import DIRECTIONS
+from tests.soundness.witnesses.squared_weights import weights_of_forces
 
 EXACT = {"surface": closed_forms.surface_variance, "bulk": closed_forms.bulk_variance}
 EXPRESSIONS = {
@@ -201,25 +202,8 @@ def test_means_are_those_of_exact_packings(height: int) -> None:
     phi = n[1] ** 2 - n[0] ** 2
     shifts = {"surface": closed_forms.surface_mean_shift, "bulk": closed_forms.bulk_mean_shift}
     for load, form in shifts.items():
-        forces, places = second_order.means(height, n, load)
+        forces, _ = second_order.means(height, n, load)
         assert [form(height, layer, phi, ONE, ONE) for layer in range(height)] == list(forces)
-        sunk = [closed_forms.mean_settling(layer, phi, ONE, ONE) for layer in range(height + 1)]
-        assert sunk == [n[1] * y for _, y in places]
-
-
-@pytest.mark.parametrize("height", [1, 2, 3, 4])
-def test_means_at_an_angle_are_those_of_exact_packings(height: int) -> None:
-    n, ratio = DIRECTIONS[1], Fraction(3, 7)
-    phi = n[1] ** 2 - n[0] ** 2
-    shifts = {
-        "surface": closed_forms.surface_mean_shift_at_angle,
-        "bulk": closed_forms.bulk_mean_shift_at_angle,
-    }
-    for load, form in shifts.items():
-        for branch, share in (("+", ratio), ("-", 1 / ratio)):
-            forces, _ = second_order.means(height, n, load, ratio, branch)
-            stated = [form(height, layer, share, phi, ONE, ONE) for layer in range(height)]
-            assert stated == list(forces)
 
 
 @pytest.mark.parametrize(("height", "layer", "count"), [(10, 5, 3), (12, 6, 4), (13, 7, 4)])
@@ -239,35 +223,6 @@ def test_means_of_neighbours_are_those_of_exact_packings(
             form(height, layer, 1, phi, ONE, ONE)
         with pytest.raises(ValueError, match=r"j = .*allowed"):
             form(height, count, count, phi, ONE, ONE)
-
-
-@pytest.mark.parametrize(("height", "lower", "upper"), [(7, 2, 4), (9, 3, 7), (10, 4, 8)])
-def test_covariances_between_layers_are_those_of_exact_packings(
-    height: int, lower: int, upper: int
-) -> None:
-    n = DIRECTIONS[3]
-    phi = n[1] ** 2 - n[0] ** 2
-    true = neighbours.between_layers(height, lower, upper, n)
-    form = closed_forms.layers_covariance
-    assert form(height, lower, upper, phi, ONE, ONE) == true
-    for wrong in ((height, 1, upper), (height, lower, lower + 1), (upper + 1, lower, upper)):
-        with pytest.raises(ValueError, match="allowed"):
-            form(*wrong, phi, ONE, ONE)
-
-
-@given(
-    j=st.integers(2, 10**6),
-    apart=st.integers(2, 10**6),
-    above=st.integers(2, 10**6),
-    phi=st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000),
-)
-def test_covariances_between_layers_are_accurate_in_float64(
-    j: int, apart: int, above: int, phi: Fraction
-) -> None:
-    at = (j + apart + above, j, j + apart)
-    exact = closed_forms.layers_covariance(*at, Fraction(float(phi)), ONE, ONE)
-    found = Fraction(closed_forms.layers_covariance(*at, float(phi), 1.0, 1.0))
-    assert abs(found - exact) <= 200 * Fraction(2) ** -53 * exact  # some 20 roundings, enlarged
 
 
 def test_in_two_dimensions_the_leading_order_is_eq_13() -> None:

@@ -60,10 +60,10 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
 }
 
 
-def case(name: str, *, covariance: bool = False, **disorder: Any) -> Measurement:
+def case(name: str, **disorder: Any) -> Measurement:
     sections = CASES[name]
     sections = {**sections, "disorder": {**sections["disorder"], **disorder}}
-    return measurement(scene(sections), covariance=covariance)
+    return measurement(scene(sections))
 
 
 def first(m: Measurement, packings: int) -> Sums:

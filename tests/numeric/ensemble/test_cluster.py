@@ -15,7 +15,7 @@ from tests.numeric.ensemble.cases import bytes_of_first, case
 
 distributed = pytest.importorskip("distributed")
 
-M = case("profile", covariance=True)
+M = case("profile")
 WHOLE = bytes_of_first(M, 300)
 
 

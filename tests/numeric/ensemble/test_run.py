@@ -5,7 +5,7 @@ import random
 import subprocess
 import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
@@ -42,7 +42,7 @@ from tests.numeric.ensemble.cases import CASES, bytes_of_first, case
 from tests.numeric.scenes import scene
 
 ROOT = Path(__file__).parents[3]
-M = case("profile", covariance=True)
+M = case("profile")
 WHOLE = bytes_of_first(M, 150)
 
 
@@ -280,7 +280,7 @@ def test_threads_that_sweep_compiled_give_the_same_bytes(
 ) -> None:
     """Of rough packings, too, of which some can't be built: blocks come in any order."""
     pytest.importorskip("numba")
-    m = case("profile", kind="normal", relative_std=std, covariance=True)
+    m = case("profile", kind="normal", relative_std=std)
     alone = run.run(m, 300, here).sums.to_bytes()
     names = set()
 
@@ -327,7 +327,7 @@ def test_a_store_remembers_what_could_not_be_built(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("name", CASES)
 def test_every_quantity_can_be_kept(name: str, tmp_path: Path) -> None:
-    m = case(name, covariance=True)
+    m = case(name)
     path = tmp_path / "ensemble.fd"
     on_file(path, m, 5, here)
     assert bytes_of(on_file(path, m, 9, here)) == bytes_of_first(m, 9)
@@ -341,7 +341,7 @@ def test_a_block_is_written_once() -> None:
         def blocks(self, m: Measurement) -> list[Block]:
             return []
 
-        def begin(self, end: int, blocks: Sequence[Block]) -> None:
+        def begin(self, end: int) -> None:
             pass
 
         def put(self, block: Block) -> None:

@@ -5,7 +5,7 @@ import statistics
 from collections.abc import Iterable
 from contextlib import suppress
 from fractions import Fraction
-from itertools import pairwise, product
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -57,7 +57,7 @@ def joined_from(m: Measurement, ranges: Iterable[tuple[int, int]]) -> bytes:
 def test_batches_and_single_packings_give_the_same_bytes(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    m = case(name, covariance=True)
+    m = case(name)
     whole = bytes_of_first(m, 7)
     assert joined_from(m, [(k, k + 1) for k in (3, 0, 6, 2, 5, 1, 4)]) == whole
     monkeypatch.setattr(
@@ -70,7 +70,7 @@ def test_batches_and_single_packings_give_the_same_bytes(
 
 @given(st.lists(st.integers(1, 99), max_size=8, unique=True))
 def test_however_they_are_cut_sums_are_the_same_to_the_bit(cuts: list[int]) -> None:
-    m = case("profile", covariance=True)
+    m = case("profile")
     assert joined_from(m, pairwise([0, *sorted(cuts), 100])) == bytes_of_first(m, 100)
 
 
@@ -120,7 +120,7 @@ def test_whoever_solves_gives_the_same_bytes(
 ) -> None:
     """In rough packings contacts pull, and some can't be built."""
     pytest.importorskip("numba")
-    m = case(name, covariance=True, kind=kind, relative_std=std)
+    m = case(name, kind=kind, relative_std=std)
     usual = bytes_of_first(m, 7)
     monkeypatch.setattr(engine, "COMPILED_FROM", 1)
     assert bytes_of_first(m, 7) == usual
@@ -153,7 +153,7 @@ def test_what_compiled_loops_refuse_is_summed_up_by_the_others(
 @ALL
 def test_estimates_are_those_of_the_changes_as_fractions(name: str) -> None:
     """Within 10⁻¹³ of what they are made of; their standard errors are 10⁻² of them here."""
-    m, N = case(name, covariance=True), 5
+    m, N = case(name), 5
     found = Estimates(m, first(m, N))
     g = [
         [[Fraction(float(v)) for v in group] for group in packing]
@@ -171,7 +171,6 @@ def test_estimates_are_those_of_the_changes_as_fractions(name: str) -> None:
     # scatter over packings
     a = [[sum(group) / m.members for group in packing] for packing in g]
     b = [[sum(v * v for v in group) / m.members for group in packing] for packing in g]
-    x = b if m.quantity.name == "profile" else a
     for k in range(m.groups):
         own, square = [p[k] for p in a], [p[k] for p in b]
         root = math.sqrt(N)
@@ -182,14 +181,6 @@ def test_estimates_are_those_of_the_changes_as_fractions(name: str) -> None:
             assert found.std_error[k] == pytest.approx(error, rel=1e-11)
         else:
             assert math.isnan(found.std_error[k])
-    covariance = found.covariance
-    assert covariance is not None
-    some = range(0, m.groups, 1 + m.groups // 6)
-    for k, q in product(some, some):
-        means = [statistics.mean([p[n] for p in x]) for n in (k, q)]
-        off = sum((p[k] - means[0]) * (p[q] - means[1]) for p in x)
-        scale = abs(covariance[[k, q], [k, q]]).max()
-        assert covariance[k, q] == pytest.approx(float(off / (N - 1)), rel=1e-11, abs=1e-13 * scale)
 
 
 def test_a_profile_is_that_of_run() -> None:
@@ -247,7 +238,7 @@ def test_the_smallest_disorder_keeps_all_digits() -> None:
 
 @given(st.data())
 def test_bytes_that_are_no_sums_are_refused(data: st.DataObject) -> None:
-    m = case("histogram of all", covariance=True)
+    m = case("histogram of all")
     written = bytes_of_first(m, 2)
     assert from_bytes(written, m).to_bytes() == written
     wrong = bytearray(written)
@@ -266,7 +257,6 @@ def test_bytes_that_are_no_sums_are_refused(data: st.DataObject) -> None:
     [
         ({"ask": {"quantity": "positions"}}, "ask.quantity"),
         ({"ask": {"quantity": "profile", "tolerance": "=1e-9"}}, "ask.tolerance"),
-        ({"effects": {"stop_at_tension": True}}, "stop_at_tension"),
         ({"effects": {"geometry": "ordered"}}, "every realisation would be the same"),
         ({"disorder": {"kind": "file", "file": "radii.csv"}}, "drawn"),
         ({"disorder": {"kind": "normal", "relative_std": "=0.0"}}, "the same"),
@@ -274,12 +264,8 @@ def test_bytes_that_are_no_sums_are_refused(data: st.DataObject) -> None:
             {"ask": {"quantity": "histogram"}, "load": {"kind": "point", "at": [0, 4]}},
             "--reach",
         ),
-        (
-            {"packing": {"height": 100, "width": 101}, "ask": {"quantity": "contact_forces"}},
-            "20200",
-        ),
     ],
 )
 def test_what_has_no_statistics_is_refused(change: dict[str, Any], says: str) -> None:
     with pytest.raises(SceneError, match=says):
-        measurement(scene({**PROFILE, **change}), covariance=True)
+        measurement(scene({**PROFILE, **change}))

@@ -7,20 +7,16 @@ import pytest
 
 pytest.importorskip("matplotlib")
 from force_diffusion.numeric.figures import (
-    along_a_diagonal,
     drawing,
-    faces,
     mean_forces,
     neighbours,
     notation,
-    sharing,
     style,
 )
 from force_diffusion.numeric.figures import specification as spec
 from force_diffusion.numeric.figures.packings import Options
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from mpl_toolkits.mplot3d import Axes3D
 
 FEW = Options(realisations=16)
 
@@ -61,38 +57,11 @@ def test_figure_b7_has_labels_on_both_axes() -> None:
     assert len(labels(axes, "y")) >= 3
 
 
-def test_lines_of_figure_b12_are_in_its_legend() -> None:
-    (axes,) = drawn(along_a_diagonal.figure(FEW).picture).axes
-    assert len([name for name in names(axes) if "exact" in name or "leading" in name]) == 2
-
-
-def test_lines_of_figure_b15_are_in_its_legend(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(sharing, "measured", lambda n, sign, _: sharing.theory(n, sign))
-    figure = drawn(sharing.figure(Options()).picture)
-    found = [text.get_text() for text in figure.legends[0].get_texts()]
-    assert len([name for name in found if "exact" in name]) == 2
-    page = figure.bbox
-    box = figure.legends[0].get_window_extent()
-    assert page.x0 <= box.x0
-    assert box.x1 <= page.x1
-
-
 def test_panels_are_lettered_where_there_are_several() -> None:
     figure = drawn(mean_forces.figure(FEW).picture)
     assert [axes.get_title(loc="left") for axes in figure.axes] == ["(a)", "(b)"]
     (alone,) = drawn(neighbours.figure(FEW).picture).axes
     assert not alone.get_title(loc="left")
-
-
-def test_figure_b19_shows_the_cone_in_space_and_zero_apart_from_the_axis() -> None:
-    space, plane, *_ = drawn(faces.figure(FEW).picture).axes
-    assert isinstance(space, Axes3D)
-    assert plane.get_yscale() == "log"
-    centres = np.array(faces.cone().elements[0].centres)  # type: ignore[union-attr]
-    # neighbours on a leg touch, and all beads lie below the load
-    apart = np.linalg.norm(centres[:, None] - centres, axis=2)
-    assert apart[apart > 0].min() == pytest.approx(2)
-    assert centres[:, 2].max() < 0
 
 
 def test_names_of_figure_1_lie_within_their_beads() -> None:

@@ -13,24 +13,18 @@ import pytest
 from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.figures import (
-    along_a_diagonal,
     chains,
     comparison,
     diffusion,
-    dimensions,
     directions,
     distribution,
-    faces,
     mean_forces,
     mean_response,
     neighbours,
     notation,
     packings,
-    paths,
     point_load,
-    sharing,
     spheres,
-    stress,
 )
 from force_diffusion.numeric.figures.catalogue import csv_file
 from force_diffusion.numeric.figures.packings import (
@@ -373,29 +367,6 @@ def test_figure_b7_finds_theory_within_the_band_and_a_wrong_one_outside() -> Non
     assert pair < own / 2  # independent ones would have own/√2
 
 
-def test_figure_b12_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
-    found = along_a_diagonal.figure(Options(realisations=400))
-    (one,) = found.comparisons
-    assert one.deviation() <= 1
-    assert one.deviation(1.2 * one.theory) > 1
-    table = columns(found, "figureB12")
-    assert list(zip(table["j"], table["l"], strict=True)) == along_a_diagonal.PAIRS
-    farthest = len(along_a_diagonal.UPPER[along_a_diagonal.LOWER[0]]) - 1
-    assert table["covariance_simulated"][farthest] > 0.1  # 20 layers higher, by far not zero
-
-
-def test_figure_b15_equals_theory_as_fractions(monkeypatch: pytest.MonkeyPatch) -> None:
-    found = {case: sharing.measured(*case, silent) for case in sharing.CASES}
-    monkeypatch.setattr(sharing, "measured", lambda n, sign, _: found[n, sign])
-    right = sharing.figure(Options())
-    assert right.facts["equal_as_fractions"]
-    assert len(columns(right, "figureB15")["j"]) == 4 * sharing.HEIGHT
-    own, other = sharing.CASES[:2]
-    found[own], found[other] = found[other], found[own]
-    assert not sharing.figure(Options()).facts["equal_as_fractions"]
-    assert "does not equal" in sharing.figure(Options()).says[0]
-
-
 def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> None:
     found = mean_response.figure(Options(realisations=6000))
     first, second = found.comparisons
@@ -404,35 +375,6 @@ def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> No
         assert one.deviation(np.zeros(len(mean_response.OFFSETS))) > 1
     assert first.deviation(second.theory) > 1
     assert len(columns(found, "figureB9")["offset"]) == 2 * len(mean_response.OFFSETS)
-
-
-def test_figure_b10_agrees_as_fractions_and_would_not_with_another_form(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    found = {case: stress.measured(*case, silent) for case in stress.CASES}
-    given = dict(found)
-    monkeypatch.setattr(stress, "measured", lambda load, n, _: given[load, n])
-    right = stress.figure(Options())
-    assert right.facts["equal_as_fractions"]
-    assert len(columns(right, "figureB10")["j"]) == 4 * stress.HEIGHT
-    one, other = stress.DIRECTIONS
-    given["surface", one] = found["bulk", one]
-    wrong = stress.figure(Options())
-    assert not wrong.facts["equal_as_fractions"]
-    assert ["does not equal" in line for line in wrong.says] == [True, False]
-    given["surface", one], given["surface", other] = (found["surface", n] for n in (other, one))
-    assert not stress.figure(Options()).facts["equal_as_fractions"]
-
-
-def test_figure_b11_is_exact_in_two_dimensions_and_near_the_leading_order_in_others() -> None:
-    found = dimensions.figure(Options())
-    phi, M = float(dimensions.PHI), dimensions.HEIGHT
-    known = [math.sqrt(closed_forms.surface_variance(M, j, phi, 1.0, 1.0)) for j in range(M)]
-    exact = columns(found, "figureB11")["exact_finite_M"]
-    assert exact[:M] == pytest.approx(known, rel=1e-13)
-    # the next order is a share of 1/M or so
-    assert found.facts["exact_over_printed_at_base"] == pytest.approx([1, 1, 1], abs=2 / M)
-    assert exact[M] > 1.3 * exact[0]
 
 
 def test_figure_b13_holds_spheres_to_theory_and_would_not_to_that_of_discs(
@@ -447,42 +389,6 @@ def test_figure_b13_holds_spheres_to_theory_and_would_not_to_that_of_discs(
     wrong = replace(one, theory=spheres.exact(spheres.CASES[0]))
     assert wrong.deviation() > 10
     assert "outside" in wrong.verdict()
-
-
-def test_the_weights_of_figure_b1_add_up_to_eq_13(monkeypatch: pytest.MonkeyPatch) -> None:
-    M, j = 2000, 600
-    monkeypatch.setattr(paths, "HEIGHT", M)
-    monkeypatch.setattr(paths, "LAYER", j)
-    beside = ((m - j + aside, m) for m in range(M + 1) for aside in range(-4, 5))
-    squares = sum(paths.weight(i, m) ** 2 for i, m in beside)
-    z = j / M
-    assert squares == pytest.approx(2 * M**3 * (1 - z) ** 2 * (2 * z + 1), rel=2 / M)
-
-
-def test_figure_b19_holds_faces_to_theory_and_the_inside_to_zero() -> None:
-    found = faces.figure(Options(realisations=200))
-    (one,) = found.comparisons
-    assert one.deviation() <= 1
-    # of order σ/r, 2.9e-4, times a power of the height
-    assert 0 < found.facts["largest_inside_over_face"] < 0.01
-    table = columns(found, "figureB19")
-    assert [value > 0 for value in table["exact_first_order"]] == [True] * 5 + [False] * 7
-    discs = math.sqrt(closed_forms.response(10, 4, float(faces.PHI), 1.0, 1.0))
-    wrong = replace(one, theory=np.full(5, discs * PAPER_STD))
-    assert wrong.deviation() > 3  # its curve is half as high again
-    assert "outside" in wrong.verdict()
-
-
-def test_the_response_of_spheres_is_nothing_off_legs_and_faces() -> None:
-    form = closed_forms.spheres_response
-    phi, one = Fraction(1, 5), Fraction(1)
-    assert [form(steps, 9, phi, one, one) for steps in ((1, 1, 1), (2, -1, 1), (0, 0, 0))] == [
-        0
-    ] * 3
-    face = form((2, 3, 0), 9, phi, one, one)
-    assert face == form((3, 0, 2), 9, phi, one, one) == form((0, 1, 4), 9, phi, one, one) > 0
-    with pytest.raises(ValueError, match="whole number"):
-        form((5, 5, 0), 9, phi, one, one)
 
 
 def test_figure_b13_has_the_leading_orders_of_the_exact_forms() -> None:

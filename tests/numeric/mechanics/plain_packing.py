@@ -94,13 +94,17 @@ class PlainPacking:
         apart = self.at(bead) - self.at(stepped(bead, axis, -1))
         return apart / mpmath.norm(apart)
 
-    def below(self, bead: Bead, load: Callable[[int], list[Any]]) -> list[Any]:
-        """Forces of the contacts below a bead; ``load`` gives L^a of F = −Σ L^a n^a of a layer."""
-        (*columns, layer), _ = self.home(bead)
+    def below(self, bead: Bead, load: Callable[[Bead], list[Any]]) -> list[Any]:
+        """Forces of the contacts below a bead; ``load`` gives L^a of F = −Σ L^a n^a on one.
+
+        It is asked for beads by the names that ``rho`` has for them.
+        """
+        named = self.home(bead)[0]
+        *columns, layer = named
         own = (*columns, layer - sum(columns))
         if own not in self._below:
             borne = mpmath.matrix(self.d, 1)
-            for a, share in enumerate(load(layer)):
+            for a, share in enumerate(load(named)):
                 borne += share * self.n[a]
             for a in range(self.d if layer < self.height else 0):
                 upper = stepped(own, a, 1)

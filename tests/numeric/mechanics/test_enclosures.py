@@ -13,13 +13,12 @@ from force_diffusion.numeric.arithmetic.systems import (
     Balls,
     BigFloat,
     NumberSystem,
-    Series,
     midpoint,
 )
 from force_diffusion.numeric.disorder.normal import cosine_of_turn, logarithm
 from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
 from force_diffusion.numeric.lattice.layers import Layer, column, whole
-from force_diffusion.numeric.mechanics import sweep, taylor
+from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
@@ -32,6 +31,8 @@ from force_diffusion.numeric.theory.expected import critical_height
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.numeric.mechanics import taylor
+from tests.numeric.mechanics.taylor import Series
 from tests.numeric.scenes import answer, basic, planned
 from tests.numeric.strategies import Case, cases, sites
 
@@ -172,7 +173,7 @@ def rational_strength(spec: LoadSpec, n: tuple[Fraction, Fraction], system: Seri
 
 @given(st.integers(1, 4), st.integers(0, 20), st.sampled_from(["=2.1", "=2.9", "=3.4"]))
 def test_the_smallest_gap_is_that_of_the_positions(height: int, seed: int, spacing: str) -> None:
-    """Distances of all pairs of beads and images, from positions in the plain form at 40 digits."""
+    """Distances of all pairs of beads and images, from positions at 40 digits."""
     width = height + 2
     sections = basic(height, width)
     sections["packing"]["spacing"] = spacing
@@ -189,7 +190,7 @@ def test_the_smallest_gap_is_that_of_the_positions(height: int, seed: int, spaci
     n_x = plan.scene.n_x
     p = solve_small(
         width, height, n_x=n_x, rho=rho, loads={(1, height): (0, -1)} if height % 2 else {},
-        strength=1, system=system, plainly=True,
+        strength=1, system=system,
     )  # fmt: skip
     mp = system.context
     nx = mp.mpf(n_x.numerator) / n_x.denominator

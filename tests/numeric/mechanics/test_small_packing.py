@@ -6,16 +6,16 @@ import mpmath
 import numpy as np
 from force_diffusion.numeric.arithmetic.systems import (
     FLOAT64,
-    LONGDOUBLE,
     Balls,
     BigFloat,
     NumberSystem,
 )
-from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.numeric.mechanics.small_packing import Solution, solve
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.numeric.mechanics import taylor
+from tests.numeric.mechanics.plain_packing import PlainPacking
 from tests.numeric.strategies import Case, cases, sites
 
 STRENGTH = Fraction(1, 10**6)  # far below M* of these heights: every packing can be built
@@ -40,27 +40,20 @@ def scale(case: Case) -> Fraction:
     return 4 * load * radii
 
 
-def as_mpf(value: object) -> mpmath.mpf:
-    """Widen a hardware float without loss (long double: as high part and remainder)."""
-    high = float(value)  # type: ignore[arg-type]
-    return mp.mpf(high) + mp.mpf(float(value - high))  # type: ignore[operator]
-
-
 @given(cases())
 def test_number_systems_agree(case: Case) -> None:
-    """float64 and long double stay within rounding of 60 digits; balls contain the 60 digits.
+    """float64 stays within rounding of 60 digits; balls contain the 60 digits.
 
     Rounding: each layer adds a few roundings of terms no larger than ``scale``; up and down
     through at most 5 layers, 200 units in the last place are ample and still far from chance.
     """
     reference = solved(case, BigFloat(60))
     ball = solved(case, Balls(256))
-    for system in (FLOAT64, LONGDOUBLE):
-        unit = scale(case) * STRENGTH * Fraction(2) ** -system.bits
-        rounded = solved(case, system)
-        for contact in contacts(case):
-            error = abs(as_mpf(rounded.change(*contact)) - reference.change(*contact))
-            assert error <= 200 * mp.mpf(unit.numerator) / unit.denominator
+    unit = scale(case) * STRENGTH * Fraction(2) ** -FLOAT64.bits
+    rounded = solved(case, FLOAT64)
+    for contact in contacts(case):
+        error = abs(mp.mpf(float(rounded.change(*contact))) - reference.change(*contact))
+        assert error <= 200 * mp.mpf(unit.numerator) / unit.denominator
     for contact in contacts(case):
         enclosure = ball.change(*contact)
         value = reference.change(*contact)
@@ -69,38 +62,41 @@ def test_number_systems_agree(case: Case) -> None:
 
 
 @given(cases())
-def test_plain_form_agrees_at_sixty_digits(case: Case) -> None:
+def test_it_agrees_with_first_principles(case: Case) -> None:
     """Positions of order 10 carry 60 digits; 1e-52 leaves room for ~1e6 roundings of them."""
-    system = BigFloat(60)
-    one = solved(case, system)
-    other = solve(
-        case.width, case.height, n_x=case.n[0], rho=case.rho, loads=case.loads,
-        strength=STRENGTH, system=system, plainly=True,
-    )  # fmt: skip
-    for i, j in sites(case.width, case.height):
-        for a, b in zip(one.displacement(i, j), other.displacement(i, j), strict=True):
-            assert abs(a - b) < mp.mpf(10) ** -52
-    for contact in contacts(case):
-        assert abs(one.force(*contact) - other.force(*contact)) < mp.mpf(10) ** -52
-        assert abs(one.change(*contact) - other.change(*contact)) < mp.mpf(10) ** -52
+    found, width = solved(case, BigFloat(60)), case.width
+    nx, ny = (mp.mpf(n.numerator) / n.denominator for n in case.n)
+    rho = {((i + j) // 2 % width, j): Fraction(0) for i, j in sites(width, case.height)}
+    for (i, j), value in case.rho.items():
+        rho[(i + j) // 2 % width, j] += STRENGTH * value
+    shares: dict[tuple[int, int], list[mpmath.mpf]] = {}
+    for (i, j), force in case.loads.items():
+        fx, fy = (mp.mpf(f.numerator) / f.denominator for f in force)
+        shares[(i + j) // 2 % width, j] = [-(fy / ny + fx / nx) / 2, -(fy / ny - fx / nx) / 2]
+    with mpmath.workdps(70):
+        true = PlainPacking(2, case.height, width, 1 - 2 * case.n[0] ** 2, rho)
+        for i, j in sites(width, case.height):
+            bead = (i + j) // 2, (j - i) // 2
+            dx, dy = found.displacement(i, j)
+            home = [2 * (bead[0] * n + bead[1] * m) for n, m in zip(*true.n, strict=True)]
+            moved = [a - b for a, b in zip(true.at(bead), home, strict=True)]
+            for n, c in zip(true.n, (nx * dx + ny * dy, ny * dy - nx * dx), strict=True):
+                assert abs(sum(a * b for a, b in zip(n, moved, strict=True)) - c) < 1e-52
+            if j:
+                forces = true.below(bead, lambda own: shares.get(own, [0, 0]))
+                for side, branch, force in ((-1, "+", forces[0]), (1, "-", forces[1])):
+                    assert abs(found.force(i + side, j - 1, branch) - force) < 1e-52
 
 
-@given(cases(), st.sampled_from(["1e-6", "1e-12", "1e-20"]))
-def test_remainder_after_first_order_falls_as_the_square(case: Case, strength: str) -> None:
-    """ε → ε/2 divides exact − first order by 4, up to a relative O(ε) from the third order."""
+@given(cases(), st.sampled_from(["1e-15", "1e-20"]))
+def test_what_three_orders_leave_is_of_the_fourth(case: Case, strength: str) -> None:
+    """Coefficients of ε⁴ are below 10¹²: with the largest radii and loads here they reach 6·10⁸."""
     t = taylor.solve(case.width, case.height, n=case.n, rho=case.rho, loads=case.loads, order=3)
-    full, half = (solved(case, BigFloat(90), Fraction(strength) / d) for d in (1, 2))
-    eps = mp.mpf(strength)
+    solution, eps = solved(case, BigFloat(90), Fraction(strength)), mp.mpf(strength)
     for contact in contacts(case):
-        _, first, second, third = (mp.mpf(c.numerator) / c.denominator for c in t.force(*contact))
-        r1 = full.change(*contact) - eps * first
-        r2 = half.change(*contact) - eps / 2 * first
-        if second:
-            # r1/r2 = 4 (1 + ε c/2 + …) with c = third/second; twice that, and rounding, as room.
-            room = 8 * eps * abs(third / second) + mp.mpf(10) ** -20
-            assert abs(r1 / r2 - 4) <= room + 1000 * eps
-        else:
-            assert abs(r1) <= (abs(third) + 1) * 1000 * eps**3
+        series = (mp.mpf(c.numerator) / c.denominator for c in t.force(*contact)[1:])
+        powers = sum(c * eps**order for order, c in enumerate(series, 1))
+        assert abs(solution.change(*contact) - powers) <= mp.mpf(10) ** 12 * eps**4
 
 
 @given(cases(), st.integers(-300, 300))

@@ -1,4 +1,4 @@
-"""The one sweep against first principles, in both dimensions and beyond; and its own errors."""
+"""The one sweep against first principles, in both dimensions; and its own errors."""
 
 from collections.abc import Iterator
 from fractions import Fraction
@@ -14,13 +14,13 @@ from force_diffusion.numeric.lattice.branch import per_direction
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import local
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError, deposit, sweep_down
-from hypothesis import assume, example, given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from tests.numeric.mechanics.plain_packing import PlainPacking
 
 PHI = st.fractions(Fraction(-30, 100), Fraction(45, 100), max_denominator=1000)
-CASES = st.tuples(st.sampled_from([2, 3, 4]), st.integers(1, 4), st.integers(1, 3), PHI,
+CASES = st.tuples(st.sampled_from([2, 3]), st.integers(1, 4), st.integers(1, 3), PHI,
                   st.floats(-9, -1.2), st.integers(0, 2**32))  # fmt: skip
 
 
@@ -48,12 +48,10 @@ def solved(
 
 
 @given(CASES)
-@example((4, 2, 1, Fraction(-279, 931), -1.25, 2230237))  # flat: rests above or below its supports
 def test_positions_and_forces_are_those_of_first_principles(
     case: tuple[int, int, int, Fraction, float, int],
 ) -> None:
     d, height, width, phi, size, seed = case
-    assume(d < 4 or width ** (d - 1) * height <= 32)
     rng = np.random.default_rng(seed)
     drawn = {
         (*columns, j): Fraction(float(rng.uniform(-1, 1) * 10**size))
@@ -68,8 +66,8 @@ def test_positions_and_forces_are_those_of_first_principles(
     plain = PlainPacking(d, height, width, phi, drawn)
     values = [mpmath.mpf(x.numerator) / x.denominator for x in share]
 
-    def load(layer: int) -> list[Any]:
-        return values if layer == height else [mpmath.mpf(0)] * d
+    def load(bead: tuple[int, ...]) -> list[Any]:
+        return values if bead[-1] == height else [mpmath.mpf(0)] * d
 
     system = BigFloat(50)
     floats = [Carried(np.array([float(x) for x in row]), np.zeros(len(row))) for row in rows]
@@ -106,9 +104,9 @@ def _row(system: BigFloat, row: list[Fraction]) -> Any:
     return np.array([system.number(x) for x in row], dtype=object)
 
 
-@pytest.mark.parametrize("d", [2, 3, 4, 5])
-def test_a_bead_rests_on_any_number_of_supports(d: int) -> None:
-    """Contacts hold as they are written in ``local``, and forces balance, for any d."""
+@pytest.mark.parametrize("d", [2, 3])
+def test_a_bead_rests_on_its_supports(d: int) -> None:
+    """Contacts hold as they are written in ``local``, and forces balance."""
     rng, system = np.random.default_rng(d), BigFloat(60)
     mp = system.context
     phi = Fraction(1, 7)

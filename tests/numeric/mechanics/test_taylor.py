@@ -1,14 +1,12 @@
-"""The exact Taylor coefficients: against the plain form, symmetries, and force balance."""
+"""The exact Taylor coefficients: contacts, force balance and symmetries."""
 
 from fractions import Fraction
 
 import flint
 import pytest
-from force_diffusion.numeric.arithmetic.systems import Series, zeros
-from force_diffusion.numeric.lattice.layers import column
-from force_diffusion.numeric.mechanics import plain, taylor
 from hypothesis import given
 
+from tests.numeric.mechanics import taylor
 from tests.numeric.strategies import Case, cases, sites
 
 ORDER = 2
@@ -25,34 +23,23 @@ def times(a: list[Fraction], b: list[Fraction]) -> list[Fraction]:
 
 
 @given(cases())
-def test_both_forms_give_the_same_fractions(case: Case) -> None:
-    """The plain form shares no line of algebra with the deviation form."""
+def test_beads_touch_to_every_order(case: Case) -> None:
+    """With unit directions and force balance, below, this is all that determines a packing."""
     t = solved(case)
-    system = Series(ORDER)
-    W, M = case.width, case.height
-    with system.active():
-        radii = tuple(zeros(system, W) for _ in range(M + 1))
-        for (i, j), value in case.rho.items():
-            radii[j][column(i, j, W)] = system.series([Fraction(0), value])
-        load = tuple(plain.Vector(zeros(system, W), zeros(system, W)) for _ in range(M + 1))
-        for (i, j), (fx, fy) in case.loads.items():
-            load[j].x[column(i, j, W)] += system.number(fx)
-            load[j].y[column(i, j, W)] += system.number(fy)
-        p = plain.deposit(case.n[0], radii, system)
-        d = plain.displacements(p)
-        f = plain.forces(p, load)
-
-    def listed(value: object) -> list[Fraction]:
-        return t._list(value)
-
-    for i, j in sites(W, M):
-        q = column(i, j, W)
-        assert (listed(d[j].x[q]), listed(d[j].y[q])) == t.displacement(i, j)
-        if j == M:
-            continue
-        for branch, step, values in (("+", 1, f.plus), ("-", -1, f.minus)):
-            q = column(i + step, j + 1, W)
-            assert listed(values[j + 1][q]) == t.force(i, j, branch)
+    for i, j in sites(case.width, case.height - 1):
+        for branch, side in (("+", 1), ("-", -1)):
+            apart = [Fraction(2), Fraction(0), Fraction(0)]
+            for bead in ((i, j), (i + side, j + 1)):
+                for (k, m), value in case.rho.items():
+                    if m == bead[1] and (k - bead[0]) % (2 * case.width) == 0:
+                        apart[1] += value
+            ends = [t.displacement(i, j), t.displacement(i + side, j + 1)]
+            for axis, n in enumerate((side * case.n[0], case.n[1])):
+                direction = list(t.direction(i, j, branch)[axis])
+                direction[0] += n
+                moved = [b - a for a, b in zip(ends[0][axis], ends[1][axis], strict=True)]
+                moved[0] += 2 * n
+                assert moved == times(apart, direction)
 
 
 @given(cases())

@@ -37,11 +37,6 @@ def test_wrong_types_for_a_figure(wrong: dict[str, Any]) -> None:
         fd.figure(3, **wrong)
 
 
-def test_a_wrong_type_for_a_study() -> None:
-    with pytest.raises(TypeError, match="a function that is told words, not int"):
-        fd.stability(5)  # type: ignore[arg-type]
-
-
 def test_a_huge_number_can_be_shown() -> None:
     assert "radius=1e+4999" in repr(fd.Packing(height=4, width=9, radius=10**4999))
     assert "radius=Fraction(5, 2)" in repr(fd.Packing(height=4, width=9, radius=2.5))

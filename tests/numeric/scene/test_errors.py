@@ -47,7 +47,7 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("load", "angle_deg", 181, "between -180 and 180"),
     ("load", "at", [1, 1], 'needs kind = "point"'),
     ("effects", "geometry", "exakt", 'did you mean "exact"'),
-    ("effects", "stop_at_tension", 1, "valid boolean"),
+    ("effects", "most_programs", 0, "at least 1"),
     ("ask", "quantity", "forces", "must be one of"),
     ("ask", "tolerance", 0, "between 0 and 1"),
     ("ask", "tolerance", 1, "between 0 and 1"),
@@ -85,7 +85,7 @@ def test_errors_name_the_key_and_what_is_allowed(
         ("load", "at", '"+"', "a bead, at = [k, l]"),
         ("load", "at", '[1, "+"]', "a bead, at = [k, l]"),
         ("ask", "at", "[0, 1.50]", 'a contact, at = [i, j, "+"]'),
-        ("effects", "stop_at_tension", "true", "geometry"),
+        ("effects", "most_seconds", "1.50", 'contacts = "unilateral"'),
     ],
 )
 def test_values_are_shown_as_they_were_written(
@@ -135,8 +135,7 @@ def test_contacts_outside_the_packing(at: list[Any], says: str) -> None:
         ([1, 1], {}, "one layer or several, each once"),
         ([4], {}, "below the load, from 0 to 3"),
         ([0, -1], {}, "below the load, from 0 to 3"),
-        ([1], {"contacts": "unilateral"}, "beads leave their layers"),
-        ([1], {"stop_at_tension": True}, "may not come so far"),
+        ([1], {"contacts": "unilateral"}, 'must be "contact_forces" or "positions"'),
     ],
 )
 def test_layers_that_a_response_has_not(

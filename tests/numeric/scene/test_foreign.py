@@ -1,7 +1,6 @@
 """Files and numbers from elsewhere that nobody would write: each is refused in words."""
 
 import io
-import json
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -154,58 +153,6 @@ def test_arrays_whose_mean_is_no_float() -> None:
         with pytest.raises(SceneError, match=r"radii.*at most 1e\+300"):
             fd.solve(GOOD * largest)
     assert fd.solve(GOOD * 9e299).error < 1e-15
-
-
-def packings(tmp_path: Path, change: dict[str, Any]) -> Path:
-    """Write a packing of two beads on two of the base, with something changed."""
-    packing = {
-        "period": "12",
-        "fixed": 2,
-        "radii": ["1"] * 3,
-        "loads": [["0", "0"], ["0", "0"], ["0", "-1"]],
-        "centres": [["0", "0"], ["3", "0"], ["1.5", "1.3228756555322952952508078768196302128551"]],
-        "contacts": [[2, 0], [2, 1]],
-    } | change
-    path = tmp_path / "packings.json"
-    written = {"format": "force-diffusion packings 1", "packings": [packing]}
-    path.write_text(json.dumps(written))
-    return path
-
-
-@pytest.mark.parametrize(
-    ("change", "status"),
-    [
-        ({}, 0),
-        ({"period": "0"}, 3),
-        ({"period": "-12"}, 3),
-        ({"centres": [["0", "0"], ["3", "0"], ["1e999", "1.3"]]}, 3),
-        ({"centres": [["1e99", "1e99"]] * 3}, 3),
-        ({"radii": ["1", "1", "1e-999"]}, 3),
-        ({"contacts": [[2, 0], [2**70, 1]]}, 2),
-        ({"fixed": 2**70}, 2),
-    ],
-)
-def test_packings_that_no_program_wrote(
-    change: dict[str, Any], status: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["check-packings", str(packings(tmp_path, change))]) == status
-    shown = capsys.readouterr()
-    assert status == 0 or "NOT proved" in shown.out or "packings.json: " in shown.err
-
-
-def test_contacts_of_any_kind_are_refused_before_they_take_memory(tmp_path: Path) -> None:
-    """Those of discs that touch are few and near; of any others an inverse may take 13 GB."""
-    n = 20_000
-    random = np.random.default_rng(1)
-    change: dict[str, Any] = {
-        "period": "1e5",
-        "radii": ["1"] * n,
-        "loads": [["0", "-1"]] * n,
-        "centres": [[str(i), str(i)] for i in range(n)],
-        "contacts": [[int(b), i] for i in range(2, n) for b in random.choice(i, 2, replace=False)],
-    }
-    (verdict,) = fd.check_packings(packings(tmp_path, change))
-    assert "the contacts are open or overlap" in verdict.why
 
 
 SCENE = fd.Scene(

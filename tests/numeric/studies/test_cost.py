@@ -17,7 +17,7 @@ from force_diffusion.numeric.studies.cost.cost_plot import lines
 from force_diffusion.numeric.studies.cost.reference import BEYOND
 from force_diffusion.numeric.studies.cost.rows import Way, marked, pareto
 from force_diffusion.numeric.studies.cost.table import CostStudy
-from force_diffusion.numeric.studies.cost.ways import systems, why_not_plain
+from force_diffusion.numeric.studies.cost.ways import systems
 from force_diffusion.numeric.studies.distances import answer, decimal
 from hypothesis import given
 from hypothesis import strategies as st
@@ -73,12 +73,10 @@ def test_one_periodic_packing() -> None:
     check_certified(found)
     arithmetics = {system.name for system in systems()}
     assert len(arithmetics) >= 11
-    for way in ("exact, deviation form", "exact, plain form"):
-        assert {r.arithmetic for r in found.ways if r.way == way} == arithmetics
-    deviation, plain = (one(found, f"exact, {way} form") for way in ("deviation", "plain"))
-    assert deviation.error <= Decimal("1e-12")
-    assert deviation.error < plain.error
-    assert deviation.model_error == 0
+    assert {r.arithmetic for r in found.ways if r.way == "exact"} == arithmetics
+    exact = one(found, "exact")
+    assert exact.error <= Decimal("1e-12")
+    assert exact.model_error == 0
     linear = one(found, "first-order line sums")
     assert linear.rounding_error is not None
     assert linear.rounding_error <= Decimal("1e-12") < Decimal("1e-8") < linear.error
@@ -92,10 +90,7 @@ def test_one_periodic_packing() -> None:
 @pytest.mark.parametrize(
     ("sections", "way", "why"),
     [
-        (basic(4, None, quantity="contact", at=[0, 2, "+"]), "exact, plain form", "slab"),
-        (basic(4, 6) | {"effects": {"stop_at_tension": True}}, "exact, plain form", "stop"),
-        (basic(4, 6) | {"effects": {"geometry": "first-order"}}, "exact, deviation form", "asks"),
-        (basic(4, 6) | {"effects": {"stop_at_tension": True}}, "first-order line sums", "stop"),
+        (basic(4, 6) | {"effects": {"geometry": "first-order"}}, "exact", "asks"),
         (
             profile() | {"load": {"kind": "point", "at": [1, 5]}},
             "exact finite-M formula",
@@ -112,47 +107,8 @@ def test_what_does_not_apply_is_listed_with_the_reason(
     assert way not in {row.way for row in found.ways}
     own = "first-order line sums"
     if sections.get("effects", {}).get("geometry") != "first-order":
-        own = "exact, deviation form"
+        own = "exact"
     assert one(found, own).error <= Decimal("1e-12")
-
-
-LOADS: tuple[dict[str, Any], ...] = (
-    {"kind": "surface"},
-    {"kind": "surface", "angle_deg": 7},
-    {"kind": "bulk", "angle_deg": -3},
-    {"kind": "point", "at": [2, 4]},
-)
-
-
-@pytest.mark.parametrize("load", LOADS)
-@pytest.mark.parametrize(
-    "ask",
-    [
-        {"quantity": "contact_forces"},
-        {"quantity": "contact", "at": [1, 1, "-"]},
-        {"quantity": "positions"},
-        {"quantity": "positions", "at": [2, 4]},
-        {"quantity": "response"},
-    ],
-)
-def test_both_forms_enclose_the_same(load: dict[str, Any], ask: dict[str, Any]) -> None:
-    if ask["quantity"] == "response":
-        load = {**load, "kind": "point", "at": [2, 4]}
-    planned = plan(scene(basic(5, 9, **ask) | {"load": load}))
-    system = Balls(400)
-    assert why_not_plain(planned) is None
-    with system.active():
-        deviation = answer(planned, system, [0])
-        plainly = answer(planned, system, [0], plainly=True)
-        assert list(deviation.index) == list(plainly.index)
-        for name, column in deviation.index.items():
-            assert column.tolist() == plainly.index[name].tolist()
-        for name in deviation.numbers:
-            pairs = list(zip(deviation.numbers[name], plainly.numbers[name], strict=True))
-            assert pairs
-            for a, b in pairs:
-                assert a.overlaps(b)
-                assert (a - b).abs_upper() < flint.arb(10) ** -90
 
 
 def test_an_ensemble_has_an_estimated_reference_and_a_floor() -> None:
@@ -236,7 +192,7 @@ def test_the_data_say_how_they_came_about() -> None:
     assert set(data["rows"][0]) == {field.name for field in fields(Way)}
     assert data["reference"]["kind"] == "certified"
     assert "tracemalloc" in data["peak_memory"]
-    for row in found.files()["cost.csv"]:
+    for row in found.listed():
         assert row["reference_radius"] == data["reference"]["radius"]
     text = str(found)
     for skip in data["skipped"]:

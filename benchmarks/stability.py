@@ -1,0 +1,192 @@
+"""What stability costs: two tables and a figure, written into a folder, in about a minute.
+
+    python benchmarks/stability.py FOLDER
+
+Packings are strips under a surface load, s = 3 r, with uniform radii. The engine finds the changes
+of their contact forces themselves, in line-sum coordinates (the deviation form). The plain form is
+what one would write first: positions by circle intersection, forces by balance, the ordered forces
+subtracted. Both are compared in float64, and in balls. Errors are relative to the largest change.
+"""
+
+from collections.abc import Callable, Iterator
+from functools import partial
+from itertools import product
+from math import ceil, log2, log10
+from pathlib import Path
+from sys import argv
+from time import process_time
+from typing import Any
+
+import flint
+import numpy as np
+from force_diffusion.derivations.export.tables import csv_text
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, NumberSystem, from_floats
+from force_diffusion.numeric.figures import drawing, style
+from force_diffusion.numeric.figures import specification as spec
+from force_diffusion.numeric.mechanics import engine
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.planning.planner import plan
+from measuring import in_turn
+
+import force_diffusion as fd
+
+GOAL = ceil(50 * log2(10))  # bits of 50 digits
+POSITIONS, LINE_SUMS = "positions", "line sums"
+
+Rows = list[dict[str, Any]]
+
+
+def plain(delta: Any, system: NumberSystem) -> Any:
+    """Changes of all contact forces by circles and balance, (M, 2, W): branch, upper bead.
+
+    ``delta``: δr/r, (M + 1, W). Where a bead does not rest they are no numbers.
+    """
+    with system.active(), np.errstate(all="ignore"):
+        delta, (nx,) = from_floats(system, delta), from_floats(system, np.array([0.75]))
+        x, y, contacts = 4 * nx * np.arange(delta.shape[1]), 0 * delta[0], []
+        for j in range(1, len(delta)):
+            # supports of column q: columns q − 1 and q in even layers, q and q + 1 in odd ones
+            left, right = 1 - j % 2, -(j % 2)
+            a, b = (2 + delta[j] + np.roll(delta[j - 1], side) for side in (left, right))
+            ax, bx = np.roll(x, left), np.roll(x, right)
+            ay, by = np.roll(y, left), np.roll(y, right)
+            ax[0] = ax[0] - left * 4 * nx * len(x)
+            bx[-1] = bx[-1] - right * 4 * nx * len(x)
+            dx, dy = bx - ax, by - ay
+            square = dx * dx + dy * dy
+            along = ((a * a - b * b) / square + 1) / 2
+            high = np.sqrt(a * a / square - along * along)
+            x, y = ax + along * dx - high * dy, ay + along * dy + high * dx
+            contacts.append((left, right, (x - ax) / a, (y - ay) / a, (x - bx) / b, (y - by) / b))
+        sx, sy, forces = 0 * x, 1 + 0 * x, []
+        for left, right, px, py, qx, qy in reversed(contacts):
+            determinant = px * qy - py * qx
+            plus, minus = (sx * qy - sy * qx) / determinant, (sy * px - sx * py) / determinant
+            sx = np.roll(plus * px, -left) + np.roll(minus * qx, -right)
+            sy = np.roll(plus * py, -left) + np.roll(minus * qy, -right)
+            forces.append((plus, minus))
+        return np.array(forces[::-1]) - 1 / (2 * np.sqrt(1 - nx * nx))
+
+
+def deviations(delta: Any) -> Callable[[NumberSystem], Any]:
+    """Give what solves for the changes of all contact forces as the engine does, like ``plain``."""
+    height, width = len(delta) - 1, len(delta[0])
+    scene = fd.Scene(
+        packing=fd.Packing(height=height, width=width, spacing=3, allow_images=True),
+        disorder=fd.GivenRadii(delta_r=delta),
+        ask=fd.Ask(quantity="contact_forces"),
+    )
+    problem = plan(scene).problem
+
+    def solve(system: NumberSystem) -> Any:
+        with system.active():
+            forces = engine.solve(problem, [0], system, Work()).forces
+            assert forces is not None
+            return np.array([forces.change.plus[1:], forces.change.minus[1:]]).swapaxes(0, 1)
+
+    return solve
+
+
+def uniform(height: int, width: int, std: float) -> Any:
+    """Draw δr/r, the same but for their scale at every σ/r."""
+    draw = np.random.default_rng([height, width])
+    return std * 3**0.5 * draw.uniform(-1, 1, (height + 1, width))
+
+
+def largest(balls: Any) -> Any:
+    """Bound all from above; infinite where one is not known."""
+    bounds = [abs(ball).upper() for ball in balls.flat]
+    return max(bounds) if all(bound.is_finite() for bound in bounds) else flint.arb("inf")
+
+
+def floats() -> Iterator[dict[str, Any]]:
+    """Measure errors and times of both forms in float64."""
+    for height in (16, 128):
+        for exponent in (2, 3, 4, 6, 8, 10, 12, 14, 16, 20, 30):
+            delta = uniform(height, 34, 10.0**-exponent)
+            solve = deviations(delta)
+            ways = {"": partial(solve, FLOAT64), "plain_": partial(plain, delta, FLOAT64)}
+            times = in_turn(ways, 5, process_time)
+            row = {"height": height, "relative_std": 10.0**-exponent}
+            true = solve(Balls(512))
+            with flint.ctx.workprec(512):
+                for name, way in ways.items():
+                    away = largest(from_floats(Balls(53), way()) - true) / largest(true)
+                    row |= {f"{name}error": float(away), f"{name}seconds": times[name]}
+            yield row
+
+
+def balls() -> Iterator[dict[str, Any]]:
+    """Find the bits that balls lose in both forms, and the time of 50 digits."""
+    for form, exponents in ((POSITIONS, (2, 4, 8)), (LINE_SUMS, (2, 3, 4, 8))):
+        for exponent, height in product(exponents, (4, 8, 16, 32, 64, 128, 256, 512, 1024)):
+            delta = uniform(height, 16, 10.0**-exponent)
+            solve = partial(plain, delta) if form == POSITIONS else deviations(delta)
+            lost = bits_lost(solve)
+            if lost is not None:
+                work = partial(solve, Balls(GOAL + ceil(lost)))
+                times = in_turn({form: work}, 5, process_time)
+                row = {"form": form, "height": height, "relative_std": 10.0**-exponent}
+                yield {**row, "bits_lost": round(lost, 1), "seconds": times[form]}
+
+
+def bits_lost(solve: Callable[[NumberSystem], Any]) -> float | None:
+    """Give the bits lost where 50 digits are left; None: it does not stand, or 8192 are too few."""
+    for bits in (256, 512, 1024, 2048, 4096, 8192):
+        try:
+            found = solve(Balls(bits))
+        except fd.ForceDiffusionError:
+            continue
+        radius = largest(np.array([ball.rad() for ball in found.flat])) / largest(found)
+        if radius < flint.arb(2) ** -GOAL:
+            return bits + float(radius.log_base(2))
+    return None
+
+
+def picture(rows: Rows, enclosed: Rows) -> spec.Picture:
+    """Draw errors in float64 on the left, lost bits of balls on the right."""
+    errors: list[spec.Element] = [spec.Rule("y", 0, ":", name="no digit is left above")]
+    for series, dashes, key, form in (
+        (1, "--", "plain_error", "plain form"),
+        (0, "-", "error", "deviation form"),
+    ):
+        for height in (16, 128):
+            own = [row for row in rows if row["height"] == height]
+            x, y = ([log10(row[name]) for row in own] for name in ("relative_std", key))
+            points = spec.Points(x, y, series, f"{form}, $M={height}$", filled=height > 16)
+            errors += [spec.Line(x, y, series, dashes), points]
+    lost: list[spec.Element] = []
+    for series, dashes, form in ((1, "--", POSITIONS), (0, "-", LINE_SUMS)):
+        for std in sorted({row["relative_std"] for row in enclosed if row["form"] == form}):
+            own = [row for row in enclosed if (row["form"], row["relative_std"]) == (form, std)]
+            x, y = ([row[name] for row in own] for name in ("height", "bits_lost"))
+            points = spec.Points(x, y, series, form if std == 1e-8 else "")
+            lost += [spec.Line(x, y, series, dashes), points]
+            if form == LINE_SUMS:
+                words = f"σ/r = 1e{log10(std):.0f}"
+                lost.append(spec.Words(x[-1], y[-1], words, 0, ("left", "center"), (6, 0)))
+    std_axis = spec.powers_of_ten("σ/r", [log10(row["relative_std"]) for row in rows])
+    heights = spec.Axis("layers $M$ (strips of 16 beads a layer)", 3.4, 4100, log=True)
+    sizes = spec.powers_of_ten("error / largest |change|", [-17, 13])
+    bits = spec.Axis("bits", 4, log=True)
+    panels = [
+        spec.Panel(errors, std_axis, sizes, "float64: largest error of the contact forces"),
+        spec.Panel(lost, heights, bits, "balls: bits lost in all"),
+    ]
+    return spec.Picture(panels, 3.2, page=True)
+
+
+def main(folder: Path) -> None:
+    """Write tables and figure."""
+    folder.mkdir()
+    rows, enclosed = list(floats()), list(balls())
+    (folder / "stability.csv").write_text(csv_text(rows))
+    (folder / "stability_balls.csv").write_text(csv_text(enclosed))
+    drawn = partial(drawing.draw, picture(rows, enclosed))
+    command = "python benchmarks/stability.py"
+    for name, content in style.images(drawn, "stability", "Stability", command, ["png"]).items():
+        (folder / name).write_bytes(content)
+
+
+if __name__ == "__main__":
+    main(Path(argv[1]))

@@ -1,1 +1,0 @@
-"""The report: all that the package finds, as one HTML page that asks nothing of a network."""

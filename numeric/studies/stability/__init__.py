@@ -1,1 +1,0 @@
-"""How stable the engine is, measured: both forms in float64 and in balls, and the closed forms."""

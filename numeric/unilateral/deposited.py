@@ -1,0 +1,180 @@
+"""The deposited packing, before any contact opens: where beads start, or rest if none pulls."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic.errors import UndecidedError
+from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats, zeros
+from ..disorder.radii import rows_of
+from ..lattice.branch import Branch
+from ..lattice.layers import Rows, column, whole
+from ..mechanics.engine import solve
+from ..mechanics.physicality import Physicality
+from ..mechanics.problem import Problem, Route, axes
+from ..mechanics.sweep import SolvedPacking, UnbuildableError
+from ..mechanics.work import Work
+from .certificate import smallest_gap
+from .grains import Grains, Pairs
+from .network import Frame, ImpossibleError, Network, UnfinishedError
+
+
+def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
+    """Deposit the beads, in float64, and give them with the contacts of the lattice.
+
+    Where some bead can't be deposited, or overlaps another one: a stretched lattice, and None.
+    Raises ``UnbuildableError`` for radii that are none, ``UnfinishedError`` for too large ones.
+    """
+    width = problem.width
+    assert width is not None
+    rows = whole(width, problem.height).rows
+    rho = rows_of(problem.radii, rows, [realisation], FLOAT64)
+    radii = np.concatenate([1 + row for row in rho])
+    nx, ny = (float(n) for n in axes(problem.n_x, FLOAT64))
+    load = as_floats(loads(problem, FLOAT64))
+    grains = Grains(np.zeros((len(radii), 2)), radii, 4 * nx * width, load, width)
+    supports = lattice_contacts(width, problem.height)
+    try:
+        deposited = replace(problem, route=Route.EXACT, needs_forces=False)
+        with np.errstate(all="ignore"):
+            packing = solve(deposited, [realisation], FLOAT64, Work()).packing
+        assert packing is not None
+        grains.x = _centres(problem, packing, FLOAT64)
+        near = grains.near(0.1)
+        others = near[~np.isin(grains.named(near), grains.named(supports))]
+        if (grains.gaps(others) > 1e-9).all():
+            return grains, supports
+    except UnbuildableError:
+        pass
+    if radii.min() <= 0:
+        raise UnbuildableError((0, 0), "a radius is not positive")
+    apart = 2 * float(radii.max()) * (1 + 1e-9)
+    if apart >= 8 * nx:
+        raise UnfinishedError(
+            "no start without overlaps is known: some radius is the spacing or more"
+        )
+    rise, turn = np.sqrt(max(apart**2 - (2 * nx) ** 2, (2 * ny) ** 2)), np.zeros(width)
+    if apart >= 4 * nx:  # neighbours in a layer would overlap: every second one is a step higher
+        turn[1::2] = 1
+        turn[-1] += width % 2 * 2  # the first follows the last
+        rise = apart * (1 + turn.max())
+    i, j = _sites(rows)
+    lift = np.where(j > 0, apart * np.tile(turn, len(rows)), 0)
+    grains.x = np.stack([2 * nx * i, rise * j + lift], axis=1)
+    return grains, None
+
+
+def must_hold(grains: Grains) -> None:
+    """Raise ``ImpossibleError`` where beads of the base overlap, or can't push sideways enough.
+
+    A bead that touches a bead of the base is at its side the further the smaller it is, until it
+    touches the next one too; between those two none can fall through.
+    """
+    base, s = grains.radii[: grains.fixed], grains.period / grains.fixed
+    wide = base + np.roll(base, -1) >= s
+    if wide.any():
+        q = int(np.argmax(wide))
+        raise ImpossibleError(
+            f"no packing can stand: beads {q} and {(q + 1) % grains.fixed} of the base overlap"
+        )
+    smallest = grains.radii[grains.fixed :].min()
+    one = base + smallest
+    sines = []
+    for other in (np.roll(one, 1), np.roll(one, -1)):
+        if (one + other <= s).any():
+            return
+        sines.append((s**2 + one**2 - other**2) / (2 * s * one))
+    side, up = grains.load[grains.fixed :].sum(axis=0)
+    lean, most = np.arctan2(abs(side), -up), np.arcsin(np.max(sines))
+    if lean > most + 1e-9:
+        raise ImpossibleError(
+            f"no packing can stand: the load leans by {np.degrees(lean):.4g}° to the vertical, and "
+            f"beads of the base hold others against {np.degrees(most):.4g}° at most"
+        )
+
+
+def as_deposited(problem: Problem, realisation: int, known: Frame, system: Balls) -> Network:
+    """Enclose the packing as without the effect: no contact pulls, and nothing moves.
+
+    The caller activates ``system``. Raises ``UndecidedError`` where more bits may tell signs, and
+    ``UnfinishedError`` where a contact pulls, or others than those of the lattice are closed.
+    """
+    deposited = replace(problem, route=Route.EXACT, needs_forces=True)
+    solved = solve(deposited, [realisation], system, Work())
+    packing, forces = solved.packing, solved.forces
+    assert packing is not None
+    assert forces is not None
+    seen = Physicality()
+    seen.look_at_forces(forces)
+    if seen.tensile:
+        raise UnfinishedError("a contact pulls by less than float64 tells")
+    if seen.undecided_signs:
+        raise UndecidedError("the enclosures are too wide to tell whether a contact pulls")
+    width, height = len(known.base), problem.height
+    found = zeros(system, height, width, 2)
+    for j in range(1, len(forces.rows)):
+        for side, (_, F, g) in enumerate(forces.below(j)):
+            if len(F):
+                found[j - 1, :, side] = F + g
+    pairs, values = lattice_contacts(width, height), found.ravel()
+    bearing = np.array([not (f.rad() == 0 and f == 0) for f in values], dtype=bool)
+    x = _centres(problem, packing, system)
+    free = np.arange(width, len(x))
+    rattlers = free[~np.isin(free, pairs[bearing])]
+    smallest = smallest_gap(x, known, pairs)
+    return Network(x, pairs[bearing], values[bearing], rattlers, smallest, known)
+
+
+def frame(problem: Problem, realisation: int, system: NumberSystem) -> Frame:
+    """Give what is exactly known of a packing."""
+    assert problem.width is not None
+    rows = whole(problem.width, problem.height).rows
+    rho = rows_of(problem.radii, rows, [realisation], system)
+    base = zeros(system, problem.width, 2)
+    base[:, 0] = [system.number(4 * problem.n_x * q) for q in range(problem.width)]
+    return Frame(
+        np.concatenate([1 + row for row in rho]),
+        base,
+        system.number(4 * problem.n_x * problem.width),
+        loads(problem, system),
+    )
+
+
+def lattice_contacts(width: int, height: int) -> Pairs:
+    """List the contacts of the lattice: each bead above the base with its two supports."""
+    pairs = [
+        (j * width + q, (j - 1) * width + column(2 * q + j % 2 - branch.side, j - 1, width))
+        for j in range(1, height + 1)
+        for q in range(width)
+        for branch in Branch
+    ]
+    return np.array(pairs)
+
+
+def loads(problem: Problem, system: NumberSystem) -> Array:
+    """Give the Cartesian loads of all beads, (N, 2)."""
+    assert problem.width is not None
+    nx, ny = axes(problem.n_x, system)
+    rows = whole(problem.width, problem.height).rows
+    found = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
+    out = zeros(system, len(rows), problem.width, 2)
+    for j, (plus, minus) in enumerate(zip(found.plus, found.minus, strict=True)):
+        if plus is not None:
+            out[j, :, 0], out[j, :, 1] = (minus - plus) * nx, -(plus + minus) * ny
+    return out.reshape(-1, 2)
+
+
+def _sites(rows: Rows) -> tuple[Array, Array]:
+    """Give i and j of all beads, (N,) each."""
+    i = np.concatenate([row.first + 2 * np.arange(row.count) for row in rows])
+    return i, np.repeat(np.arange(len(rows)), rows[0].count)
+
+
+def _centres(problem: Problem, packing: SolvedPacking, system: NumberSystem) -> Array:
+    """Give the centres of deposited beads, (N, 2)."""
+    nx, ny = axes(problem.n_x, system)
+    i, j = (numbers.astype(system.dtype) for numbers in _sites(packing.region.rows))
+    plus, minus = (np.concatenate(list(c)) for c in (packing.c.plus, packing.c.minus))
+    x: list[Any] = [2 * nx * i + (plus - minus) / (2 * nx), 2 * ny * j + (plus + minus) / (2 * ny)]
+    return np.stack(x, axis=1)

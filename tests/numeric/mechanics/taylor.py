@@ -1,0 +1,200 @@
+"""Exact Taylor coefficients of the nonlinear packing: δr = ε ρ with rational ρ, r = 1.
+
+With rational n^± (n_x and n_y both rational, as 3/5 and 4/5) the ordered packing is rational, and
+so is every Taylor coefficient of the exact packing and of its forces. They are found by the
+very sweeps that solve packings in floating point, run on truncated power series in ε. Order
+ε¹ must equal the first-order formulas of the paper as fractions, with no tolerance.
+
+Every function here gives a coefficient list ``[order 0, order 1, …, order n]``.
+"""
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import Any
+
+import flint
+import numpy as np
+from force_diffusion.numeric.arithmetic.systems import Array, in_flint, midpoint, zeros
+from force_diffusion.numeric.lattice.branch import Branch
+from force_diffusion.numeric.lattice.layers import column, whole
+from force_diffusion.numeric.mechanics.loads import components, on_rows
+from force_diffusion.numeric.mechanics.local import cosine
+from force_diffusion.numeric.mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
+
+Site = tuple[int, int]
+Coefficients = list[Fraction]
+
+
+@dataclass(frozen=True)
+class Series:
+    """Power series in ε with exact rational coefficients, up to and including ε^``order``."""
+
+    order: int
+    dtype: Any = field(default=object, init=False, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Such as ``rational series to order 2``."""
+        return f"rational series to order {self.order}"
+
+    def number(self, value: Fraction) -> Any:
+        """Give the constant series."""
+        return self.series([value])
+
+    @property
+    def bits(self) -> int:
+        """Rationals are exact: 0 stands for no limit."""
+        return 0
+
+    def from_float(self, value: float) -> Any:
+        """Give the constant series."""
+        return self.number(Fraction(value))
+
+    def from_ball(self, value: Any) -> Any:
+        """Give the constant series of the midpoint."""
+        return self.number(midpoint(value))
+
+    def scalar(self, value: Fraction) -> Any:
+        """Give a plain rational: NumPy would take a series for a sequence of numbers."""
+        return flint.fmpq(value.numerator, value.denominator)
+
+    def series(self, coefficients: Sequence[Fraction]) -> Any:
+        """Give the series with these coefficients of ε⁰, ε¹, …"""
+        return flint.fmpq_series([flint.fmpq(c.numerator, c.denominator) for c in coefficients])
+
+    def sqrt(self, values: Array) -> Array:
+        """Square roots; the constant term must be the square of a rational.
+
+        Flint takes the root of a series with constant term 1, so the constant is divided out.
+        """
+        return np.asarray(np.frompyfunc(_series_sqrt, 1, 1)(values))
+
+    def root(self, value: Fraction) -> Any:
+        """Give the rational root; ``ValueError`` where there is none."""
+        return _rational_root(flint.fmpq(value.numerator, value.denominator))
+
+    def signs(self, values: Array) -> tuple[Array, Array]:
+        """Look at the constant term: the sign for small enough ε."""
+        good = np.asarray(np.frompyfunc(lambda value: value[0] > 0, 1, 1)(values), dtype=bool)
+        return good, ~good
+
+    @contextmanager
+    def active(self) -> Iterator[None]:
+        """Set flint's global truncation order and put it back."""
+        with in_flint(cap=self.order + 1):
+            yield
+
+
+def _rational_root(value: Any) -> Any:
+    root = flint.fmpq(math.isqrt(int(value.p)), math.isqrt(int(value.q)))
+    if root * root != value:
+        raise ValueError(f"the square root of {value} is no rational number")
+    return root
+
+
+def _series_sqrt(value: Any) -> Any:
+    constant = value[0]
+    return (value / constant).sqrt() * _rational_root(constant)
+
+
+@dataclass(frozen=True)
+class TaylorPacking:
+    """A periodic packing and its forces as power series in the disorder strength ε.
+
+    Sites are (i, j) with i + j even, i taken modulo 2W. Contacts are named as in the paper:
+    branch "+" ("−" is written "-") at (i, j) runs from the lower bead (i, j) to (i ± 1, j + 1).
+    Lengths are in units of r, forces in the unit of the given loads.
+    """
+
+    width: int
+    height: int
+    n_x: Fraction
+    n_y: Fraction
+    order: int
+    packing: SolvedPacking
+    contact_forces: Forces
+
+    def line_sums(self, i: int, j: int) -> tuple[Coefficients, Coefficients]:
+        """(c⁺, c⁻) with c^± = n^±·δx of bead (i, j) (Eqs. 2 and 3)."""
+        q = column(i, j, self.width)
+        return self._list(self.packing.c.plus[j][q]), self._list(self.packing.c.minus[j][q])
+
+    def displacement(self, i: int, j: int) -> tuple[Coefficients, Coefficients]:
+        """Cartesian (δx, δy) of bead (i, j), from δx = c⁺ b⁺ + c⁻ b⁻ (Eqs. 2 and 3)."""
+        plus, minus = self.line_sums(i, j)
+        return (
+            [(p - m) / (2 * self.n_x) for p, m in zip(plus, minus, strict=True)],
+            [(p + m) / (2 * self.n_y) for p, m in zip(plus, minus, strict=True)],
+        )
+
+    def direction(self, i: int, j: int, branch: str) -> tuple[Coefficients, Coefficients]:
+        """Cartesian δn of the contact from (i, j) to (i ± 1, j + 1) (Eqs. 4 and 5)."""
+        upper, q = self._upper(i, j, branch)
+        a, b = self.packing.dn[Branch(branch)][upper]
+        along, across = self._list(a[q]), self._list(b[q])
+        return (
+            [(p - m) * self.n_x for p, m in zip(along, across, strict=True)],
+            [(p + m) * self.n_y for p, m in zip(along, across, strict=True)],
+        )
+
+    def force(self, i: int, j: int, branch: str) -> Coefficients:
+        """Contact force f^±_ij; order 0 is the ordered force (Eqs. 6–11)."""
+        upper, q = self._upper(i, j, branch)
+        f = self.contact_forces
+        own = Branch(branch)
+        return self._list(f.ordered[own][upper][q] + f.change[own][upper][q])
+
+    def _upper(self, i: int, j: int, branch: str) -> tuple[int, int]:
+        if branch not in {"+", "-"}:
+            raise ValueError(f'branch must be "+" or "-", not {branch!r}')
+        if not 0 <= j < self.height:
+            raise ValueError(f"no contact starts in layer {j}: 0 <= j < {self.height}")
+        column(i, j, self.width)
+        return j + 1, column(i + 1 if branch == "+" else i - 1, j + 1, self.width)
+
+    def _list(self, value: Any) -> Coefficients:
+        coefficients = [value[k] for k in range(self.order + 1)]
+        return [Fraction(int(c.p), int(c.q)) for c in coefficients]
+
+
+def solve(
+    width: int,
+    height: int,
+    *,
+    n: tuple[Fraction, Fraction],
+    rho: Mapping[Site, Fraction],
+    loads: Mapping[Site, tuple[Fraction, Fraction]],
+    order: int = 1,
+) -> TaylorPacking:
+    """Solve the exact packing as a power series in ε up to ε^order.
+
+    ``width`` = W beads a layer, ``height`` = M; ``rho``: {(i, j): ρ}, absent beads have ρ = 0;
+    ``loads``: {(i, j): (fx, fy)} Cartesian loads on single beads (a unit vertical surface load is
+    {(i, M): (0, −1)} for every i); ``n`` = (n_x, n_y) with n_x² + n_y² = 1; all numbers rational.
+    Raises ``ValueError`` for a site off the lattice and for an ``n`` that is no unit vector.
+    Flint's series cap is put back.
+    """
+    n_x, n_y = n
+    if n_x**2 + n_y**2 != 1:
+        raise ValueError(f"({n_x}, {n_y}) is no unit vector")
+    system = Series(order)
+    region = whole(width, height)
+    with system.active():
+        rows = [zeros(system, width) for _ in range(height + 1)]
+        for (i, j), value in rho.items():
+            if not 0 <= j <= height:
+                raise ValueError(f"({i}, {j}) lies outside layers 0 … {height}")
+            rows[j][column(i, j, width)] = system.series([Fraction(0), value])
+        supported = {}
+        for (i, j), (fx, fy) in loads.items():
+            column(i, j, width)
+            up, um = components((fx, fy), n_x, n_y)
+            supported[i, j] = (system.number(up), system.number(um))
+        packing = deposit(cosine(n_x), region, tuple(rows), system)
+        contact_forces = sweep_down(
+            packing, region.rows, on_rows(supported, region.rows, width, system)
+        )
+    return TaylorPacking(width, height, n_x, n_y, order, packing, contact_forces)

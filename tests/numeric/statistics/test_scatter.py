@@ -1,0 +1,67 @@
+"""Standard errors from the scatter over packings, against sums of fractions and the jackknife."""
+
+import math
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.statistics.moments import Scatter
+from hypothesis import given
+from hypothesis import strategies as st
+
+# Of numbers up to 1, of which no two are nearer than 1/8, little cancels: what is compared keeps
+# digits enough.
+EIGHTHS = st.integers(-8, 8).map(lambda n: n / 8)
+PACKINGS = st.integers(1, 5).flatmap(
+    lambda size: st.lists(st.lists(EIGHTHS, min_size=size, max_size=size), min_size=2, max_size=9)
+)
+
+
+def errors(x: np.ndarray) -> tuple[float, float]:
+    """Give both errors of packings (packings, contacts)."""
+    scatter = Scatter()
+    scatter.add(x.mean(axis=1, keepdims=True), (x * x).mean(axis=1, keepdims=True))
+    of_mean, of_std = scatter.errors()
+    return float(of_mean[0]), float(of_std[0])
+
+
+@given(PACKINGS)
+def test_errors_are_those_of_their_definition(packings: list[list[float]]) -> None:
+    of_mean, of_std = errors(np.array(packings))
+    every = [Fraction(x) for p in packings for x in p]
+    exact = sum(every) / len(every)
+    variance = sum((x - exact) ** 2 for x in every) / len(every)
+
+    def error(off: list[Fraction]) -> float:
+        n = len(packings)
+        return math.sqrt(sum(x * x for x in off) * n / (n - 1)) / len(every)
+
+    off = [sum((Fraction(x) - exact for x in p), Fraction(0)) for p in packings]
+    assert of_mean == pytest.approx(error(off), rel=1e-9, abs=1e-7)
+    squares = [
+        sum(((Fraction(x) - exact) ** 2 - variance for x in p), Fraction(0)) for p in packings
+    ]
+    of_variance = error(squares)
+    if of_variance > 1e-6 * variance:  # else it may be taken for rounding
+        assert of_std == pytest.approx(of_variance / (2 * math.sqrt(variance)), rel=1e-6)
+
+
+@given(st.floats(0.01, 100), st.floats(0.01, 100), st.floats(-100, 100))
+def test_two_samples_tell_nothing_of_the_error_of_their_deviation(
+    above: float, below: float, about: float
+) -> None:
+    assert math.isnan(errors(np.array([[about + above], [about - below]]))[1])
+
+
+def test_of_one_packing_no_error_is_known() -> None:
+    assert all(map(math.isnan, errors(np.array([[1.0, 2.0]]))))
+
+
+def test_errors_are_those_of_the_jackknife() -> None:
+    """Leaving out one packing after the other knows nothing of products of deviations."""
+    x = np.random.default_rng(1).gamma(2.0, size=(400, 15)) + np.arange(15) / 9
+    means = [np.delete(x, k, axis=0).mean() for k in range(len(x))]
+    stds = [np.delete(x, k, axis=0).std() for k in range(len(x))]
+    for error, values in zip(errors(x), map(np.array, (means, stds)), strict=True):
+        jackknife = np.sqrt(((values - values.mean()) ** 2).sum() * 399 / 400)
+        assert error == pytest.approx(jackknife, rel=0.02)  # both are good to 1/packings

@@ -1,0 +1,182 @@
+"""How stable solving is: float64 against certified balls, where it is hard to be accurate.
+
+Errors are those of changes, which vanish with the disorder, relative to the largest of them.
+"""
+
+import math
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import flint
+import numpy as np
+import pytest
+from force_diffusion.numeric import closed_forms
+from force_diffusion.numeric.arithmetic.errors import UndecidedError
+from force_diffusion.numeric.arithmetic.systems import Balls
+from force_diffusion.numeric.mechanics import engine
+from force_diffusion.numeric.mechanics.sweep import UnbuildableError
+from force_diffusion.numeric.mechanics.work import Work
+from force_diffusion.numeric.theory.expected import critical_height
+
+import force_diffusion as fd
+
+# Of float64: a number that is rounded once is off by this share of itself at most.
+UNIT = 2.0**-53
+# What is rounded carries an error of its own, which is far smaller.
+ONCE = 1.01 * UNIT
+LOADS = {
+    "surface": fd.SurfaceLoad(),
+    "bulk": fd.BulkLoad(),
+    "leaning": fd.SurfaceLoad(angle_deg=30),
+    "leaning bulk": fd.BulkLoad(angle_deg=30),
+    "point": fd.PointLoad(at=(5, 15)),
+}
+
+
+def solved(
+    height: int, width: int, std: float, spacing: Any = 3, load: str = "surface", **how: Any
+) -> fd.Solution:
+    """Solve a strip with uniform radii, the same but for their scale at every σ/r."""
+    drawn = np.random.default_rng([height, width]).uniform(-1, 1, (height + 1, width))
+    return fd.solve(
+        delta_r=std * 3**0.5 * drawn, spacing=spacing, load=LOADS[load], allow_images=True, **how
+    )
+
+
+def measured(*strip: Any, **more: Any) -> tuple[float, fd.Solution, fd.Solution]:
+    """Give the largest error in float64, and the solutions in float64 and in balls."""
+    found = solved(*strip, **more)
+    balls = solved(*strip, **more, tolerance="1e-60", certified=True)
+    assert balls.certified
+    assert balls.error < 1e-6 * UNIT  # far better than what is measured by it
+    with flint.ctx.workprec(500):
+        pairs = list(zip(found.change.flat, balls.change.flat, strict=True))
+        largest = max(abs(ball).lower() for _, ball in pairs)
+        away = max((flint.arb(number) - ball).abs_upper() for number, ball in pairs)
+        return float((away / largest).upper()), found, balls
+
+
+def accurate(*arguments: Any, **more: Any) -> fd.Solution:
+    """Solve a strip whose changes have to be rounded once, and no less accurate than is said."""
+    error, found, _ = measured(*arguments, **more)
+    assert error <= ONCE
+    assert error <= found.error <= 1.1 * ONCE
+    return found
+
+
+@cache
+def lost(height: int, std: float) -> float:
+    """Bits that balls lose in a strip of 16 beads a layer."""
+    return solved(height, 16, std, tolerance="1e-40", certified=True).accuracy.bits_lost
+
+
+@pytest.mark.parametrize("load", LOADS)
+@pytest.mark.parametrize("exponent", [2, 3, 4, 6, 8, 10, 12, 14, 15, 16, 20, 30, 100, 300])
+def test_digits_do_not_depend_on_the_disorder(exponent: int, load: str) -> None:
+    accurate(16, 34, 10.0**-exponent, load=load)
+
+
+@pytest.mark.parametrize("exponent", [2, 3, 4, 8, 16, 30])
+def test_nor_do_they_in_higher_packings(exponent: int) -> None:
+    accurate(128, 34, 10.0**-exponent)
+
+
+@pytest.mark.parametrize(
+    "spacing",
+    [Fraction(2) + Fraction(1, 10**k) for k in (6, 12, 13)] + [Fraction("3.464101615137")],
+)
+@pytest.mark.parametrize("std", [1e-6, 1e-14])
+def test_near_the_limits_of_the_spacing(spacing: Fraction, std: float) -> None:
+    """Next to 2 r and 2√3 r: beads of a layer nearly touch, or those two layers apart."""
+    found = accurate(16, 34, std, spacing=spacing)
+    assert found.physical is not None
+    room = float(min(spacing - 2, 2 * math.sqrt(3) - spacing))
+    # σ/r far above the room that there is left, or far below it
+    if std > 100 * room:
+        assert found.physical.overlaps
+    if std < room / 100:
+        assert not found.physical.overlaps
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("height", [16, 64, 256, 1024, 4096])
+def test_very_tall_packings(height: int) -> None:
+    """Balls add up worst cases: M^(3/2) at most, and a constant from the operations of a bead."""
+    _, found, balls = measured(height, 16, 1e-6)
+    assert found.error <= ONCE
+    assert balls.accuracy.bits_lost < 8 + 1.5 * math.log2(height)
+
+
+@pytest.mark.parametrize("load", ["surface", "bulk", "leaning bulk"])
+@pytest.mark.parametrize(("height", "std"), [(48, 0.006), (96, 0.003), (192, 0.003)])
+def test_beyond_the_critical_height(height: int, std: float, load: str) -> None:
+    """Contacts pull there, and the packing is unstable: what is answered is as accurate."""
+    assert height > critical_height(Fraction(str(std)))
+    found = accurate(height, 16, std, load=load)
+    assert found.physical is not None
+    assert found.physical.tensile
+
+
+def test_fifty_digits_are_certified_beyond_it_too() -> None:
+    found = solved(192, 16, 0.003, tolerance="1e-50", certified=True)
+    assert found.certified
+    assert found.error <= 1e-50
+    assert found.accuracy.bits_lost > 40  # and were made up for
+    with flint.ctx.workprec(1000):
+        more = solved(192, 16, 0.003, tolerance="1e-100").change
+        for a, b in zip(found.change.flat, more.flat, strict=True):
+            assert a.overlaps(b)
+
+
+def test_where_no_packing_exists_it_is_said() -> None:
+    for tolerance in (None, "1e-40"):
+        with pytest.raises(UnbuildableError, match=r"^bead \(\d+, \d+\): its supports are too far"):
+            solved(512, 16, 0.01, tolerance=tolerance)
+
+
+def test_balls_that_are_too_wide_are_undecided_not_unbuildable() -> None:
+    """128 layers at σ/r = 1e-2 stand, and lose more than the 60 bits of these balls."""
+    problem = solved(128, 16, 0.01).forces.plan.problem
+    system = Balls(60)
+    with system.active(), pytest.raises(UndecidedError):
+        engine.solve(problem, [0], system, Work())
+
+
+@pytest.mark.parametrize(("low", "high"), [(4, 16), (16, 64), (64, 256)])
+def test_balls_lose_a_power_of_the_height(low: int, high: int) -> None:
+    """Far below M*, 2e5 layers here: M^(3/2) at most, which is 3 bits in 4 times the layers.
+
+    One tenth of a bit is what the losses are rounded by, twice.
+    """
+    assert lost(high, 1e-8) - lost(low, 1e-8) < 1.5 * 2 + 0.1
+
+
+def test_what_balls_lose_at_the_critical_height() -> None:
+    """512 layers at σ/r = 1e-4, M* = 464: below 40 bits.
+
+    23 bits are the power law's (8 + 1.5 · 10); the rest is room for the growth that sets in.
+    """
+    assert lost(512, 1e-4) < 40
+
+
+def test_beyond_it_balls_lose_exponentially() -> None:
+    """The packing itself is unstable there: half a bit a layer and more at σ/r = 1e-2."""
+    assert critical_height(Fraction(1, 100)) < 32
+    beyond = (lost(64, 1e-2) - lost(32, 1e-2)) / 32
+    below = (lost(64, 1e-8) - lost(32, 1e-8)) / 32
+    assert beyond > 0.5 > 10 * below
+
+
+@pytest.mark.parametrize(
+    "name", ["surface_variance", "bulk_variance", "surface_diffusion", "bulk_diffusion"]
+)
+@pytest.mark.parametrize("height", [10, 1000, 10**6, 10**9])
+def test_closed_forms_in_float64(name: str, height: int) -> None:
+    """Eqs. 13 and 14 against fractions: a few roundings each, also where terms cancel."""
+    form, phi = getattr(closed_forms, name), Fraction(1) - 2 * Fraction(3, 4) ** 2
+    for j in {0, 1, 2, height // 2, height - 2, height - 1}:
+        at = j if name.endswith("variance") else j / height
+        exact = form(Fraction(height), Fraction(at), phi, Fraction(1), Fraction(1))
+        rounded = form(float(height), float(at), float(phi), 1.0, 1.0)
+        assert abs(Fraction(rounded) - exact) < 16 * Fraction(UNIT) * exact

@@ -1,0 +1,247 @@
+"""Neither the certificate nor its witness proves what is no equilibrium: by hand, and at random."""
+
+from collections.abc import Callable
+from copy import deepcopy
+from functools import cache
+from typing import Any
+
+import pytest
+from force_diffusion.numeric.arithmetic.errors import UndecidedError
+from force_diffusion.numeric.unilateral.network import UnfinishedError
+from hypothesis import given
+from hypothesis import strategies as st
+
+import force_diffusion as fd
+from tests.numeric.unilateral.packings import (
+    Packing,
+    certified,
+    changed,
+    more,
+    must_hold,
+    network_of,
+    packing_of,
+    pile,
+    strip,
+    third_base_bead,
+)
+from tests.numeric.unilateral.witness import why_not
+
+
+def refused(packing: Packing) -> str:
+    """Say why the certificate does not prove a packing."""
+    try:
+        certified(packing)
+    except (UnfinishedError, UndecidedError) as error:
+        return str(error)
+    return ""
+
+
+BOTH = pytest.mark.parametrize("judge", [refused, why_not])
+Judge = Callable[[Packing], str]
+
+
+@BOTH
+def test_what_stands_is_proved(judge: Judge) -> None:
+    for packing in (pile(), third_base_bead("3", "-5"), more(), more(load="-0.0e5"),
+                    more("3", "7.75"), more("3", "0.5", radius="0.4")):  # fmt: skip
+        assert judge(packing) == "", packing
+
+
+def test_what_is_certified_of_the_pile() -> None:
+    """5/8 by hand; a bead of radius 1, 3.75 above one of radius 2.5."""
+    network = certified(pile())
+    assert [float(force) for force in network.forces] == pytest.approx([5 / 8] * 2)
+    assert certified(more("3", "7.75")).smallest_gap == pytest.approx(0.25)
+    assert certified(more()).rattlers.tolist() == [3]
+
+
+def test_forces_below_the_rounding_of_others_are_certified() -> None:
+    """The load points at bead 0, but for 1e-18: half of its 5/4 remains for bead 1."""
+    packing = changed("loads", 2, ["-0.6", "-0.800000000000000001"])
+    assert why_not(packing) == ""
+    assert float(min(certified(packing).forces, key=float)) == pytest.approx(0.625e-18)
+    pulls = changed("loads", 2, ["-0.6", "-0.799999999999999999"])
+    assert refused(pulls)
+    assert why_not(pulls)
+
+
+@BOTH
+@pytest.mark.parametrize(
+    ("load", "fourth", "contacts"),
+    [(["0", "-1"], "14.2", [[5, 2], [5, 3]]), (["-0.6", "-0.8"], "14.5", [[5, 2], [5, 4]])],
+)
+def test_of_beads_that_touch_without_force_nothing_is_proved(
+    judge: Judge, load: list[str], fourth: str, contacts: list[list[int]]
+) -> None:
+    """Two beads side by side, each on two of the base, in triangles of sides 3, 4 and 5."""
+    packing = Packing(
+        "30",
+        4,
+        ["0.9"] * 4 + ["4.1"] * 2,
+        [["0", "0"]] * 4 + [["0", "-1"], load],
+        [[x, "0"] for x in ("0", "6", "8.2", fourth)] + [["3", "4"], ["11.2", "4"]],
+        [[4, 0], [4, 1], *contacts],
+    )
+    assert judge(packing)
+    packing.centres = [[x, "0"] for x in ("0", "6", "9", "15")] + [["3", "4"], ["12", "4"]]
+    packing.contacts, packing.loads[5] = [[4, 0], [4, 1], [5, 2], [5, 3]], ["0", "-1"]
+    assert judge(packing) == ""  # a little further apart
+
+
+@BOTH
+@pytest.mark.parametrize(
+    "packing",
+    [
+        more(load="-5"),
+        more(load="-1e-14"),
+        more(load="1e-9999"),
+        more(radius="-1"),
+        more(radius="0"),
+        more(radius="-1e-9999"),
+        more(radius="3.1"),  # above a quarter of the period
+        more(radius="6.5"),  # overlaps its own image
+        more("3", "7.4"),
+        more("27", "7.4"),  # two periods away
+        more("3", "-50"),
+        third_base_bead("1", "-2"),
+        third_base_bead("9", "0"),
+        changed("radii", 2, "-2.5"),
+        pile(period="-12"),
+        pile(period="0"),
+        pile(period="1e-9999"),
+        pile(period="9.9"),
+        changed("loads", 2, ["0", "0"]),
+        changed("loads", 2, ["0", "1"]),
+        changed("loads", 2, ["-5", "0"]),
+        changed("contacts", 1, [1, 0]),
+    ],
+)
+def test_what_is_no_equilibrium_is_not_proved(judge: Judge, packing: Packing) -> None:
+    assert judge(packing)
+
+
+@BOTH
+def test_a_bead_that_overlaps_its_own_image_is_not_proved(judge: Judge) -> None:
+    """The pile, five times smaller: a period of 2.4, and a bead in the air of radius 1.3."""
+    packing = more("0.6", "20", radius="1.3", period="2.4")
+    packing.radii[:3] = ["0.5"] * 3
+    packing.centres[:3] = [["0", "0"], ["1.2", "0"], ["0.6", "0.8"]]
+    assert judge(packing)
+    packing.radii[3] = "0.59"
+    assert judge(packing) == ""
+
+
+@cache
+def found(kind: str) -> Packing:
+    """Packings that ``run`` certified, with and without rattlers."""
+    load = fd.PointLoad(at=[0, 4]) if kind == "rattlers" else fd.SurfaceLoad()
+    return packing_of(network_of(strip(height=4, width=6, std=0.04, seed=2, load=load).run()))
+
+
+def known(kind: str) -> Packing:
+    return pile() if kind == "pile" else deepcopy(found(kind))
+
+
+KINDS = ("pile", "pressed", "rattlers")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_packings_to_be_changed_are_proved(kind: str) -> None:
+    packing = known(kind)
+    assert refused(packing) == why_not(packing) == ""
+    free = range(packing.fixed, len(packing.radii))
+    held = {bead for pair in packing.contacts for bead in pair}
+    assert any(bead not in held for bead in free) == (kind == "rattlers")
+    must_hold(packing)
+
+
+amounts = st.builds(
+    lambda sign, digits, power: f"{sign}{digits}e{power}",
+    st.sampled_from(["", "-"]),
+    st.integers(1, 9),
+    st.integers(-16, 3),
+)
+
+
+def plus(value: str, amount: str) -> str:
+    """A sum of decimals, rounded: the first is lost where it is far smaller."""
+    return repr(float(value) + float(amount))
+
+
+@st.composite
+def changes(draw: st.DrawFn, kind: str) -> Packing:
+    """One or two changes of a load, a radius, a centre, the contacts, the period, or a new bead."""
+    packing = known(kind)
+    for _ in range(draw(st.integers(1, 2))):
+        beads = len(packing.radii)
+        one, other = draw(st.integers(0, beads - 1)), draw(st.integers(0, beads - 1))
+        axis, amount = draw(st.integers(0, 1)), draw(amounts)
+        contacts = packing.contacts
+        which = draw(st.integers(0, len(contacts) - 1)) if contacts else 0
+        size = float(packing.radii[one])
+        match draw(st.sampled_from(["load", "radius", "centre", "contact", "period", "bead"])):
+            case "load":
+                loads = [amount, "0", plus(packing.loads[one][axis], amount)]
+                packing.loads[one][axis] = draw(st.sampled_from(loads))
+            case "radius":
+                sizes = ["0", repr(-size), amount, plus(repr(size), amount)]
+                packing.radii[one] = draw(st.sampled_from(sizes))
+            case "centre":
+                centre = packing.centres[one]
+                if draw(st.booleans()):
+                    centre[axis] = plus(centre[axis], amount)
+                else:
+                    packing.centres[one] = list(packing.centres[other])
+            case "contact":
+                packing.contacts = draw(
+                    st.sampled_from(
+                        [
+                            contacts[:which] + contacts[which + 1 :],
+                            [*contacts, [one, other]],
+                            [*contacts[:which], [one, other], *contacts[which + 1 :]],
+                            [*contacts, *contacts[which : which + 1]],
+                        ]
+                    )
+                )
+            case "period":
+                period = float(packing.period)
+                new = [0, -period, 2 * size, 3.9 * size, period + float(amount), float(amount)]
+                packing.period = repr(draw(st.sampled_from(new)))
+            case "bead":
+                packing.radii.append(draw(st.sampled_from(["0.3", "1", amount])))
+                packing.loads.append(["0", draw(st.sampled_from(["0", amount]))])
+                packing.centres.append([draw(amounts), draw(amounts)])
+    return packing
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@given(data=st.data())
+def test_no_change_makes_a_proof_of_what_is_no_equilibrium(kind: str, data: Any) -> None:
+    """The certificate moves beads by Newton's steps first: what it proves is where they end."""
+    packing = data.draw(changes(kind))
+    if not why_not(packing):
+        must_hold(packing)
+    try:
+        network = certified(packing)
+    except (UnfinishedError, UndecidedError):
+        return
+    must_hold(packing_of(network))
+    assert why_not(packing_of(network)) == ""
+
+
+@BOTH
+@pytest.mark.parametrize(
+    "harmless",
+    [
+        lambda p: p.loads.__setitem__(2, ["0", "-2"]),
+        lambda p: p.contacts.reverse(),
+        lambda p: p.centres[-1].__setitem__(0, plus(p.centres[-1][0], p.period)),
+    ],
+)
+def test_changes_that_keep_an_equilibrium_are_proved(
+    judge: Judge, harmless: Callable[[Packing], Any]
+) -> None:
+    packing = pile()
+    harmless(packing)
+    must_hold(packing)
+    assert judge(packing) == ""

@@ -1,0 +1,384 @@
+"""Packings without tension: where beads come to rest, and what is said where they don't."""
+
+import sys
+from collections.abc import Callable
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.accuracy import ToleranceError
+from force_diffusion.numeric.unilateral import certificate
+from force_diffusion.numeric.unilateral.deposited import must_hold
+from force_diffusion.numeric.unilateral.grains import Grains
+from force_diffusion.numeric.unilateral.network import UnfinishedError
+
+import force_diffusion as fd
+from tests.numeric.unilateral.packings import network_of, packing_of, strip
+from tests.numeric.unilateral.witness import why_not
+
+
+@pytest.fixture(scope="module")
+def relaxed() -> fd.Outcome:
+    return strip().run()
+
+
+def proved(outcome: fd.Outcome) -> bool:
+    return not why_not(packing_of(network_of(outcome)))
+
+
+def pressed(folder: Path, pressure: float, first: float) -> fd.Scene:
+    """Give a strip whose surface bears a pressure, but its first bead this instead."""
+    rows = [f"{i},8,0,{-pressure if i else -first}" for i in range(0, 32, 2)]
+    (folder / "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows, ""]))
+    load = fd.Load(kind="file", file="loads.csv")
+    return strip(load=load).model_copy(update={"folder": folder})
+
+
+def leaning(
+    seed: int, *packing: Any, bulk: bool = False, kind: Any = "uniform", **effects: Any
+) -> fd.Scene:
+    """Give a scene by (M, W, s, angle, σ/r)."""
+    height, width, spacing, angle, std = packing
+    return fd.Scene(
+        packing=fd.Packing(height=height, width=width, spacing=spacing, allow_images=True),
+        disorder=fd.Disorder(kind=kind, relative_std=std, seed=seed),
+        load=(fd.BulkLoad if bulk else fd.SurfaceLoad)(angle_deg=angle),
+        effects=fd.Effects(contacts="unilateral", **effects),
+        ask=fd.Ask(quantity="contact_forces"),
+    )
+
+
+def own(deviations: dict[tuple[int, int], float], width: int = 5, spacing: float = 3) -> fd.Scene:
+    """Two layers of beads on the base, of radius 1 but for those named (layer, column)."""
+    delta = np.zeros((3, width))
+    for at, value in deviations.items():
+        delta[at] = value
+    return fd.Scene(
+        packing=fd.Packing(height=2, width=width, spacing=spacing, allow_images=True),
+        disorder=fd.GivenRadii(delta_r=delta),
+        effects=fd.Effects(contacts="unilateral"),
+        ask=fd.Ask(quantity="contact_forces"),
+    )
+
+
+def test_without_the_effect_some_contact_pulls() -> None:
+    found = strip(contacts="bilateral").run().physical
+    assert found is not None
+    assert found.tensile > 0
+
+
+def test_no_contact_pulls_and_the_balance_holds_exactly(relaxed: fd.Outcome) -> None:
+    network = network_of(relaxed)
+    assert network.programs > 0
+    assert network.fall > 0
+    assert all(force > 0 for force in network.forces)
+    with relaxed.plan.system.active():
+        rest = network.frame.load.copy()
+        for (a, b), force in zip(network.pairs, network.forces, strict=True):
+            d = network.x[a] - network.x[b]
+            d[0] = d[0] - round(float(d[0]) / float(network.frame.period)) * network.frame.period
+            push = d * (force / (d[0] * d[0] + d[1] * d[1]).sqrt())
+            rest[a], rest[b] = rest[a] + push, rest[b] - push
+        for value in rest[network.width :].ravel():
+            assert value.contains(0)
+            assert value.rad() < 1e-15
+
+
+def test_contacts_touch_and_nothing_overlaps(relaxed: fd.Outcome) -> None:
+    """Every pair of beads, images included, by brute force in float64."""
+    network = network_of(relaxed)
+    x = network.x.astype(float)
+    radii, period = network.frame.radii.astype(float), float(network.frame.period)
+    touching = {frozenset(pair) for pair in network.pairs.tolist()}
+    for a in range(len(x)):
+        for b in range(max(a + 1, network.width), len(x)):
+            gaps = [
+                np.hypot(x[a, 0] - x[b, 0] + k * period, x[a, 1] - x[b, 1]) - radii[a] - radii[b]
+                for k in (-1, 0, 1)
+            ]
+            if frozenset((a, b)) in touching:
+                assert abs(min(gaps)) < 1e-12
+            else:
+                assert min(gaps) > network.smallest_gap - 1e-12
+
+
+def test_as_many_contacts_as_coordinates(relaxed: fd.Outcome) -> None:
+    network = network_of(relaxed)
+    free = len(network.x) - network.width - len(network.rattlers)
+    assert len(network.pairs) == 2 * free
+
+
+def test_the_witness_agrees(relaxed: fd.Outcome) -> None:
+    packing = packing_of(network_of(relaxed))
+    assert why_not(packing) == ""
+    packing.radii[100] = "1.05"
+    assert why_not(packing)
+
+
+def test_positions_are_those_of_the_network(relaxed: fd.Outcome) -> None:
+    network = network_of(relaxed)
+    positions = strip("positions").run().arrays
+    assert positions["x"].astype(float).tolist() == network.x[:, 0].astype(float).tolist()
+    assert (positions["contacts"] > 0).sum() == len(np.unique(network.pairs))
+    assert (positions["contacts"][network.rattlers] == 0).all()
+    (one,) = strip("positions", at=[3, 5]).run().rows()
+    (same,) = (row for row in strip("positions").run().rows() if (row["i"], row["j"]) == (3, 5))
+    assert one == same
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+def test_without_tension_forces_are_as_deposited(seed: int) -> None:
+    unilateral = strip(seed=seed, tolerance=Fraction(1, 10**20)).run()
+    bilateral = strip(
+        seed=seed, contacts="bilateral", tolerance=Fraction(1, 10**20), certified=True
+    ).run()
+    assert network_of(unilateral).programs == 0
+    known = {(row["i"], row["j"], row["branch"]): row for row in bilateral.decimals()}
+    for row in unilateral.decimals():
+        other = known[row["i"], row["j"], row["branch"]]
+        apart = abs(Fraction(row["force"]) - Fraction(other["force"]))
+        assert apart < Fraction(1, 10**19)
+
+
+@pytest.mark.parametrize(
+    "load", [fd.BulkLoad(), fd.SurfaceLoad(angle_deg=10), fd.PointLoad(at=[0, 8])], ids=str
+)
+def test_all_loads_come_to_rest(load: fd.Load) -> None:
+    outcome = strip(std=0.03, load=load).run()
+    assert outcome.accuracy.certified
+    assert network_of(outcome).programs > 0
+    assert proved(outcome)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize(
+    ("std", "width", "seed"),
+    [(0.03, 16, 3), (0.08, 16, 3), (0.12, 16, 3), (0.3, 16, 1), (0.354, 5, 1)],
+)
+def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(
+    std: float, width: int, seed: int
+) -> None:
+    """Up to 4 M*; as deposited, these have overlaps or beads that can't rest."""
+    outcome = strip(std=std, seed=seed, width=width).run()
+    assert network_of(outcome).programs > 0
+    assert proved(outcome)
+
+
+@pytest.mark.parametrize("seed", [2, 4])
+@pytest.mark.parametrize("width", [3, 4, 5])
+def test_narrow_strips_are_proved(width: int, seed: int) -> None:
+    assert proved(strip(std=0.03, seed=seed, width=width).run())
+
+
+@pytest.mark.long
+def test_an_inclined_load_on_a_larger_strip() -> None:
+    outcome = strip(width=40, load=fd.SurfaceLoad(angle_deg=10)).run()
+    assert network_of(outcome).programs > 0
+    assert proved(outcome)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("pressure", [0.1, 10])
+def test_a_point_load_on_pressure(pressure: float, tmp_path: Path) -> None:
+    """Under little pressure the load sinks and pushes beads aside, which become rattlers."""
+    outcome = pressed(tmp_path, pressure, 1 + pressure).run()
+    network = network_of(outcome)
+    assert network.programs > 0
+    height = float(network.x[8 * 16, 1])
+    assert (height < 5) if pressure < 1 else (10 < height < 11)  # deposited at 10.6
+    assert (len(network.rattlers) > 10) == (pressure < 1)
+    assert proved(outcome)
+    x, radii = network.x.astype(float), network.frame.radii.astype(float)
+    period = float(network.frame.period)
+    for a in network.rattlers:  # each has room on all sides
+        assert a not in network.pairs
+        d = np.delete(x, a, axis=0) - x[a]
+        d[:, 0] -= period * np.round(d[:, 0] / period)
+        assert (np.hypot(*d.T) - np.delete(radii, a) - radii[a]).min() > 0
+
+
+@pytest.mark.long
+def test_under_no_pressure_to_speak_of_beads_are_no_equilibrium(tmp_path: Path) -> None:
+    """The load sinks to the base, and all others stay in the air."""
+    with pytest.raises(UnfinishedError, match="bears a load, and no contact holds it"):
+        pressed(tmp_path, 1e-12, 1).run()
+
+
+@pytest.mark.parametrize("tiny", [1e-9, 1e-14, 1e-300])
+def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(
+    tiny: float, tmp_path: Path
+) -> None:
+    """One bead of the surface bears so little that its contacts may count as bearing nothing."""
+    try:
+        outcome = pressed(tmp_path, 1, tiny).run()
+    except UnfinishedError as error:
+        assert "bead 128 bears a load, and no contact holds it" in str(error)  # noqa: PT017
+    else:
+        assert 128 in network_of(outcome).pairs
+        assert proved(outcome)
+
+
+@pytest.mark.parametrize("load", [fd.SurfaceLoad(angle_deg=20), fd.BulkLoad()], ids=str)
+def test_equal_radii_rest_as_deposited(load: fd.Load) -> None:
+    outcome = strip(std=0, load=load).run()
+    assert network_of(outcome).programs == 0
+    assert proved(outcome)
+
+
+def test_equal_radii_under_one_load_are_no_strict_minimum() -> None:
+    """Two straight chains bear it, whose beads nothing presses from the side."""
+    outcome = strip(std=0, load=fd.PointLoad(at=[0, 8])).run()
+    assert len(network_of(outcome).pairs) == 16
+    assert "strict" not in outcome.data()["network"]["rest"]
+    assert not proved(outcome)
+
+
+# What is said where there is no answer
+
+
+@pytest.mark.parametrize(("angle", "stands"), [(48, True), (49, False), (-49, False)])
+def test_the_base_holds_loads_that_lean_less_than_its_contacts(angle: int, stands: bool) -> None:
+    """Beads between two of the base touch them at asin(3/4) = 48.6° to the vertical."""
+    scene = strip(std=0, load=fd.SurfaceLoad(angle_deg=angle))
+    if stands:
+        assert network_of(scene.run()).programs == 0
+    else:
+        with pytest.raises(UnfinishedError, match=r"^no .* leans by 49° .* against 48.59°"):
+            scene.run()
+
+
+def test_a_small_bead_is_held_at_the_side_of_a_large_one() -> None:
+    """Centres of radii 0.9 and 1.2, 3 apart, touched by 0.9: 2.1 and 1.8 from them, by Heron."""
+    x = np.array([[0.0, 0.0], [3.0, 0.0], [1.5, 2.0]])
+    # from the horizontal at the bead of 1.2: cos = (3² + 2.1² − 1.8²) / (2 · 3 · 2.1)
+    steepest = np.pi / 2 - np.arccos((9 + 2.1**2 - 1.8**2) / 12.6)
+    other = np.pi / 2 - np.arccos((9 + 1.8**2 - 2.1**2) / 10.8)
+    most = max(steepest, other)
+    for lean, holds in ((most - 1e-6, True), (most + 1e-6, False)):
+        load = np.array([[0, 0], [0, 0], [np.sin(lean), -np.cos(lean)]])
+        grains = Grains(x, np.array([1.2, 0.9, 0.9]), 6.0, load, 2)
+        if holds:
+            must_hold(grains)
+        else:
+            with pytest.raises(UnfinishedError, match="no packing can stand"):
+                must_hold(grains)
+
+
+def test_beads_of_the_base_that_overlap_are_told_before_others_move() -> None:
+    """Of radii up to 1.56 two neighbours need more than 3."""
+    with pytest.raises(UnfinishedError, match=r"^no .* can stand: beads 3 and 4 of the base over"):
+        strip(std=0.354, seed=3, width=5).run()
+
+
+@pytest.mark.parametrize("second", [0.5, 0.6])
+def test_beads_of_the_base_that_overlap_or_touch_are_no_answer(second: float) -> None:
+    """Their centres are 3 apart, their radii 1.5 and as much or more."""
+    with pytest.raises(UnfinishedError, match="beads 2 and 1 overlap, or can't be told"):
+        own({(0, 1): 0.5, (0, 2): second}).run()
+
+
+@pytest.mark.parametrize("radius", [1.9, 2.3])
+def test_beads_above_a_quarter_of_the_period_are_no_answer(radius: float) -> None:
+    """A period of 7.5: what touches such a bead may touch its image as well."""
+    with pytest.raises(UnfinishedError, match="bead 7 is so large"):
+        own({(2, 1): radius - 1}, width=3, spacing=2.5).run()
+
+
+def test_a_load_that_lifts_beads_off_is_never_an_answer() -> None:
+    with pytest.raises((UnfinishedError, ToleranceError)):
+        strip(load=fd.SurfaceLoad(angle_deg=180)).run()
+
+
+@pytest.mark.long
+def test_beads_that_slide_are_told() -> None:
+    with pytest.raises(UnfinishedError, match=r"one may exist: beads still slide after 400 lin"):
+        leaning(48, 5, 4, 2.502, 35.7, 0.09918).run()
+
+
+@pytest.mark.long
+def test_beads_without_a_load_that_fall_through_the_base_are_told() -> None:
+    """Radii down to 0.48 r, 3 r apart: four weightless beads fall, all others come to rest."""
+    with pytest.raises(UnfinishedError, match=r"bead 23 fell through the base, and 3 more"):
+        strip(std=0.3, seed=3).run()
+
+
+@pytest.mark.long
+def test_beads_that_bear_loads_and_fall_through_the_base_are_told() -> None:
+    """Radii scatter by 0.3 r, and beads of the base are 3.3 r apart."""
+    with pytest.raises(UnfinishedError, match=r"\d+ beads .* of 24, fell through the base: the w"):
+        leaning(143, 6, 4, 3.3, 10, 0.3, bulk=True).run()
+
+
+def test_forces_that_are_zero_are_told_before_all_bits_are_tried() -> None:
+    with pytest.raises(UnfinishedError, match="degenerate: a contact bears less than 1e-60"):
+        leaning(1390, 6, 4, 3.274, 38.02, 0.06043, kind="two-point").run()
+
+
+def test_what_is_not_proved_is_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Were forces below zero rounded up to it, the certificate would say so."""
+    enclosed = certificate._enclosed
+
+    def pulling(*words: Any) -> Any:
+        x, forces, h = enclosed(*words)
+        return x, -forces, h
+
+    monkeypatch.setattr(certificate, "_enclosed", pulling)
+    with pytest.raises(UnfinishedError, match=r"one may exist: a contact .* pulls"):
+        strip().run()
+
+
+def test_a_solver_that_is_not_installed_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "highspy", None)
+    with pytest.raises(
+        fd.ForceDiffusionError, match=r"highspy: pip install .force-diffusion\[unilateral\]"
+    ):
+        strip().run()
+
+
+@pytest.mark.parametrize(
+    ("limit", "words"),
+    [
+        ({"most_programs": 3}, r"after 3 linear programs \(effects\.most_programs\)"),
+        ({"most_seconds": 1e-6}, r"after effects\.most_seconds = "),
+    ],
+)
+def test_limits_give_up_in_words(limit: dict[str, Any], words: str) -> None:
+    with pytest.raises(UnfinishedError, match=words):
+        strip(seed=3, effects=limit).run()
+
+
+def test_enough_programs_change_nothing(relaxed: fd.Outcome) -> None:
+    most = {"most_programs": network_of(relaxed).programs}
+    assert strip(effects=most).run().rows() == relaxed.rows()
+
+
+@pytest.mark.parametrize(
+    ("effects", "packing", "ask", "key"),
+    [
+        ({"geometry": "first-order"}, {}, {}, "effects.geometry"),
+        ({}, {"width": None}, {}, "packing.width"),
+        ({}, {"width": 2}, {}, "packing.width"),
+        ({}, {}, {"quantity": "profile"}, "ask.quantity"),
+        ({}, {}, {"realisations": 2}, "ask.realisations"),
+        ({"most_seconds": 0}, {}, {}, "effects.most_seconds"),
+        ({"contacts": "bilateral", "most_programs": 3}, {}, {}, "effects.most_programs"),
+        ({"contacts": "bilateral", "most_seconds": 1}, {}, {}, "effects.most_seconds"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(
+    effects: dict[str, Any], packing: dict[str, Any], ask: dict[str, Any], key: str
+) -> None:
+    with pytest.raises(fd.SceneError, match=f"^{key}.*unilateral|^{key}.*greater than 0"):
+        fd.Scene(
+            packing=fd.Packing(**{"height": 8, "width": 16, "allow_images": True, **packing}),
+            effects=fd.Effects(**{"contacts": "unilateral", **effects}),
+            ask=fd.Ask(**{"quantity": "contact_forces", **ask}),
+        )
+
+
+@pytest.mark.parametrize("asks", [lambda scene: fd.ensemble(scene, 2), fd.cost])
+def test_ensembles_and_costs_are_of_contacts_that_stay(asks: Callable[[fd.Scene], Any]) -> None:
+    with pytest.raises(fd.SceneError, match=r"^effects\.contacts"):
+        asks(strip())
