@@ -26,7 +26,6 @@ from force_diffusion.symbolic.as_printed import certificate
 from force_diffusion.symbolic.kernel.where import SURFACE, at_fixed_height
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
-from force_diffusion.symbolic.variances.variance import ClosedForm
 
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle^2}", "σ_f²(z)/⟨f⟩²"
@@ -38,11 +37,6 @@ PRINTED = equation(
 )
 
 VARIANCE = Layered(RELATIVE_VARIANCE, Variance(eq11.PRINTED.lhs), (eq11.IN_RADII,), SURFACE)
-
-
-def exact_forms() -> dict[str, ClosedForm]:
-    """Exact σ_f²/⟨f⟩² under a surface load at every layer."""
-    return VARIANCE.forms
 
 
 SQUARES = Symbol("squares", r"\sum w^2", "Σw²")
@@ -106,8 +100,9 @@ def steps() -> Lines:
         PRINTED,
         highest,
     )
-    squared = VARIANCE.show_weights(lines)
-    inside = VARIANCE.show_forms(lines, "each sum telescopes", squared)
+    inside = VARIANCE.show_forms(
+        lines, "Eqs. 4 and 5 put into Eq. 11, every radius has one weight; each sum telescopes"
+    )
     VARIANCE.show_next(lines, PRINTED.rhs, next_order(), DERIVATION, inside)
     profile = formula("(1 − z)²(2z + 1)")
     lines.show(
@@ -126,8 +121,10 @@ def steps() -> Lines:
     VARIANCE.claim_edges(
         lines,
         "leading orders of the exact forms at the base and below the surface",
-        base=PRINTED.rhs.xreplace({z: sympy.S.Zero}),
-        surface=2 * M * (1 + phi**2) * UNIT,
+        {
+            sympy.S.Zero: PRINTED.rhs.xreplace({z: sympy.S.Zero}),
+            M - 1: 2 * M * (1 + phi**2) * UNIT,
+        },
     )
     VARIANCE.claim_shares(lines)
     return lines
@@ -151,7 +148,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     loads=("surface",),
     relation="∼",
-    exact=VARIANCE.exact,
+    exact=lambda: VARIANCE.exact(4, 5, 11),
     steps=steps,
     where=VARIANCE.in_the_limit,
     remarks=(

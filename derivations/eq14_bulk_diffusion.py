@@ -52,7 +52,6 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     z,
 )
-from force_diffusion.symbolic.variances.variance import ClosedForm
 
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle_z^2}", "σ_f²(z)/⟨f⟩_z²"
@@ -101,10 +100,8 @@ IN_RADII = Chain((FORCE, eq11.DIRECTIONS))
 VARIANCE = Layered(RELATIVE_VARIANCE, Variance(RATIO), (IN_RADII,), BULK, ORDERED)
 
 
-def exact_forms() -> dict[str, ClosedForm]:
-    """Exact σ_f²/⟨f⟩_z² under a bulk load at every layer."""
-    return VARIANCE.forms
-
+TOP = sympy.Eq(j, M - 1, evaluate=False)
+"""One layer below the surface."""
 
 AVERAGED = (
     formula("(M − j + 1)/2"),
@@ -137,7 +134,7 @@ PROFILE = formula("(1 − z)²(4z + 1)")
 def next_to_the_maximum(above: int) -> Where:
     """A layer j at z = 1/6, next to the one above it: M = 6j + ``above``."""
     limit = Limit("∼", f"M → ∞, M = 6j + {above}", (j,), (j,))
-    return VARIANCE.where().also(sympy.Eq(M, 6 * j + above)).in_the_limit(limit)
+    return VARIANCE.where.also(sympy.Eq(M, 6 * j + above)).in_the_limit(limit)
 
 
 def gained(above: int) -> sympy.Eq:
@@ -207,7 +204,7 @@ def steps() -> Lines:
         PRINTED,
         highest,
     )
-    inside = VARIANCE.show_forms(lines, "each sum telescopes", VARIANCE.show_weights(lines))
+    inside = VARIANCE.show_forms(lines, "every radius has one weight; each sum telescopes")
     VARIANCE.show_next(lines, PRINTED.rhs, next_order(), DERIVATION, inside)
     lines.show(
         "The profile rises up to z = 1/6 and falls from there on. Without the normalisation it "
@@ -237,15 +234,17 @@ def steps() -> Lines:
     VARIANCE.claim_edges(
         lines,
         "leading orders of the exact forms at the base and below the surface",
-        base=PRINTED.rhs.xreplace({z: sympy.S.Zero}),
-        surface=2 * M * (1 + phi**2) * UNIT,
+        {
+            sympy.S.Zero: PRINTED.rhs.xreplace({z: sympy.S.Zero}),
+            M - 1: 2 * M * (1 + phi**2) * UNIT,
+        },
     )
     VARIANCE.claim_shares(lines)
     lines.claim(
         "one layer below the surface both loads agree",
-        equation(RELATIVE_VARIANCE, eq13.exact_forms()["surface"].expression),
+        equation(RELATIVE_VARIANCE, eq13.VARIANCE.form.on(j >= 2, TOP).to_sympy()),
         moment(IN_RADII),
-        where=VARIANCE.where("surface"),
+        where=VARIANCE.where.also(j >= 2, TOP),
         meaning=VARIANCE.meant,
     )
     lines.claim(
@@ -298,7 +297,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     loads=("bulk",),
     relation="∼",
-    exact=VARIANCE.exact,
+    exact=lambda: VARIANCE.exact(4, 5, 14),
     steps=steps,
     where=VARIANCE.in_the_limit,
 )

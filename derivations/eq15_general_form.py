@@ -6,6 +6,7 @@ import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.api.closed_form import ClosedForm
 from force_diffusion.derivations.framework.averaging import (
     density,
     expansion,
@@ -17,9 +18,9 @@ from force_diffusion.derivations.framework.averaging import (
     total,
     unit_height,
 )
-from force_diffusion.derivations.framework.layered import EveryLayer
+from force_diffusion.derivations.framework.layered import Layered
 from force_diffusion.derivations.framework.proving import Line
-from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, Missed, usual
+from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Derivation,
@@ -102,21 +103,14 @@ MEAN_DEVIATION = {
 @cache
 def averages() -> dict[str, LayerAverage]:
     """Exact mean of σ_f²/⟨f⟩² over all layers, for either load, as it is found."""
-    return {load: layer_average(module.exact_forms()) for load, module in LOADS.items()}
+    return {load: layer_average(module.VARIANCE.form) for load, module in LOADS.items()}
 
 
-def at_finite_size() -> dict[str, ExactCase]:
+def at_finite_size() -> dict[str, ClosedForm]:
     """The exact averages, load by load."""
+    every = Where((M,), (sympy.Ge(M, 1, evaluate=False),))
     return {
-        f"{load}-load": ExactCase(
-            MEAN_SQUARE,
-            f"mean over all layers 0 ≤ j < M under a {load} load, M ≥ 3",
-            average.expression,
-            missed=tuple(
-                Missed(f"M = {height}", (sympy.Eq(M, height),), value)
-                for height, value in average.exceptions
-            ),
-        )
+        load: ClosedForm(MEAN_SQUARE, average.form, every, (LOADS[load].DERIVATION.number,))
         for load, average in averages().items()
     }
 
@@ -150,9 +144,9 @@ def heights(load: str, *relations: sympy.Basic) -> Where:
     return Where((M,), relations or (M >= 3,), LOADS[load].VARIANCE.loading)
 
 
-def every_layer(load: str) -> EveryLayer:
+def every_layer(load: str) -> Layered:
     """What is proved of the variance in every layer."""
-    return EveryLayer(LOADS[load].VARIANCE, LOADS[load].DERIVATION)
+    return LOADS[load].VARIANCE
 
 
 LARGE = at_large_height

@@ -172,7 +172,7 @@ def steps() -> Lines:
     lines.show(
         "To leading order:",
         PRINTED,
-        asymptotic(*facts, late=LATE),
+        asymptotic(*facts, ),
         where=cone.INSIDE.in_the_limit(inside_cone("∼")),
         meaning=_of(RESPONSE),
         after=(interior,),
@@ -230,7 +230,7 @@ def steps() -> Lines:
         "to leading order that of one contact is 3s/2 in units of (σ/r)²/(1−φ²)², "
         "s = ½(l+j+k−i) being the layer where it turns",
         OF_CONTACT,
-        asymptotic(*facts, late=LATE),
+        asymptotic(*facts, ),
         where=cone.INSIDE.in_the_limit(inside_cone("∼")),
         meaning=_of(ONE_CONTACT),
     )

@@ -43,6 +43,8 @@ M = Symbol("M", integer=True, positive=True)
 
 N = Symbol("N", integer=True, positive=True)  # neighbouring contacts or beads of one layer
 
+H_M = Symbol("H_M", "H_{M}", "H_M", positive=True)  # Σ 1/k over 1 ≤ k ≤ M
+
 d = Symbol("d", integer=True, positive=True)  # dimensions, and supports of a bead
 kappa = Symbol("kappa", r"\kappa", "κ", positive=True)  # squared length of a reciprocal vector
 

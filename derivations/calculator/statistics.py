@@ -11,7 +11,7 @@ from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
-from .closed_form import ClosedForm
+from ..api.closed_form import ClosedForm
 from .loads import Load, ObservableError, geometry, load_of
 
 _CONTACTS = (sy.ForcePlus, sy.ForceMinus, sy.VerticalPlus, sy.VerticalMinus)

@@ -11,9 +11,9 @@ from typing import Any, Protocol
 
 import sympy
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel import limits, moments, rules
+from force_diffusion.symbolic.kernel import limits, rules, statistics
 from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem, put_in
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem, flat, put_in
 from force_diffusion.symbolic.kernel.where import Where
 
 
@@ -167,33 +167,33 @@ def rewrite(*facts: Source) -> By:
     return By(lambda supposed: rules.rewrite(*facts_of(facts, supposed)), facts)
 
 
-def moment(*facts: Source, **parts: Any) -> By:
+def moment(*facts: Source) -> By:
     """Both sides are the same once facts are put in and means and variances are worked out."""
-    return By(lambda supposed: moments.moment(*facts_of(facts, supposed), **parts), facts)
+    return By(lambda supposed: statistics.moment(*flat(facts_of(facts, supposed))), facts)
 
 
-def asymptotic(*facts: Source, late: Iterable[sympy.Basic] = ()) -> By:
-    """Both sides are of the same leading order, moments worked out at finite size."""
-    late = tuple(late)
-    return By(
-        lambda supposed: limits.asymptotic(*facts_of(facts, supposed), late=late),
-        facts,
-        lambda formula, where: moments.without_moments(
-            formula, facts_of(facts), where, where.also(*late)
-        ),
-    )
-
-
-def exhausting(whole: Where, parts: Iterable[Where], by: By) -> By:
-    """The same rule for several statements, if their domains leave nothing of a whole one out."""
-    parts = tuple(parts)
+def closed(theorems: Callable[[], tuple[Theorem, ...]], *facts: Source) -> By:
+    """A closed form, as it is known on parts of its domain; other formulas as by ``moment``."""
 
     def rule(supposed: tuple[Theorem, ...]) -> Rule:
-        if not whole.covered_by(parts):
-            raise NotProvedError("the statements leave something out")
-        return by.rule(supposed)
+        def prove(formula: sympy.Eq, where: Where) -> Theorem:
+            for one in theorems():
+                if one.formula == formula and one.where == where:
+                    return one
+            return statistics.moment(*flat(facts_of(facts, supposed)))(formula, where)
 
-    return By(rule, (by,))
+        return prove
+
+    return By(rule, facts)
+
+
+def asymptotic(*facts: Source) -> By:
+    """Both sides are of the same leading order, moments worked out at finite size."""
+    return By(
+        lambda supposed: limits.asymptotic(*facts_of(facts, supposed)),
+        facts,
+        lambda formula, where: statistics.worked_out(formula, where, flat(facts_of(facts))),
+    )
 
 
 def bounded(*facts: Source) -> By:

@@ -28,6 +28,7 @@ from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.values import WithoutValue
 
+from ..api.closed_form import ClosedForm
 from .catalogue import Number
 from .proving import (
     Line,
@@ -104,7 +105,7 @@ class Derivation:
             what is dropped varies less, by an order, than the force it is about (``negligible``);
             "∝", left over right goes to a positive function of φ alone. With another sign nothing
             is decided of it.
-        exact: gives the forms at finite size, by case.
+        exact: gives closed forms, exact at finite size, by name; the first is the usual one.
     """
 
     number: Number
@@ -122,7 +123,7 @@ class Derivation:
     dimension: int = 2  # of the packing: −1/d < φ < 1/2
     loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
-    exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
+    exact: Callable[[], dict[str, ClosedForm]] | None = None  # at finite size, by name
 
     def domain_of(self, part: int) -> Where:
         """Where one of ``printed`` is proved."""
@@ -261,51 +262,6 @@ def _component(line: Line, place: int, candidate: sympy.Eq) -> Ruling:
 def _shown(candidate: sympy.Eq) -> str:
     shown = f"{text(candidate.lhs)} = {text(candidate.rhs)}"
     return shown if len(shown) <= 200 else shown[:198] + " …"
-
-
-@dataclass(frozen=True)
-class Piece:
-    """A closed form for the indices named in ``at``; the first of several that fits holds.
-
-    ``further`` says in relations where none before it fits.
-    """
-
-    where: str
-    at: dict[sympy.Symbol, int]
-    expression: sympy.Expr
-    further: tuple[sympy.Basic, ...] = ()
-
-
-@dataclass(frozen=True)
-class Missed:
-    """Packings or sites of an exact case that its form is not for, with their own value."""
-
-    where: str
-    when: tuple[sympy.Basic, ...]  # relations between whole numbers; all of them hold there
-    expression: sympy.Expr
-
-
-@dataclass(frozen=True)
-class ExactCase:
-    """An exact form at finite size, for some layers, loads or sites.
-
-    Attributes:
-        quantity: what it is the value of.
-        validity: where it holds, in words.
-        expression: the closed form.
-        domain: relations between whole numbers, all of which hold for form and ``missed`` together.
-        missed: what of the domain the form is not for; the first that fits holds.
-        to_order: in the deviations of the radii, to which it is exact.
-        line: the line that proves it, on its own domain; none where the kernel does not yet.
-    """
-
-    quantity: sympy.Expr
-    validity: str
-    expression: sympy.Expr
-    domain: tuple[sympy.Basic, ...] = ()
-    missed: tuple[Missed, ...] = ()
-    to_order: str = "first order"
-    line: Line | None = None
 
 
 @dataclass(frozen=True)

@@ -9,33 +9,19 @@ from functools import lru_cache
 
 import sympy
 
+from .. import sets
 from .. import symbols as sy
 from ..algebra import affine
-from ..algebra.exact import (
-    FIELD,
-    LAYER,
-    NotExactError,
-    Polynomial,
-    RationalFunction,
-)
-from ..algebra.linear_forms import LinearForm
-from ..algebra.reading import Reader
+from ..algebra.exact import FIELD, SITE, NotExactError, Polynomial, RationalFunction
 from ..algebra.signs import never_zero
-from ..algebra.weights import Pieces
-from ..as_printed import equation
+from ..forms import NUMBER, Form
 from ..notation import by_name
 from ..printing.text import text
-from .moments import in_the_radii, pieces, value, without_moments
+from ..second_order import RADII, covariance
+from ..weights import Weights
 from .rules import Rule
-from .theorem import (
-    FORCES,
-    Facts,
-    NotProvedError,
-    Theorem,
-    check,
-    flat,
-    made,
-)
+from .statistics import ClosedForm, Statistics
+from .theorem import FORCES, Facts, NotProvedError, Theorem, check, flat, made
 from .where import Limit, Where
 
 _NEVER = 10**9  # no order is as large
@@ -43,22 +29,16 @@ FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
 """What stays as it is in every limit."""
 
 
-def asymptotic(*facts: Theorem | tuple[Theorem, ...], late: Iterable[sympy.Basic] = ()) -> Rule:
+def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     """Both sides are of the same leading order: left over right goes to 1.
 
     Facts are put in and moments worked out at finite size. What the right-hand side goes as
     vanishes nowhere, and the difference is of a lower order.
-
-    Args:
-        facts: are put in one after the other, those of a tuple at once.
-        late: relations that hold for all but the first of what grows; moments are worked out there.
     """
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         limit = limit_of(formula, where, "∼")
-        part = where.also(*late)
-        limit_of(formula, part, "∼")
-        left, right = read(formula, facts, where, part)
+        left, right = read(formula, facts, where)
         low, high = order(left - right, limit), order(right, limit)
         if not low <= high - limit.orders:
             raise NotProvedError(
@@ -82,12 +62,12 @@ def bounded(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
         most, bound = formula.args
         if not isinstance(most, sy.LargestShare | sy.LargestWeight):
             raise NotProvedError(f"{text(most)} is no largest share, or weight, of a radius")
-        finite = where.in_the_limit(None)
-        parts = pieces(in_the_radii(_at_height(most.args[0], where), facts, finite), finite)
-        square = read(equation(bound, bound), facts, where)[0]
-        whole = parts.sum_of_squares() * square if isinstance(most, sy.LargestShare) else square**2
+        weights = _in_radii(most.args[0], facts, where)
+        whole = _read_side(bound, where) ** 2
+        if isinstance(most, sy.LargestShare):
+            whole = _sum_of_squares(weights, where) * _read_side(bound, where)
         _grows_as(whole, limit)
-        if any(2 * one > order(whole, limit) for one in _orders(parts, limit)):
+        if any(2 * one > order(whole, limit) for one in _orders(weights, limit)):
             raise NotProvedError("a radius has more, or that is not excluded")
         return made(formula, where, "largest share or weight", flat(facts))
 
@@ -103,12 +83,9 @@ def negligible(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         limit = limit_of(formula, where, "≈")
-        finite = where.in_the_limit(None)
-        force, factor = _one_force(formula, where)
-        varies = value(sy.Variance(force), facts, finite) * factor**2
+        varies = _sum_of_squares(_in_radii(_one_force(formula), facts, where), where)
         _grows_as(varies, limit)
-        rest = _difference(formula, facts, where)
-        squares = pieces(rest, finite).sum_of_squares() * FIELD.generator(sy.sigma) ** 2
+        squares = _sum_of_squares(_difference(formula, facts, where), where)
         dropped, kept = order(_fixed_but(squares, limit), limit), order(varies, limit)
         if not even(squares, limit):
             raise NotProvedError("the order of what is dropped is not shown to hold everywhere")
@@ -126,12 +103,14 @@ def heaviest(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
 
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         limit = limit_of(formula, where, "≈ by weight")
-        finite = where.in_the_limit(None)
-        alone = in_the_radii(_at_height(formula.lhs, where), facts, finite)
-        large = [full for full, _ in pieces(alone, finite).special.values() if not full.is_zero()]
-        sure = [one for one in large if even(one, limit) and even(FIELD.one / one, limit)]
+        alone = _in_radii(formula.lhs, facts, where)
+        sure = [
+            one
+            for _, one in alone.merged().pieces
+            if even(one, limit) and even(FIELD.one / one, limit)
+        ]
         most = max((order(_fixed_but(one, limit), limit) for one in sure), default=-_NEVER)
-        rest = pieces(_difference(formula, facts, where), finite)
+        rest = _difference(formula, facts, where)
         if not sure or any(one >= most for one in _orders(rest, limit)):
             raise NotProvedError("left less right has weights of the order of the largest of left")
         return made(formula, where, "heaviest weights", flat(facts))
@@ -139,39 +118,89 @@ def heaviest(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
     return rule
 
 
-def _one_force(formula: sympy.Eq, where: Where) -> tuple[sympy.Expr, RationalFunction]:
-    """The force that a statement is about, and its factor.
+def _one_force(formula: sympy.Eq) -> sympy.Expr:
+    """The force that a statement is about, with its factor.
 
     Raises:
-        NotProvedError: there is not one, or it has no factor.
+        NotProvedError: there is not one.
     """
-    reader = Reader(where.in_the_limit(None))
-    try:
-        left, right = (reader.scalar(_at_height(side, where)) for side in formula.args)
-    except NotExactError as reason:
-        raise NotProvedError(str(reason)) from None
-    form, kinds = left - right, {one.__name__: one for one in FORCES}
-    found = [(site, weight) for site, weight in form.sites.items() if site.family in kinds]
+    found = by_name(set().union(*(side.atoms(*FORCES) for side in formula.args)))
     if len(found) != 1:
         raise NotProvedError("it is not about one contact force")
-    ((site, factor),) = found
-    return kinds[site.family](*map(affine.to_sympy, (site.i, site.j))), factor.reduced()
+    apart = sympy.expand(formula.lhs - formula.rhs)
+    return found[0] * apart.coeff(found[0])
 
 
-def _difference(formula: sympy.Eq, facts: Facts, where: Where) -> LinearForm:
-    """Left less right in the radii; their means agree."""
+def _in_radii(expression: sympy.Expr, facts: Facts, where: Where) -> Weights:
+    """The weights of the radii, in the limit; the place across the packing is put at 0."""
+    return _form(expression, facts, where).parts.get(RADII, Weights())
+
+
+def _form(expression: sympy.Expr, facts: Facts, where: Where) -> Form:
     finite = where.in_the_limit(None)
-    left, right = (in_the_radii(_at_height(side, where), facts, finite) for side in formula.args)
-    rest = left - right
-    if not rest.at_zero.is_zero():
-        raise NotProvedError(f"the means differ by {text(rest.at_zero.to_sympy())}")
-    return rest
+    try:
+        reader = Statistics.on(finite, flat(facts))
+        form = reader.in_radii(_at_height(expression, where))
+        free = {sy.i, sy.k, sy.site_r} & {*where.indices}
+        held = set().union(*(one.free_symbols for one in where.relations))
+        return form.at({symbol: sympy.S.Zero for symbol in free - held}).merged()
+    except NotExactError as reason:
+        raise NotProvedError(str(reason)) from None
+
+
+def _difference(formula: sympy.Eq, facts: Facts, where: Where) -> Weights:
+    """The weights of left less right; their means agree."""
+    rest = _form(formula.lhs, facts, where) - _form(formula.rhs, facts, where)
+    if not rest.parts.get(NUMBER, Weights()).is_zero():
+        raise NotProvedError("the means of both sides differ")
+    return rest.parts.get(RADII, Weights()).merged()
+
+
+def _sum_of_squares(weights: Weights, where: Where) -> RationalFunction:
+    form = Form({RADII: weights})
+    return in_the_limit(covariance(form, form), where)
+
+
+def in_the_limit(number: Weights, where: Where) -> RationalFunction:
+    """The one function that a number is as indices grow.
+
+    Raises:
+        NotProvedError: it is not one throughout the limit.
+    """
+    limit = where.limit
+    assert limit is not None
+    reader = Statistics.on(where.in_the_limit(None), ())
+    form = ClosedForm(number.on(reader.points), reader.points, reader.straight)
+    for piece in form.pieces:
+        if any(all(_is_late(one, where) for one in part) for part in piece.where):
+            return piece.value.substitute(
+                {symbol: FIELD.from_sympy(at) for symbol, at in where.solved.items()}
+            )
+    raise NotProvedError(f"it is not one function in all of {limit.words}")
+
+
+def _is_late(relation: sympy.Basic, where: Where) -> bool:
+    """Whether a relation holds for all but the first of what grows."""
+    form = relation.lhs - relation.rhs
+    return not isinstance(relation, sympy.Eq) and _grows(form, where, least=0)
+
+
+def _grows(form: sympy.Expr, where: Where, least: int) -> bool:
+    """Whether a form grows in the limit, or is a constant that is large enough."""
+    assert where.limit is not None
+    whole = sympy.expand(form.xreplace(where.solved))
+    rest = whole.as_coeff_Add()[0]
+    at_large = (whole - rest).xreplace(_coordinates(where.limit))
+    if at_large == 0:
+        return bool(rest >= least)
+    factors = sympy.expand(at_large).as_coefficients_dict()
+    return all(c > 0 for c in factors.values()) and at_large.free_symbols <= set(_NAMES)
 
 
 def _at_height(side: sympy.Expr, where: Where) -> sympy.Expr:
     """A side with z = j/M, and with what equations of the domain fix."""
     height = {sy.z: (sy.j / sy.M).xreplace(where.solved)}
-    return side.xreplace(where.solved).xreplace(height)
+    return side.xreplace(height)
 
 
 def _grows_as(whole: RationalFunction, limit: Limit) -> None:
@@ -190,21 +219,18 @@ def _fixed_but(value: RationalFunction, limit: Limit) -> RationalFunction:
     return value.reduced()
 
 
-def _orders(parts: Pieces, limit: Limit) -> list[int]:
-    """The orders of all weights; of those along a diagonal, the highest in any layer."""
-    weights = [run.weight for run in parts.runs] + [full for full, _ in parts.special.values()]
-    if not all(even(_fixed_but(one, limit), limit) for one in weights):
+def _orders(weights: Weights, limit: Limit) -> list[int]:
+    """The orders of all weights, at any site: a bead is at most of the order of M away."""
+    found = [value for _, value in weights.merged().pieces]
+    if not all(even(_fixed_but(one, limit), limit) for one in found):
         raise NotProvedError("the order of a weight is not shown to hold everywhere")
-    return [_order_over_layers(one, limit) for one in weights]
+    return [_order_at_sites(one, limit) for one in found]
 
 
-def _order_over_layers(weight: RationalFunction, limit: Limit) -> int:
-    """The order of a weight in any layer of its diagonal: a layer is at most of the order of M."""
-    if weight.is_zero():
-        return order(weight, limit)
-    if weight.denominator.degrees()[FIELD.position[LAYER]] > 0:
-        raise NotProvedError("a weight is divided by what depends on the layer")
-    return max(_degrees(weight.numerator, (*limit.growing, LAYER))) - _degree(
+def _order_at_sites(weight: RationalFunction, limit: Limit) -> int:
+    if any(weight.denominator.degrees()[FIELD.position[one]] > 0 for one in SITE):
+        raise NotProvedError("a weight is divided by what depends on the site")
+    return max(_degrees(weight.numerator, (*limit.growing, *SITE))) - _degree(
         weight.denominator, limit
     )
 
@@ -220,17 +246,12 @@ def limit_of(formula: sympy.Eq, where: Where, relation: str) -> Limit:
     assert limit is not None
     if limit.relation != relation:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
-    coordinates = _coordinates(limit)
+    _coordinates(limit)
     if any(one in where.solved for one in limit.growing):
         raise NotProvedError(f"its domain does not hold all of {limit.words}")
     for row in where.rows:
         whole = sympy.expand(affine.to_sympy(row).xreplace(where.solved))
-        if whole == 0:
-            continue  # the index that an equation fixes is given by the others
-        at_large = (whole - whole.as_coeff_Add()[0]).xreplace(coordinates)
-        parts = sympy.expand(at_large).as_coefficients_dict()
-        inside = all(c > 0 for c in parts.values() if c) and any(parts.values())
-        if not inside or at_large.free_symbols - set(_NAMES):
+        if not _grows(whole, where, least=0):
             raise NotProvedError(f"its domain does not hold all of {limit.words}")
     return limit
 
@@ -249,29 +270,36 @@ def _coordinates(limit: Limit) -> dict[sympy.Symbol, sympy.Expr]:
     return dict(found[0])
 
 
-def read(
-    formula: sympy.Eq, facts: Facts, where: Where, part: Where | None = None
-) -> tuple[RationalFunction, ...]:
+def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunction, ...]:
     """Both sides as functions of what grows and of parameters, moments worked out at finite size.
-
-    Facts are put in on the whole domain, and moments worked out on a part of it.
 
     Raises:
         NotProvedError: they hold something else, or are none.
     """
     limit = where.limit
     assert limit is not None
-    finite = without_moments(formula, facts, *(
-        one.in_the_limit(None) for one in (where, part or where)
-    ))  # fmt: skip
-    sides = [_at_height(side, where) for side in finite.args]
     known = {*FIXED, *limit.growing} | ({sy.d} if where.dimension == sy.d else set())
-    if strange := by_name(set().union(*(side.free_symbols for side in sides)) - known):
-        raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
-    try:
-        return tuple(FIELD.from_sympy(side).reduced() for side in sides)
-    except NotExactError as reason:
-        raise NotProvedError(str(reason)) from None
+    found = []
+    for side in formula.args:
+        try:
+            number = Statistics.on(where.in_the_limit(None), flat(facts)).number(
+                _at_height(side, where)
+            )
+            if strange := {*number.parts} - {NUMBER}:
+                raise NotProvedError(f"{min(strange)} belongs to single beads")
+            value = in_the_limit(number.parts.get(NUMBER, Weights()), where).reduced()
+        except NotExactError as reason:
+            raise NotProvedError(str(reason)) from None
+        for one in FIELD.generators:
+            if value.holds(one) and one not in known:
+                raise NotProvedError(f"{text(one)} neither grows nor is fixed")
+        found.append(value)
+    return tuple(found)
+
+
+def _read_side(side: sympy.Expr, where: Where) -> RationalFunction:
+    """A side that holds no moments."""
+    return read(sympy.Eq(side, side, evaluate=False), (), where)[0]
 
 
 def order(value: RationalFunction, limit: Limit) -> int:

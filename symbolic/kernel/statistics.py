@@ -143,9 +143,9 @@ class Statistics(Reader):
             NotExactError: what it is of is not linear, or not given by the radii.
         """
         if isinstance(moment, sy.Shift):
-            form = self._in_radii(moment.args[0], Jet)
+            form = self.in_radii(moment.args[0], Jet)
             return form.parts.get(SHIFT, Weights()).scaled(_SQUARE)
-        forms = [self._in_radii(one, Form) for one in moment.args]
+        forms = [self.in_radii(one, Form) for one in moment.args]
         if isinstance(moment, sy.Mean):
             return forms[0].parts.get(NUMBER, Weights())
         if isinstance(moment, sy.Variance | sy.Covariance):
@@ -153,7 +153,12 @@ class Statistics(Reader):
             return covariance(forms[0], forms[-1], dimension).scaled(_SQUARE)
         raise NotExactError(f"{text(moment)} is not worked out")
 
-    def _in_radii(self, expression: sympy.Expr, kind: type[Form]) -> Form:
+    def in_radii(self, expression: sympy.Expr, kind: type[Form] = Form) -> Form:
+        """A number as an ordered value and weights of the radii.
+
+        Raises:
+            NotExactError: it is not linear in them, or holds what is not given by them.
+        """
         if self.spheres and kind is not Form:
             raise NotExactError("means to second order are not known in three dimensions")
         known = spheres.known(self.spheres.name) if self.spheres else _known(self.facts, kind)
@@ -208,6 +213,18 @@ class ClosedForm:
             found.append(Piece(self._relations(left), FIELD.zero))
         return tuple(found)
 
+    def on(self, *relations: sympy.Basic) -> RationalFunction:
+        """Its formula on a part of its domain, where it is one.
+
+        Raises:
+            NotProvedError: it is not.
+        """
+        points = self.points & sets.where(*map(self.straight.relation, relations))
+        pieces = ClosedForm(self.weights.on(points), points, self.straight).pieces
+        if len(pieces) != 1:
+            raise NotProvedError(f"there it is not one formula, but {len(pieces)}")
+        return pieces[0].value
+
     @cached_property
     def weights_symbols(self) -> set[sympy.Symbol]:
         """The indices on which it depends."""
@@ -229,6 +246,27 @@ class ClosedForm:
         value = sympy.Add(*(n * s for s, n in form[0].items()), form[1])
         value = sympy.expand(value.xreplace(self.straight.back))
         return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
+
+
+def theorems(
+    quantity: sympy.Expr, form: ClosedForm, where: Where, facts: Iterable[Theorem]
+) -> tuple[Theorem, ...]:
+    """What a closed form of a quantity says: a theorem for each part of its domain."""
+    return tuple(
+        made(equation(quantity, piece.value.to_sympy()), where.also(*part), "moment on sets", facts)
+        for piece in form.pieces
+        for part in piece.where
+    )
+
+
+def worked_out(formula: sympy.Eq, where: Where, facts: Iterable[Theorem]) -> sympy.Eq:
+    """An equation with moments in closed form, each as on the largest part of the domain."""
+    facts = tuple(facts)
+    image = {
+        one: ClosedForm.of(one, where, facts).pieces[0].value.to_sympy()
+        for one in by_name(formula.atoms(sy.Moment))
+    }
+    return equation(*(side.xreplace(image) for side in formula.args))
 
 
 def decide(form: ClosedForm, where: Where, candidate: sympy.Expr) -> Ruling:

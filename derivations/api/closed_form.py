@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import mpmath
 import sympy
 from flint import fmpq
 from force_diffusion.symbolic import sets, words
@@ -17,8 +18,11 @@ from force_diffusion.symbolic.printing.code import python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.text import text
 
-from ..api.arrays import evaluate
-from ..api.evaluation import ArgumentError, Number, in_order, read_arguments, rounded, told
+from .arrays import evaluate
+from .evaluation import ArgumentError, Number, in_order, read_arguments, rounded, told
+
+_DIGITS = 40  # of harmonic numbers, beside floats
+_HIGHEST = 100_000  # M up to which they are exact
 
 
 @dataclass(frozen=True)
@@ -102,7 +106,9 @@ class ClosedForm:
         for relation in self._where.relations:
             if relation.free_symbols & held:
                 held |= relation.free_symbols
-        return held - {sy.n_x, sy.n_y} | ({sy.phi} if held & {sy.n_x, sy.n_y} else set())
+        cosine = {sy.phi} if held & {sy.n_x, sy.n_y} else set()
+        height = {sy.M} if sy.H_M in held else set()
+        return held - {sy.n_x, sy.n_y, sy.H_M} | cosine | height
 
     def at(self, **values: Any) -> Any:
         """The value for given numbers.
@@ -128,8 +134,12 @@ class ClosedForm:
         """
         return evaluate(_Numbers(self), values)
 
-    def value(self, values: Mapping[sympy.Symbol, sympy.Rational]) -> sympy.Expr:
-        """The exact value for exact numbers, by symbol; their names have been looked at.
+    def value(
+        self, values: Mapping[sympy.Symbol, sympy.Rational], *, exact: bool = True
+    ) -> sympy.Expr:
+        """The value for exact numbers, by symbol; their names have been looked at.
+
+        Not ``exact``, harmonic numbers are taken to 40 digits.
 
         Raises:
             ArgumentError: it is outside of the domain.
@@ -140,7 +150,7 @@ class ClosedForm:
             raise ArgumentError(f"{text(self._quantity)} is for {self.domain}, not for {given}")
         for value, parts in self._conditions:
             if any(all(_is_met(one, whole) for one in part) for part in parts):
-                return _number(value, values)
+                return _number(value, {**values, **_harmonic(value, values, exact)})
         raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
 
     def _holds(self, whole: Mapping[sympy.Symbol, int]) -> bool:
@@ -266,7 +276,7 @@ class _Numbers:
     def at(self, given: Mapping[str, Number]) -> Any:
         """The value for single numbers."""
         values, exact = read_arguments(self.about, self._form._needed, given)
-        value = self._form.value(values)
+        value = self._form.value(values, exact=exact)
         return value if exact else rounded(value)
 
 
@@ -278,6 +288,24 @@ def _is_met(condition: tuple[sets.Row, bool], whole: Mapping[sympy.Symbol, int])
     form, equation = condition
     total = _total(form, whole)
     return total == 0 if equation else total >= 0
+
+
+def _harmonic(
+    value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rational], exact: bool
+) -> dict[sympy.Symbol, sympy.Rational]:
+    """H_M, where a function holds it."""
+    if not value.holds(sy.H_M):
+        return {}
+    height = int(values[sy.M])
+    if not exact:
+        with mpmath.workdps(_DIGITS):
+            return {sy.H_M: sympy.Rational(str(mpmath.harmonic(height)))}
+    if height > _HIGHEST:
+        raise ArgumentError(
+            f"M = {height}: the exact sum of 1/k up to it is too long; give a float for one value"
+        )
+    found = fmpq.harmonic(height)
+    return {sy.H_M: sympy.Rational(int(found.p), int(found.q))}
 
 
 def _number(value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rational]) -> sympy.Expr:
