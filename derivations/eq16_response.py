@@ -7,14 +7,16 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase, usual
+from force_diffusion.derivations.api.closed_form import ClosedForm
+from force_diffusion.derivations.framework.grounds import facts_of
+from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Derivation,
     Lines,
+    Where,
     asymptotic,
     equation,
-    exhausting,
     formula,
     moment,
     rewrite,
@@ -22,9 +24,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.parts import cone
-from force_diffusion.symbolic.kernel.where import along_base, inside_cone, on_leg
+from force_diffusion.symbolic.kernel import statistics
+from force_diffusion.symbolic.kernel.theorem import flat
+from force_diffusion.symbolic.kernel.where import POINT, along_base, inside_cone, on_leg
 from force_diffusion.symbolic.mechanics.lattice import mirror
-from force_diffusion.symbolic.mechanics.paths import IN_CONE, STEPS_BELOW
+from force_diffusion.symbolic.mechanics.paths import IN_CONE
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     Covariance,
@@ -32,6 +36,8 @@ from force_diffusion.symbolic.symbols import (
     ForcePlus,
     Mean,
     Variance,
+    VerticalMinus,
+    VerticalPlus,
     f_load,
     i,
     j,
@@ -73,20 +79,27 @@ PRINTED = equation(
 )
 
 
-def at_finite_size() -> dict[str, ExactCase]:
-    """The exact forms, for a bead, one contact, and a leg of the cone."""
-    return {
-        "bead": cone.exact_case(RESPONSE, cone.BEAD, UNIT / 4, STEPS_BELOW),
-        "contact": cone.exact_case(ONE_CONTACT, cone.CONTACT, UNIT / 4, STEPS_BELOW),
-        "leg": cone.exact_case(ON_LEG, cone.LEG, UNIT / 4, cone.STEPS_DOWN_LEG),
-        "leg-force": cone.exact_case(LEG_MAGNITUDE, cone.LEG_FORCE, UNIT, cone.STEPS_DOWN_LEG),
-    }
+FACTS = (cone.FORCES, eq11.DIRECTIONS)
+BELOW = Where.of(j >= 0, j < l, indices=(i, k), loading=POINT)
+"""Contacts and beads below the loaded bead (k, l)."""
+
+
+def at_finite_size() -> dict[str, ClosedForm]:
+    """The exact forms everywhere below the load: of a bead, and of a contact along n⁺."""
+    known = tuple(flat(facts_of(FACTS)))
+
+    def closed(symbol: sympy.Symbol) -> ClosedForm:
+        meant = MEANING[symbol]
+        form = statistics.ClosedForm.of(meant, BELOW, known)
+        return ClosedForm(symbol, form, BELOW, (4, 5, 7, 9, 10), meant, known)
+
+    return {"bead": closed(RESPONSE), "contact": closed(ONE_CONTACT), "force": closed(LEG_MAGNITUDE)}
 
 
 MEANING = {
-    RESPONSE: Variance(cone.PRESSED),
-    ONE_CONTACT: Variance(n_y * ForcePlus(i, j) / f_load),
-    ON_LEG: Variance(cone.VERTICAL_PLUS),
+    RESPONSE: Variance(cone.PRESSED / f_load),
+    ONE_CONTACT: Variance(VerticalPlus(i, j) / f_load),
+    ON_LEG: Variance(VerticalPlus(i, j) / f_load),
     LEG_MAGNITUDE: Variance(ForcePlus(i, j) / cone.ORDERED),
 }
 """What the symbols stand for; f⁺_ij inside of the cone has no part of order 0 to be tilted."""
@@ -102,18 +115,21 @@ OF_CONTACT = equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), UNI
 READ_OF_ONE_CONTACT = equation(ONE_CONTACT, PRINTED.rhs)
 """The printed form as the paper's words have it."""
 
-_NEAR = {s: ((Eq(s, 1),), (Eq(s, 2),), (s >= 3,)) for s in (p, q)}
-BY_STEPS = [(*left, *right) for left in _NEAR[p] for right in _NEAR[q]]
-"""Beads inside of the cone by their distances from its legs."""
+DEEP = cone.INSIDE.also(j >= 3, p + q >= 3)
+"""Beads inside of the cone, from the third layer on, but that straight below the load."""
+STRAIGHT = cone.INSIDE.also(j >= 3, Eq(p, 1), Eq(q, 1))
+TURNED = cone.INSIDE.also(j + p >= 2)
+DOWN_LEG = cone.LEFT_LEG.also(j >= 2, p >= 2)
 
-BY_LAYERS = [
-    (*low, *top)
-    for low in ((Eq(j, 0),), (Eq(j, 1),), (j >= 2,))
-    for top in ((Eq(p, 1),), (p >= 2,))
-]
-"""Contacts by their distances from the base and from where they turn."""
-
-LATE = (j >= 3, p >= 3, q >= 3)
+EXACT = {
+    RESPONSE: times(terms(6 * (l + j), -6, phi**2), UNIT / 4),
+    ONE_CONTACT: times(terms(3 * (l + j + k - i), -3, phi**2 / 2), UNIT / 4),
+    ON_LEG: times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), UNIT / 4),
+    LEG_MAGNITUDE: times(
+        terms(2 * (l - 1), 2 * phi**2 * j, Rational(5, 2) * phi**2, phi**4 / 2), UNIT
+    ),
+}
+"""The usual formulas, away from base, load and legs."""
 
 
 @cache
@@ -121,12 +137,7 @@ def steps() -> Lines:
     """One path to each contact; squared weights; the sum of both upper contacts of a bead."""
     lines = Lines(cone.INSIDE)
     source = f_load / (2 * n_y)
-    facts = (cone.FORCES, eq11.IN_RADII)
-    in_cone = moment(*facts, whole=cone.INSIDE, cases=BY_STEPS)
-    of_contact = moment(*facts, whole=cone.INSIDE, cases=BY_LAYERS)
-    in_leg = moment(*facts, whole=cone.LEFT_LEG, cases=BY_LAYERS)
-    beads, contacts = (cone.domains(cone.INSIDE, one) for one in (cone.BEAD, cone.CONTACT))
-    legs = cone.domains(cone.LEFT_LEG, cone.LEG)
+    by = moment(*FACTS)
     loaded = lines.show(
         "Let (i, j) lie p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): inside "
         "of the cone for p, q ≥ 1. The loaded bead is",
@@ -152,9 +163,9 @@ def steps() -> Lines:
     lines.show(
         "In the radii (Eqs. 4 and 5) f⁺_ij is a sum of second differences up to the layer below "
         "its turn, as in Eq. 12, and four radii. Exact variance of its vertical component:",
-        equation(ONE_CONTACT, cone.CONTACT[-1].expression * UNIT / 4),
-        of_contact,
-        where=contacts[-1],
+        equation(ONE_CONTACT, EXACT[ONE_CONTACT]),
+        by,
+        where=TURNED,
         meaning=_of(ONE_CONTACT),
         after=(forces,),
     )
@@ -163,16 +174,16 @@ def steps() -> Lines:
         "is refuted. What does not is the vertical force p that the "
         "bead gets from both contacts together: their second differences lie on two diagonals, and "
         "where these cross, the common weights add up to zero. Exact, for j ≥ 3:",
-        equation(RESPONSE, cone.BEAD[-1].expression * UNIT / 4),
-        in_cone,
-        where=beads[-1],
+        equation(RESPONSE, EXACT[RESPONSE]),
+        by,
+        where=DEEP,
         meaning=_of(RESPONSE),
         after=(forces,),
     )
     lines.show(
         "To leading order:",
         PRINTED,
-        asymptotic(*facts, ),
+        asymptotic(*FACTS),
         where=cone.INSIDE.in_the_limit(inside_cone("∼")),
         meaning=_of(RESPONSE),
         after=(interior,),
@@ -190,47 +201,25 @@ def steps() -> Lines:
     )
     lines.show(
         "The two tilts are independent but for a few radii. Exact, for 2 ≤ j ≤ l − 2:",
-        equation(ON_LEG, cone.LEG[-1].expression * UNIT / 4),
-        in_leg,
-        where=legs[-1],
+        equation(ON_LEG, EXACT[ON_LEG]),
+        by,
+        where=DOWN_LEG,
         meaning=_of(ON_LEG),
         after=(leg,),
     )
     lines.show(
         "The magnitude of that force, over its mean squared:",
-        equation(LEG_MAGNITUDE, cone.LEG_FORCE[-1].expression * UNIT),
-        in_leg,
-        where=legs[-1],
+        equation(LEG_MAGNITUDE, EXACT[LEG_MAGNITUDE]),
+        by,
+        where=DOWN_LEG,
         meaning=_of(LEG_MAGNITUDE),
         after=(leg,),
-    )
-    lines.claim(
-        "the exact variance of p at every bead inside of the cone",
-        cone.closed_forms(RESPONSE, cone.BEAD, UNIT / 4),
-        exhausting(cone.INSIDE, beads, in_cone),
-        where=beads,
-        meaning=_of(RESPONSE),
-    )
-    lines.claim(
-        "for j ≥ 3 it does not depend on the horizontal position, exactly, but for the bead "
-        "straight below the load",
-        equation(RESPONSE, times(terms(6 * (l + j), -6, phi**2), UNIT / 4)),
-        in_cone,
-        where=beads[-1],
-        meaning=_of(RESPONSE),
-    )
-    lines.claim(
-        "the exact variance of one contact's vertical force, everywhere inside of the cone",
-        cone.closed_forms(ONE_CONTACT, cone.CONTACT, UNIT / 4),
-        exhausting(cone.INSIDE, contacts, of_contact),
-        where=contacts,
-        meaning=_of(ONE_CONTACT),
     )
     of_one = lines.claim(
         "to leading order that of one contact is 3s/2 in units of (σ/r)²/(1−φ²)², "
         "s = ½(l+j+k−i) being the layer where it turns",
         OF_CONTACT,
-        asymptotic(*facts, ),
+        asymptotic(*FACTS),
         where=cone.INSIDE.in_the_limit(inside_cone("∼")),
         meaning=_of(ONE_CONTACT),
     )
@@ -241,14 +230,14 @@ def steps() -> Lines:
         where=cone.INSIDE.in_the_limit(inside_cone("∼")),
         meaning=_of(ONE_CONTACT),
     )
-    both = Covariance(cone.VERTICAL_PLUS, cone.VERTICAL_MINUS)
+    both = Covariance(VerticalPlus(i, j) / f_load, VerticalMinus(i, j) / f_load)
     straight = times(Rational(1, 4), (1 + phi) ** 2, UNIT / 4)
     lines.claim(
         "the covariance of a bead's two contacts is zero for j ≥ 3, but for the bead straight "
         "below the load",
         sympy.Tuple(equation(both, 0), equation(both, straight)),
-        in_cone,
-        where=(beads[-1], beads[-2]),
+        by,
+        where=(DEEP, STRAIGHT),
     )
     lines.claim(
         "a bead passes on what it gets: forces do not change along a diagonal",
@@ -262,9 +251,10 @@ def steps() -> Lines:
     lines.claim(
         "the mean is that of the ordered packing",
         sympy.Tuple(
-            equation(Mean(cone.PRESSED), 0), equation(Mean(cone.VERTICAL_PLUS), Rational(1, 2))
+            equation(Mean(cone.PRESSED), 0),
+            equation(Mean(VerticalPlus(i, j) / f_load), Rational(1, 2)),
         ),
-        moment(*facts),
+        by,
         where=(cone.INSIDE, cone.LEFT_LEG),
     )
     beside = (cone.LEFT_OF_ALL, cone.RIGHT_OF_ALL)
@@ -275,19 +265,9 @@ def steps() -> Lines:
         where=(*(where for _, where in beside), *(where.mirrored() for _, where in beside)),
     )
     lines.claim(
-        "the exact variance on a leg of the vertical force, and of the magnitude",
-        sympy.Tuple(
-            *cone.closed_forms(ON_LEG, cone.LEG, UNIT / 4),
-            *cone.closed_forms(LEG_MAGNITUDE, cone.LEG_FORCE, UNIT),
-        ),
-        exhausting(cone.LEFT_LEG, legs, in_leg),
-        where=legs * 2,
-        meaning=_of(ON_LEG, LEG_MAGNITUDE),
-    )
-    lines.claim(
         "on a leg the vertical force has a third of the variance, to leading order",
         equation(ON_LEG, PRINTED.rhs / 3),
-        asymptotic(*facts, late=(j >= 2, p >= 2)),
+        asymptotic(*FACTS),
         where=cone.LEFT_LEG.in_the_limit(on_leg("∼")),
         meaning=_of(ON_LEG),
     )
@@ -296,7 +276,7 @@ def steps() -> Lines:
     lines.claim(
         "the variance straight below the load is twice that at the base, as l → ∞",
         equation(apex, times(2, MEANING[RESPONSE].xreplace({j: Rational(0)}))),
-        asymptotic(*facts, late=(p >= 3, q >= 3)),
+        asymptotic(*FACTS),
         where=at_base.in_the_limit(along_base("∼")),
     )
     return lines

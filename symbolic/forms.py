@@ -310,7 +310,9 @@ class Reader:
         pairs = [value if isinstance(value, tuple) else (value, value) for value in values]
         if any(pair[0] is pair[1] and pair[0].parts for pair in pairs):
             raise NotExactError("a number is added to a vector")
-        return sum((pair[0] for pair in pairs), self.kind()), sum((pair[1] for pair in pairs), self.kind())
+        return sum((pair[0] for pair in pairs), self.kind()), sum(
+            (pair[1] for pair in pairs), self.kind()
+        )
 
     def _product(self, factors: Iterable[sympy.Expr]) -> Value:
         product, vector = self.kind.number(FIELD.one), None
@@ -330,7 +332,9 @@ class Reader:
 
     def _refuse_squares(self, one: Form, other: Form) -> None:
         if self.linear and all({*form.parts} - {NUMBER} for form in (one, other)):
-            raise NotExactError("a product of two quantities that depend on the radii is not linear")
+            raise NotExactError(
+                "a product of two quantities that depend on the radii is not linear"
+            )
 
     def _dot(self, left: Vector, right: Vector) -> Form:
         total = self.kind()
@@ -387,7 +391,11 @@ class Reader:
         ))  # fmt: skip
         body = sympy.Sum(series.function, *others) if others else series.function
         if inner.points.is_empty():
-            return self.kind() if not isinstance(self.read(body), tuple) else (self.kind(), self.kind())
+            return (
+                self.kind()
+                if not isinstance(self.read(body), tuple)
+                else (self.kind(), self.kind())
+            )
         value = inner.read(body)
         if isinstance(value, tuple):
             return tuple(one.on(inner.points).summed(index) for one in value)  # type: ignore

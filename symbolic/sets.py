@@ -338,9 +338,7 @@ def ranges(points: Set, symbol: sympy.Symbol) -> Iterator[Range]:
             value = _bound(held, symbol, 0)
             yield shadow, value, value
             continue
-        lows, highs = (
-            list(_bounds(part, shadow, inequalities, symbol, sign)) for sign in (1, -1)
-        )
+        lows, highs = (list(_bounds(part, shadow, inequalities, symbol, sign)) for sign in (1, -1))
         for there, low in lows:
             for here, high in highs:
                 if not there.is_disjoint(here):

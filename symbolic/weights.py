@@ -21,9 +21,7 @@ Fixed = Mapping[sympy.Symbol, RationalFunction]
 
 Piece = tuple[Set, RationalFunction]
 
-_NUMBERS = {
-    symbol: 0.37 + 0.61803 * number % 1 for number, symbol in enumerate(FIELD.generators)
-}
+_NUMBERS = {symbol: 0.37 + 0.61803 * number % 1 for number, symbol in enumerate(FIELD.generators)}
 """Numbers for symbols, no two of them alike."""
 
 
@@ -129,9 +127,7 @@ class Weights:
         A cell belongs to another one's piece if the polynomial of that is also right on it.
         """
         return Weights(
-            tuple(
-                (part, value) for whole, value in self.formulas() for part in sets.parts(whole)
-            )
+            tuple((part, value) for whole, value in self.formulas() for part in sets.parts(whole))
         )
 
     def formulas(self) -> list[Piece]:

@@ -11,6 +11,7 @@ from .symbols import M, N, i, j, k, l, m, n, p, q, site_r, site_s
 _ALONE = (N, p, q, n, m, i, site_r, j, k, site_s, l, M)
 """Which symbol stands alone, the first that can."""
 
+
 def alone(form: sympy.Expr) -> tuple[sympy.Symbol, sympy.Expr, int]:
     """A symbol of a form c·symbol + rest with c = ±1, −rest/c, and c; any c where there is none."""
     factors = sympy.expand(form).as_coefficients_dict()

@@ -13,6 +13,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.kernel import statistics
 from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.code import python_expression
 from force_diffusion.symbolic.printing.latex import latex
@@ -56,9 +57,39 @@ class ClosedForm:
         form: statistics.ClosedForm,
         where: Where,
         premises: tuple[int | str, ...],
+        meant: sympy.Expr | None = None,
+        facts: tuple[Theorem, ...] = (),
     ) -> None:
         self._quantity, self._form, self._where = quantity, form, where
-        self._premises = premises
+        self._premises, self._meant, self._facts = premises, meant, facts
+
+    @property
+    def meant(self) -> sympy.Expr:
+        """What the quantity stands for, in moments of quantities of a packing."""
+        return self._quantity if self._meant is None else self._meant
+
+    @property
+    def where(self) -> Where:
+        """Its domain, with the load, as the kernel has it."""
+        return self._where
+
+    @property
+    def formulas(self) -> tuple[statistics.Piece, ...]:
+        """Its formulas as the kernel has them."""
+        return self._form.pieces
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """What it says on each part of its domain."""
+        return statistics.theorems(self.meant, self._form, self._where, self._facts)
+
+    def on(self, *relations: sympy.Basic) -> sympy.Expr:
+        """Its formula on a part of its domain, where it is one.
+
+        Raises:
+            NotProvedError: it is not.
+        """
+        return self._form.on(*relations).to_sympy()
 
     @property
     def quantity(self) -> sympy.Expr:
@@ -225,7 +256,9 @@ class ClosedForm:
         arguments = in_order(symbol.in_code for symbol in self._needed)
         lines = [f"def {name}({', '.join(arguments)}):"]
         lines.append(f'    """{text(self._quantity)}, exact for {self.domain}."""')
-        conditions = [_in_python(one) for one in self._where.relations if one.free_symbols <= self._needed]
+        conditions = [
+            _in_python(one) for one in self._where.relations if one.free_symbols <= self._needed
+        ]
         conditions += [
             f"({python_expression(one)}) % 2 == 0"
             for one in self._where.even

@@ -20,6 +20,10 @@ from force_diffusion.symbolic.kernel.where import BULK, POINT, SURFACE, Loading
 from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t, t_2, t_3
 
 
+PLANE = 2
+"""The dimension of a packing of discs."""
+
+
 class ObservableError(ForceDiffusionError, ValueError):
     """An observable or a load is none that the calculator knows; the message says what is allowed."""
 
@@ -49,7 +53,7 @@ class Load:
     theorems: Callable[[], tuple[Theorem, ...]]
     equations: tuple[int | str, ...]
     values: tuple[tuple[sympy.Symbol, sympy.Expr], ...] = ()
-    dimension: int = 2
+    dimension: int = PLANE
 
 
 @cache
@@ -95,7 +99,13 @@ _POINT_LOAD = Load(
 def _leaning(name: str, tilted: t1.Tilted) -> Load:
     both = tilted.ordered[0], tilted.layers * t * L_plus
     return Load(
-        name, tilted.loading, M, both, sum(both) * n_y, cache(lambda: tilted.forces.theorems), ("B1",)
+        name,
+        tilted.loading,
+        M,
+        both,
+        sum(both) * n_y,
+        cache(lambda: tilted.forces.theorems),
+        ("B1",),
     )
 
 
@@ -112,9 +122,7 @@ def _spheres(name: str, factor: sympy.Expr, leaning: bool, top: sympy.Symbol = M
     ratios = (sympy.S.One, t_2, t_3) if leaning else (sympy.S.One,) * 3
     ordered = tuple(factor * ratio for ratio in ratios)
     load = "a load on one bead" if top == l else f"a {name} load"
-    return Load(
-        load, SPHERES[name], top, ordered, sympy.Add(*ordered), tuple, (), dimension=3
-    )
+    return Load(load, SPHERES[name], top, ordered, sympy.Add(*ordered), tuple, (), dimension=3)
 
 
 _IN_THREE = {

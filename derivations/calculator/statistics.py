@@ -6,13 +6,13 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.kernel import statistics
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
 from ..api.closed_form import ClosedForm
-from .loads import Load, ObservableError, geometry, load_of
+from .loads import PLANE, Load, ObservableError, geometry, load_of
 
 _CONTACTS = (sy.ForcePlus, sy.ForceMinus, sy.VerticalPlus, sy.VerticalMinus)
 _SPHERES = (sy.ForceAlong, sy.VerticalAlong)
@@ -45,7 +45,11 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int) -> sympy.Expr:
 
 
 def variance(
-    observable: sympy.Expr, *, load: str | Load = "surface", relative: bool = True, dimension: int = 2
+    observable: sympy.Expr,
+    *,
+    load: str | Load = "surface",
+    relative: bool = True,
+    dimension: int = 2,
 ) -> ClosedForm:
     """The exact variance of an observable that is linear in the radii.
 
@@ -69,7 +73,12 @@ def variance(
 
 
 def covariance(
-    one: sympy.Expr, other: sympy.Expr, *, load: str | Load = "surface", relative: bool = True, dimension: int = 2
+    one: sympy.Expr,
+    other: sympy.Expr,
+    *,
+    load: str | Load = "surface",
+    relative: bool = True,
+    dimension: int = 2,
 ) -> ClosedForm:
     """The exact covariance of two observables; arguments and errors are those of ``variance``."""
     return _closed(sy.Covariance, [one, other], load, relative, dimension)
@@ -106,18 +115,49 @@ def _closed(
     relative: bool,
     dimension: int,
 ) -> ClosedForm:
-    known = load_of(load, dimension)
-    read = [_read(one) for one in observables]
-    where = domain(read, known)
-    meant = [one.xreplace(_scales(one, known)) for one in read] if relative else read
-    meant = [one.xreplace(dict(known.values)) for one in meant]
-    facts = (*geometry(), *(known.theorems() if where.loading else ())) if dimension == 2 else ()
+    statistic = kind(*map(_read, observables))
+    return closed_form(statistic, statistic, load_of(load, dimension), relative=relative)
+
+
+def closed_form(
+    quantity: sympy.Expr,
+    statistic: sympy.Expr,
+    load: Load,
+    *where: sympy.Basic,
+    relative: bool = True,
+) -> ClosedForm:
+    """The closed form of an expression in moments.
+
+    Args:
+        quantity: what is shown for it.
+        statistic: means, variances and covariances of observables, and what is made of them.
+        load: of the packing.
+        where: relations of indices, to which its domain is restricted.
+        relative: as for ``variance``.
+
+    Raises:
+        ObservableError: as for ``variance``.
+    """
+    observables = [one for moment in statistic.atoms(sy.Moment) for one in moment.args]
+    on = domain(observables, load)
+    more = set().union(*(one.free_symbols for one in where))
+    on = on.also(*where, indices=more) if where else on
+    scales = {}
+    if relative:
+        for one in observables:
+            scales |= _scales(one, load)
+    meant = statistic.xreplace(scales).xreplace(dict(load.values))
+    facts: tuple[Theorem, ...] = ()
+    equations: tuple[int | str, ...] = ()
+    if load.dimension == PLANE:
+        facts, equations = geometry(), (3, 4, 5)
+        if on.loading:
+            facts, equations = (*facts, *load.theorems()), (*equations, *load.equations)
     try:
-        form = statistics.ClosedForm.of(kind(*meant), where, facts)
+        form = statistics.ClosedForm.of(meant, on, facts)
     except (NotExactError, NotProvedError) as reason:
-        raise ObservableError(f"{text(kind(*read))}: {reason}") from None
-    equations = (3, 4, 5, *(known.equations if where.loading else ())) if facts else ()
-    return ClosedForm(kind(*read), form, where, equations)
+        raise ObservableError(f"{text(statistic)}: {reason}") from None
+    return ClosedForm(quantity, form, on, equations, meant, facts)
 
 
 def _read(observable: sympy.Expr) -> sympy.Expr:

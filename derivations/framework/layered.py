@@ -73,7 +73,8 @@ class Layered:
 
     def exact(self, *premises: int | str) -> dict[str, ClosedForm]:
         """The closed form as users get it, with the equations that it rests on."""
-        return {"layer": ClosedForm(self.symbol, self.form, self.where, premises)}
+        form = ClosedForm(self.symbol, self.form, self.where, premises, self._meant, self._facts)
+        return {"layer": form}
 
     @property
     def words(self) -> str:

@@ -200,7 +200,7 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
 _MOMENTS = (sy.Moment, sy.LargestShare, sy.LargestWeight)
 _READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS, *sy.CONTACTS)
 _QUANTITIES = {
-    *FORCES, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
+    *FORCES, sy.VerticalPlus, sy.VerticalMinus, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
     sy.SecondDifference,
 }  # fmt: skip
 
