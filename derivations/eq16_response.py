@@ -93,7 +93,11 @@ def at_finite_size() -> dict[str, ClosedForm]:
         form = statistics.ClosedForm.of(meant, BELOW, known)
         return ClosedForm(symbol, form, BELOW, (4, 5, 7, 9, 10), meant, known)
 
-    return {"bead": closed(RESPONSE), "contact": closed(ONE_CONTACT), "force": closed(LEG_MAGNITUDE)}
+    return {
+        "bead": closed(RESPONSE),
+        "contact": closed(ONE_CONTACT),
+        "force": closed(LEG_MAGNITUDE),
+    }
 
 
 MEANING = {

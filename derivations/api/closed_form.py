@@ -83,6 +83,10 @@ class ClosedForm:
         """What it says on each part of its domain."""
         return statistics.theorems(self.meant, self._form, self._where, self._facts)
 
+    def named(self, symbol: sympy.Expr) -> "ClosedForm":
+        """The same, shown as a symbol."""
+        return ClosedForm(symbol, self._form, self._where, self._premises, self.meant, self._facts)
+
     def on(self, *relations: sympy.Basic) -> sympy.Expr:
         """Its formula on a part of its domain, where it is one.
 

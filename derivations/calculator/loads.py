@@ -19,7 +19,6 @@ from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import BULK, POINT, SURFACE, Loading
 from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t, t_2, t_3
 
-
 PLANE = 2
 """The dimension of a packing of discs."""
 

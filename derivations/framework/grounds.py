@@ -14,7 +14,6 @@ from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import limits, rules, statistics
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
-    NotProvedError,
     Supposition,
     Theorem,
     flat,

@@ -77,53 +77,16 @@ SECOND_ORDER = (
 """What is assumed of all variances and covariances, and of all mean values."""
 
 
-@dataclass(frozen=True)
-class Derivation:
-    """One numbered equation: what is printed, why it holds, and how it is checked.
-
-    ``steps`` is a function so that importing a derivation proves nothing and costs nothing. One
-    of its lines is the printed equation: anything said in its place is proved by the same rule, or
-    not.
-
-    Attributes:
-        number: of the paper; beyond it a label such as "B1".
-        name: in code and JSON.
-        title: in words.
-        symbols: each with its meaning; ``usual`` gives the common ones.
-        assumptions: in words.
-        premises: the derivations that it rests on.
-        printed: the equations, each of which is the formula of a line.
-        steps: gives the lines.
-        claims: what else a procedure of its own decides.
-        remarks: in words.
-        domain: relations of whole numbers, where the printed form holds at finite size.
-        where: the same for the kernel, with the load and the limit.
-        dimension: of the packing.
-        loads: in words, for Coq: "surface", "bulk" or "single".
-        relation: the printed sign, as the line of ``printed`` has to prove it: "=", at every size
-            in its domain; "∼", left over right goes to 1 in its limit (``asymptotic``); "≈",
-            what is dropped varies less, by an order, than the force it is about (``negligible``);
-            "∝", left over right goes to a positive function of φ alone. With another sign nothing
-            is decided of it.
-        exact: gives closed forms, exact at finite size, by name; the first is the usual one.
-    """
+class Statement:
+    """What is said of an equation and how it is decided; a derivation or a row of the calculator."""
 
     number: Number
-    name: str
-    title: str
     symbols: tuple[tuple[sympy.Basic, str], ...]
-    assumptions: tuple[str, ...]
-    premises: tuple["Derivation", ...]
     printed: tuple[sympy.Eq, ...]
+    claims: tuple[Claim, ...]
+    relation: str
+    dimension: int
     steps: Callable[[], Lines]
-    claims: tuple[Claim, ...] = ()
-    remarks: tuple[str, ...] = ()
-    domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
-    where: Where | None = None  # the same, with the load, of what the kernel proves
-    dimension: int = 2  # of the packing: −1/d < φ < 1/2
-    loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
-    relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
-    exact: Callable[[], dict[str, ClosedForm]] | None = None  # at finite size, by name
 
     def domain_of(self, part: int) -> Where:
         """Where one of ``printed`` is proved."""
@@ -215,6 +178,55 @@ class Derivation:
             f"the checker is at fault, and its verdicts count for nothing. Of Eq. {self.number} it "
             f"got wrong: {_shown(statement)} ({words})"
         )
+
+
+@dataclass(frozen=True)
+class Derivation(Statement):
+    """One numbered equation: what is printed, why it holds, and how it is checked.
+
+    ``steps`` is a function so that importing a derivation proves nothing and costs nothing. One
+    of its lines is the printed equation: anything said in its place is proved by the same rule, or
+    not.
+
+    Attributes:
+        number: of the paper; beyond it a label such as "B1".
+        name: in code and JSON.
+        title: in words.
+        symbols: each with its meaning; ``usual`` gives the common ones.
+        assumptions: in words.
+        premises: the derivations that it rests on.
+        printed: the equations, each of which is the formula of a line.
+        steps: gives the lines.
+        claims: what else a procedure of its own decides.
+        remarks: in words.
+        domain: relations of whole numbers, where the printed form holds at finite size.
+        where: the same for the kernel, with the load and the limit.
+        dimension: of the packing.
+        loads: in words, for Coq: "surface", "bulk" or "single".
+        relation: the printed sign, as the line of ``printed`` has to prove it: "=", at every size
+            in its domain; "∼", left over right goes to 1 in its limit (``asymptotic``); "≈",
+            what is dropped varies less, by an order, than the force it is about (``negligible``);
+            "∝", left over right goes to a positive function of φ alone. With another sign nothing
+            is decided of it.
+        exact: gives closed forms, exact at finite size, by name; the first is the usual one.
+    """
+
+    number: Number
+    name: str
+    title: str
+    symbols: tuple[tuple[sympy.Basic, str], ...]
+    assumptions: tuple[str, ...]
+    premises: tuple["Derivation", ...]
+    printed: tuple[sympy.Eq, ...]
+    steps: Callable[[], Lines]
+    claims: tuple[Claim, ...] = ()
+    remarks: tuple[str, ...] = ()
+    domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
+    where: Where | None = None  # the same, with the load, of what the kernel proves
+    dimension: int = 2  # of the packing: −1/d < φ < 1/2
+    loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
+    relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
+    exact: Callable[[], dict[str, ClosedForm]] | None = None  # at finite size, by name
 
 
 def proved_by_line(

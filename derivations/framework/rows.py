@@ -2,26 +2,29 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cache, cached_property
+from functools import cached_property, partial
 
 import sympy
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted
+from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.words import in_words
 
 from ..api.closed_form import ClosedForm
 from .catalogue import Number
 from .grounds import By, closed
 from .proving import Lines
-from .record import Claim, Derivation
+from .record import Claim, Statement
 
 Forms = dict[str, ClosedForm]
 """Closed forms by name; the first is the usual one."""
 
 
 @dataclass(frozen=True, eq=False)
-class Row:
-    """One or more statistics that the calculator gives.
+class Row(Statement):
+    """One or more statistics that the calculator gives, under a label.
+
+    Nothing is computed before it is asked for.
 
     Attributes:
         number: its label.
@@ -32,8 +35,8 @@ class Row:
         meaning: what they say, in a sentence.
         symbols: each with its meaning.
         assumptions: in words.
-        claims: further statements, each with what decides it from the closed forms.
-        premises: the derivations that it rests on, by number.
+        premises: the derivations that it rests on.
+        said: further statements, each with what decides it from the closed forms.
         dimension: of the packing.
     """
 
@@ -45,21 +48,52 @@ class Row:
     meaning: str
     symbols: tuple[tuple[sympy.Basic, str], ...]
     assumptions: tuple[str, ...]
-    premises: tuple[Derivation, ...]
-    claims: tuple[tuple[str, Callable[[Forms], Ruling]], ...] = ()
-    remarks: tuple[str, ...] = ()
+    premises: tuple[Statement, ...]
+    said: tuple[tuple[str, Callable[[Forms], Ruling]], ...] = ()
     dimension: int = 2
+    relation = "="
+    domain = ()
+    loads = ()
 
     @cached_property
-    def exact(self) -> Forms:
-        """The closed forms, computed once."""
+    def _forms(self) -> Forms:
         return self.forms()
 
-    def steps(self) -> Lines:
-        """A line for each formula."""
-        first = next(iter(self.exact.values()))
-        lines = Lines(first.where)
-        for form in self.exact.values():
+    def exact(self) -> Forms:
+        """The closed forms, by name."""
+        return self._forms
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What the forms say."""
+        return (self.meaning,)
+
+    @cached_property
+    def printed(self) -> tuple[sympy.Eq, ...]:  # type: ignore[override]
+        """The first formula of each closed form."""
+        return tuple(
+            equation(form.quantity, form.formulas[0].value.to_sympy())
+            for form in self._forms.values()
+        )
+
+    @property
+    def where(self) -> Where:
+        """The domain of the first closed form."""
+        return next(iter(self._forms.values())).where
+
+    @property
+    def claims(self) -> tuple[Claim, ...]:  # type: ignore[override]
+        """Further statements, decided from the closed forms."""
+        return tuple(Claim(words, partial(decide, self._forms)) for words, decide in self.said)
+
+    def steps(self) -> Lines:  # type: ignore[override]
+        """A line for each formula and part of its domain."""
+        return self._steps
+
+    @cached_property
+    def _steps(self) -> Lines:
+        lines = Lines(self.where)
+        for form in self._forms.values():
             by = _by(form)
             for formula in form.formulas:
                 for part in formula.where:
@@ -71,30 +105,6 @@ class Row:
                         meaning={form.quantity: form.meant},
                     )
         return lines
-
-    @property
-    def derivation(self) -> Derivation:
-        """The row as an equation: printed is the first formula of each closed form."""
-        return Derivation(
-            number=self.number,
-            name=self.name,
-            title=self.title,
-            symbols=self.symbols,
-            assumptions=self.assumptions,
-            premises=self.premises,
-            printed=tuple(
-                equation(form.quantity, form.formulas[0].value.to_sympy())
-                for form in self.exact.values()
-            ),
-            steps=cache(self.steps),
-            claims=tuple(
-                Claim(name, lambda decide=decide: decide(self.exact)) for name, decide in self.claims
-            ),
-            remarks=(self.meaning, *self.remarks),
-            where=next(iter(self.exact.values())).where,
-            dimension=self.dimension,
-            exact=lambda: self.exact,
-        )
 
 
 def _by(form: ClosedForm) -> By:

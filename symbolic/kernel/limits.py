@@ -4,12 +4,11 @@ Orders count all growing indices together, at fixed ratios. They hold uniformly 
 φ stay within closed parts of their ranges, as the leading parts of all divisors vanish nowhere.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from functools import lru_cache
 
 import sympy
 
-from .. import sets
 from .. import symbols as sy
 from ..algebra import affine
 from ..algebra.exact import FIELD, SITE, NotExactError, Polynomial, RationalFunction
@@ -143,7 +142,7 @@ def _form(expression: sympy.Expr, facts: Facts, where: Where) -> Form:
         form = reader.in_radii(_at_height(expression, where))
         free = {sy.i, sy.k, sy.site_r} & {*where.indices}
         held = set().union(*(one.free_symbols for one in where.relations))
-        return form.at({symbol: sympy.S.Zero for symbol in free - held}).merged()
+        return form.at(dict.fromkeys(free - held, sympy.S.Zero)).merged()
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None
 

@@ -7,7 +7,7 @@ indices, so a moment is a polynomial on each of a few sets of indices: its close
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property, lru_cache
 
 import sympy
