@@ -1,4 +1,4 @@
-"""A closed form as a Python user holds it: formulas with their domains, numbers, LaTeX, a decision."""
+"""A closed form as a Python user holds it: formulas with domains, numbers, LaTeX, decisions."""
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass

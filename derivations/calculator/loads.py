@@ -24,7 +24,7 @@ PLANE = 2
 
 
 class ObservableError(ForceDiffusionError, ValueError):
-    """An observable or a load is none that the calculator knows; the message says what is allowed."""
+    """An observable or a load that the calculator does not know; the message says what it does."""
 
 
 @dataclass(frozen=True)
