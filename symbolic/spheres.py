@@ -6,7 +6,10 @@ n^a·δx as a line sum,
 
     L_a(x) = Σ [δr(y) + δr(y − e_a)],  over the beads y from x down along n^a to layer 1,
 
-and so a contact from x along n^c turns by 2r n^a·δn^c = L_a(x + e_c) − L_a(x) − φ(δr_x + δr_(x+e_c))
+and so a contact from x along n^c turns by
+
+    2r n^a·δn^c = L_a(x + e_c) − L_a(x) − φ(δr_x + δr_(x+e_c))
+
 for a ≠ c, while n^c·δn^c = 0. With the reciprocal vectors b^a the balance of bead x along b^a says
 that the contact below along n^a carries what comes in from above along n^a, and
 

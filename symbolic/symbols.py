@@ -52,7 +52,8 @@ INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M, N)
 """All index symbols, in the fixed order that normal forms use."""
 
 PARAMETERS = (
-    phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z, L_plus, L_minus, t, t_2, t_3, tau_1, tau_2,
+    phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z,
+    L_plus, L_minus, t, t_2, t_3, tau_1, tau_2,
 )  # fmt: skip
 """All continuous symbols, in the fixed order that exact domains use."""
 
@@ -238,7 +239,7 @@ class Covariance(Moment):
 
 
 class MeanOver(Function):  # type: ignore[misc]
-    """The average of X over N neighbours: MeanOver(X, N, i) is that of X at i, i + 2, …, i + 2(N−1).
+    """The average over N neighbours: MeanOver(X, N, i) is that of X at i, i + 2, …, i + 2(N − 1).
 
     With several indices all of them go on together.
     """

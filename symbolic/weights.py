@@ -143,8 +143,8 @@ class Weights:
                     group.parts.append(part)
                     break
             else:
-                value = value.substitute(held)
-                groups.append(_Group(value, _numbers(value, places), [part]))
+                reduced = value.substitute(held)
+                groups.append(_Group(reduced, _numbers(reduced, places), [part]))
         return [(sets.joined(group.parts), group.value) for group in groups[1:]]
 
     def is_zero(self) -> bool:
@@ -178,8 +178,8 @@ def _values(polynomial: Polynomial, places: Array[np.float64]) -> Array[np.float
     total = np.zeros(len(places))
     for powers, factor in polynomial.to_dict().items():
         held = [number for number, power in enumerate(powers) if power]
-        powers = [int(powers[number]) for number in held]
-        total += float(factor.p) / float(factor.q) * np.prod(places[:, held] ** powers, axis=1)
+        exponents = [int(powers[number]) for number in held]
+        total += float(factor.p) / float(factor.q) * np.prod(places[:, held] ** exponents, axis=1)
     return total
 
 

@@ -60,8 +60,8 @@ def in_words(relations: Sequence[sympy.Basic], tex: bool = False) -> str:
     for low, symbol, high in bounds(relations):
         if len(low) == 1 and high:
             parts.append(at_most.join(map(shown, (low[0], symbol, high[0]))))
-            high = high[1:]
         else:
-            parts += [f"{shown(symbol)}{at_least}{shown(one)}" for one in low]
-        parts += [f"{shown(symbol)}{at_most}{shown(one)}" for one in high]
+            parts += [f"{shown(symbol)}{at_least}{shown(bound)}" for bound in low]
+        rest = high[1:] if len(low) == 1 else high
+        parts += [f"{shown(symbol)}{at_most}{shown(bound)}" for bound in rest]
     return ", ".join(parts)

@@ -28,7 +28,7 @@ DERIVATIONS: dict[Number, Row] = {
                  *usual(sigma, r, M, phi)),
         assumptions=SECOND_ORDER,
         premises=(eq03.DERIVATION, eq11.DERIVATION),
-        said=(
+        statements=(
             ("the leading order, which changes its sign at z = φ",
              lambda forms: leads(forms["force"], 2 * M * (z - phi) * _UNIT)),
         ),

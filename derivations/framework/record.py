@@ -78,7 +78,7 @@ SECOND_ORDER = (
 
 
 class Statement:
-    """What is said of an equation and how it is decided; a derivation or a row of the calculator."""
+    """An equation and how it is decided: a derivation, or a row of the calculator."""
 
     number: Number
     symbols: tuple[tuple[sympy.Basic, str], ...]

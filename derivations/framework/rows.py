@@ -36,7 +36,7 @@ class Row(Statement):
         symbols: each with its meaning.
         assumptions: in words.
         premises: the derivations that it rests on.
-        said: further statements, each with what decides it from the closed forms.
+        statements: further statements, each with what decides it from the closed forms.
         dimension: of the packing.
     """
 
@@ -49,7 +49,7 @@ class Row(Statement):
     symbols: tuple[tuple[sympy.Basic, str], ...]
     assumptions: tuple[str, ...]
     premises: tuple[Statement, ...]
-    said: tuple[tuple[str, Callable[[Forms], Ruling]], ...] = ()
+    statements: tuple[tuple[str, Callable[[Forms], Ruling]], ...] = ()
     dimension: int = 2
     relation = "="
     domain = ()
@@ -84,7 +84,9 @@ class Row(Statement):
     @property
     def claims(self) -> tuple[Claim, ...]:  # type: ignore[override]
         """Further statements, decided from the closed forms."""
-        return tuple(Claim(words, partial(decide, self._forms)) for words, decide in self.said)
+        return tuple(
+            Claim(words, partial(decide, self._forms)) for words, decide in self.statements
+        )
 
     def steps(self) -> Lines:  # type: ignore[override]
         """A line for each formula and part of its domain."""

@@ -1,7 +1,7 @@
 """Statistics of what is linear in the radii: means, variances and covariances as closed forms.
 
-The radii are independent, of mean zero and variance σ². A form Σ w(x) δr_x with an ordered value has
-that value as its mean, and σ² Σ w(x)² as its variance. The weights are those that theorems give
+The radii are independent, of mean zero and variance σ². A form Σ w(x) δr_x with an ordered value
+has that value as its mean, and σ² Σ w(x)² as its variance. The weights are those that theorems give
 quantities in the radii, put in one after the other. They are polynomials on sets of sites and
 indices, so a moment is a polynomial on each of a few sets of indices: its closed form.
 """
@@ -59,7 +59,7 @@ def _known(facts: tuple[Theorem, ...], kind: type[Form]) -> Mapping[type, tuple[
     if kind is Jet:
         return Means(_known(facts, Form)).jets()
     found: dict[type, tuple[Known, ...]] = {}
-    left = [one for one in facts]
+    left = list(facts)
     while left:
         open_ones = {_about(one) for one in left}
         ready = [one for one in left if not open_ones & _held(one)]

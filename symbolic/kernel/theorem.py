@@ -200,8 +200,8 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
 _MOMENTS = (sy.Moment, sy.LargestShare, sy.LargestWeight)
 _READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS, *sy.CONTACTS)
 _QUANTITIES = {
-    *FORCES, sy.VerticalPlus, sy.VerticalMinus, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR, sy.DeltaX, sy.Load, sy.Position,
-    sy.SecondDifference,
+    *FORCES, sy.VerticalPlus, sy.VerticalMinus, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR,
+    sy.DeltaX, sy.Load, sy.Position, sy.SecondDifference,
 }  # fmt: skip
 
 
