@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 81
 LIMITS = {
     "symbolic": 10_787,
     "derivations": 14_740,
-    "numeric": 17_277,
+    "numeric": 13_301,
     "force_diffusion": 73,
     "benchmarks": 900,
     ".ci": 500,
