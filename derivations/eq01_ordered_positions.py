@@ -10,13 +10,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     axioms,
     equation,
     follows,
-    on_packings,
     reach,
     rewrite,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import each_contact
 from force_diffusion.symbolic.symbols import (
     Dot,
     Position,
@@ -169,7 +167,6 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(on_packings(PRINTED, "none", each_contact),),
 )
 
 if __name__ == "__main__":

@@ -14,13 +14,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     follows,
     inverse,
     minus,
-    on_packings,
     order,
     solve,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import each_bead
 from force_diffusion.symbolic.mechanics import contacts
 from force_diffusion.symbolic.symbols import (
     DeltaR,
@@ -168,7 +166,6 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(on_packings(PRINTED, "none", each_bead),),
 )
 
 if __name__ == "__main__":

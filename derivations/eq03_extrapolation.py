@@ -1,6 +1,6 @@
 """Eq. 3: the displacement in terms of the radii alone, by induction from the base."""
 
-from functools import cache, partial
+from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
@@ -9,18 +9,14 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     axioms,
     equation,
     induct,
-    on_packings,
     rewrite,
     supposing,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import remainders
-from force_diffusion.derivations.witnesses.both_sides import each_bead
 from force_diffusion.symbolic.symbols import (
     DeltaR,
     DeltaX,
@@ -138,13 +134,6 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        on_packings(PRINTED, "none", each_bead),
-        Witness(
-            "exact positions at 80 digits differ from it by a remainder of order ε²",
-            partial(remainders.positions, PRINTED.rhs),
-        ),
-    ),
     remarks=(
         "The printed formula is for j ≥ 1. At j = 0 its empty sums leave 2δr_(i,0)(b⁺ + b⁻), "
         "while the base is fixed: δx_(i,0) = 0 is a condition of its own.",

@@ -14,13 +14,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     cases,
     equation,
     minus,
-    on_packings,
     order,
     rewrite,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import each_contact
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus,
     DeltaR,
@@ -128,7 +126,6 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(on_packings(PRINTED, "none", each_contact),),
 )
 
 if __name__ == "__main__":

@@ -14,13 +14,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     equation,
     minus,
     mirror_of,
-    on_packings,
     order,
     rewrite,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import each_contact
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus,
@@ -127,7 +125,6 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     steps=steps,
     where=WHERE,
-    witnesses=(on_packings(PRINTED, "none", each_contact),),
 )
 
 if __name__ == "__main__":

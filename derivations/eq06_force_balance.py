@@ -16,13 +16,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     differentiate,
     equation,
     follows,
-    on_packings,
     rewrite,
     solve,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import loaded_bead
 from force_diffusion.symbolic.kernel.rules import instance
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import LOADED, Loading
@@ -184,7 +182,6 @@ DERIVATION = Derivation(
     loads=("single",),
     steps=steps,
     where=WHERE,
-    witnesses=(on_packings(PRINTED, "single", loaded_bead),),
 )
 
 if __name__ == "__main__":

@@ -13,12 +13,10 @@ from force_diffusion.derivations.framework.vocabulary import (
     equation,
     minus,
     mirror_of,
-    on_packings,
     solve,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import loaded_bead
 from force_diffusion.symbolic.kernel.where import LOADED_VERTICALLY
 from force_diffusion.symbolic.mechanics import balance
 from force_diffusion.symbolic.mechanics.lattice import mirror
@@ -120,10 +118,6 @@ DERIVATION = Derivation(
     loads=("single",),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        on_packings(PRINTED[0], "single", loaded_bead, "first part"),
-        on_packings(PRINTED[1], "single", loaded_bead, "second part"),
-    ),
 )
 
 if __name__ == "__main__":

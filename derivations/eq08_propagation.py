@@ -13,12 +13,10 @@ from force_diffusion.derivations.framework.vocabulary import (
     equation,
     minus,
     mirror_of,
-    on_packings,
     solve,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import left_edge
 from force_diffusion.symbolic.kernel.where import PASSING
 from force_diffusion.symbolic.mechanics import balance
 from force_diffusion.symbolic.mechanics.lattice import mirror
@@ -114,10 +112,6 @@ DERIVATION = Derivation(
     loads=("any",),
     steps=steps,
     where=WHERE,
-    witnesses=(
-        on_packings(PRINTED[0], "single", left_edge, "first part"),
-        on_packings(PRINTED[1], "single", left_edge, "second part"),
-    ),
     remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is solved for here.",),
 )
 

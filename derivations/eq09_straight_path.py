@@ -16,13 +16,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     in_terms_of,
     induct,
     minus,
-    on_packings,
     rewrite,
     terms,
     times,
     walk,
 )
-from force_diffusion.derivations.witnesses.both_sides import straight_below
 from force_diffusion.symbolic.kernel.where import ENTERING, PASSING
 from force_diffusion.symbolic.mechanics.paths import ENTRY, straight_end
 from force_diffusion.symbolic.symbols import (
@@ -170,7 +168,6 @@ DERIVATION = Derivation(
     loads=("single",),
     steps=steps,
     where=WHERE,
-    witnesses=(on_packings(PRINTED, "single", straight_below),),
 )
 
 if __name__ == "__main__":

@@ -14,7 +14,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Part,
     Where,
-    Witness,
     axioms,
     below,
     equation,
@@ -22,14 +21,11 @@ from force_diffusion.derivations.framework.vocabulary import (
     in_terms_of,
     induct,
     minus,
-    on_packings,
     rewrite,
     terms,
     times,
     walk,
 )
-from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.derivations.witnesses.both_sides import inside_cone
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.where import ENTERING, PASSING
 from force_diffusion.symbolic.mechanics.lattice import mirror
@@ -208,10 +204,6 @@ DERIVATION = Derivation(
             "Eqs. 9 and 10, and zero elsewhere, balance every bead to first order",
             balance_everywhere,
         ),
-    ),
-    witnesses=(
-        on_packings(PRINTED, "single", inside_cone),
-        Witness("no force of first order left of the cone", witnesses.zero_outside),
     ),
 )
 

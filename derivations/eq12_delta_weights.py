@@ -6,12 +6,10 @@ import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework.grounds import facts_of
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     bounded,
     equation,
     heaviest,
@@ -22,8 +20,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.where import SURFACE, at_fixed_height
 from force_diffusion.symbolic.symbols import (
     Braces,
@@ -35,7 +31,6 @@ from force_diffusion.symbolic.symbols import (
     M,
     Mean,
     SecondDifference,
-    Variance,
     f_load,
     i,
     j,
@@ -81,12 +76,6 @@ WHERE = DEEP.in_the_limit(at_fixed_height("≈"))
 
 BASE_TERM = times((M - j - 1) / (2 * r * (1 - phi**2)), SecondDifference(i - j, 0))
 """The largest of the dropped terms: half a Δ on the base for each branch."""
-
-
-def dropped_variance() -> sympy.Expr:
-    """Variance of what Eq. 12 drops, exact for j ≥ 6 and M ≥ j + 6."""
-    dropped = Variance(terms(PRINTED.lhs, minus(PRINTED.rhs)))
-    return moments.worked_out(dropped, facts_of((eq11.IN_RADII,)), DEEP)
 
 
 LEFT_OUT = sympy.Sum(ON_DIAGONAL, (m, j + 1, M))
@@ -176,18 +165,6 @@ def steps() -> Lines:
     return lines
 
 
-_ONE_LAYER = "Δ in one layer, with a weight of order M: of the variance M², and M³ is kept"
-EQUIVALENT = {
-    "lower bound m = 1 shifted to 0": _ONE_LAYER,
-    "lower bound m = 1 shifted to 2": _ONE_LAYER,
-    "upper bound m = M shifted to M + 1": "Δ in the layer M + 1, with the weight −1",
-    "upper bound m = M shifted to M − 1": "the weight at m = M is M − m = 0: nothing is left out",
-    "case m ≤ j shifted to j + 1": "at m = j + 1 the weights of the two cases differ by 1",
-    "case m ≤ j shifted to j − 1": "at m = j the two cases agree: nothing changes",
-}
-"""The mechanical changes that say the same at leading order, and why."""
-
-
 DERIVATION = Derivation(
     number=12,
     name="delta_weights",
@@ -202,15 +179,8 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     loads=("surface",),
     relation="≈",
-    equivalent=EQUIVALENT,
     steps=steps,
     where=WHERE,
-    witnesses=(
-        Witness(
-            "weights of the exact packing less the printed ones: squares sum as stated",
-            lambda packing: witnesses.dropped_weights(PRINTED.rhs, dropped_variance(), packing),
-        ),
-    ),
     remarks=(
         "The double sum printed just before Eq. 12 counts M − m + 1 for m > j; the braces "
         "say M − m. The difference is of the order that Eq. 12 drops.",

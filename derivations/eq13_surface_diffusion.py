@@ -12,7 +12,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Layered,
     Lines,
     Where,
-    Witness,
     asymptotic,
     equation,
     formula,
@@ -23,7 +22,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.as_printed import certificate
 from force_diffusion.symbolic.kernel.where import SURFACE, at_fixed_height
 from force_diffusion.symbolic.notation import Symbol
@@ -156,12 +154,6 @@ DERIVATION = Derivation(
     exact=VARIANCE.exact,
     steps=steps,
     where=VARIANCE.in_the_limit,
-    witnesses=(
-        Witness(
-            "exact variances equal sums of squared weights of exact packings, all j < M ≤ 4",
-            lambda packing: witnesses.variances(exact_forms(), "surface", packing),
-        ),
-    ),
     remarks=(
         "The limit is taken at fixed z. A fixed number of layers below the surface the "
         "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "

@@ -19,7 +19,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Layered,
     Lines,
     Where,
-    Witness,
     asymptotic,
     axioms,
     below,
@@ -33,7 +32,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.as_printed import certificate
 from force_diffusion.symbolic.kernel.where import BULK, Limit, at_fixed_height
 from force_diffusion.symbolic.notation import Symbol
@@ -303,12 +301,6 @@ DERIVATION = Derivation(
     exact=VARIANCE.exact,
     steps=steps,
     where=VARIANCE.in_the_limit,
-    witnesses=(
-        Witness(
-            "exact variances equal sums of squared weights of exact packings, all j < M ≤ 4",
-            lambda packing: witnesses.variances(exact_forms(), "bulk", packing),
-        ),
-    ),
 )
 
 if __name__ == "__main__":

@@ -25,7 +25,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     differentiate,
     equation,
     moment,
@@ -41,7 +40,6 @@ from force_diffusion.derivations.parts.tensile import (
     TENSILE,
     tensile_fraction,
 )
-from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_BELOW
 from force_diffusion.symbolic.kernel.where import AT_FIXED_RATIO, at_large_height
@@ -378,14 +376,6 @@ DERIVATION = Derivation(
     exact=at_finite_size,
     steps=steps,
     where=heights("surface").in_the_limit(LARGE("∝")),
-    witnesses=(
-        Witness(
-            "exact averages equal means of squared weights of exact packings, all M ≤ 4",
-            lambda packing: witnesses.averages(
-                {load: average.value_at for load, average in averages().items()}, packing
-            ),
-        ),
-    ),
     remarks=(
         "The paper writes M* = O[(σ/r)^(−2/3)] in the text; it is checked here as ∝, with the "
         "definition given, and the prefactor is found: (1−φ²)^(2/3) for a surface load, 5^(1/3) "

@@ -12,7 +12,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
     Derivation,
     Lines,
-    Witness,
     asymptotic,
     equation,
     exhausting,
@@ -23,7 +22,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.parts import cone
-from force_diffusion.derivations.witnesses import squared_weights as witnesses
 from force_diffusion.symbolic.kernel.where import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import IN_CONE, STEPS_BELOW
@@ -341,12 +339,6 @@ DERIVATION = Derivation(
     exact=at_finite_size,
     steps=steps,
     where=cone.CONE,
-    witnesses=(
-        Witness(
-            "exact variances equal sums of squared weights of an exact packing, every contact",
-            lambda packing: witnesses.responses(packing, packing.height),
-        ),
-    ),
     remarks=(
         "The paper's p is the vertical component of the force at a contact f^±_ij. For one contact "
         "the printed form does not hold: its variance is (3/2) s (σ/r)²/(1−φ²)² with the layer "

@@ -4,7 +4,6 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from force_diffusion.numeric.arithmetic.processes import Start
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from ..export.document import (
@@ -16,11 +15,8 @@ from ..export.document import (
 )
 from ..export.terminal import (
     expected_text,
-    mutant_counts,
     outcomes_data,
     summary_line,
-    tried_counts,
-    tried_text,
     trouble_lines,
     verdicts_text,
 )
@@ -36,7 +32,7 @@ class Derived:
     """What :func:`derive` found; it prints one line for each equation, and below it what is wrong.
 
     Attributes:
-        outcomes: of each equation its verdict, checks and mutants, premises first.
+        outcomes: of each equation its verdict and its checks, premises first.
     """
 
     outcomes: tuple[Outcome, ...]
@@ -60,7 +56,7 @@ class Derived:
         return ", ".join(filter(None, [verdicts_text(self.outcomes), expected_text(refuted)]))
 
     def data(self) -> dict[str, Any]:
-        """What JSON can hold: verdicts, checks and mutants of each equation, times in seconds."""
+        """What JSON can hold: verdicts and checks of each equation, times in seconds."""
         return outcomes_data(self.outcomes)
 
     def latex(self, columns: int = 1) -> dict[str, str]:
@@ -83,22 +79,17 @@ class Derived:
 
     def __str__(self) -> str:
         lines = [line for one in self.outcomes for line in (summary_line(one), *trouble_lines(one))]
-        return "\n".join(
-            [*lines, *filter(None, [tried_text(tried_counts(self.outcomes))]), f"{self.counts()}."]
-        )
+        return "\n".join([*lines, f"{self.counts()}."])
 
     __repr__ = __str__
 
     def _repr_markdown_(self) -> str:
-        rows = [
-            f"| {one.derivation.number} | {one.derivation.title} | {one.words} | "
-            f"{sum(c.kind == 'proof' for c in one.checks)} | "
-            f"{sum(c.kind == 'witness' for c in one.checks)} | "
-            f"{mutant_counts(one)['refuted']} of {len(one.mutants)} |"
+        head = ("Eq.", "verdict", "title", "seconds")
+        found = (
+            (str(one.derivation.number), one.words, one.derivation.title, f"{one.seconds:.2f}")
             for one in self.outcomes
-        ]
-        head = "| Eq. | title | verdict | proofs | witnesses | mutants refuted |"
-        return "\n".join([head, "| --- | --- | --- | --- | --- | --- |", *rows])
+        )
+        return "\n".join(f"| {' | '.join(row)} |" for row in (head, ("---",) * len(head), *found))
 
 
 def derive(
@@ -107,9 +98,9 @@ def derive(
     notice: Callable[[str], None] | None = None,
     finished: Callable[[Outcome], None] | None = None,
 ) -> Derived:
-    """Prove equations and all that they rest on, check them, and try to prove their mutants.
+    """Prove equations and all that they rest on.
 
-    All of them take a minute. :meth:`Equation.prove` is the same for one equation.
+    :meth:`Equation.prove` is the same for one equation.
 
     >>> import force_diffusion as fd
     >>> found = fd.derive([2])
@@ -130,23 +121,12 @@ def derive(
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
         one = getattr(numbers, "number", numbers)
         raise TypeError(f"derive takes several, in a list: derive([{one!r}])")
-    return derive_with(None, numbers, notice, finished)
-
-
-def derive_with(
-    start: Start | None,
-    numbers: Iterable[Number] | None,
-    notice: Callable[[str], None] | None,
-    finished: Callable[[Outcome], None] | None,
-) -> Derived:
-    """Derive as ``derive`` does; ``start`` calls functions in another process (``run_all``)."""
-    wanted = [load(equation(one).number) for one in (modules() if numbers is None else numbers)]
     outcomes = []
     tell = notice or (lambda _: None)
+    wanted = [load(equation(one).number) for one in (modules() if numbers is None else numbers)]
     for outcome in run_all(
         with_premises(wanted),
         lambda derivation, check: tell(f"Eq. {derivation.number}: {check}"),
-        start,
     ):
         outcomes.append(outcome)
         if finished:

@@ -355,9 +355,9 @@ base+1 or surface.
         return Steps.of(self._derivation)
 
     def prove(self, *, premises: bool = True) -> Proof:
-        """Run its proofs, its witnesses and its mutants, and those of all that it rests on.
+        """Prove it, its steps and its claims, and all that it rests on.
 
-        This takes seconds. With ``premises=False`` the equations that it rests on are taken as
+        With ``premises=False`` the equations that it rests on are taken as
         proved, and the result says so.
 
         >>> import force_diffusion as fd
@@ -367,7 +367,7 @@ base+1 or surface.
         >>> print(str(proof).splitlines()[0])
         Eq. 9 is proved. Its premise, Eq. 8: taken as proved, not run.
         >>> [check.kind for check in proof.checks]
-        ['proof', 'step', 'step', 'step', 'step', 'step', 'witness']
+        ['proof', 'step', 'step', 'step', 'step', 'step']
         """
         if premises:
             return Proof(tuple(run_all(with_premises([self._derivation]))), premises_run=True)

@@ -10,7 +10,6 @@ from force_diffusion.symbolic.printing.lines import latex_body
 
 from ..export.terminal import (
     check_text,
-    counts_text,
     expected_text,
     follows_text,
     heading,
@@ -19,7 +18,7 @@ from ..export.terminal import (
     summary_line,
 )
 from ..framework.proving import Shown
-from ..framework.record import Check, Derivation, Mutant, Outcome
+from ..framework.record import Check, Derivation, Outcome
 
 
 @dataclass(frozen=True)
@@ -32,9 +31,6 @@ class Proof:
     [(1, 'proved'), (2, 'proved')]
     >>> proof.checks[0].name, proof.checks[0].note
     ('printed equation', 'by the rule: solve')
-    >>> from collections import Counter
-    >>> sorted(Counter(mutant.verdict for mutant in proof.mutants).items())
-    [('not a statement', 18), ('refuted', 46)]
 
     Attributes:
         outcomes: all that has been run, premises first; the last is the equation's own.
@@ -51,18 +47,13 @@ class Proof:
 
     @property
     def checks(self) -> tuple[Check, ...]:
-        """The equation's own proofs and witnesses, each with its verdict and note."""
+        """The printed equation, steps and claims, each with its verdict and note."""
         return self.outcomes[-1].checks
 
     @property
     def refuted(self) -> tuple[Check, ...]:
         """Printed statements that were refuted as expected: ERRATA.md says why."""
         return self.outcomes[-1].refuted
-
-    @property
-    def mutants(self) -> tuple[Mutant, ...]:
-        """The printed equation with one mechanical change each, and what the checker said."""
-        return self.outcomes[-1].mutants
 
     def _said(self) -> str:
         outcome, refuted = self.outcomes[-1], expected_text(len(self.refuted))
@@ -77,13 +68,11 @@ class Proof:
         return f"Its premise{plural}, Eq{plural}. {', '.join(numbers)}: {state}."
 
     def __str__(self) -> str:
-        outcome = self.outcomes[-1]
         return "\n".join(
             [
                 f"{self._said()} {self._premises()}",
                 *map(summary_line, self.outcomes[:-1]),
                 *map(check_text, self.checks),
-                f"  - {counts_text(outcome)}",
             ]
         )
 
@@ -93,7 +82,6 @@ class Proof:
         def row(*cells: str) -> str:
             return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
 
-        outcome = self.outcomes[-1]
         rows = [row(one.kind, one.words, one.name, one.note) for one in self.checks]
         return "\n".join(
             [
@@ -102,7 +90,6 @@ class Proof:
                 row("kind", "verdict", "check", "note"),
                 row("---", "---", "---", "---"),
                 *rows,
-                row("mutants", "", counts_text(outcome), ""),
             ]
         )
 

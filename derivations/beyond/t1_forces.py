@@ -25,12 +25,10 @@ from force_diffusion.derivations.framework.vocabulary import (
     equation,
     induct,
     minus,
-    on_packings,
     rewrite,
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses.both_sides import each_tilted
 from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED, Loading
 from force_diffusion.symbolic.mechanics.lattice import mirror
@@ -310,12 +308,6 @@ B1 = Derivation(
     printed=PRINTED,
     steps=steps,
     where=WHERE,
-    witnesses=tuple(
-        on_packings(
-            equation(PRINTED[part].lhs, in_radii(part)), "tilted", each_tilted, f"{name} part"
-        )
-        for part, name in enumerate(("first", "second"))
-    ),
     remarks=(
         "Only the changes along the other branch carry t: what turns into f⁺ is what came along "
         "n⁻. As L⁻ is taken away, f⁺ stays near L⁺ and feels the tilt of its own contact alone.",

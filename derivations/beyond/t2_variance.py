@@ -24,7 +24,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Layered,
     Lines,
     Where,
-    Witness,
     asymptotic,
     equation,
     formula,
@@ -33,9 +32,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import squared_weights as witnesses
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.where import at_large_height
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
@@ -236,12 +232,6 @@ def surface_steps() -> Lines:
     return lines
 
 
-def _witness(case: Case, branch: str, packing: SmallPacking) -> Ruling:
-    plus, minus = packing.components
-    forms, ratio = case.variance.forms, minus / plus
-    return witnesses.variances(forms, case.load.name, packing, ratio=ratio, branch=branch)
-
-
 def _derivation(number: Number, case: Case, **options: Any) -> Derivation:
     loaded = (
         ("L⁺, L⁻ > 0",)
@@ -267,14 +257,6 @@ def _derivation(number: Number, case: Case, **options: Any) -> Derivation:
         relation="∼",
         exact=case.variance.exact,
         where=case.variance.in_the_limit,
-        witnesses=tuple(
-            Witness(
-                f"exact variances of f{sign} equal sums of squared weights of exact packings, all "
-                "j < M ≤ 4",
-                partial(_witness, case, branch),
-            )
-            for branch, sign in (("+", "⁺"), ("-", "⁻"))
-        ),
         **options,
     )
 

@@ -6,7 +6,6 @@ every load that is alike along a layer; a case is one load with what is printed 
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cache, cached_property, partial
 
 import sympy
@@ -26,7 +25,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Layered,
     Lines,
     Where,
-    Witness,
     asymptotic,
     equation,
     formula,
@@ -35,11 +33,8 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import second_order as witnesses
-from force_diffusion.derivations.witnesses.draws import SmallPacking
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.kernel import moments
-from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.where import BULK, SURFACE, Limit, Loading
 from force_diffusion.symbolic.mechanics import second_order
 from force_diffusion.symbolic.mechanics.contacts import radii
@@ -167,12 +162,6 @@ B4 = Derivation(
     domain=(sympy.Ge(j, 1),),
     where=ABOVE_BASE,
     steps=settling,
-    witnesses=(
-        Witness(
-            "exact packings, ε²: the mean of every bead, as fractions",
-            lambda packing: witnesses.positions(SETTLING.rhs, packing),
-        ),
-    ),
     remarks=(
         "A contact that tilts, whichever way, carries its upper bead less far up: the pile "
         "settles, at any φ and with no gravity in the argument. It is the sum over j layers of a "
@@ -429,14 +418,6 @@ def _claim(case: Case, lines: Lines) -> None:
         )
 
 
-def _witness(case: Case, branch: str, packing: SmallPacking) -> Ruling:
-    load = "surface" if case in (ON_SURFACE, SURFACE_AT_ANGLE) else "bulk"
-    ratio = Fraction(1)
-    if len(case.symbols) == 2:
-        ratio = packing.components[1] / packing.components[0]
-    return witnesses.forces(case.forms, load, packing, ratio, branch)
-
-
 _EVERY = "printed form: 2 ≤ j ≤ M − 2; exact forms: every 0 ≤ j < M"
 _PLUS_ONLY = (
     "printed form: 2 ≤ j ≤ M − 2; exact forms, for f⁺: every 0 ≤ j < M. For f⁻ put 1/t in "
@@ -476,14 +457,6 @@ def _derivation(
         where=case.mean.where(),
         exact=partial(case.mean.exact, "second order"),
         steps=steps,
-        witnesses=tuple(
-            Witness(
-                f"exact packings, ε²: the mean {f'f{sign}' if tilted else 'force'} of every layer, "
-                "as fractions",
-                partial(_witness, case, branch),
-            )
-            for branch, sign in (("+", "⁺"), ("-", "⁻"))[: len(case.symbols)]
-        ),
         remarks=remarks,
     )
 

@@ -3,9 +3,7 @@
 S = Σ f ℓ N⊗N over the contacts of a layer. In the mean it needs covariances of first order alone.
 """
 
-from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cache, cached_property, partial
 from itertools import product
 from typing import Any
@@ -26,7 +24,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Layered,
     Lines,
     Where,
-    Witness,
     equation,
     formula,
     moment,
@@ -34,13 +31,8 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import second_order as witnesses
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.kernel import moments
-from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Theorem, check
 from force_diffusion.symbolic.mechanics import second_order
@@ -502,34 +494,6 @@ def shear_steps() -> Lines:
     return lines
 
 
-def _exact(
-    load: Load, height: int, layer: int, n: tuple[Fraction, Fraction], share: Fraction
-) -> dict[sympy.Symbol, Fraction]:
-    """What exact packings say of all that is printed, less the ordered value, for r = σ = 1."""
-    x, y = n[0] ** 2, n[1] ** 2
-    xx, yy, xy = witnesses.moments(height, n, load.name, share)[layer]
-    places = witnesses.means(height, n, load.name, share)[1]
-    grown = (places[layer + 1][1] - places[layer][1]) / (2 * n[1])
-    axes = y * yy - x * xx - (y - x) * xy
-    return dict(zip(load.forms, (xx - yy, yy, yy - grown, xy, axes), strict=True))
-
-
-def _witness(loads: Sequence[Load], symbols: slice, packing: SmallPacking) -> Ruling:
-    """Closed forms of every layer against exact packings of M ≤ 4."""
-    plus, other = packing.components
-    share = other / plus if other != plus else witnesses.SHARE
-    values = {**explicit.geometry(*packing.n, Fraction(1)), sigma: 1, t: share}
-
-    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        for load in loads:
-            for symbol in load.printed[symbols]:
-                for height, layer, stated in load.layered[symbol].stated(4, values):
-                    true = _exact(load, height, layer, packing.n, share)[symbol]
-                    yield f"{symbol.name}, M = {height}, j = {layer}", stated, true
-
-    return compare(pairs())
-
-
 def _cases(*named: tuple[str, Layered]) -> dict[str, ExactCase]:
     """The exact cases of several, each with a prefix to the names of its own."""
     return {
@@ -578,12 +542,6 @@ def _stress(number: str, load_in_words: str, **options: Any) -> Derivation:
         where=load.where(),
         exact=lambda: _cases(*((name, load.layered[symbol]) for name, symbol in quantities)),
         steps=partial(stress_steps, number),
-        witnesses=(
-            Witness(
-                "exact packings, ε²: the moments of every layer, as fractions",
-                partial(_witness, (load,), slice(3)),
-            ),
-        ),
         **options,
     )
 
@@ -640,12 +598,6 @@ B18 = Derivation(
         )
     ),
     steps=shear_steps,
-    witnesses=(
-        Witness(
-            "exact packings, ε²: all moments of every layer, as fractions",
-            partial(_witness, LOADS, slice(3, 5)),
-        ),
-    ),
 )
 
 DERIVATIONS: dict[Number, Derivation] = {"B10": B10, "B17": B17, "B18": B18}

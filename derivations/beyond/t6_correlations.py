@@ -1,9 +1,6 @@
 """T6 (Eqs. B7, B8, B12, B21): correlations of contact forces; here those of different layers."""
 
-from collections.abc import Iterable, Iterator
-from fractions import Fraction
 from functools import cache
-from itertools import combinations
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
@@ -30,7 +27,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     asymptotic,
     equation,
     formula,
@@ -41,10 +37,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.parts.neighbours import FAR
-from force_diffusion.derivations.witnesses import modular, neighbours
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.decisions import Ruling, from_test
 from force_diffusion.symbolic.kernel.where import BULK, SURFACE, Limit, Loading
@@ -393,38 +385,6 @@ def _mean_of_diagonal() -> Ruling:
     )
 
 
-def _covariances(
-    heights: Iterable[int], cosine: Fraction
-) -> Iterator[tuple[str, tuple[int, int, int], Fraction]]:
-    """What is stated of pairs of layers: where, (M, j, l), the covariance for r = σ = 1."""
-    stated = [(between(*INSIDE), LAYERS.rhs)]
-    stated += [(between(*one.domain), one.expression) for one in edges().values()]
-    for height in heights:
-        for lower, upper in combinations(range(height), 2):
-            at = {M: height, j: lower, l: upper}
-            form = next(form for where, form in stated if where.holds(at))
-            value = explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
-            yield f"M = {height}, j = {lower}, l = {upper}", (height, lower, upper), value
-
-
-def _layers_of_small_ones(packing: SmallPacking) -> Ruling:
-    stated = _covariances((2, 3, 4, 5), packing.n[1] ** 2 - packing.n[0] ** 2)
-    return compare(
-        (where, value, neighbours.between_layers(*at, packing.n)) for where, at, value in stated
-    )
-
-
-def _layers_of_high_ones(packing: SmallPacking) -> Ruling:
-    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
-    return compare(
-        (
-            (where, modular.residue(value), modular.between_layers(*at, 0, cosine))
-            for where, at, value in _covariances((13, 20), cosine)
-        ),
-        modular.EQUAL,
-    )
-
-
 B12 = Derivation(
     number="B12",
     name="between_layers",
@@ -446,15 +406,6 @@ B12 = Derivation(
             "the mean over all contacts of a diagonal keeps 4/5 of the mean variance, to leading "
             "order",
             _mean_of_diagonal,
-        ),
-    ),
-    witnesses=(
-        Witness(
-            "exact packings of M ≤ 5: products of weights, as fractions", _layers_of_small_ones
-        ),
-        Witness(
-            "packings to first order, M = 13 and 20, every pair of layers, modulo a prime",
-            _layers_of_high_ones,
         ),
     ),
     remarks=(

@@ -390,7 +390,6 @@ B7 = Derivation(
     where=UNDER_SURFACE.where,
     steps=contact_steps,
     exact=lambda: UNDER_SURFACE.exact,
-    witnesses=UNDER_SURFACE.witnesses("force"),
     remarks=(
         "N independent contacts would have σ_f²/N. Force fluctuations nearly cancel along a "
         "layer up to N of order M³, where the radii of the two layers that touch take over.",
@@ -416,7 +415,6 @@ B8 = Derivation(
     where=OF_BEADS.where,
     steps=bead_steps,
     exact=lambda: OF_BEADS.exact,
-    witnesses=OF_BEADS.witnesses("bead"),
 )  # fmt: skip
 B21 = Derivation(
     number="B21",
@@ -434,5 +432,4 @@ B21 = Derivation(
     where=UNDER_BULK.where,
     steps=bulk_steps,
     exact=lambda: UNDER_BULK.exact,
-    witnesses=UNDER_BULK.witnesses("bulk"),
 )  # fmt: skip

@@ -5,9 +5,8 @@ all cones. The first bead lies p and q steps below the first load; load m and be
 the right of these.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cache
 from itertools import product
 
@@ -25,7 +24,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     asymptotic,
     equation,
     exhausting,
@@ -38,9 +36,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.parts import cone
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare, mean_response
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.where import Limit
 from force_diffusion.symbolic.mechanics.paths import STEPS_BELOW
 from force_diffusion.symbolic.notation import Symbol
@@ -55,7 +50,6 @@ from force_diffusion.symbolic.symbols import (
     f_load,
     i,
     j,
-    k,
     l,
     m,
     n,
@@ -368,12 +362,6 @@ B22 = Derivation(
     where=WHERE,
     exact=lambda: {name: form for one in BLOCKS for name, form in one.exact().items()},
     steps=steps,
-    witnesses=(
-        Witness(
-            "exact packings with loads in layer l ≤ 8: squares of summed weights, all sites inside",
-            lambda packing: compare(_pairs_of_blocks(packing)),
-        ),
-    ),
     remarks=(
         "Averaging over loads reduces the noise by a third at most, since one bead hears all of "
         "them through the same radii; averaging over beads reduces σ(p) as 1/N.",
@@ -383,40 +371,3 @@ B22 = Derivation(
         "are far higher than M*, below which contacts begin to pull.",
     ),
 )
-
-
-# witnesses
-
-
-def sites() -> Iterator[tuple[str, dict[sympy.Symbol, int]]]:
-    """Where there is a closed form, in words and as indices."""
-    for level, layer, left, count in product((4, 6, 8), range(6), range(1, 7), range(2, 5)):
-        right = level - layer - left
-        if right >= 1:
-            at = {l: level, j: layer, p: left, q: right, N: count, k: 0, i: right - left}
-            yield f"l = {level}, j = {layer}, p = {left}, q = {right}, N = {count}", at
-
-
-def _pairs_of_blocks(packing: SmallPacking) -> Iterator[tuple[str, Fraction, Fraction]]:
-    for one in BLOCKS:
-        forms = [(form, where) for *_, form, where in one.forms()]
-        for (words, at), (form, where) in product(sites(), forms):
-            if where.holds(at):
-                loads = range(at[N] if one is not BEADS else 1)
-                beads = range(at[N] if one is not LOADS else 1)
-                yield (
-                    f"{one.name}, {words}",
-                    *stated_and_true(packing, form, at, product(loads, beads)),
-                )
-
-
-def stated_and_true(
-    packing: SmallPacking,
-    form: sympy.Expr,
-    at: dict[sympy.Symbol, int],
-    pairs: Iterable[tuple[int, int]],
-) -> tuple[Fraction, Fraction]:
-    """What is stated of a mean over pairs, and what is true, r = σ = 1."""
-    cosine = packing.n[1] ** 2 - packing.n[0] ** 2
-    stated = explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
-    return stated, mean_response(at[l], (at[i], at[j]), tuple(pairs), packing.n)

@@ -1,7 +1,5 @@
 """The response averaged over N loads, each with a bead of its own: Eq. B23 of T7."""
 
-from collections.abc import Iterator
-from fractions import Fraction
 from functools import cache
 
 import sympy
@@ -18,8 +16,6 @@ from force_diffusion.derivations.beyond.t7_averages import (
     places,
     printed,
     pushed,
-    sites,
-    stated_and_true,
 )
 from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import FIRST_ORDER, ExactCase
@@ -28,7 +24,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     equation,
     formula,
     minus,
@@ -45,8 +40,6 @@ from force_diffusion.derivations.parts.neighbours import (
     SPREAD,
     apart,
 )
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare
 from force_diffusion.symbolic.symbols import (
     Covariance,
     N,
@@ -151,12 +144,6 @@ B23 = Derivation(
     where=SHORT,
     exact=rows,
     steps=row_steps,
-    witnesses=(
-        Witness(
-            "exact packings with loads in layer l ≤ 8: squares of summed weights, N ≤ 4",
-            lambda packing: compare(_pairs_of_rows(packing)),
-        ),
-    ),
     remarks=(
         "This is the ensemble's average, taken along one packing: each load is a sample, and the "
         "mean is that of Eq. B9. It falls as 1/N at first, faster than independent samples would, "
@@ -165,14 +152,3 @@ B23 = Derivation(
         "smaller than that: in a wide and low packing it shows where the first order still holds.",
     ),
 )
-
-
-# witnesses
-
-
-def _pairs_of_rows(packing: SmallPacking) -> Iterator[tuple[str, Fraction, Fraction]]:
-    forms = [(ROW.rhs, SHORT), *_rows()]
-    for words, at in sites():
-        for form, where in forms:
-            if where.holds(at):
-                yield words, *stated_and_true(packing, form, at, ((m_, m_) for m_ in range(at[N])))

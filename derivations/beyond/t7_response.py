@@ -5,7 +5,6 @@ bead, the paper's Green's function: the same plateau down to the base, which the
 """
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from functools import cache
 
 import sympy
@@ -23,7 +22,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     equation,
     exhausting,
     formula,
@@ -34,12 +32,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.parts import cone
-from force_diffusion.derivations.witnesses import second_order as witnesses
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel import rules
-from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.mean_balance import mean_below
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Theorem
@@ -345,43 +338,6 @@ def _claim(lines: Lines) -> None:
     )
 
 
-# witnesses
-
-LEVELS = (1, 2, 3, 5)
-"""Layers of the load; below the last there are contacts of every closed form."""
-
-
-def _stated(inside: str, leg: str, at: explicit.Values) -> Fraction:
-    """By a closed form, the first that fits; nothing outside of the cone."""
-    if at[p] < 1 or at[q] < 0:
-        return Fraction(0)
-    return MEANS[inside if at[q] else leg].value(at)
-
-
-def _witness(packing: SmallPacking) -> Ruling:
-    values = {**explicit.geometry(*packing.n, Fraction(1)), sigma: 1, r: 1}
-
-    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        for level in LEVELS:
-            forces, pushes = (
-                witnesses.response(level, packing.n),
-                witnesses.pushes(level, packing.n),
-            )
-            for layer in range(level):
-                for left in range(-1, level - layer + 2):
-                    right = level - layer - left
-                    at = {**values, l: level, j: layer, p: left, q: right}
-                    where = f"l = {level}, j = {layer}, p = {left}, q = {right}"
-                    for branch, side in (("+", 1), ("-", -1)):
-                        true = forces[(side * (right - left), layer), branch]
-                        yield f"f{branch}, {where}", _stated("contact", "leg-force", at), true
-                    if left < 1:  # on the right leg it is as on the left one
-                        at |= {p: right, q: left}
-                    yield f"p, {where}", _stated("bead", "leg", at), pushes[right - left, layer]
-
-    return compare(pairs())
-
-
 B9 = Derivation(
     number="B9",
     name="mean_response",
@@ -408,12 +364,6 @@ B9 = Derivation(
     where=MEANS["contact"].domains[-1],
     exact=at_finite_size,
     steps=steps,
-    witnesses=(
-        Witness(
-            "exact packings, ε²: the mean of every contact and bead of a cone, as fractions",
-            _witness,
-        ),
-    ),
     remarks=(
         "The paper leaves open whether ensemble averaging and coarse graining agree. In the mean "
         "they do, exactly: loads superpose, and the ensemble is the same at every place, so that "

@@ -4,12 +4,10 @@ The kernel has it exactly, at finite size, for every d and for loads that lean: 
 any d (B11, B20), and closed forms for d = 3 (B13, B14; leaning, B24, B25).
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cache, partial
 
-import mpmath
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
@@ -23,7 +21,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Layered,
     Lines,
     Where,
-    Witness,
     asymptotic,
     equation,
     formula,
@@ -33,18 +30,12 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.witnesses import dimensions as witnesses
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare
-from force_diffusion.numeric.mechanics.any_dimension import force_weights, squared, together
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel.any_dimension import (
     BULK,
     BULK_LEANING,
     SURFACE,
     SURFACE_LEANING,
 )
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.kernel.where import Loading
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
@@ -401,67 +392,6 @@ def _claim_leaning(case: Case, lines: Lines) -> None:
     )
 
 
-# witnesses
-
-
-RATIOS = (Fraction(3, 5), Fraction(4, 7), Fraction(5, 3))
-"""L^a/L^1 of the loads that lean in witnesses, a = 2, 3, 4."""
-
-
-def _ratios(case: Case, dimension: int) -> tuple[tuple[Fraction, ...], explicit.Values]:
-    """Those of a case, and their sums as values."""
-    ratios = (RATIOS if case.leaning else (Fraction(1),) * len(RATIOS))[: dimension - 1]
-    return ratios, {tau_1: sum(ratios), tau_2: sum(one**2 for one in ratios)}
-
-
-def _weights(case: Case, packing: SmallPacking) -> Ruling:
-    """Exact variances against the recursion from bead to bead, in up to four dimensions."""
-    cosine = witnesses.cosine_of(packing)
-
-    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        fixed = case.dimension if isinstance(case.dimension, int) else None
-        for dimension in (fixed,) if fixed else (2, 3, 4):
-            if 1 + dimension * cosine <= 0:
-                continue
-            ratios, sums = _ratios(case, dimension)
-            values: explicit.Values = {phi: cosine, sigma: 1, r: 1, d: dimension, **sums}
-            for height, layer, stated in case.variance.stated(7 if fixed else 5, values):
-                both = force_weights(
-                    dimension, height, layer, cosine, bulk=case.bulk, ratios=ratios
-                )
-                where = f"d = {dimension}, M = {height}, j = {layer}"
-                yield where, stated, squared(together(both))
-
-    return compare(pairs())
-
-
-def _taylor(case: Case, packing: SmallPacking) -> Ruling:
-    """The same against exact packings of spheres, solved as rational series."""
-    cosine = witnesses.cosine_of(packing)
-    ratios, sums = _ratios(case, 3)
-    values: explicit.Values = {phi: cosine, sigma: 1, r: 1, **sums}
-    load = "bulk" if case.bulk else "surface"
-    return compare(
-        (
-            f"M = {height}, j = {layer}",
-            stated,
-            witnesses.squares_of_spheres(cosine, height, load, ratios)[layer],
-        )
-        for height, layer, stated in case.variance.stated(3, values)
-    )
-
-
-def _solved_spheres(packing: SmallPacking) -> Ruling:
-    cosine = witnesses.cosine_of(packing)
-    worst = max(off for _, off in witnesses.remainders(cosine, 2, 1))
-    # a central difference at 1e-20 with 50 digits: rounding 1e-30, curvature 1e-40
-    good = worst < mpmath.mpf(10) ** -27
-    return Ruling(
-        Verdict.AGREES if good else Verdict.DISAGREES,
-        f"weights of spheres, φ = {cosine}, M = 2: the same within {mpmath.nstr(worst, 2)}",
-    )
-
-
 # what is derived
 
 _FLAT = "the base is flat and does not move"
@@ -490,7 +420,6 @@ def _derivation(
     load: str,
     premises: tuple[Derivation, ...],
     remarks: tuple[str, ...] = (),
-    further: tuple[Witness, ...] = (),
 ) -> Derivation:
     any_d = case.dimension == d
     steps: Callable[[], Lines] = cache(
@@ -517,24 +446,8 @@ def _derivation(
         exact=None if any_d else case.variance.exact,
         steps=steps,
         where=case.variance.in_the_limit,
-        witnesses=(
-            Witness(
-                "squared weights by the recursion from bead to bead, all layers of small packings"
-                + (" in two, three and four dimensions" if any_d else ""),
-                partial(_weights, case),
-            ),
-            *further,
-        ),
         remarks=remarks,
     )
-
-
-_SOLVED = Witness("spheres in three dimensions, solved at 50 digits", _solved_spheres)
-
-
-def _series(case: Case) -> Witness:
-    words = "exact packings of spheres, solved as rational series, all j < M ≤ 3"
-    return Witness(words, partial(_taylor, case))
 
 
 _ALONG = "along the sum of the base vectors"
@@ -550,7 +463,6 @@ ANY_SURFACE = _derivation(
         "an area with weights of order 1, and drop out of the leading order alone.",
         "Eqs. B13 and B14 are the exact forms at finite M for d = 3; Eq. B20 is for a bulk load.",
     ),
-    (_SOLVED,),
 )
 SPHERES_SURFACE = _derivation(
     B13,
@@ -562,7 +474,6 @@ SPHERES_SURFACE = _derivation(
         "At finite M line sums along all three vectors count: at z = 0 the next order is a share "
         "of −3(5 + 16φ + 5φ²)/[20(1+φ)² M], against −3/(4M) for discs.",
     ),
-    (_series(B13),),
 )
 SPHERES_BULK = _derivation(
     B14,
@@ -570,8 +481,6 @@ SPHERES_BULK = _derivation(
     "Variance of the forces in three dimensions under a bulk load",
     f"a bulk load {_ALONG}",
     (eq13.DERIVATION, eq14.DERIVATION, ANY_SURFACE, SPHERES_SURFACE),
-    (),
-    (_series(B14),),
 )
 ANY_BULK = _derivation(
     B20,
@@ -594,7 +503,6 @@ LEANING_SURFACE = _derivation(
         "[3r²/((2τ₁² + τ₂)κ²σ²)]^(1/3).",
         "The leading order holds in any dimension, with the κ, τ₁ and τ₂ of that.",
     ),
-    (_series(B24),),
 )
 LEANING_BULK = _derivation(
     B25,
@@ -602,8 +510,6 @@ LEANING_BULK = _derivation(
     "Variance of the forces in three dimensions under a bulk load in any direction",
     f"every bead above the base carries the same load {_LEANS}",
     (t2.DERIVATIONS["B3"], ANY_BULK, SPHERES_BULK, LEANING_SURFACE),
-    (),
-    (_series(B25),),
 )
 
 DERIVATIONS = {

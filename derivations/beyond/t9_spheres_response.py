@@ -4,10 +4,7 @@ A face of the cone below the loaded bead O holds the beads p steps along one vec
 another below it, p, q ≥ 1, in layer j = l − p − q; a leg has q = 0.
 """
 
-from collections.abc import Iterator
-from fractions import Fraction
 from functools import cache
-from itertools import product
 
 import sympy
 from force_diffusion.derivations import eq16_response as eq16
@@ -17,7 +14,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation,
     Lines,
     Where,
-    Witness,
     equation,
     formula,
     minus,
@@ -27,11 +23,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     times,
 )
 from force_diffusion.derivations.parts import cone
-from force_diffusion.derivations.witnesses import dimensions as witnesses
-from force_diffusion.derivations.witnesses.draws import SmallPacking
-from force_diffusion.derivations.witnesses.squared_weights import compare
 from force_diffusion.symbolic.kernel.any_dimension import POINT
-from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceBelow,
@@ -277,54 +269,6 @@ def steps() -> Lines:
     return lines
 
 
-# witnesses
-
-
-def _exact(quantity: sympy.Basic, level: int, first: int, other: int, cosine: Fraction) -> Fraction:
-    """The variance for σ = r = 1 by the recursion from bead to bead."""
-    bead = (first, other, 0)
-    contacts = {ON_FACE: ((bead, 1),), BEAD: ((bead, 0), (bead, 1))}.get(quantity, ((bead, 0),))
-    whole = witnesses.response_variance(level, cosine, contacts, vertical=quantity == ON_LEG)
-    return whole if quantity == LEG_MAGNITUDE else whole / 9
-
-
-def _squares(packing: SmallPacking) -> Ruling:
-    cosine = witnesses.cosine_of(packing)
-
-    def pairs() -> Iterator[tuple[str, Fraction, Fraction]]:
-        sites = product(QUANTITIES.values(), range(4), (1, 2, 3), (1, 2))
-        for one, layer, first, second in sites:
-            other = second if q in one.steps else 0
-            if other or second == 1:
-                at = {j: layer, p: first, q: other, l: layer + first + other}
-                stated = one.value({phi: cosine, sigma: 1, r: 1, **at})
-                where = f"{one.symbol.name}, j = {layer}, p = {first}, q = {other}"
-                yield where, stated, _exact(one.symbol, at[l], first, other, cosine)
-
-    return compare(pairs())
-
-
-def _spheres(packing: SmallPacking) -> Ruling:
-    cosine, level = witnesses.cosine_of(packing), 4
-    drawn = list(packing.rho.values())
-    beads = [u for u in product(range(level + 1), repeat=3) if sum(u) <= level]
-    rho = {bead: drawn[place % len(drawn)] for place, bead in enumerate(beads)}
-    exact = witnesses.response_of_spheres(cosine, level, rho)
-
-    def force(bead: tuple[int, ...], axis: int) -> Fraction:
-        """First order on legs and faces by the recursion; zero elsewhere, as is stated."""
-        if not bead[axis] or sum(map(bool, bead)) > 2:
-            return Fraction(0)
-        weights = witnesses.response_weights(3, level, cosine, bead, axis)
-        return sum((w * rho[at] for at, w in weights.items()), Fraction(0))
-
-    return compare(
-        (f"from O − {bead} along {axis + 1}", force(bead, axis), true)
-        for (bead, axis), true in exact.items()
-        if min(bead) >= 0
-    )
-
-
 DERIVATION = Derivation(
     number="B19",
     name="spheres_response",
@@ -354,14 +298,6 @@ DERIVATION = Derivation(
     dimension=3,
     exact=at_finite_size,
     steps=steps,
-    witnesses=(
-        Witness("squared weights by the recursion from bead to bead, as fractions", _squares),
-        Witness(
-            "exact packing of spheres with one load, l = 4: order ε¹ of every contact, and exact "
-            "zeros off legs and faces",
-            _spheres,
-        ),
-    ),
     remarks=(
         "Inside of the cone, off its three legs and three faces, no force is of first order: not "
         "on average, but in every packing. For discs the two legs enclose one face, and this face "

@@ -3,18 +3,18 @@
 import sys
 from collections.abc import Mapping, Sequence
 
-from ..export.terminal import outcome_text, summary_line
 from ..framework.catalogue import Number
 from ..framework.loading import with_premises
 from ..framework.record import Derivation
 from ..framework.runner import run_all
 from .guard import WRONG_USAGE, guarded
+from .progress import PlainLines
 
 
 def run_alone(
     derivations: Derivation | Mapping[Number, Derivation], arguments: Sequence[str] | None = None
 ) -> int:
-    """Run derivations and their premises as a program: print them in full; 0 if proved, else 1."""
+    """Run derivations as a program: print them in full, their premises in a line; 0 if proved."""
     own = list(derivations.values()) if isinstance(derivations, Mapping) else [derivations]
 
     def program() -> int:
@@ -28,12 +28,11 @@ def run_alone(
                 file=sys.stderr,
             )
             return WRONG_USAGE
-        outcomes = {one.derivation.number: one for one in run_all(with_premises(own))}
-        shown = [outcomes.pop(one.number) for one in own]
-        if outcomes:
-            premises = map(summary_line, outcomes.values())
-            print("It rests on", *premises, sep="\n", end="\n\n")
-        print(*map(outcome_text, shown), sep="\n\n")
-        return 0 if all(one.verdict.is_proved for one in shown) else 1
+        lines = PlainLines({one.number for one in own})
+        proved = True
+        for outcome in run_all(with_premises(own)):
+            lines.finished(outcome)
+            proved = proved and outcome.verdict.is_proved
+        return 0 if proved else 1
 
     return guarded(program)

@@ -22,10 +22,7 @@ from ..export.prose import either
 
 # Name: (module, what --help says: the first paragraph of the command's docstring).
 COMMANDS = {
-    "derive": (
-        "equations",
-        "Prove equations and all that they rest on, and check them.",
-    ),
+    "derive": ("equations", "Prove equations and all that they rest on."),
     "certify": (
         "certify",
         "Ask Coq, an independent proof assistant, whether it accepts the printed equations.",
@@ -50,8 +47,7 @@ COMMANDS = {
     "figures": ("figures", "Draw the paper's figures from new simulations of exact packings."),
 }
 STATUSES = (
-    "Exit status: 0 all proved, 1 something refuted or undecided, or the checker at fault, "
-    "2 wrong usage or input, "
+    "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
     "3 the disk or a pipe failed, 130 interrupted."
 )
 

@@ -1,41 +1,20 @@
 """The main job: prove what is asked for and what it rests on, and write it down."""
 
 import json
-from collections.abc import Iterable, Sequence
-from contextlib import nullcontext
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from force_diffusion.numeric.arithmetic.errors import printable
-from force_diffusion.numeric.arithmetic.processes import Start, beside
 
 from ..export.prose import both
-from ..export.terminal import tried_counts, tried_text
 from ..framework.catalogue import Number, modules
 from ..framework.loading import load, with_premises
 from .cli import command_line
 from .output import output
-from .progress import Silence, display
+from .progress import display
 
 if TYPE_CHECKING:
-    from ..api.derived import Derived
-    from ..framework.record import Derivation
-
-WORTH_ANOTHER_PROCESS = 16
-"""Equations from which on another process, which has to load SymPy, repays itself."""
-
-
-def premises_first(numbers: Iterable[Number]) -> "list[Derivation]":
-    """The derivations of these equations and of all that they rest on."""
-    return with_premises(map(load, numbers))
-
-
-def watched(numbers: Iterable[Number], watch: Silence, start: Start | None = None) -> "Derived":
-    """Derive these equations under a display; ``start`` calls functions in another process."""
-    from ..api.derived import derive_with
-
-    with watch.showing():
-        return derive_with(start, numbers, watch.checking, watch.finished)
+    pass
 
 
 def derive(
@@ -48,10 +27,13 @@ def derive(
 ) -> int:
     """Derive these equations and their premises: 0 if all are proved, else 1.
 
+    Of a single one all steps and claims are printed, of several a line each.
+
     The output folders are looked at before the first proof, so that a wrong one costs no time. The
     document in ``out`` is also about the equations that an earlier run has left there; the folder
     ``article`` gets the article, which says what this run has proved.
     """
+    from ..api.derived import derive as derived
     from ..export.document import (
         DOCUMENT,
         document,
@@ -64,16 +46,16 @@ def derive(
         from ..export.article import names_of_files
 
         in_article = names_of_files()
-    derivations = premises_first(numbers)
+    derivations = with_premises(map(load, numbers))
     names = [*map(fragment_name, derivations), DOCUMENT]
     with (
         output(out, "derive", names, overwrite) as folder,
         output(article, "derive --article", in_article, overwrite) as paper,
     ):
-        watch = display(len(derivations), as_json=as_json)
-        many = len(derivations) >= WORTH_ANOTHER_PROCESS
-        with beside() if many else nullcontext() as start:
-            found = watched(numbers, watch, start)
+        in_full = numbers[0] if len(numbers) == 1 else None
+        watch = display(len(derivations), in_full, as_json=as_json)
+        with watch.showing():
+            found = derived(numbers, notice=watch.checking, finished=watch.finished)
         if paper:
             from ..export.article import article_and_figures
 
@@ -92,8 +74,6 @@ def derive(
             folder.write(
                 {**found.fragments(columns), DOCUMENT: document(about)}, [one for _, one in about]
             )
-    if on := tried_text(tried_counts(found.outcomes)):
-        watch.summary(on)
     folders = [printable(str(one)) for one in (out, article) if one]
     watch.summary(f"{found.counts()}." + (f" Written to {both(folders)}." if folders else ""))
     if as_json:

@@ -86,7 +86,10 @@ def derive(
     ] = None,
     overwrite: Overwrite = False,
 ) -> None:
-    """Prove equations and all that they rest on, and check them."""
+    """Prove equations and all that they rest on.
+
+    Of a single equation all steps and claims are printed, of several a line each.
+    """
     from . import deriving
 
     wanted = wanted_of(numbers or ()) or list(modules())

@@ -1,12 +1,14 @@
 """How a run is followed: a live bar on a terminal, plain lines in a pipe, or not at all."""
 
 import sys
+from collections.abc import Collection
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, TextIO
 
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
-from ..export.terminal import summary_line, trouble_lines
+from ..export.terminal import outcome_text, summary_line, trouble_lines
+from ..framework.catalogue import Number
 from ..framework.record import Outcome
 
 if TYPE_CHECKING:
@@ -37,14 +39,27 @@ class Silence:
         """The last word."""
 
 
+def _in_full(outcome: Outcome) -> str:
+    """All of an equation, below the lines of its premises."""
+    return "\n" * bool(outcome.derivation.premises) + outcome_text(outcome)
+
+
 class PlainLines(Silence):
-    """One line per equation, as soon as it is known."""
+    """One line per equation, as soon as it is known, or all of it.
+
+    Args:
+        in_full: numbers of the equations of which all is printed.
+    """
+
+    def __init__(self, in_full: Collection[Number] = ()):
+        self._in_full = in_full
 
     def finished(self, outcome: Outcome) -> None:
-        """Its verdict and counts, and below them whatever went wrong."""
-        for line in (summary_line(outcome), *trouble_lines(outcome)):
-            print(line)
-        sys.stdout.flush()
+        """Its line, and below it whatever went wrong; or all that was found."""
+        if outcome.derivation.number in self._in_full:
+            print(_in_full(outcome), flush=True)
+            return
+        print(summary_line(outcome), *trouble_lines(outcome), sep="\n", flush=True)
 
     def summary(self, words: str) -> None:
         """The last line."""
@@ -52,15 +67,22 @@ class PlainLines(Silence):
 
 
 class LiveBar(Silence):
-    """A bar that names the check at work; finished equations stand above it."""
+    """A bar that names the check at work; finished equations stand above it.
 
-    def __init__(self, console: "Console", total: int, *, lines: bool) -> None:
-        """Make the bar; ``lines`` says whether the console may also have lines of text."""
+    Args:
+        console: where it is drawn.
+        total: how many equations there are.
+        in_full: numbers of the equations of which all is printed.
+        lines: whether the console may also have lines of text.
+    """
+
+    def __init__(
+        self, console: "Console", total: int, in_full: Collection[Number], *, lines: bool
+    ) -> None:
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
         from rich.table import Column
 
-        self._console = console
-        self._lines = lines
+        self._console, self._in_full, self._lines = console, in_full, lines
         self._bar = Progress(
             BarColumn(bar_width=24),
             MofNCompleteColumn(),
@@ -85,7 +107,9 @@ class LiveBar(Silence):
     def finished(self, outcome: Outcome) -> None:
         """One more done."""
         self._bar.advance(self._task)
-        if self._lines:
+        if outcome.derivation.number in self._in_full:
+            self.summary(_in_full(outcome))
+        elif self._lines:
             from rich.text import Text
 
             line = Text(summary_line(outcome))
@@ -93,18 +117,25 @@ class LiveBar(Silence):
             self._console.print(line, *trouble_lines(outcome), sep="\n", markup=False)
 
     def summary(self, words: str) -> None:
-        """The last line."""
+        """Text as it is."""
         if self._lines:
             self._console.print(words, markup=False, highlight=False, soft_wrap=True)
 
 
-def display(total: int, *, as_json: bool) -> Silence:
-    """The display that suits where the output goes; with JSON only standard error is free."""
+def display(total: int, in_full: Number | None, *, as_json: bool) -> Silence:
+    """The display that suits where the output goes; with JSON only standard error is free.
+
+    Args:
+        total: how many equations there are.
+        in_full: the number of the one of which all is printed.
+        as_json: whether standard output is for JSON.
+    """
+    numbers = () if in_full is None else (in_full,)
     stream: TextIO = sys.stderr if as_json else sys.stdout
     if stream.isatty():
         from rich.console import Console
 
         console = Console(file=stream)
         if not console.is_dumb_terminal:
-            return LiveBar(console, total, lines=not as_json)
-    return Silence() if as_json else PlainLines()
+            return LiveBar(console, total, numbers, lines=not as_json)
+    return Silence() if as_json else PlainLines(numbers)

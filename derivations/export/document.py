@@ -1,6 +1,5 @@
 """The LaTeX that ``derive --out`` writes: a fragment per equation, and one document."""
 
-from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from force_diffusion.symbolic.kernel.decisions import in_words
@@ -10,20 +9,9 @@ from sympy import Basic
 
 from ..coq.record import recorded
 from ..framework.record import Derivation, Outcome
-from .manifest import (
-    MANIFEST,
-    FoundEquation,
-    FoundMutants,
-)
+from .manifest import FoundEquation
 from .prose import prose_latex
-from .terminal import (
-    follows_text,
-    mutant_counts,
-    relation_of,
-    step_verdicts,
-    tried_counts,
-    tried_text,
-)
+from .terminal import follows_text, relation_of, step_verdicts
 
 DOCUMENT = "equations.tex"
 
@@ -60,12 +48,7 @@ READING = (
     "from its assumptions; proved, assuming, that it rests on a further one, which is named and "
     "which no rule discharges; refuted, that a counterexample was found; undecided, that neither "
     "was done; not a statement, that what is written has no value, or no single meaning, "
-    "somewhere on its domain. A witness is a comparison of another kind, with exact or "
-    "high-precision numbers for packings "
-    "drawn at random: it agrees or disagrees, and proves nothing. A mutant is the printed "
-    "equation with one mechanical change, which has to be refuted, or not "
-    "to be a statement; one that is an "
-    "equivalent rewriting is listed with the proof that it is. Accepted is a word of "
+    "somewhere on its domain. Accepted is a word of "
     "Coq, an unrelated proof assistant, about the printed equation on exact packings; it is on "
     "record with the hash of what was asked."
 )
@@ -146,26 +129,6 @@ def _refuted(derivation: Derivation) -> str:
     )
 
 
-def _mutants(found: FoundMutants) -> str:
-    if not found.changes:
-        return ""
-    kinds = Counter(mutant.kind for mutant in found.changes)
-    told = (
-        f"\\par {found.made} made, {found.refuted} refuted, {found.no_statements} not a statement, "
-        f"{found.equivalent} equivalent rewritings. By kind: "
-        + "; ".join(f"{prose_latex(kind)}: {count}" for kind, count in kinds.most_common())
-        + f". \\texttt{{{MANIFEST}}} lists each of them.\n"
-    )
-    return told + _list(
-        "itemize",
-        (
-            _noted(mutant.verdict, mutant.change, mutant.note)
-            for mutant in found.changes
-            if mutant.verdict in ("undecided", "equivalent")
-        ),
-    )
-
-
 def _numbered(derivation: Derivation) -> str:
     """What lets the next display have its number."""
     number = derivation.number
@@ -182,7 +145,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     ]
     rests = ", ".join(f"({premise.number})" for premise in derivation.premises)
     plural = "s" if len(derivation.premises) > 1 else ""
-    checks = [
+    claims = [
         _noted(in_words(check.verdict, check.assuming), check.name, check.note)
         for check in found.checks
         if check.kind != "step"
@@ -198,8 +161,7 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
             _part("Steps", _steps(derivation, step_verdicts(found.checks))),
-            _part("Checks", _list("itemize", checks)),
-            _part("Mutants", _mutants(found.mutants)),
+            _part("Claims", _list("itemize", claims)),
             _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),
         ]
     )
@@ -217,30 +179,17 @@ def _overview(parts: Sequence[tuple[Derivation, FoundEquation]]) -> str:
 
 
 def _table(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
-    rows = []
-    tried: Counter[str] = Counter()
-    for derivation, found in parts:
-        kinds = [check.kind for check in found.checks]
-        mutants = found.mutants
-        if found.statements:
-            tried.update(found.statements.model_dump())
-        rows.append(
-            f"({derivation.number}) & {prose_latex(derivation.title)} & "
-            f"{_verdict(found)} & {recorded(derivation.number).partition(' by ')[0]} & "
-            f"{kinds.count('proof')} & {kinds.count('witness')} & "
-            f"{mutants.made} & {mutants.refuted} & {mutants.no_statements} & "
-            f"{mutants.equivalent} \\\\\n"
-        )
+    rows = [
+        f"({derivation.number}) & {prose_latex(derivation.title)} & {_verdict(found)} & "
+        f"{recorded(derivation.number).partition(' by ')[0]} \\\\\n"
+        for derivation, found in parts
+    ]
     return (
         "\\begin{center}\\footnotesize\\setlength{\\tabcolsep}{3pt}\n"
-        "\\begin{tabular}{r>{\\raggedright}p{47mm}>{\\raggedright}p{17mm}lrrrrrr}\n\\hline\n"
-        " & & & & & & \\multicolumn{4}{c}{mutants} \\\\\n"
-        "Eq. & title & verdict & Coq & proofs & witnesses & made & refuted & none & equiv."
-        " \\\\\n\\hline\n"
+        "\\begin{tabular}{r>{\\raggedright}p{85mm}>{\\raggedright}p{30mm}l}\n\\hline\n"
+        "Eq. & title & verdict & Coq \\\\\n\\hline\n"
         + "".join(rows)
         + "\\hline\n\\end{tabular}\n\\end{center}\n"
-        + "None: mutants that are not a statement; equiv.: equivalent rewritings.\n\n"
-        + f"{tried_text(tried)}\n"
     )
 
 
@@ -266,19 +215,6 @@ def finding(outcome: Outcome) -> FoundEquation:
                 }
                 for check in outcome.checks
             ],
-            "mutants": {
-                **mutant_counts(outcome),
-                "changes": [
-                    {
-                        "change": mutant.change,
-                        "kind": mutant.kind,
-                        "verdict": mutant.verdict,
-                        "note": mutant.note,
-                    }
-                    for mutant in outcome.mutants
-                ],
-            },
-            "statements": tried_counts([outcome]),
         }
     )
 

@@ -35,50 +35,13 @@ class Made(_Part):
 
 
 class FoundCheck(_Part):
-    """A step, a proof, a witness or the refutation of a printed statement, and its verdict."""
+    """A step, a proof or the refutation of a printed statement, and its verdict."""
 
-    kind: Literal["step", "proof", "witness", "refutation"]
+    kind: Literal["step", "proof", "refutation"]
     name: str
-    verdict: Literal[
-        "proved",
-        "proved, assuming",
-        "refuted",
-        "undecided",
-        "not a statement",
-        "agrees",
-        "disagrees",
-    ]
+    verdict: Literal["proved", "proved, assuming", "refuted", "undecided", "not a statement"]
     note: str
     assuming: tuple[str, ...] = ()
-
-
-class FoundMutant(_Part):
-    """A mechanical change of the printed equation, and its verdict."""
-
-    change: str
-    kind: str
-    verdict: Literal["refuted", "undecided", "not a statement", "equivalent"]
-    note: str
-
-
-class FoundMutants(_Part):
-    """How many mutants there were, and each of them."""
-
-    made: int
-    refuted: int
-    no_statements: int = 0
-    equivalent: int
-    changes: tuple[FoundMutant, ...]
-
-
-class FoundStatements(_Part):
-    """How many false statements were tried and refuted, and how many true ones and proved."""
-
-    false: int
-    refuted: int
-    no_statements: int = 0
-    true: int
-    proved: int
 
 
 class FoundEquation(_Part):
@@ -91,8 +54,6 @@ class FoundEquation(_Part):
     premises: tuple[int | str, ...]
     verdict: Literal["proved", "proved, assuming", "refuted", "undecided"]
     checks: tuple[FoundCheck, ...]
-    mutants: FoundMutants
-    statements: FoundStatements | None = None
     assuming: tuple[str, ...] = ()
 
 

@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from textwrap import fill
 from typing import Any
 
@@ -13,8 +13,7 @@ from force_diffusion.symbolic.printing.text import text
 from ..coq.record import recorded
 from ..framework.catalogue import theorem_of
 from ..framework.proving import Shown
-from ..framework.record import Check, Derivation, Mutant, Outcome
-from ..framework.runner import UNLIKE
+from ..framework.record import Check, Derivation, Outcome
 from .manifest import FoundCheck
 from .prose import both
 
@@ -125,122 +124,33 @@ def check_text(check: Check) -> str:
     return _paragraph(head + (f". {check.note}" if check.note else ""), "  - ", "    ")
 
 
-def mutant_text(mutant: Mutant) -> str:
-    """One changed equation that the checker did not refute."""
-    kind = "equivalent rewriting" if mutant.equivalent else str(mutant.ruling.verdict)
-    if mutant.reason == UNLIKE:
-        return _paragraph(f"{mutant.change}: {mutant.reason}", "  - ", "    ")
-    note = f". {mutant.note}" if mutant.note else ""
-    return _paragraph(f"{kind}: {mutant.change}{note}", "  - ", "    ")
-
-
-def mutant_counts(outcome: Outcome) -> dict[str, int]:
-    """How many changed equations were made, refuted, no statements, proved to be equivalent."""
-    verdicts = [mutant.ruling.verdict for mutant in outcome.mutants]
-    return {
-        "made": len(verdicts),
-        "refuted": verdicts.count(Verdict.REFUTED),
-        "no_statements": verdicts.count(Verdict.NOT_A_STATEMENT),
-        "equivalent": sum(m.equivalent and m.reason != UNLIKE for m in outcome.mutants),
-    }
-
-
-def counts_text(outcome: Outcome) -> str:
-    """The same in words."""
-    counts = mutant_counts(outcome)
-    words = f"{counts['refuted']} of {counts['made']} mutants refuted"
-    if counts["no_statements"]:
-        words += f", {counts['no_statements']} not a statement"
-    if counts["equivalent"]:
-        words += f", {counts['equivalent']} equivalent"
-    return words
-
-
-def tried_counts(outcomes: Iterable[Outcome]) -> dict[str, int]:
-    """How many statements were false, of these refuted or no statements, and true and proved."""
-    on = [one for outcome in outcomes for one in outcome.tried]
-    false = [one.ruling.verdict for one in on if not one.statement.holds]
-    true = [one.ruling.verdict for one in on if one.statement.holds]
-    return {
-        "false": len(false),
-        "refuted": false.count(Verdict.REFUTED),
-        "no_statements": false.count(Verdict.NOT_A_STATEMENT),
-        "true": len(true),
-        "proved": sum(verdict.is_proved for verdict in true),
-    }
-
-
-def tried_text(counts: Mapping[str, int]) -> str:
-    """The same in words; "" where none was tried."""
-    if not counts["false"] + counts["true"]:
-        return ""
-    none, false, true = counts["no_statements"], counts["false"], counts["true"]
-    left, missed = false - counts["refuted"] - none, true - counts["proved"]
-    words = (
-        f"The checker itself was tried. Of {false} false statements it proved none: "
-        f"{counts['refuted']} are refuted, {none} no statements, and {left} undecided, which is no "
-        f"failure where a statement is false. Of {true} true ones it proved {counts['proved']}"
-    )
-    return words + (f" and left {missed} undecided, which is a failure." if missed else ".")
-
-
 def outcome_text(outcome: Outcome) -> str:
     """A derivation from its title to its verdict."""
     derivation = outcome.derivation
-    survivors = [m for m in outcome.mutants if m.ruling.verdict is not Verdict.REFUTED]
     steps = steps_text(derivation, step_verdicts(outcome.checks))
-    parts = [statement_text(derivation), "", "Steps", steps, "", "Checks"]
+    parts = [statement_text(derivation), "", "Steps", steps, "", "Claims"]
     parts += [check_text(check) for check in outcome.checks if check.kind != "step"]
-    parts += [f"  - {counts_text(outcome)}", *map(mutant_text, survivors)]
-    parts += [
-        _paragraph(words, "  - ", "    ")
-        for words in [tried_text(tried_counts([outcome]))]
-        if words
-    ] + [""]
     said = [f"Eq. {derivation.number} is {outcome.words}", expected_text(len(outcome.refuted))]
-    parts.append(f"{'; '.join(filter(None, said))} ({outcome.seconds:.2f} s)")
+    parts += ["", f"{'; '.join(filter(None, said))} ({outcome.seconds:.2f} s)"]
     return "\n".join(parts)
 
 
-def _count(number: int, one: str, more: str) -> str:
-    return f"{number} {one if number == 1 else more}"
-
-
 def summary_line(outcome: Outcome) -> str:
-    """One line for one equation."""
-    kinds = [check.kind for check in outcome.checks]
-    steps = _count(kinds.count("step"), "step", "steps")
-    proofs = _count(kinds.count("proof"), "proof", "proofs")
-    witnesses = _count(kinds.count("witness"), "witness", "witnesses")
-    found = [steps, proofs, witnesses, counts_text(outcome), expected_text(len(outcome.refuted))]
+    """One line for one equation: its number, verdict and title, and the seconds it took."""
+    derivation = outcome.derivation
     return (
-        f"{outcome.derivation.number!s:>3}  {outcome.words:<9}  {outcome.derivation.title}: "
-        f"{', '.join(filter(None, found))} ({outcome.seconds:.2f} s)"
+        f"{derivation.number!s:>3}  {outcome.words:<9}  {derivation.title} "
+        f"({outcome.seconds:.2f} s)"
     )
 
 
 def trouble_lines(outcome: Outcome) -> list[str]:
     """What kept an equation from being proved."""
-    lines = [
+    return [
         check_text(check)
         for check in outcome.checks
-        if not (check.verdict.is_proved or check.verdict is Verdict.AGREES or check.is_expected)
+        if not (check.verdict.is_proved or check.is_expected)
     ]
-    lines += [
-        mutant_text(mutant)
-        for mutant in outcome.mutants
-        if mutant.ruling.verdict is Verdict.UNDECIDED or mutant.reason == UNLIKE
-    ]
-    lines += [
-        _paragraph(
-            f"{one.ruling.verdict}: a true statement ({one.statement.reason}). {one.ruling.note}",
-            "  - ",
-            "    ",
-        )
-        for one in outcome.tried
-        if one.is_open
-    ]
-    return lines
 
 
 def outcomes_data(outcomes: Iterable[Outcome]) -> dict[str, Any]:
@@ -261,8 +171,6 @@ def outcomes_data(outcomes: Iterable[Outcome]) -> dict[str, Any]:
                 for check in outcome.checks
             ],
             "refuted as expected": len(outcome.refuted),
-            "mutants": mutant_counts(outcome),
-            "statements": tried_counts([outcome]),
             "seconds": round(outcome.seconds, 6),
         }
         for outcome in outcomes

@@ -25,7 +25,6 @@ from .proving import no_statement
 from .record import (
     Derivation,
     ExactCase,
-    in_whole_numbers,
     proved_by_line,
 )
 
@@ -37,6 +36,16 @@ _EVERYWHERE: tuple[Any, ...] = (
     sy.j <= sy.l,
 )
 """What holds of heights and layers wherever they stand together."""
+
+
+def in_whole_numbers(relation: sympy.Basic) -> sympy.Basic:
+    """A relation without fractions."""
+    left, right = relation.args
+    apart = sympy.expand(left - right)
+    common = sympy.ilcm(1, *(one.q for one in apart.as_coefficients_dict().values()))
+    return (
+        relation.func(sympy.expand(common * apart), 0, evaluate=False) if common > 1 else relation
+    )
 
 
 def rule_on_exact(derivation: Derivation, case: ExactCase, candidate: sympy.Eq) -> Ruling:

@@ -6,12 +6,9 @@ own; each with its ``where``, from which users get the range of the closed form.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from functools import cached_property
 
 import sympy
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
 from force_diffusion.symbolic.kernel import moments
@@ -151,27 +148,6 @@ class Layered:
             small = [(*at, self._value(self._small(*at)).to_sympy()) for at in case.missed]
             found[name] = ClosedForm(case.validity, tuple(small), self._value(self.where(name)))
         return found
-
-    def stated(self, up_to: int, values: explicit.Values) -> Iterator[tuple[int, int, Fraction]]:
-        """M, j and what is stated there, for every layer of all packings of M ≤ ``up_to``."""
-        for height in range(1, up_to + 1):
-            for layer in range(height):
-                form = self._form_at(height, layer)
-                yield height, layer, explicit.number(form, {**values, M: height, j: layer})
-
-    def _form_at(self, height: int, layer: int) -> sympy.Expr:
-        """The form of a layer of one packing, by the domains of the cases.
-
-        Raises:
-            ForceDiffusionError: no case is for it.
-        """
-        for name, form in self.forms.items():
-            for size, at, value in form.exceptions:
-                if (size, at) == (height, layer):
-                    return value
-            if self.where(name).holds({M: height, j: layer}):
-                return form.expression
-        raise ForceDiffusionError(f"no exact form is for M = {height}, j = {layer}")
 
     def exact(self, to_order: str = "first order") -> dict[str, ExactCase]:
         """The closed forms as users get them."""

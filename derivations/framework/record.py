@@ -1,8 +1,7 @@
 """The shape of a derivation: what every ``eqNN_…`` module states, and what running it yields."""
 
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
-from functools import partial
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import sympy
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -27,12 +26,8 @@ from force_diffusion.symbolic.kernel.language import (
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.corpus import Statement, statements
-from force_diffusion.symbolic.search.sources import Form, Source
 from force_diffusion.symbolic.search.values import WithoutValue
 
-from ..witnesses.both_sides import Points, compare
-from ..witnesses.draws import SmallPacking
 from .catalogue import Number
 from .proving import (
     Line,
@@ -47,8 +42,6 @@ from .proving import (
 class KernelError(ForceDiffusionError, RuntimeError):
     """The checker is at fault: its verdict on a statement is wrong. Nothing it says then counts."""
 
-    exit_status = 1
-
 
 _ALARM = 24  # points at which what was proved is looked at all the same
 
@@ -59,20 +52,6 @@ class Claim:
 
     name: str
     decide: Callable[[], Ruling]
-
-
-@dataclass(frozen=True)
-class Witness:
-    """A check of another kind: exact or high-precision numbers of a small packing."""
-
-    name: str
-    run: Callable[[SmallPacking], Ruling]
-
-
-def on_packings(equation: sympy.Eq, load: str, points: Points, part: str = "") -> Witness:
-    """Compare both sides of an equation on exact packings, as fractions."""
-    name = "an exact packing obeys it, both sides at orders ε⁰ and ε¹" + (part and f": {part}")
-    return Witness(name, partial(compare, equation, load=load, points=points))
 
 
 _MEANINGS = {
@@ -115,7 +94,6 @@ class Derivation:
         printed: the equations, each of which is the formula of a line.
         steps: gives the lines.
         claims: what else a procedure of its own decides.
-        witnesses: checks of another kind.
         remarks: in words.
         domain: relations of whole numbers, where the printed form holds at finite size.
         where: the same for the kernel, with the load and the limit.
@@ -127,8 +105,6 @@ class Derivation:
             "∝", left over right goes to a positive function of φ alone. With another sign nothing
             is decided of it.
         exact: gives the forms at finite size, by case.
-        equivalent: mechanical changes that say the same, each with the reason why.
-        tries: gives the statements of known truth that the checker is tried on.
     """
 
     number: Number
@@ -140,7 +116,6 @@ class Derivation:
     printed: tuple[sympy.Eq, ...]
     steps: Callable[[], Lines]
     claims: tuple[Claim, ...] = ()
-    witnesses: tuple[Witness, ...] = ()
     remarks: tuple[str, ...] = ()
     domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
     where: Where | None = None  # the same, with the load, of what the kernel proves
@@ -148,27 +123,6 @@ class Derivation:
     loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"
     exact: Callable[[], dict[str, "ExactCase"]] | None = None  # forms at finite size, by case
-    # mechanical changes that say the same at the order decided, each with the reason why
-    equivalent: Mapping[str, str] = field(default_factory=dict)
-    # false statements, and true ones in another form, that the procedure is tried on
-    tries: Callable[[Source, int | None], Iterable[Statement]] = statements
-
-    def source(self, part: int) -> Source:
-        """One of ``printed``, as other statements are made from it."""
-        printed, where = self.printed[part], self.domain_of(part)
-        cases = self.exact() if self.exact else {}
-        forms = (
-            Form(name, case.expression, any(isinstance(one, sympy.Eq) for one in case.domain))
-            for name, case in cases.items()
-            if case.quantity == printed.lhs
-            # at finite size, forms of other layers may be the same there, or not
-            and (
-                where is None
-                or where.limit
-                or all(where.implies(in_whole_numbers(one)) for one in case.domain)
-            )
-        )
-        return Source(printed, self.relation, tuple(forms), where, self.dimension)
 
     def domain_of(self, part: int) -> Where:
         """Where one of ``printed`` is proved."""
@@ -260,16 +214,6 @@ class Derivation:
             f"the checker is at fault, and its verdicts count for nothing. Of Eq. {self.number} it "
             f"got wrong: {_shown(statement)} ({words})"
         )
-
-
-def in_whole_numbers(relation: sympy.Basic) -> sympy.Basic:
-    """A relation without fractions."""
-    left, right = relation.args
-    apart = sympy.expand(left - right)
-    common = sympy.ilcm(1, *(one.q for one in apart.as_coefficients_dict().values()))
-    return (
-        relation.func(sympy.expand(common * apart), 0, evaluate=False) if common > 1 else relation
-    )
 
 
 def proved_by_line(
@@ -366,9 +310,9 @@ class ExactCase:
 
 @dataclass(frozen=True)
 class Check:
-    """A step, a claim or a witness that has been run."""
+    """A step, a claim or a printed statement that has been decided."""
 
-    kind: str  # "step", "proof", "witness", or "refutation" of a printed statement
+    kind: str  # "step", "proof", or "refutation" of a printed statement
     name: str
     verdict: Verdict
     seconds: float
@@ -387,53 +331,12 @@ class Check:
 
 
 @dataclass(frozen=True)
-class Mutant:
-    """A printed equation with one mechanical change, and what the checker said of it."""
-
-    kind: str
-    change: str
-    equation: sympy.Eq
-    ruling: Ruling
-    reason: str = ""  # why it is an equivalent rewriting
-
-    @property
-    def note(self) -> str:
-        """What the ruling rests on, and why it is an equivalent rewriting where it is one."""
-        return "; ".join(filter(None, (self.reason, self.ruling.note)))
-
-    @property
-    def equivalent(self) -> bool:
-        """Whether it is an equivalent rewriting, with its proof."""
-        return self.ruling.verdict.is_proved
-
-    @property
-    def verdict(self) -> str:
-        """The ruling's verdict in words, "equivalent" for one that is proved."""
-        return "equivalent" if self.equivalent else str(self.ruling.verdict)
-
-
-@dataclass(frozen=True)
-class Tried:
-    """A statement that is known to be false, or true, and what the checker said of it."""
-
-    statement: Statement
-    ruling: Ruling
-
-    @property
-    def is_open(self) -> bool:
-        """Whether it is true and not proved."""
-        return self.statement.holds and not self.ruling.verdict.is_proved
-
-
-@dataclass(frozen=True)
 class Outcome:
     """All that running one derivation found."""
 
     derivation: Derivation
     verdict: Verdict
     checks: tuple[Check, ...]
-    mutants: tuple[Mutant, ...] = field(default=())
-    tried: tuple[Tried, ...] = field(default=())
     seconds: float = 0.0
 
     @property

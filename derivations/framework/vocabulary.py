@@ -41,7 +41,7 @@ from .grounds import (
 )
 from .layered import UNIT, Layered
 from .proving import Line, Lines
-from .record import Claim, Derivation, Witness, on_packings
+from .record import Claim, Derivation
 
 __all__ = [
     "SUPPOSED",
@@ -57,7 +57,6 @@ __all__ = [
     "Part",
     "Where",
     "Within",
-    "Witness",
     "along",
     "asymptotic",
     "axioms",
@@ -78,7 +77,6 @@ __all__ = [
     "mirror_of",
     "moment",
     "negligible",
-    "on_packings",
     "order",
     "power",
     "reach",

@@ -2,15 +2,13 @@
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy
-from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.kernel import moments
 from force_diffusion.symbolic.kernel.where import Loading, at_fixed_height
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import Covariance, M, N, Variance, i, j, m, p, phi, r, sigma
+from force_diffusion.symbolic.symbols import Covariance, M, N, Variance, i, j, m, p
 from sympy import Eq, Ge, Rational
 
 from ..framework.grounds import Source, facts_of
@@ -21,7 +19,6 @@ from ..framework.vocabulary import (
     By,
     Lines,
     Where,
-    Witness,
     asymptotic,
     cases,
     equation,
@@ -30,7 +27,6 @@ from ..framework.vocabulary import (
     terms,
     times,
 )
-from ..witnesses import neighbours
 
 COVARIANCES = tuple(
     Symbol(f"C_{place}", f"C_{{{place}}}", f"C{lowered}") for place, lowered in enumerate("₀₁₂")
@@ -198,24 +194,4 @@ class Means:
             ),
             asymptotic(*self.facts),
             where=self.on(*relations("j ≥ 4, M ≥ j + 2")).in_the_limit(at_fixed_height("∼")),
-        )
-
-    def witnesses(self, quantity: str) -> tuple[Witness, ...]:
-        """Packings in which weights of neighbours are summed before they are squared."""
-
-        def stated(height: int, layer: int, count: int, cosine: Fraction) -> Fraction:
-            at = {M: height, j: layer, N: count}
-            forms = ((self.printed.rhs, self.where, self.by), *self._forms())
-            form = next(form for form, where, _ in forms if where.holds(at))
-            return explicit.number(form, {**at, phi: cosine, sigma: 1, r: 1})
-
-        return (
-            Witness(
-                "exact packings of M ≤ 4: squares of summed weights, as fractions",
-                partial(neighbours.agree_in_small_ones, quantity, stated),
-            ),
-            Witness(
-                "packings to first order, M from 12 to 15, every N ≤ 2M, modulo a prime",
-                partial(neighbours.agree_in_high_ones, quantity, stated),
-            ),
         )

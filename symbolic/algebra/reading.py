@@ -1,4 +1,4 @@
-"""From a SymPy expression to its normal form: the only way in, for equations and mutants alike."""
+"""From a SymPy expression to its normal form: the only way in, whatever is to be proved."""
 
 from dataclasses import dataclass, replace
 from functools import lru_cache

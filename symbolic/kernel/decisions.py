@@ -19,15 +19,13 @@ from ..notation import by_name
 
 
 class Verdict(StrEnum):
-    """What a decision procedure found; a witness agrees or disagrees, it never proves."""
+    """What a decision procedure found."""
 
     PROVED = "proved"
     ASSUMING = "proved, assuming"
     REFUTED = "refuted"
     UNDECIDED = "undecided"
     NOT_A_STATEMENT = "not a statement"
-    AGREES = "agrees"
-    DISAGREES = "disagrees"
 
     @property
     def is_proved(self) -> bool:

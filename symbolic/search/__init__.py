@@ -1,4 +1,1 @@
-"""Counterexamples on explicit small packings, and what a checker is tried on.
-
-Nothing here knows how the kernel decides.
-"""
+"""Counterexamples on explicit small packings; nothing here knows how the kernel decides."""

@@ -32,13 +32,6 @@ class LayerAverage:
         each = self.harmonic.to_sympy() / k
         return self.rational.to_sympy() + sympy.Sum(each, (k, 2, M - 2))
 
-    def value_at(self, height: int) -> sympy.Expr:
-        """The average in a packing of a given height M ≥ 1."""
-        small = dict(self.exceptions)
-        if height in small:
-            return small[height]
-        return self.expression.xreplace({M: sympy.Integer(height)}).doit()
-
 
 def layer_average(forms: dict[str, ClosedForm]) -> LayerAverage:
     """Average the closed forms of all layers 0 ≤ j < M, those at the edges included.

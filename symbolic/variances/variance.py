@@ -4,7 +4,6 @@ The radii are independent with variance σ², so the variance of a form is σ² 
 squared weights.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -44,20 +43,6 @@ CASES: dict[str, tuple[dict[sympy.Symbol, sympy.Expr], Region, str, tuple[int, .
     "surface": ({j: M - 1}, Region({M: 3}), "j = M − 1 and M ≥ 3", (1, 2)),
 }
 """Layers with a closed form of their own: substitution, region, its words, heights missed."""
-
-
-def packings(up_to: int) -> Iterator[tuple[int, int, str]]:
-    """Every 0 ≤ j < M ≤ up_to with the name of the case that covers it."""
-    for height in range(1, up_to + 1):
-        for layer in range(height):
-            if 2 <= layer <= height - 2:
-                yield height, layer, "interior"
-            elif layer == 0:
-                yield height, layer, "base"
-            elif layer == height - 1:
-                yield height, layer, "surface"
-            else:
-                yield height, layer, "base+1"
 
 
 def value_at(forms: dict[str, ClosedForm], height: int, layer: int, case: str) -> sympy.Expr:

@@ -5,12 +5,10 @@ from dataclasses import dataclass, replace
 
 import sympy
 from force_diffusion.derivations.framework.proving import Lines
-from force_diffusion.derivations.framework.record import Claim, Derivation, Witness
+from force_diffusion.derivations.framework.record import Claim, Derivation
 from force_diffusion.symbolic.as_printed import equation, terms
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.search.mutants import mutants
-from force_diffusion.symbolic.search.sources import Source
 from force_diffusion.symbolic.symbols import DeltaR, SecondDifference, i, j
 
 TRUE = equation(SecondDifference(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))
@@ -71,9 +69,6 @@ class Fake(Derivation):
     def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
         return self.decide(part, candidate)
 
-    def source(self, part: int) -> Source:
-        return Source(self.printed[part], self.relation)
-
     @property
     def assumed(self) -> list[str]:
         return []
@@ -92,9 +87,7 @@ PREMISE = Fake(
         Step("They are n⁺ apart.", SAME, lambda _, one: always(Verdict.PROVED), ("step 1",)),
     ),
     claims=(Claim("a claim", lambda: always(Verdict.PROVED)),),
-    witnesses=(Witness("a witness", lambda seed: always(Verdict.AGREES)),),
     remarks=("A remark about n⁺·δn⁺ = 0.",),
-    tries=lambda *_: (),
 )
 
 CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", premises=(PREMISE,))
@@ -104,25 +97,6 @@ def with_claim(verdict: Verdict) -> Derivation:
     return replace(CONCLUSION, claims=(Claim("doubtful", lambda: always(verdict)),))
 
 
-def with_witness(verdict: Verdict) -> Derivation:
-    return replace(CONCLUSION, witnesses=(Witness("doubtful", lambda seed: always(verdict)),))
-
-
 def with_step(verdict: Verdict) -> Derivation:
     doubtful = Step("So it is.", SAME, lambda *_: always(verdict), ("step 1",))
     return replace(CONCLUSION, steps=lambda: lines(*CONCLUSION.steps(), doubtful))
-
-
-def lenient() -> Derivation:
-    """Its procedure proves everything, and every change is listed as equivalent."""
-    changes = {one.change: "for a reason" for one in mutants(TRUE)}
-    return replace(PREMISE, decide=lambda *_: always(Verdict.PROVED), equivalent=changes)
-
-
-def with_blind_checker() -> Derivation:
-    """Its procedure proves the printed equation and can't tell anything else from it."""
-
-    def blind(_: int, candidate: sympy.Eq) -> Ruling:
-        return always(Verdict.PROVED if candidate == TRUE else Verdict.UNDECIDED)
-
-    return replace(CONCLUSION, decide=blind)

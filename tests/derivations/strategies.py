@@ -5,8 +5,9 @@ The base vectors are rational, and so is every first-order change.
 
 from fractions import Fraction
 
-from force_diffusion.derivations.witnesses.draws import SmallPacking
 from hypothesis import strategies as st
+
+from tests.soundness.witnesses.draws import SmallPacking
 
 
 @st.composite

@@ -1,10 +1,13 @@
 """A derivation runs on its own: as a script from anywhere, and as a module."""
 
+import re
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
+from force_diffusion.derivations.framework.catalogue import modules, paper
+from force_diffusion.derivations.framework.loading import load
 
 FOLDER = Path(__file__).parents[2] / "derivations"
 SCRIPT = FOLDER / "eq02_displacement.py"
@@ -18,12 +21,20 @@ def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.long
-@pytest.mark.parametrize("how", [["derivations/eq02_displacement.py"], MODULE])
-def test_from_the_checkout(how: list[str]) -> None:
-    done = run(FOLDER.parent, *how)
+@pytest.mark.long(sample=2)
+@pytest.mark.parametrize("number", paper())
+def test_each_is_a_script_that_prints_its_steps_and_claims(number: int) -> None:
+    done = run(FOLDER.parent, f"derivations/{modules()[number]}.py")
     assert (done.returncode, done.stderr) == (0, "")
-    assert "Eq. 2 is proved" in done.stdout
+    whole = " ".join(done.stdout.split())
+    assert f"Eq. {number} is proved" in whole
+    derivation = load(number)
+    for step in derivation.steps():
+        assert f"{step.reason} " in whole
+    for claim in derivation.all_claims:
+        assert re.search(f"- proved[^:]*: {re.escape(claim.name)} \\(proof, ", whole), claim.name
+    for one in derivation.refuted:
+        assert f"- refuted: {one.reading} (refutation, " in whole
 
 
 @pytest.mark.long

@@ -9,8 +9,6 @@ import pytest
 import sympy
 from force_diffusion.derivations.api.evaluation import ArgumentError
 from force_diffusion.derivations.beyond import t6_correlations as t6
-from force_diffusion.derivations.witnesses import second_order
-from force_diffusion.derivations.witnesses.squared_weights import mean_response
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.printing.text import text
@@ -21,6 +19,8 @@ from force_diffusion.symbolic.symbols import sigma as deviation
 
 import force_diffusion as fd
 from tests.derivations.first_principles import covariance, mean_variance, weights
+from tests.soundness.witnesses import second_order
+from tests.soundness.witnesses.squared_weights import mean_response
 
 PHIS = (Fraction(-1, 8), Fraction(1, 5))
 ONE = Fraction(1)

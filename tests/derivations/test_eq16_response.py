@@ -1,5 +1,6 @@
 """The response to a point load: closed forms against exact packings, and how cases are split."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -24,8 +25,6 @@ from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import Check, Piece
 from force_diffusion.derivations.framework.vocabulary import UNIT
 from force_diffusion.derivations.parts import cone
-from force_diffusion.derivations.witnesses.draws import DIRECTIONS, draw
-from force_diffusion.derivations.witnesses.squared_weights import responses
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
@@ -37,6 +36,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Rational
 
+from tests.soundness.witnesses.draws import DIRECTIONS, draw
+from tests.soundness.witnesses.squared_weights import weights_below_a_load
+
 ONE = Fraction(1)
 CASES = (eq16.BY_LAYERS, eq16.BY_STEPS)
 cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000)
@@ -45,8 +47,24 @@ cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=10
 @pytest.mark.parametrize("level", [*range(1, 7), 9])
 def test_every_contact_and_bead_of_the_cone(level: int) -> None:
     """l = 9 is the first with a bead that is three steps away from both legs and the base."""
-    found = responses(draw(level), level)
-    assert found.verdict is Verdict.AGREES, found.note
+    n = draw(level).n
+    phi = n[1] ** 2 - n[0] ** 2
+
+    def square(weights: Mapping[tuple[int, int], Fraction]) -> Fraction:
+        return sum((w**2 for w in weights.values()), Fraction(0))
+
+    vertical, magnitude = weights_below_a_load(level, n)
+    for ((across, layer), branch), weights in vertical.items():
+        site = (across + level % 2, layer, level % 2, level)
+        stated = closed_forms.contact_response(*site, branch, phi, ONE, ONE)
+        assert stated == square(weights), (site, branch)
+        if branch == "+":
+            other = vertical[(across, layer), "-"]
+            both = {bead: weight + other[bead] for bead, weight in weights.items()}
+            assert closed_forms.bead_response(*site, phi, ONE, ONE) == square(both), site
+        if across == (layer - level if branch == "+" else level - layer):
+            relative = square(magnitude[(across, layer), branch]) * (2 * n[1]) ** 2
+            assert closed_forms.leg_variance(layer, level, phi, ONE, ONE) == relative, site
 
 
 @given(j=st.integers(0, 6), p=st.integers(1, 6), q=st.integers(1, 6), phi=st.sampled_from(range(4)))

@@ -5,10 +5,10 @@ from itertools import combinations
 
 import mpmath
 import pytest
+import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.witnesses.both_sides import ExactSolution, evaluate
-from force_diffusion.derivations.witnesses.draws import SmallPacking
+from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.mechanics.lattice import mirror
@@ -17,17 +17,30 @@ from hypothesis import strategies as st
 
 from tests.derivations.strategies import small_packings
 from tests.numeric.mechanics.plain_packing import PlainPacking
+from tests.soundness.witnesses.draws import SmallPacking
 
 FORCE = eq11.in_radii(eq11.PRINTED.rhs)
 LEFT_FORCE = eq11.in_radii(mirror(eq11.PRINTED.rhs))
 
 
 def force_weights(
-    packing: SmallPacking, across: int, layer: int, scale: Fraction = Fraction(1)
+    packing: SmallPacking,
+    across: int,
+    layer: int,
+    scale: Fraction = Fraction(1),
+    form: sympy.Expr = FORCE,
 ) -> explicit.Weights:
     values = explicit.geometry(*packing.n, scale)
     at = {**values, sy.M: packing.height, sy.i: across, sy.j: layer}
-    return explicit.weights(FORCE, at)
+    return explicit.weights(form, at)
+
+
+def solved(packing: SmallPacking) -> taylor.TaylorPacking:
+    """Exactly, to first order, under a surface load."""
+    loads = packing.surface_load()
+    return taylor.solve(
+        packing.width, packing.height, n=packing.n, rho=packing.rho, loads=loads, order=1
+    )
 
 
 @given(small_packings(), st.integers(-3, 3))
@@ -63,13 +76,13 @@ def test_mirror_image(packing: SmallPacking) -> None:
         packing.loaded,
         packing.contacts,
     )
-    truth, image = ExactSolution(packing, "surface"), ExactSolution(mirrored, "surface")
+    truth, image = solved(packing), solved(mirrored)
+    around = 2 * packing.width
     for across, layer in packing.contacts:
-        assert truth.force(across, layer, "+") == image.force(-across, layer, "-")
-        at = {sy.M: packing.height, sy.j: layer}
-        assert evaluate(FORCE, truth, {**at, sy.i: across}) == evaluate(
-            LEFT_FORCE, image, {**at, sy.i: -across}
-        )
+        assert truth.force(across, layer, "+") == image.force(-across % around, layer, "-")
+        here = force_weights(packing, across, layer)
+        there = force_weights(packing, -across, layer, form=LEFT_FORCE)
+        assert here == {(f, -i if f else 0, j): w for (f, i, j), w in there.items()}
 
 
 @given(small_packings(), small_packings(), st.fractions(-9, 9, max_denominator=9))
@@ -85,8 +98,8 @@ def test_linearity_in_the_radii(one: SmallPacking, two: SmallPacking, factor: Fr
         packing = SmallPacking(
             one.width, one.height, one.n, rho, one.load, one.loaded, one.contacts
         )
-        truth = ExactSolution(packing, "surface")
-        return [truth.force(i, j, "+").slope for i, j in one.contacts]
+        truth = solved(packing)
+        return [truth.force(i, j, "+")[1] for i, j in one.contacts]
 
     parts = zip(slopes(one.rho), slopes(sites), strict=True)
     assert slopes(total) == [a + factor * b for a, b in parts]

@@ -258,8 +258,7 @@ def made_up(assuming: tuple[str, ...] = ()) -> Derivation:
     case = ExactCase(twice.lhs, "j ≥ 2", twice.rhs, (sy.j >= 2,), line=line)
     return replace(
         fd.equation(1)._derivation, number=1, printed=(twice,), exact=lambda: {"all": case},
-        steps=lambda: [line], where=where, symbols=(), premises=(), witnesses=(),
-        tries=lambda *_: (),
+        steps=lambda: [line], where=where, symbols=(), premises=(),
     )  # fmt: skip
 
 

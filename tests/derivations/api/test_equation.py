@@ -20,11 +20,11 @@ from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.printing.lines import column_width, width
 from force_diffusion.symbolic.printing.structure import rebuilt
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.search.mutants import mutants
 from hypothesis import given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
+from tests.properties.mutants import mutants
 
 ALL = [fd.equation(number) for number in modules()]
 every_equation = pytest.mark.parametrize("eq", ALL, ids=lambda eq: f"eq{eq.number:02}")
@@ -449,7 +449,6 @@ def test_a_proof_tells_whether_its_premises_were_run() -> None:
     assert "Eqs. 1, 3: taken as proved, not run" in str(alone)
     assert "Eqs. 1, 3: run too" in str(whole)
     assert "It rests on no other equation." in repr(fd.equation(1).prove())
-    assert len(whole.mutants) > 5
 
 
 @pytest.mark.long
@@ -457,7 +456,7 @@ def test_a_table_of_checks_for_notebooks() -> None:
     proof = fd.equation(1).prove()
     lines = proof._repr_markdown_().splitlines()
     table = [line for line in lines if line.startswith("|")]
-    assert len(table) == len(proof.checks) + 3
+    assert len(table) == len(proof.checks) + 2
     assert {len(re.findall(r"(?<!\\)\|", line)) for line in table} == {5}
     steps = fd.equation(13).steps()
     assert steps._repr_markdown_().count("$$") == 2 * len(steps)

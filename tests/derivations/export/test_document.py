@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 
 import pytest
 from force_diffusion.derivations.export.document import (
@@ -66,27 +65,6 @@ def test_a_step_that_gives_the_printed_equation_refers_to_it() -> None:
     assert r"\Delta_{ij} = " not in text  # the fragment alone displays it
 
 
-def test_mutants_are_counted_in_the_document_and_listed_in_the_manifest() -> None:
-    outcomes = [run(fakes.PREMISE), run(replace(fakes.lenient(), number=2))]
-    found = [finding(outcome) for outcome in outcomes]
-    parts = [(outcome.derivation, one) for outcome, one in zip(outcomes, found, strict=True)]
-    first, second = document(parts).split(r"\section{")[1:]
-    made = len(outcomes[0].mutants)
-    assert (
-        f"{made} made, {made} refuted, 0 not a statement, 0 equivalent rewritings. By kind: "
-        in first
-    )
-    assert "index shifted: 12; sign flipped: 2; term dropped: 2." in first
-    assert "flipped. " not in first
-    assert second.count(r"\item \emph{equivalent}: ") == made  # each with its proof
-    for entry, outcome in zip(found, outcomes, strict=True):
-        listed = entry.mutants.changes
-        assert [one.change for one in listed] == [m.change for m in outcome.mutants]
-        verdict = "refuted" if outcome is outcomes[0] else "equivalent"
-        assert {one.verdict for one in listed} == {verdict}
-        assert {one.note for one in listed} == {outcome.mutants[0].note}
-
-
 def test_prose_is_escaped_and_set_as_mathematics() -> None:
     assert prose_latex("50 % of {a} & b_1, #2, \\x ~") == (
         r"50 \% of \{a\} \& $b_{1}$, $\#2$, \textbackslash{}x \~{}"
@@ -114,11 +92,7 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
 @pytest.mark.parametrize("number", modules())
 def test_no_power_or_root_of_the_words_is_left_open(number: int | str) -> None:
     derivation = load(number)
-    words = [
-        *derivation.remarks,
-        *derivation.assumptions,
-        *map(str, derivation.equivalent.values()),
-    ]
+    words = [*derivation.remarks, *derivation.assumptions]
     words += [step.reason for step in derivation.steps()]
     words += [told for _, told in derivation.symbols]
     for one in words:
@@ -136,7 +110,7 @@ def sentences() -> Iterator[str]:
         derivation = load(number)
         for step in derivation.steps():
             yield from (step.reason, both(step.uses) if step.uses else "follows")
-        yield from (check.name for check in (*derivation.all_claims, *derivation.witnesses))
+        yield from (claim.name for claim in derivation.all_claims)
         yield from (*derivation.remarks, *derivation.assumptions, derivation.title)
         yield from (said for _, said in derivation.symbols)
 

@@ -12,14 +12,15 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.export import generate_closed_forms as generator
-from force_diffusion.derivations.witnesses import neighbours, second_order
-from force_diffusion.derivations.witnesses.draws import DIRECTIONS
-from force_diffusion.derivations.witnesses.squared_weights import weights_of_forces
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from hypothesis import given
 from hypothesis import strategies as st
+
+from tests.soundness.witnesses import neighbours, second_order
+from tests.soundness.witnesses.draws import DIRECTIONS
+from tests.soundness.witnesses.squared_weights import weights_of_forces
 
 EXACT = {"surface": closed_forms.surface_variance, "bulk": closed_forms.bulk_variance}
 EXPRESSIONS = {

@@ -3,7 +3,12 @@
 import pytest
 import sympy
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.attacks.splitting import (
+from force_diffusion.symbolic.kernel.disproofs import other_leading_order
+from force_diffusion.symbolic.kernel.limits import asymptotic
+from force_diffusion.symbolic.symbols import Variance, i, j, k, l, p, phi, q, r, sigma
+from sympy import Eq
+
+from tests.soundness.attacks.splitting import (
     APART,
     AT_CONE,
     BOTH,
@@ -12,11 +17,7 @@ from force_diffusion.symbolic.attacks.splitting import (
     disproved,
     in_cases,
 )
-from force_diffusion.symbolic.attacks.splitting import TWO_LAYERS as LAYERS
-from force_diffusion.symbolic.kernel.disproofs import other_leading_order
-from force_diffusion.symbolic.kernel.limits import asymptotic
-from force_diffusion.symbolic.symbols import Variance, i, j, k, l, p, phi, q, r, sigma
-from sympy import Eq
+from tests.soundness.attacks.splitting import TWO_LAYERS as LAYERS
 
 
 @pytest.mark.parametrize(

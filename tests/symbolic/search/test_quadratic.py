@@ -6,7 +6,6 @@ import pytest
 from force_diffusion.derivations.beyond import t4_second_order as t4
 from force_diffusion.derivations.beyond import t7_response as t7
 from force_diffusion.derivations.framework.vocabulary import UNIT
-from force_diffusion.derivations.witnesses import second_order
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.where import SURFACE, Where
 from force_diffusion.symbolic.search import quadratic
@@ -27,6 +26,8 @@ from force_diffusion.symbolic.symbols import (
     n_y,
     phi,
 )
+
+from tests.soundness.witnesses import second_order
 
 N = (Fraction(3, 5), Fraction(4, 5))
 ONE = Fraction(1)

@@ -1,0 +1,80 @@
+"""The checker on trial: changes of what is printed, and statements of known truth.
+
+A change that is proved has to be listed as one that says the same. No false statement may be
+proved, and no true one refuted.
+"""
+
+from collections.abc import Iterator
+
+import sympy
+from force_diffusion.derivations.framework.exactly import in_whole_numbers
+from force_diffusion.derivations.framework.record import Derivation, KernelError
+from force_diffusion.derivations.framework.runner import run
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+
+from tests.properties.mutants import EQUIVALENT, Mutated, mutants
+from tests.soundness.corpus import Statement, statements
+from tests.soundness.sources import Form, Source
+
+
+class FaultError(AssertionError):
+    """The checker is at fault: its verdict on a statement is wrong."""
+
+
+def source_of(derivation: Derivation, part: int) -> Source:
+    """One of the printed equations, as other statements are made from it."""
+    printed, where = derivation.printed[part], derivation.domain_of(part)
+    cases = derivation.exact() if derivation.exact else {}
+    forms = (
+        Form(name, case.expression, any(isinstance(one, sympy.Eq) for one in case.domain))
+        for name, case in cases.items()
+        if case.quantity == printed.lhs
+        # at finite size, forms of other layers may be the same there, or not
+        and (where.limit or all(where.implies(in_whole_numbers(one)) for one in case.domain))
+    )
+    return Source(printed, derivation.relation, tuple(forms), where, derivation.dimension)
+
+
+def judged_mutants(derivation: Derivation) -> Iterator[tuple[Mutated, Ruling]]:
+    """Change each printed equation mechanically and let the same procedure rule on it.
+
+    Raises:
+        FaultError: one is proved that is not listed as saying the same.
+    """
+    listed = EQUIVALENT.get(derivation.number, {})
+    for place, equation in enumerate(derivation.printed):
+        for mutant in mutants(equation):
+            ruling = derivation.rule_on(place, mutant.equation)
+            if ruling.verdict.is_proved and mutant.change not in listed:
+                raise FaultError(f"Eq. {derivation.number}, proved: {mutant.change}")
+            yield mutant, ruling
+
+
+def tried(derivation: Derivation) -> Iterator[tuple[Statement, Ruling]]:
+    """Try the same procedure on statements that are known to be false, or true.
+
+    One of each kind for each printed equation; other ones for other equations.
+
+    Raises:
+        FaultError: a false one is proved, or a true one refuted.
+    """
+    turn = sum(map(ord, str(derivation.number)))
+    for place in range(len(derivation.printed)):
+        for statement in statements(source_of(derivation, place), turn):
+            ruling = derivation.rule_on(place, statement.equation, statement.where)
+            refuted = ruling.verdict is Verdict.REFUTED
+            if refuted if statement.holds else ruling.verdict.is_proved:
+                raise FaultError(f"Eq. {derivation.number}, {ruling.verdict}: {statement.reason}")
+            yield statement, ruling
+
+
+def is_noticed(derivation: Derivation) -> bool:
+    """Whether an equation's proofs, changes of it, or statements show that something is wrong."""
+    try:
+        return (
+            not run(derivation).verdict.is_proved
+            or any(ruling.verdict is Verdict.UNDECIDED for _, ruling in judged_mutants(derivation))
+            or any(one.holds and not ruling.verdict.is_proved for one, ruling in tried(derivation))
+        )
+    except (FaultError, KernelError):
+        return True
