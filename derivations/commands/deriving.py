@@ -13,9 +13,6 @@ from .cli import command_line
 from .output import output
 from .progress import display
 
-if TYPE_CHECKING:
-    pass
-
 
 def derive(
     numbers: Sequence[Number],

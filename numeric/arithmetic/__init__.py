@@ -1,1 +1,1 @@
-"""Number systems: float64, mpmath, balls and power series; exact decimals."""
+"""Number systems: float64, mpmath and balls; exact decimals."""

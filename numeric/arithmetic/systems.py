@@ -1,4 +1,4 @@
-"""Number systems: the one place that knows floats, balls, big floats and power series apart.
+"""Number systems: the one place that knows floats, balls and big floats apart.
 
 Every formula of the packing is written once, on NumPy arrays. What differs between number
 systems is how a rational enters, how a square root is taken where the elements need help,
@@ -6,9 +6,8 @@ what is certain about a sign, and which global precision must be set and put bac
 """
 
 import copyreg
-import math
 import threading
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -375,75 +374,3 @@ class Balls:
         """Set flint's global precision and put it back."""
         with in_flint(prec=self.bits):
             yield
-
-
-@dataclass(frozen=True)
-class Series:
-    """Power series in ε with exact rational coefficients, up to and including ε^``order``."""
-
-    order: int
-    dtype: Any = field(default=object, init=False, repr=False)
-
-    @property
-    def name(self) -> str:
-        """Such as ``rational series to order 2``."""
-        return f"rational series to order {self.order}"
-
-    def number(self, value: Fraction) -> Any:
-        """Give the constant series."""
-        return self.series([value])
-
-    @property
-    def bits(self) -> int:
-        """Rationals are exact: 0 stands for no limit."""
-        return 0
-
-    def from_float(self, value: float) -> Any:
-        """Give the constant series."""
-        return self.number(Fraction(value))
-
-    def from_ball(self, value: Any) -> Any:
-        """Give the constant series of the midpoint."""
-        return self.number(midpoint(value))
-
-    def scalar(self, value: Fraction) -> Any:
-        """Give a plain rational: NumPy would take a series for a sequence of numbers."""
-        return flint.fmpq(value.numerator, value.denominator)
-
-    def series(self, coefficients: Sequence[Fraction]) -> Any:
-        """Give the series with these coefficients of ε⁰, ε¹, …"""
-        return flint.fmpq_series([flint.fmpq(c.numerator, c.denominator) for c in coefficients])
-
-    def sqrt(self, values: Array) -> Array:
-        """Square roots; the constant term must be the square of a rational.
-
-        Flint takes the root of a series with constant term 1, so the constant is divided out.
-        """
-        return np.asarray(np.frompyfunc(_series_sqrt, 1, 1)(values))
-
-    def root(self, value: Fraction) -> Any:
-        """Give the rational root; ``ValueError`` where there is none."""
-        return _rational_root(flint.fmpq(value.numerator, value.denominator))
-
-    def signs(self, values: Array) -> tuple[Array, Array]:
-        """Look at the constant term: the sign for small enough ε."""
-        good = np.asarray(np.frompyfunc(lambda value: value[0] > 0, 1, 1)(values), dtype=bool)
-        return good, ~good
-
-    @contextmanager
-    def active(self) -> Iterator[None]:
-        """Set flint's global truncation order and put it back."""
-        with in_flint(cap=self.order + 1):
-            yield
-
-
-def _rational_root(value: Any) -> Any:
-    root = flint.fmpq(math.isqrt(int(value.p)), math.isqrt(int(value.q)))
-    if root * root != value:
-        raise ValueError(f"the square root of {value} is no rational number")
-    return root
-
-
-def _series_sqrt(value: Any) -> Any:
-    constant = value[0]
-    return (value / constant).sqrt() * _rational_root(constant)

@@ -8,10 +8,10 @@ from itertools import product
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.mechanics import taylor
 
 import force_diffusion as fd
 from tests.derivations.fourth_order import bulk_leading, other_laws, surface_leading, variances
+from tests.numeric.mechanics import taylor
 
 N = (Fraction(3, 5), Fraction(4, 5))
 PHI = Fraction(7, 25)

@@ -8,7 +8,6 @@ import pytest
 import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.mechanics.lattice import mirror
@@ -16,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.derivations.strategies import small_packings
+from tests.numeric.mechanics import taylor
 from tests.numeric.mechanics.plain_packing import PlainPacking
 from tests.soundness.witnesses.draws import SmallPacking
 

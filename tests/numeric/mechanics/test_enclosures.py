@@ -13,13 +13,12 @@ from force_diffusion.numeric.arithmetic.systems import (
     Balls,
     BigFloat,
     NumberSystem,
-    Series,
     midpoint,
 )
 from force_diffusion.numeric.disorder.normal import cosine_of_turn, logarithm
 from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
 from force_diffusion.numeric.lattice.layers import Layer, column, whole
-from force_diffusion.numeric.mechanics import sweep, taylor
+from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
@@ -32,6 +31,8 @@ from force_diffusion.numeric.theory.expected import critical_height
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.numeric.mechanics import taylor
+from tests.numeric.mechanics.taylor import Series
 from tests.numeric.scenes import answer, basic, planned
 from tests.numeric.strategies import Case, cases, sites
 

@@ -10,11 +10,11 @@ from force_diffusion.numeric.arithmetic.systems import (
     BigFloat,
     NumberSystem,
 )
-from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.numeric.mechanics.small_packing import Solution, solve
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.numeric.mechanics import taylor
 from tests.numeric.mechanics.plain_packing import PlainPacking
 from tests.numeric.strategies import Case, cases, sites
 

@@ -4,9 +4,9 @@ from fractions import Fraction
 
 import flint
 import pytest
-from force_diffusion.numeric.mechanics import taylor
 from hypothesis import given
 
+from tests.numeric.mechanics import taylor
 from tests.numeric.strategies import Case, cases, sites
 
 ORDER = 2

@@ -142,8 +142,7 @@ def _weights(
     plan: Plan, contact: tuple[int, int, str], W: int, M: int
 ) -> dict[tuple[int, int], Fraction]:
     """d force / d radius of every bead at order ε, from the exact nonlinear solution."""
-    from force_diffusion.numeric.mechanics import taylor
-
+    from tests.numeric.mechanics import taylor
     from tests.numeric.strategies import sites
 
     n = (Fraction(3, 5), Fraction(4, 5))

@@ -8,7 +8,7 @@ from itertools import product
 from typing import Any
 
 import mpmath
-from force_diffusion.numeric.arithmetic.systems import Series, zeros
+from force_diffusion.numeric.arithmetic.systems import zeros
 from force_diffusion.numeric.lattice.branch import PerAxis
 from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.any_dimension import (
@@ -20,6 +20,8 @@ from force_diffusion.numeric.mechanics.any_dimension import (
     together,
 )
 from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
+
+from tests.numeric.mechanics.taylor import Series
 
 from .draws import SmallPacking
 

@@ -3,7 +3,7 @@
 from fractions import Fraction
 from functools import cache
 
-from force_diffusion.numeric.mechanics import taylor
+from tests.numeric.mechanics import taylor
 
 from .draws import Site
 from .squared_weights import (

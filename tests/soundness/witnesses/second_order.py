@@ -10,8 +10,9 @@ from functools import cache
 from itertools import product
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import Series
-from force_diffusion.numeric.mechanics import taylor
+
+from tests.numeric.mechanics import taylor
+from tests.numeric.mechanics.taylor import Series
 
 
 @cache

@@ -9,7 +9,7 @@ from fractions import Fraction
 from functools import lru_cache
 from itertools import product
 
-from force_diffusion.numeric.mechanics import taylor
+from tests.numeric.mechanics import taylor
 
 from .draws import Site
 

@@ -5,10 +5,10 @@ from fractions import Fraction
 
 import pytest
 from force_diffusion.derivations.beyond import t1_forces as t1
-from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.symbols import M, i, j, t
 
+from tests.numeric.mechanics import taylor
 from tests.soundness.witnesses.comparing import assert_equal
 from tests.soundness.witnesses.draws import SmallPacking
 

@@ -3,7 +3,6 @@
 from fractions import Fraction
 
 import pytest
-from force_diffusion.numeric.mechanics import taylor
 from force_diffusion.symbolic.search.counterexample import WORLDS
 from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, TooLargeError, Vector, Weights
 from force_diffusion.symbolic.search.packing import (
@@ -18,6 +17,8 @@ from force_diffusion.symbolic.search.packing import (
 from force_diffusion.symbolic.symbols import L_minus, L_plus, f_load
 from hypothesis import given as examples
 from hypothesis import strategies as st
+
+from tests.numeric.mechanics import taylor
 
 F_LOAD, WEIGHT = Fraction(11, 7), Fraction(13, 5)
 TILTED = Vector(Dual(Fraction(-2, 7)), Dual(Fraction(-5, 3)))

@@ -8,20 +8,96 @@ very sweeps that solve packings in floating point, run on truncated power series
 Every function here gives a coefficient list ``[order 0, order 1, …, order n]``.
 """
 
-from collections.abc import Mapping
-from dataclasses import dataclass
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import Any
 
-from ..arithmetic.systems import Series, zeros
-from ..lattice.branch import Branch
-from ..lattice.layers import column, whole
-from .loads import components, on_rows
-from .local import cosine
-from .sweep import Forces, SolvedPacking, deposit, sweep_down
+import flint
+import numpy as np
+from force_diffusion.numeric.arithmetic.systems import Array, in_flint, midpoint, zeros
+from force_diffusion.numeric.lattice.branch import Branch
+from force_diffusion.numeric.lattice.layers import column, whole
+from force_diffusion.numeric.mechanics.loads import components, on_rows
+from force_diffusion.numeric.mechanics.local import cosine
+from force_diffusion.numeric.mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
 
 Site = tuple[int, int]
 Coefficients = list[Fraction]
+
+
+@dataclass(frozen=True)
+class Series:
+    """Power series in ε with exact rational coefficients, up to and including ε^``order``."""
+
+    order: int
+    dtype: Any = field(default=object, init=False, repr=False)
+
+    @property
+    def name(self) -> str:
+        """Such as ``rational series to order 2``."""
+        return f"rational series to order {self.order}"
+
+    def number(self, value: Fraction) -> Any:
+        """Give the constant series."""
+        return self.series([value])
+
+    @property
+    def bits(self) -> int:
+        """Rationals are exact: 0 stands for no limit."""
+        return 0
+
+    def from_float(self, value: float) -> Any:
+        """Give the constant series."""
+        return self.number(Fraction(value))
+
+    def from_ball(self, value: Any) -> Any:
+        """Give the constant series of the midpoint."""
+        return self.number(midpoint(value))
+
+    def scalar(self, value: Fraction) -> Any:
+        """Give a plain rational: NumPy would take a series for a sequence of numbers."""
+        return flint.fmpq(value.numerator, value.denominator)
+
+    def series(self, coefficients: Sequence[Fraction]) -> Any:
+        """Give the series with these coefficients of ε⁰, ε¹, …"""
+        return flint.fmpq_series([flint.fmpq(c.numerator, c.denominator) for c in coefficients])
+
+    def sqrt(self, values: Array) -> Array:
+        """Square roots; the constant term must be the square of a rational.
+
+        Flint takes the root of a series with constant term 1, so the constant is divided out.
+        """
+        return np.asarray(np.frompyfunc(_series_sqrt, 1, 1)(values))
+
+    def root(self, value: Fraction) -> Any:
+        """Give the rational root; ``ValueError`` where there is none."""
+        return _rational_root(flint.fmpq(value.numerator, value.denominator))
+
+    def signs(self, values: Array) -> tuple[Array, Array]:
+        """Look at the constant term: the sign for small enough ε."""
+        good = np.asarray(np.frompyfunc(lambda value: value[0] > 0, 1, 1)(values), dtype=bool)
+        return good, ~good
+
+    @contextmanager
+    def active(self) -> Iterator[None]:
+        """Set flint's global truncation order and put it back."""
+        with in_flint(cap=self.order + 1):
+            yield
+
+
+def _rational_root(value: Any) -> Any:
+    root = flint.fmpq(math.isqrt(int(value.p)), math.isqrt(int(value.q)))
+    if root * root != value:
+        raise ValueError(f"the square root of {value} is no rational number")
+    return root
+
+
+def _series_sqrt(value: Any) -> Any:
+    constant = value[0]
+    return (value / constant).sqrt() * _rational_root(constant)
 
 
 @dataclass(frozen=True)
