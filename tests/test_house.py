@@ -16,8 +16,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 81
 LIMITS = {
-    "symbolic": 10_787,
-    "derivations": 14_740,
+    "symbolic": 7_574,
+    "derivations": 12_806,
     "numeric": 13_301,
     "force_diffusion": 73,
     "benchmarks": 900,
