@@ -17,8 +17,8 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 81
 LIMITS = {
     "symbolic": 7_574,
-    "derivations": 12_806,
-    "numeric": 17_277,
+    "derivations": 12_497,
+    "numeric": 13_119,
     "force_diffusion": 73,
     "benchmarks": 900,
     ".ci": 500,

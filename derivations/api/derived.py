@@ -9,7 +9,6 @@ from force_diffusion.symbolic.kernel.decisions import Verdict
 from ..export.document import (
     DOCUMENT,
     document,
-    finding,
     fragment_name,
     statement_latex,
 )
@@ -64,16 +63,17 @@ class Derived:
 
         The fragments fit text of one column, or of two. Raises ``ValueError`` for any other number.
         """
-        about = [(one.derivation, finding(one)) for one in self._in_order()]
-        return {**self.fragments(columns), DOCUMENT: document(about)}
+        return {
+            **{
+                fragment_name(one.derivation.number): statement_latex(one.derivation, columns)
+                for one in self.in_order
+            },
+            DOCUMENT: document(self.in_order),
+        }
 
-    def fragments(self, columns: int = 1) -> dict[str, str]:
-        """The same without the document."""
-        found = [one.derivation for one in self._in_order()]
-        return {fragment_name(one): statement_latex(one, columns) for one in found}
-
-    def _in_order(self) -> list[Outcome]:
-        """Give the outcomes by number, not premises first."""
+    @property
+    def in_order(self) -> list[Outcome]:
+        """The outcomes by number, not premises first."""
         place = {number: at for at, number in enumerate(modules())}
         return sorted(self.outcomes, key=lambda one: place.get(one.derivation.number, len(place)))
 

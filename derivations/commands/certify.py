@@ -10,7 +10,7 @@ import typer
 import force_diffusion as fd
 
 from .equations import equation_number
-from .output import Overwrite, out_option, output
+from .output import Output, Overwrite, out_option
 from .shared import noticing
 
 if TYPE_CHECKING:
@@ -39,12 +39,12 @@ def certify(
 
     wanted = [equation_number(word) for word in numbers] if numbers else None
     files = sources(stated(wanted))
-    with output(out, "certify", [*files, RECORD], overwrite) as folder:
-        with noticing() as notice:
-            found = fd.certify(wanted, notice=notice)
-        data = json.dumps(found.data(), indent=2)
-        if folder:
-            folder.write({**files, RECORD: f"{data}\n"})
+    folder = Output(out, [*files, RECORD], overwrite) if out else None
+    with noticing() as notice:
+        found = fd.certify(wanted, notice=notice)
+    data = json.dumps(found.data(), indent=2)
+    if folder:
+        folder.write({**files, RECORD: f"{data}\n"})
     if as_json:
         print(data)
     else:

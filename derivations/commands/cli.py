@@ -29,7 +29,7 @@ COMMANDS = {
     ),
     "show": ("equations", "Print equations, or all of a theorem, without deriving them."),
     "list": ("equations", "List the equations."),
-    "examples": ("examples", "Copy the example scenes into a folder."),
+    "examples": ("examples", "Copy the example scenes into a new folder."),
     "run": ("scenes", "Solve the packing of a scene and answer its question."),
     "explain": ("scenes", "Say what 'run' would do, and why."),
     "cost": (

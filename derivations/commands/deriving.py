@@ -2,15 +2,17 @@
 
 import json
 from collections.abc import Sequence
+from importlib.metadata import version
 from pathlib import Path
 
 from force_diffusion.numeric.arithmetic.errors import printable
 
 from ..export.prose import both
+from ..export.terminal import outcomes_data
 from ..framework.catalogue import Number, modules
 from ..framework.loading import load, with_premises
 from .cli import command_line
-from .output import output
+from .output import Output, OutputError
 from .progress import display
 
 
@@ -24,53 +26,36 @@ def derive(
 ) -> int:
     """Derive these equations and their premises: 0 if all are proved, else 1.
 
-    Of a single one all steps and claims are printed, of several a line each.
-
-    The output folders are looked at before the first proof, so that a wrong one costs no time. The
-    document in ``out`` is also about the equations that an earlier run has left there; the folder
-    ``article`` gets the article, which says what this run has proved.
+    Of a single one all steps and claims are printed, of several a line each. The folders are
+    looked at before the first proof, so that a wrong one costs no time. ``article`` gets the
+    article, which says what this run has proved.
     """
     from ..api.derived import derive as derived
-    from ..export.document import (
-        DOCUMENT,
-        document,
-        finding,
-        fragment_name,
-    )
+    from ..export.document import DOCUMENT, MANIFEST, fragment_name
 
-    in_article: Sequence[str] = ()
+    wanted = [load(one) for one in numbers]
+    folder = paper = None
+    if out:
+        folder = Output(out, [*map(fragment_name, modules()), DOCUMENT, MANIFEST], overwrite)
     if article:  # it needs more than the rest
         from ..export.article import names_of_files
 
-        in_article = names_of_files()
-    derivations = with_premises(map(load, numbers))
-    names = [*map(fragment_name, derivations), DOCUMENT]
-    with (
-        output(out, "derive", names, overwrite) as folder,
-        output(article, "derive --article", in_article, overwrite) as paper,
-    ):
-        in_full = numbers[0] if len(numbers) == 1 else None
-        watch = display(len(derivations), in_full, as_json=as_json)
-        with watch.showing():
-            found = derived(numbers, notice=watch.checking, finished=watch.finished)
-        if paper:
-            from ..export.article import article_and_figures
+        if out and out.absolute() == article.absolute():
+            raise OutputError(f"'{article}' is that of --out, too. Give another folder.")
+        paper = Output(article, names_of_files(), overwrite)
+    in_full = wanted[0].number if len(wanted) == 1 else None
+    watch = display(len(with_premises(wanted)), in_full, as_json=as_json)
+    with watch.showing():
+        found = derived(numbers, notice=watch.checking, finished=watch.finished)
+    if paper:
+        from ..export.article import article_and_figures
 
-            with watch.showing():
-                paper.write(article_and_figures(found.outcomes, command_line(), watch.checking))
-        if folder:
-            parts = {
-                earlier.number: (load(earlier.number), earlier)
-                for earlier in (folder.manifest.equations if folder.manifest else ())
-                if earlier.number in modules() and folder.holds(fragment_name(load(earlier.number)))
-            }
-            parts |= {
-                one.derivation.number: (one.derivation, finding(one)) for one in found.outcomes
-            }
-            about = [parts[number] for number in modules() if number in parts]
-            folder.write(
-                {**found.fragments(columns), DOCUMENT: document(about)}, [one for _, one in about]
-            )
+        with watch.showing():
+            paper.write(article_and_figures(found.outcomes, command_line(), watch.checking))
+    if folder:
+        about = {"command": command_line(), "version": version("force-diffusion")}
+        data = {**about, **outcomes_data(found.in_order, timed=False)}
+        folder.write({**found.latex(columns), MANIFEST: json.dumps(data, indent=2) + "\n"})
     folders = [printable(str(one)) for one in (out, article) if one]
     watch.summary(f"{found.counts()}." + (f" Written to {both(folders)}." if folders else ""))
     if as_json:

@@ -14,9 +14,9 @@ from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
 
-from ..export.answers import Format
+from ..export.answers import Format, files_of, names_of
 from .guard import about, in_range, say, tell
-from .output import Overwrite, out_option, output
+from .output import Output, Overwrite, out_option
 from .shared import (
     Quiet,
     Written,
@@ -24,7 +24,6 @@ from .shared import (
     show,
     sourced,
     warn,
-    write,
 )
 
 if TYPE_CHECKING:
@@ -97,20 +96,19 @@ def ensemble(
     with about(scene.name):
         read = fd.read_scene(scene)
     checked(written, out)
-    names = ["result.json", f"{read.ask.quantity}.{written}"]
-    with output(out, f"ensemble {scene}", names, overwrite) as folder:
-        found = _solved(
-            scene.name, read, realisations, until, store, quiet,
-            confidence=confidence, workers=workers, scheduler=scheduler or cluster,
-            reach=reach,
-        )  # fmt: skip
-        warn(scene, found.measurement.plan)
-        data = found.data(rows=False)
-        data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
-        if folder:
-            write(folder, found, data, written)
+    folder = Output(out, names_of(answered("ensemble")), overwrite) if out else None
+    found = _solved(
+        scene.name, read, realisations, until, store, quiet,
+        confidence=confidence, workers=workers, scheduler=scheduler or cluster,
+        reach=reach,
+    )  # fmt: skip
+    warn(scene, found.measurement.plan)
+    data = found.data(rows=False)
+    data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
+    if folder:
+        folder.write(files_of(found, data, written))
     lines = str(found).splitlines()
-    show(found, data, lines, as_json=as_json, quiet=quiet, folder=folder)
+    show(found, data, lines, as_json=as_json, quiet=quiet, written=folder is not None)
     if found.reached is False:
         assert until is not None
         N, width = found.realisations, found.half_width

@@ -7,9 +7,9 @@ from typing import Annotated
 import typer
 
 from .guard import say
-from .output import Overwrite, copied, folder_of
+from .output import Output, Overwrite, folder_of
 
-STATUSES = "Exit status: 0 copied, 2 a file there differs, 3 the disk failed, 130 interrupted."
+STATUSES = "Exit status: 0 copied, 2 the folder is there, 3 the disk failed, 130 interrupted."
 
 
 def examples(
@@ -18,17 +18,15 @@ def examples(
     ],
     overwrite: Overwrite = False,
 ) -> None:
-    """Copy the example scenes into a folder."""
+    """Copy the example scenes into a new folder."""
     scenes = {
         file.name: file.read_bytes()
         for file in files("force_diffusion.scenes").iterdir()
         if file.is_file() and not file.name.endswith(".py")
     }
-    new = copied(scenes, folder, overwrite)
-    for name in new:
+    Output(folder, scenes, overwrite).write(scenes)
+    for name in sorted(scenes):
         say(str(folder / name))
-    if not new:
-        say(f"All {len(scenes)} files are in {folder} already.")
 
 
 def register(app: typer.Typer) -> None:

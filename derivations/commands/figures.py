@@ -1,7 +1,6 @@
 """The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
-from contextlib import ExitStack
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -23,7 +22,7 @@ import force_diffusion as fd
 
 from .cli import shell_line
 from .guard import about, say
-from .output import Overwrite, out_option, output
+from .output import Output, Overwrite, out_option
 from .shared import images, noticing, sourced, warn
 
 if TYPE_CHECKING:
@@ -182,21 +181,16 @@ def figures(
             "several figures would have the same files; give scenes other names.",
             param_hint="WHICH",
         )
-    with noticing() as notice, ExitStack() as stack:
-        folders = {}
-        for name, stem in zip(wanted, stems, strict=True):
-            question = f"figures {name}" if name in scenes else "figures"
-            names = [*images(stem), f"{stem}.csv", f"{stem}.json"]
-            folders[name] = stack.enter_context(output(out, question, names, overwrite))
+    possible = {*scenes.values(), *(one.file for one in FIGURES.values())}
+    tables = {*possible, *(table for one in FIGURES.values() for table in one.tables)}
+    names = [name for stem in possible for name in (*images(stem), f"{stem}.json")]
+    folder = Output(out, [*names, *(f"{table}.csv" for table in tables)], overwrite)
+    with noticing() as notice:
         data, files = _made(
             wanted, command, beside or [], own, **({} if chosen is None else {"heights": chosen}),
             realisations=realisations, seed=seed, notice=notice,
         )  # fmt: skip
-        for name, folder in folders.items():
-            answer = data["figures"][name].get("answer", {"source": {"seed": seed}})
-            source = answer["source"]
-            if folder:
-                folder.write(files[name], seed=source.get("seed"), inputs=source.get("sha256"))
+    folder.write(files)
     if as_json:
         print(json.dumps(data, indent=2))
         return
@@ -211,10 +205,10 @@ def _made(
     beside: list[str],
     own: dict[str, tuple[Fraction | None, tuple[str, ...]]],
     **options: Any,
-) -> tuple[dict[str, Any], dict[str, dict[str, str | bytes]]]:
-    """Make figures: what was found, and the files of each."""
+) -> tuple[dict[str, Any], dict[str, str | bytes]]:
+    """Make figures: what was found, and all files."""
     data: dict[str, Any] = {"command": command, "figures": {}}
-    files: dict[str, dict[str, str | bytes]] = {}
+    files: dict[str, str | bytes] = {}
     for name in wanted:
         with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
             if name.endswith(".toml"):
@@ -229,7 +223,7 @@ def _made(
         data["figures"][name] = found
         text = json.dumps({"command": command, **found}, indent=2, allow_nan=False)
         stem = next(iter(made.files)).partition(".")[0]
-        files[name] = {**made.files, f"{stem}.json": text + "\n"}
+        files |= {**made.files, f"{stem}.json": text + "\n"}
     return data, files
 
 

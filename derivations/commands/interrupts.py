@@ -8,11 +8,10 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 
 TYPE_CHECKING = False  # typing takes as long to load as all of the rest
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from types import FrameType, TracebackType
     from typing import Any
 
@@ -63,31 +62,3 @@ def heed(*names: str) -> dict[int, Any]:
         if usual in (signal.SIG_DFL, signal.default_int_handler, _interrupt):
             before[number] = signal.signal(number, _interrupt)
     return before
-
-
-@contextmanager
-def waiting() -> Iterator[None]:
-    """Let interrupts wait until the block has ended.
-
-    Handlers change, and not the mask of signals: another thread would take the signal, and Python
-    would interrupt this one all the same.
-    """
-    import signal
-    import threading
-
-    usual = {}
-    if threading.current_thread() is threading.main_thread():
-        numbers = [getattr(signal, name, None) for name in ("SIGINT", "SIGTERM", "SIGHUP")]
-        handlers = {number: signal.getsignal(number) for number in numbers if number is not None}
-        # what ends the program at once, or is ignored, still does and is
-        usual = {number: handler for number, handler in handlers.items() if callable(handler)}
-    late: list[int] = []
-    try:
-        for number in usual:
-            signal.signal(number, lambda found, where: late.append(found))
-        yield
-    finally:
-        for number, handler in usual.items():
-            signal.signal(number, handler)
-        for number in late[:1]:
-            signal.raise_signal(number)

@@ -1,60 +1,26 @@
-"""The folder that a command writes its results into.
+"""The folder that a command writes its results into: it is there as a whole, or not at all.
 
-    with output(out, "run scene.toml", ["result.json", "profile.csv"], overwrite) as folder:
-        answer = solve()  # a folder that can't be used has been refused before
-        if folder:  # None without --out
-            folder.write({"result.json": ..., "profile.csv": ...})
+    folder = Output(out, ["result.json", "profile.csv"], overwrite)
+    answer = solve()  # a folder that can't be used has been refused before
+    folder.write({"result.json": ..., "profile.csv": ...})
 
-A command replaces the files that it has written before, adds others beside whatever is there, and
-deletes nothing. It refuses to replace a file that this program did not write, one that was changed
-since, and the answer to another question, unless ``--overwrite`` is given. ``manifest.json`` of the
-folder knows which is which. Each file is written aside and renamed, the manifest last, so that none
-is ever half-written. A command that is killed between two renames leaves that manifest aside: what
-it lists was written by this program, too, so that the command can be given again. The next one that
-succeeds in the folder takes away what such a one has left.
-
-Commands that run at once may share a folder. Each locks the names that it will write until it
-ends, and the manifest while it reads or adds to it: one that would write what another one is about
-to write is refused before it solves anything. A lock is that of an open file, and dies with its
-process, however that ends. Where the system or the disk has no such locks, there are none.
+Files are written into a new folder beside, which is renamed at the end. A folder that is there is
+replaced with ``--overwrite`` alone, and where it holds nothing but files of these names: it is
+renamed first, and deleted last. Who is killed in between leaves both, and the next one says so.
 """
 
-import errno
-import hashlib
 import os
-import re
 import secrets
-import stat
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager, suppress
-from importlib.metadata import version
+import shutil
+from collections.abc import Iterable, Mapping
+from contextlib import suppress
 from pathlib import Path
-from tempfile import TemporaryFile
 from typing import Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
-from ..export.manifest import (
-    LARGEST,
-    MANIFEST,
-    PROGRAM,
-    FoundEquation,
-    Made,
-    Manifest,
-    read_manifest,
-)
-from .cli import command_line
-from .interrupts import waiting
-
-# Files are written aside under a dot, their name, eight random digits, and this.
-PART = ".fd-part"
-# Locks are on files beside those that are written: a dot, the name, and this.
-LOCK = ".fd-lock"
-NO_LOCKS = {errno.ENOLCK, errno.ENOSYS, errno.ENOTSUP, errno.EOPNOTSUPP}
-_LEFT = re.compile(rf"\..+\.[0-9a-f]{{8}}{re.escape(PART)}")
-# How often a folder is made that others take away at once.
-ATTEMPTS = 100
+from .guard import tell
 
 
 class OutputError(ForceDiffusionError):
@@ -63,338 +29,115 @@ class OutputError(ForceDiffusionError):
 
 def folder_of(word: str) -> Path:
     """Read the name of a folder."""
-    if not word:  # a path would take it for the current folder
-        raise typer.BadParameter("'' names no folder. Give one; '.' is the current folder.")
-    return Path(word)
+    path = Path(word)
+    if path.name in {"", ".."}:  # such as '.', or nothing, which a path would take for it
+        raise typer.BadParameter(f"'{word}' names no folder. Give one that is not there.")
+    return path
 
 
 def out_option(what: str) -> Any:
     """The option ``--out DIR``, which says what is written there."""
-    return typer.Option(metavar="DIR", help=f"Write {what} into this folder.", parser=folder_of)
+    return typer.Option(metavar="DIR", help=f"Write {what} into this new folder.", parser=folder_of)
 
 
 Overwrite = Annotated[
     bool,
-    typer.Option("--overwrite", help="Replace files of the same name there, whoever wrote them."),
+    typer.Option("--overwrite", help="Replace the folder, if it holds such files and no others."),
 ]
 
 
-_IS_FOLDER = "is a folder"
+class Output:
+    """A folder to be written; ``names`` are the files that may be in it.
 
+    Raises ``OutputError`` where it is in the way, and ``OSError`` where nothing can be written.
+    """
 
-def _in_the_way(path: Path, reason: str) -> OutputError:
-    remedy = "." if reason == _IS_FOLDER else ", or --overwrite to replace it."
-    return OutputError(f"'{path}' {reason}. Give another folder{remedy}")
+    def __init__(self, path: Path, names: Iterable[str], overwrite: bool) -> None:
+        self.path, self.names, self.overwrite = path, frozenset(names), overwrite
+        self._old = path.with_name(f"{path.name}.old")
+        self._check()
+        above = next(one for one in path.parents if os.path.lexists(one))
+        if not above.is_dir():
+            raise OutputError(f"'{above}' is a file or a link. Give a folder that is not there.")
+        trial = above / self._new().name
+        trial.mkdir()
+        trial.rmdir()
 
+    def _new(self) -> Path:
+        return self.path.with_name(f"{self.path.name}.new-{secrets.token_hex(4)}")
 
-class Folder:
-    """A folder that can be written to; ``manifest`` is what it held before, if it is ours."""
-
-    def __init__(self, path: Path, result_of: str, overwrite: bool) -> None:
-        self.path = path
-        self._read()
-        self._result_of = printable(result_of)
-        self._overwrite = overwrite
-
-    def _read(self) -> None:
-        """Read the manifest, and those of commands that were killed before they could rename it."""
-        self.manifest = read_manifest(self.path)
-        parts = sorted(self.path.glob(f".{MANIFEST}.*{PART}"))
-        begun = (read_manifest(self.path, part.name) for part in parts)
-        self._begun = [one for one in begun if one is not None]
-
-    def check(self, names: Iterable[str]) -> None:
-        """Raise ``OutputError`` if a file of these names must not be replaced, and name it."""
-        for name in (*names, MANIFEST):
-            reason = self._reason_to_keep(name)
-            if reason:
-                raise _in_the_way(self.path / name, reason)
-
-    def _reason_to_keep(self, name: str) -> str:
-        path = self.path / name
-        try:
-            mode = path.lstat().st_mode
-        except FileNotFoundError:
-            return ""
-        if stat.S_ISDIR(mode):
-            return _IS_FOLDER
-        if self._overwrite:
-            return ""
-        if name == MANIFEST:
-            return "" if self.manifest else "was not written by this program"
-        manifests = [one for one in (self.manifest, *self._begun) if one is not None]
-        made = [one.files[name] for one in manifests if name in one.files]
-        if not made or not stat.S_ISREG(mode):
-            return f"is there, and no {MANIFEST} says that this program wrote it"
-        own = {one.sha256 for one in made if one.result_of == self._result_of}
-        if own and self._digest(name) in own:
-            return ""
-        others = [one for one in made if one.result_of != self._result_of]
-        if others and (not own or self._digest(name) in {one.sha256 for one in others}):
-            return f"is the result of '{others[0].result_of}'"
-        return "was changed after this program wrote it"
-
-    def _digest(self, name: str) -> str:
-        with (self.path / name).open("rb") as file:
-            return hashlib.file_digest(file, "sha256").hexdigest()
-
-    def holds(self, name: str) -> bool:
-        """Say whether a file that this program wrote before is still there."""
-        listed = self.manifest is not None and name in self.manifest.files
-        return listed and (self.path / name).is_file()
-
-    def write(
-        self,
-        files: Mapping[str, str | bytes],
-        equations: Sequence[FoundEquation] | None = None,
-        *,
-        seed: int | None = None,
-        inputs: Mapping[str, str] | None = None,
-    ) -> None:
-        """Write all files aside, then rename them into place, the manifest last.
-
-        ``equations`` take the place of those in the manifest; ``seed`` and ``inputs`` are noted
-        there. Raises ``OutputError`` as ``check`` does, and ``OSError`` that names
-        the file where one can't be written.
-        """
-        contents = {
-            name: content if isinstance(content, bytes) else content.encode()
-            for name, content in files.items()
-        }
-        with _locked(self.path / MANIFEST, wait=True) as locked:
-            self._write(contents, equations, seed, inputs or {})
-            if locked:  # else another may still write
-                _clear(self.path)
-
-    def _write(
-        self,
-        contents: dict[str, bytes],
-        equations: Sequence[FoundEquation] | None,
-        seed: int | None,
-        inputs: Mapping[str, str],
-    ) -> None:
-        """Write files and the manifest, while no other command reads it to write it anew."""
-        self._read()  # another command may have written meanwhile
-        self.check(contents)
-        before = self.manifest or Manifest(program=PROGRAM, files={})
-        kept = {name: made for name, made in before.files.items() if self.holds(name)}
-        for begun in self._begun:
-            kept |= {
-                name: one
-                for name, one in begun.files.items()
-                if (self.path / name).is_file() and self._digest(name) == one.sha256
-            }
-        made = {n: self._made(content, seed, inputs) for n, content in contents.items()}
-        contents[MANIFEST] = (
-            Manifest(
-                program=PROGRAM,
-                files=dict(sorted((kept | made).items())),
-                equations=before.equations if equations is None else tuple(equations),
-            )
-            .text()
-            .encode()
-        )
-        if len(contents[MANIFEST]) > LARGEST:
+    def _check(self) -> None:
+        """Refuse what is not to be replaced."""
+        path = self.path
+        if os.path.lexists(self._old):
             raise OutputError(
-                f"'{self.path}' holds too many results: its {MANIFEST} would grow beyond "
-                f"{LARGEST} bytes. Give another folder."
+                f"'{self._old}' is there: a command was ended while it replaced '{path}', and this "
+                "is what that held before. Rename it, or delete it."
             )
-        write_whole(self.path, contents)
-
-    def _made(self, content: bytes, seed: int | None, inputs: Mapping[str, str]) -> Made:
-        return Made(
-            result_of=self._result_of,
-            command=command_line(),
-            version=version(PROGRAM),
-            sha256=hashlib.sha256(content).hexdigest(),
-            seed=seed,
-            inputs={printable(name): digest for name, digest in inputs.items()},
-        )
-
-
-def write_whole(folder: Path, contents: Mapping[str, bytes]) -> None:
-    """Write files aside in their folder; when all are there, rename them, in their order.
-
-    Interrupts wait until all are renamed. Raises ``OSError`` that names the file which can't be
-    written; nothing is left aside then but a manifest of what was renamed.
-    """
-    suffix = f".{secrets.token_hex(4)}{PART}"
-    aside = {name: folder / f".{name}{suffix}" for name in contents}
-    try:
-        for name, content in contents.items():
-            try:
-                with aside[name].open("xb") as file:
-                    file.write(content)
-            except OSError as failure:  # a write that fails half-way names no file
-                failure.filename = str(folder / name)
-                raise
-        with waiting():
-            for name in list(aside):
-                os.replace(aside[name], folder / name)
-                del aside[name]
-    finally:
-        if len(aside) < len(contents):
-            aside.pop(MANIFEST, None)
-        for path in aside.values():
-            path.unlink(missing_ok=True)
-
-
-def _clear(folder: Path) -> None:
-    """Take away what killed commands have left in a folder in which no other one writes now."""
-    for path in folder.iterdir():
-        if _LEFT.fullmatch(path.name):
-            path.unlink(missing_ok=True)
-        elif path.name.startswith(".") and path.name.endswith(LOCK):
-            own = folder / path.name[1 : -len(LOCK)]
-            # not so where its command still runs
-            with suppress(OutputError, OSError), _locked(own, wait=False):
-                pass
-
-
-@contextmanager
-def output(
-    out: Path | None, result_of: str, names: Iterable[str], overwrite: bool = False
-) -> Iterator[Folder | None]:
-    """Give the folder to write into, or None without ``--out``; it is made if it is not there.
-
-    ``names`` are the files that will be written, as far as they are known: whether they may be is
-    found out now, and until the end no other command may. ``result_of`` is the question that they
-    answer, such as "run scene.toml". Raises ``OutputError`` where ``out`` can't be used, and
-    ``OSError`` where it can't be written to.
-    """
-    if out is None:
-        yield None
-        return
-    names = list(dict.fromkeys(names))
-    with _standing(out, names):
-        with _locked(out / MANIFEST, wait=True):
-            folder = Folder(out, result_of, overwrite)
-            folder.check(names)
-        yield folder
-
-
-def copied(contents: Mapping[str, bytes], folder: Path, overwrite: bool) -> list[str]:
-    """Write files that are no results; return the names of those that were not there already.
-
-    Raises ``OutputError`` where another file of that name is there, before anything is written.
-    """
-    with _standing(folder):
-        new = {}
-        for name, content in sorted(contents.items()):
-            path = folder / name
-            if path.is_dir():
-                raise _in_the_way(path, _IS_FOLDER)
-            size = path.stat().st_size if path.is_file() else None
-            if size == len(content) and path.read_bytes() == content:
-                continue
-            if os.path.lexists(path) and not overwrite:
-                raise _in_the_way(path, "is there, and differs from the one to be written")
-            new[name] = content
-        with _locked(folder / MANIFEST, wait=True):
-            write_whole(folder, new)
-    return list(new)
-
-
-@contextmanager
-def _standing(folder: Path, names: Sequence[str] = ()) -> Iterator[None]:
-    """See to it that a folder is there and can be written to, and lock names in it.
-
-    One that stays empty goes again.
-    """
-    missing = []
-    for one in (folder, *folder.parents):
-        mode = _mode(one)
-        if mode is not None and stat.S_ISDIR(mode):
-            break
-        if mode is not None:
-            raise OutputError(f"'{one}' is a file. Give a folder.")
-        if one.is_symlink():
-            raise OutputError(
-                f"'{one}' is a link to '{os.readlink(one)}', which is not there. Give a folder."
-            )
-        missing.append(one)
-    try:
-        with ExitStack() as locks:
-            for left in reversed(range(ATTEMPTS)):
-                try:
-                    folder.mkdir(parents=True, exist_ok=True)
-                    with TemporaryFile(dir=folder):  # whether it can be written to
-                        pass
-                    for name in names:
-                        locks.enter_context(_locked(folder / name, wait=False))
-                    break
-                except (FileNotFoundError, FileExistsError):  # others make it, and take it away
-                    locks.close()
-                    if not left:
-                        raise
-            yield
-    finally:
-        for one in missing:
-            with suppress(OSError):  # not empty, or never made
-                one.rmdir()
-
-
-def _mode(path: Path) -> int | None:
-    """Give what a path leads to, looked at once; None where that is nothing."""
-    try:
-        return path.stat().st_mode
-    except OSError as failure:
-        if failure.errno not in {errno.ENOENT, errno.ENOTDIR, errno.ELOOP}:
-            raise
-        return None
-
-
-@contextmanager
-def _locked(path: Path, *, wait: bool) -> Iterator[bool]:
-    """Keep other commands from writing a file; raise ``OutputError`` where one does, or wait.
-
-    Says whether the system and the disk have locks. The lock is on a hidden file beside it, which
-    goes when the lock does.
-    """
-    try:
-        import fcntl
-    except ImportError:  # not on this system
-        yield False
-        return
-    beside = path.with_name(f".{path.name}{LOCK}")
-    while True:
-        number = _opened(beside, path)
-        locked = True
-        try:
-            try:
-                fcntl.flock(number, fcntl.LOCK_EX | (0 if wait else fcntl.LOCK_NB))
-            except BlockingIOError:
-                raise OutputError(
-                    f"'{path}' is about to be written by another command, which still runs. Wait "
-                    "for it, or give another folder."
-                ) from None
-            except OSError as failure:
-                if failure.errno not in NO_LOCKS:
-                    raise
-                locked = False
-            if not _is_at(number, beside):  # who had the lock took it away with the file
-                continue
-            try:
-                yield locked
-            finally:
-                beside.unlink(missing_ok=True)
+        if not os.path.lexists(path):
             return
-        finally:
-            os.close(number)
+        if path.is_symlink() or not path.is_dir():
+            raise OutputError(f"'{path}' is a file or a link. Give a folder that is not there.")
+        if not self.overwrite:
+            raise OutputError(f"'{path}' is there. Give another folder, or --overwrite.")
+        with os.scandir(path) as entries:
+            own = {one.name for one in entries if one.is_file(follow_symlinks=False)} & self.names
+        others = sorted(set(os.listdir(path)) - own)
+        if others:
+            raise OutputError(
+                f"'{path}' holds what this command does not write, such as '{others[0]}'. Give "
+                "another folder."
+            )
+
+    def write(self, files: Mapping[str, str | bytes]) -> None:
+        """Write all files into a new folder, and rename it.
+
+        Raises ``OSError`` that names the file which can't be written, and ``OutputError`` where the
+        folder can't be renamed any more; it says where the files are.
+        """
+        missing = [one for one in self.path.parents if not one.exists()]
+        new = self._new()
+        try:
+            new.mkdir(parents=True)
+            for name, content in files.items():
+                _write(new / name, content, self.path / name)
+        except BaseException:
+            shutil.rmtree(new, ignore_errors=True)
+            for one in missing:
+                with suppress(OSError):  # not empty
+                    one.rmdir()
+            raise
+        try:
+            self._check()
+            replaced = self._rename(new)
+        except (OutputError, OSError) as failure:
+            why = failure if isinstance(failure, OutputError) else f"{failure.strerror}."
+            raise OutputError(f"{why} What was found is in '{new}'.") from None
+        if replaced:
+            with suppress(OSError):
+                for name in self.names:
+                    (self._old / name).unlink(missing_ok=True)
+                self._old.rmdir()
+            if self._old.is_dir():  # as where something came into it meanwhile
+                tell(f"'{self._old}' can't be deleted. It is what '{self.path}' held before.")
+
+    def _rename(self, new: Path) -> bool:
+        """Take the place of the folder; say whether one was there."""
+        there = self.path.is_dir()
+        if there:
+            os.rename(self.path, self._old)
+        try:
+            os.rename(new, self.path)
+        except OSError:
+            if there:
+                os.rename(self._old, self.path)
+            raise
+        return there
 
 
-def _opened(beside: Path, path: Path) -> int:
-    """Open the file that locks another; raise ``OSError`` that names the other."""
+def _write(path: Path, content: str | bytes, named: Path) -> None:
     try:
-        return os.open(beside, os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK, 0o666)
-    except OSError as failure:
-        failure.filename = str(path)
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+    except OSError as failure:  # one that fails half-way has no name
+        failure.filename = str(named)
         raise
-
-
-def _is_at(number: int, path: Path) -> bool:
-    """Say whether an open file still has its name."""
-    try:
-        return os.path.samestat(os.fstat(number), path.lstat())
-    except FileNotFoundError:
-        return False

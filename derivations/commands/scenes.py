@@ -15,12 +15,12 @@ from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 
 import force_diffusion as fd
 
-from ..export.answers import Format
+from ..export.answers import Format, files_of, names_of
 from ..export.tables import csv_text
 from .cli import command_line, shell_line
 from .guard import about as named
 from .guard import in_range, say
-from .output import Overwrite, out_option, output
+from .output import Output, Overwrite, out_option
 from .shared import (
     Quiet,
     Written,
@@ -31,7 +31,6 @@ from .shared import (
     show,
     sourced,
     warn,
-    write,
 )
 from .sweep import Seed, Settings, name_of, variants
 
@@ -130,47 +129,47 @@ def run(
     """Solve the packing of a scene and answer its question."""
     checked(written, out)
     asked = variants(settings, seed)
-    plans = [_planned(scene, tolerance, certified, one) for one in asked]  # all are checked first
-    listed = as_json and len(asked) > 1
-    for place, (planned, changes) in enumerate(zip(plans, asked, strict=True)):
-        if listed:
+    # all scenes and folders are checked first
+    plans = [_planned(scene, tolerance, certified, one) for one in asked]
+    varied = [
+        {key: value for key, value in changes.items() if any(one[key] != value for one in asked)}
+        for changes in asked
+    ]
+    names = names_of(answered("run"))
+    folders = [
+        Output(out / name_of(own) if own else out, names, overwrite) if out else None
+        for own in varied
+    ]
+    several = len(asked) > 1
+    for place, (planned, own, folder) in enumerate(zip(plans, varied, folders, strict=True)):
+        if several and as_json:
             print("," if place else "[")
-        words = [word for key, value in changes.items() for word in ("--set", f"{key}={value}")]
-        folder = out
-        if len(asked) > 1:
-            varied = {k: v for k, v in changes.items() if any(one[k] != v for one in asked)}
-            folder = None if out is None else out / name_of(varied)
-            if not (as_json or quiet):
-                say(f"# {', '.join(f'{key} = {value}' for key, value in varied.items())}")
-        question = shell_line(["run", str(scene), *words]) if words else f"run {scene}"
-        _answer(planned, scene, question, folder, written, as_json, quiet, overwrite)
-    if listed:
+        elif several and not quiet:
+            say(f"# {', '.join(f'{key} = {value}' for key, value in own.items())}")
+        _answer(planned, scene, folder, written, as_json, quiet)
+    if several and as_json:
         print("]")
 
 
 def _answer(
     planned: "Plan",
     scene: Path,
-    question: str,
-    out: Path | None,
+    folder: Output | None,
     written: Format,
     as_json: bool,
     quiet: bool,
-    overwrite: bool,
 ) -> None:
     """Answer one scene, and print or write the answer."""
     from force_diffusion.numeric.run.outcome import outcome_lines
 
     warn(scene, planned)
-    names = ["result.json", f"{planned.scene.ask.quantity}.{written}"]
-    with output(out, question, names, overwrite) as folder:
-        found = _solved(planned, scene, quiet)
-        about = found.data(rows=False)
-        about["source"] = sourced(about["source"], scene, command_line())
-        if folder:
-            write(folder, found, about, written)
+    found = _solved(planned, scene, quiet)
+    about = found.data(rows=False)
+    about["source"] = sourced(about["source"], scene, command_line())
+    if folder:
+        folder.write(files_of(found, about, written))
     lines = outcome_lines(about, found.count)
-    show(found, about, lines, as_json=as_json, quiet=quiet, folder=folder)
+    show(found, about, lines, as_json=as_json, quiet=quiet, written=folder is not None)
 
 
 def cost(
@@ -183,22 +182,22 @@ def cost(
     from force_diffusion.numeric.scene.scene import source_of
 
     command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
-    names = ["cost.json", "cost.csv", *images("cost")]
-    with output(out, f"cost {scene}", names, overwrite) as folder:
-        with named(scene.name), noticing() as notice:
-            read = fd.read_scene(scene)
-            found = fd.cost(read, notice)
-        source = sourced(source_of(read), scene, None)
-        data = json.dumps({"command": command, "source": source, **found.data()}, indent=2)
-        if folder:
-            title = printable(scene.stem)
-            plot = partial(found.plot, title)
-            files: dict[str, str | bytes] = {
+    folder = Output(out, ["cost.json", "cost.csv", *images("cost")], overwrite) if out else None
+    with named(scene.name), noticing() as notice:
+        read = fd.read_scene(scene)
+        found = fd.cost(read, notice)
+    source = sourced(source_of(read), scene, None)
+    data = json.dumps({"command": command, "source": source, **found.data()}, indent=2)
+    if folder:
+        title = printable(scene.stem)
+        plot = partial(found.plot, title)
+        folder.write(
+            {
                 "cost.json": data + "\n",
                 "cost.csv": csv_text([{**row, "command": command} for row in found.listed()]),
                 **drawn(plot, "cost", f"Cost of accuracy: {title}", command),
             }
-            folder.write(files, seed=source["seed"], inputs=source["sha256"])
+        )
     print(data if as_json else found)
 
 

@@ -14,7 +14,6 @@ from force_diffusion.numeric.tables import csv_bytes
 from ..export import answers
 from ..export.answers import Format
 from .guard import tell
-from .output import Folder
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
@@ -52,18 +51,6 @@ def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[st
     return found if command is None else {"command": command, **found}
 
 
-def write(
-    folder: Folder,
-    answer: answers.Answered,
-    about: dict[str, Any],
-    written: Format,
-) -> None:
-    """Write an answer into a folder, and what it came from."""
-    source = about["source"]
-    files = answers.files_of(answer, about, written)
-    folder.write(files, seed=source["seed"], inputs=source["sha256"])
-
-
 def show(
     answer: answers.Answered,
     about: dict[str, Any],
@@ -71,16 +58,16 @@ def show(
     *,
     as_json: bool,
     quiet: bool,
-    folder: Folder | None,
+    written: bool,
 ) -> None:
-    """Print JSON; or the rows, unless they are in a folder, and lines of words."""
+    """Print JSON; or the rows, unless they are ``written``, and lines of words."""
     if as_json:
         _print(answers.json_bytes(answer, about))
         return
-    if folder is None:
+    if not written:
         _print(csv_bytes(answer.text))
     if not quiet:
-        mark = "# " if folder is None else ""
+        mark = "" if written else "# "
         print("\n".join(f"{mark}{line}" for line in lines))
 
 

@@ -8,6 +8,7 @@ schema under ``force-diffusion``.
 
 import io
 import json
+from collections.abc import Iterable
 from enum import StrEnum
 from typing import Any, Protocol
 
@@ -72,6 +73,11 @@ def files_of(answer: Answered, about: dict[str, Any], written: Format) -> dict[s
     columns = {name: _column(answer, name) for name in answer.arrays}
     content = _npz(columns, text) if written == Format.NPZ else _parquet(columns, text)
     return {"result.json": text.encode(), name: content}
+
+
+def names_of(quantities: Iterable[str]) -> list[str]:
+    """Name all files that answers to these questions may have."""
+    return ["result.json", *(f"{name}.{written}" for name in quantities for written in Format)]
 
 
 def json_bytes(answer: Answered, about: dict[str, Any]) -> bytes:

@@ -8,12 +8,12 @@ from force_diffusion.symbolic.printing.lines import column_width, latex_body
 from sympy import Basic
 
 from ..coq.record import recorded
+from ..framework.catalogue import Number
 from ..framework.record import Derivation, Outcome
-from .manifest import FoundEquation
 from .prose import prose_latex
 from .terminal import follows_text, relation_of, step_verdicts
 
-DOCUMENT = "equations.tex"
+DOCUMENT, MANIFEST = "equations.tex", "manifest.json"
 
 _HEAD = r"""\documentclass[10pt]{article}
 \usepackage[a4paper,margin=27mm]{geometry}
@@ -66,9 +66,8 @@ def statement_latex(derivation: Derivation, columns: int = 1) -> str:
     return f"\\begin{{equation}}{label}\n{body}\n\\end{{equation}}\n"
 
 
-def fragment_name(derivation: Derivation) -> str:
+def fragment_name(number: Number) -> str:
     """File name of an equation's fragment."""
-    number = derivation.number
     return f"eq{number:02}.tex" if isinstance(number, int) else f"eq{number}.tex"
 
 
@@ -99,8 +98,6 @@ def _noted(verdict: str, name: str, note: str) -> str:
 def _steps(derivation: Derivation, verdicts: list[str]) -> str:
     items = []
     steps = list(derivation.steps())
-    if len(verdicts) != len(steps):  # an earlier version has left them behind
-        verdicts = ["not decided"] * len(steps)
     for step, verdict in zip(steps, verdicts, strict=True):
         told = follows_text(step, verdict[:1].upper() + verdict[1:])
         follows = f"\\emph{{{prose_latex(sentence(told))}}}"
@@ -137,8 +134,9 @@ def _numbered(derivation: Derivation) -> str:
     return f"\\renewcommand{{\\theequation}}{{{number}}}\n"
 
 
-def section_latex(derivation: Derivation, found: FoundEquation) -> str:
+def section_latex(outcome: Outcome) -> str:
     """All about one equation; the statement itself is read from its fragment."""
+    derivation = outcome.derivation
     symbols = [
         f"$\\displaystyle {latex(symbol)}$: {prose_latex(words)}"
         for symbol, words in derivation.symbols
@@ -147,42 +145,39 @@ def section_latex(derivation: Derivation, found: FoundEquation) -> str:
     plural = "s" if len(derivation.premises) > 1 else ""
     claims = [
         _noted(in_words(check.verdict, check.assuming), check.name, check.note)
-        for check in found.checks
+        for check in outcome.checks
         if check.kind != "step"
     ]
     return "".join(
         [
             f"\\section{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
             _numbered(derivation),
-            f"\\input{{{fragment_name(derivation).removesuffix('.tex')}}}%\n",
-            f"Verdict: \\textbf{{{_verdict(found)}}}. Coq: {recorded(derivation.number)}."
+            f"\\input{{{fragment_name(derivation.number).removesuffix('.tex')}}}%\n",
+            f"Verdict: \\textbf{{{prose_latex(outcome.words)}}}. "
+            f"Coq: {recorded(derivation.number)}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
             _part("Printed as well, and refuted", _refuted(derivation)),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
-            _part("Steps", _steps(derivation, step_verdicts(found.checks))),
+            _part("Steps", _steps(derivation, step_verdicts(outcome.checks))),
             _part("Claims", _list("itemize", claims)),
             _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),
         ]
     )
 
 
-def _verdict(found: FoundEquation) -> str:
-    return prose_latex(in_words(found.verdict, found.assuming))
-
-
-def _overview(parts: Sequence[tuple[Derivation, FoundEquation]]) -> str:
+def _overview(outcomes: Sequence[Outcome]) -> str:
     """The paper's equations in one table, those beyond it in another: a page ends in between."""
-    of_paper = [part for part in parts if isinstance(part[0].number, int)]
-    beyond = [part for part in parts if not isinstance(part[0].number, int)]
+    of_paper = [one for one in outcomes if isinstance(one.derivation.number, int)]
+    beyond = [one for one in outcomes if not isinstance(one.derivation.number, int)]
     return "\n".join(_table(some) for some in (of_paper, beyond) if some)
 
 
-def _table(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
+def _table(outcomes: Iterable[Outcome]) -> str:
     rows = [
-        f"({derivation.number}) & {prose_latex(derivation.title)} & {_verdict(found)} & "
-        f"{recorded(derivation.number).partition(' by ')[0]} \\\\\n"
-        for derivation, found in parts
+        f"({one.derivation.number}) & {prose_latex(one.derivation.title)} & "
+        f"{prose_latex(one.words)} & {recorded(one.derivation.number).partition(' by ')[0]} \\\\\n"
+        for one in outcomes
     ]
     return (
         "\\begin{center}\\footnotesize\\setlength{\\tabcolsep}{3pt}\n"
@@ -193,34 +188,8 @@ def _table(parts: Iterable[tuple[Derivation, FoundEquation]]) -> str:
     )
 
 
-def finding(outcome: Outcome) -> FoundEquation:
-    """What was found about an equation, for the manifest; the same on every run."""
-    derivation = outcome.derivation
-    return FoundEquation.model_validate(
-        {
-            "number": derivation.number,
-            "name": derivation.name,
-            "title": derivation.title,
-            "fragment": fragment_name(derivation),
-            "premises": [premise.number for premise in derivation.premises],
-            "verdict": str(outcome.verdict),
-            "assuming": outcome.assuming,
-            "checks": [
-                {
-                    "kind": check.kind,
-                    "name": check.name,
-                    "verdict": str(check.verdict),
-                    "note": check.note,
-                    "assuming": check.assuming,
-                }
-                for check in outcome.checks
-            ],
-        }
-    )
-
-
-def document(parts: Sequence[tuple[Derivation, FoundEquation]]) -> str:
+def document(outcomes: Sequence[Outcome]) -> str:
     """The document about these equations; it reads the fragments beside it."""
-    body = "\n".join(section_latex(derivation, found) for derivation, found in parts)
+    body = "\n".join(map(section_latex, outcomes))
     reading = f"{prose_latex(READING)}\n"
-    return f"{_HEAD}{reading}{_overview(parts)}\n{body}\n\\end{{document}}\n"
+    return f"{_HEAD}{reading}{_overview(outcomes)}\n{body}\n\\end{{document}}\n"

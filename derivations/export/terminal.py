@@ -14,7 +14,6 @@ from ..coq.record import recorded
 from ..framework.catalogue import theorem_of
 from ..framework.proving import Shown
 from ..framework.record import Check, Derivation, Outcome
-from .manifest import FoundCheck
 from .prose import both
 
 _PAIR = re.compile(r"\((\S+), (\S+)\)")
@@ -113,7 +112,7 @@ def steps_text(derivation: Derivation, verdicts: Sequence[str]) -> str:
     return "\n".join(parts)
 
 
-def step_verdicts(checks: Iterable[Check | FoundCheck]) -> list[str]:
+def step_verdicts(checks: Iterable[Check]) -> list[str]:
     """The verdicts of the steps among the checks, in their order."""
     return [in_words(one.verdict, one.assuming) for one in checks if one.kind == "step"]
 
@@ -153,25 +152,33 @@ def trouble_lines(outcome: Outcome) -> list[str]:
     ]
 
 
-def outcomes_data(outcomes: Iterable[Outcome]) -> dict[str, Any]:
-    """What ``derive --json`` prints; verdicts are words, times are seconds."""
+def outcomes_data(outcomes: Iterable[Outcome], *, timed: bool = True) -> dict[str, Any]:
+    """What ``derive --json`` prints; verdicts are words, times, if they are wanted, seconds."""
+
+    def lasted(seconds: float) -> dict[str, float]:
+        return {"seconds": round(seconds, 6)} if timed else {}
+
     equations = [
         {
             "number": outcome.derivation.number,
             "name": outcome.derivation.name,
+            "title": outcome.derivation.title,
+            "premises": [premise.number for premise in outcome.derivation.premises],
             "verdict": str(outcome.verdict),
             "assuming": list(outcome.assuming),
             "checks": [
                 {
                     "kind": check.kind,
+                    "name": check.name,
                     "verdict": str(check.verdict),
+                    "note": check.note,
                     "assuming": list(check.assuming),
-                    "seconds": round(check.seconds, 6),
+                    **lasted(check.seconds),
                 }
                 for check in outcome.checks
             ],
             "refuted as expected": len(outcome.refuted),
-            "seconds": round(outcome.seconds, 6),
+            **lasted(outcome.seconds),
         }
         for outcome in outcomes
     ]

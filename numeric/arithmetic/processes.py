@@ -1,26 +1,14 @@
-"""Processes of this machine: how they start, how they end, and one that works beside this one."""
+"""Processes of this machine: how they start, and how they end."""
 
 import ctypes
 import os
 import signal
 import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
-from contextlib import contextmanager, suppress
-from functools import partial
-from multiprocessing import connection, get_context, parent_process
-from multiprocessing.connection import Connection
-from typing import Any
-
-from .machine import cores
-
-Start = Callable[..., Callable[[], Any]]
-"""Takes a function and its arguments; gives what waits for its value. ``partial`` is one, too."""
+from contextlib import contextmanager
+from multiprocessing import connection, parent_process
 
 _SIGNAL_OF_DEATH = 1  # PR_SET_PDEATHSIG of Linux
-
-Answer = tuple[Any, Exception | None]
-"""What a call gave, or why it did not."""
 
 
 @contextmanager
@@ -70,78 +58,3 @@ def _follow_parent() -> None:
     if parent is not None:
         connection.wait([parent.sentinel])
         os._exit(1)
-
-
-@contextmanager
-def beside() -> Iterator[Start]:
-    """Give what calls functions in a process beside this one, one after the other.
-
-    Who waits for a value calls meanwhile what is not begun, the latest first; all is called here
-    where there is one core, or where no process starts, or it dies. Functions, arguments and
-    values have to be picklable.
-    """
-    ours, theirs = get_context("spawn").Pipe()
-    process = get_context("spawn").Process(target=_serve, args=(theirs,), daemon=True)
-    try:
-        if cores() < 2:
-            raise OSError
-        with without_interrupts():
-            process.start()
-    except OSError:
-        yield partial
-        return
-    finally:
-        theirs.close()
-
-    def ask(task: Callable[[], Any]) -> Answer:
-        ours.send(task)
-        answer: Answer = ours.recv()
-        return answer
-
-    def start(function: Callable[..., Any], *arguments: Any) -> Callable[[], Any]:
-        task = partial(function, *arguments)
-        future = asking.submit(ask, task)
-        given[future] = task
-
-        def value() -> Any:
-            while not future.done():
-                latest = next((one for one in reversed(given) if one.cancel()), None)
-                if latest is None:
-                    break
-                called[latest] = _answer(given.pop(latest))
-            given.pop(future, None)
-            try:
-                found, error = called.pop(future) if future in called else future.result()
-            except (EOFError, OSError):  # it died
-                return task()
-            if error is not None:
-                raise error
-            return found
-
-        return value
-
-    given: dict[Future[Answer], Callable[[], Any]] = {}
-    called: dict[Future[Answer], Answer] = {}
-    asking = ThreadPoolExecutor(1)
-    try:
-        yield start
-    finally:
-        process.terminate()  # nobody waits for what it is still at
-        asking.shutdown(cancel_futures=True)
-        process.join()
-        ours.close()
-
-
-def _serve(connected: Connection) -> None:
-    end_with_parent()
-    with suppress(EOFError, OSError):  # the parent has gone
-        while True:
-            task = connected.recv()
-            connected.send(_answer(task))
-
-
-def _answer(task: Callable[[], Any]) -> Answer:
-    try:
-        return task(), None
-    except Exception as error:
-        return None, error

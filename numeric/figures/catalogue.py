@@ -116,7 +116,7 @@ def figure(
     if not layers:
         raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
     chosen = _chosen(name, spacing, relative_std)
-    file, title, module, usual = FIGURES[name]
+    file, title, module, usual, _ = FIGURES[name]
     made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"
     with drawing():  # or leave before anything is solved
         from . import style

@@ -6,25 +6,32 @@ from typing import NamedTuple
 class Entry(NamedTuple):
     """A figure: its files, what it shows, the module that makes it.
 
-    ``realisations``: packings of each ensemble by default; 0 where it draws none.
+    ``realisations``: packings of each ensemble by default; 0 where it draws none. ``tables``:
+    CSV files but for one of the name of its images.
     """
 
     file: str
     title: str
     module: str
     realisations: int = 0
+    tables: tuple[str, ...] = ()
 
 
 FIGURES = {
     "1": Entry("figure1", "Notation, and a disordered packing over the ordered one", "notation"),
-    "2": Entry("figure2", "Diffusion of geometry and of forces", "diffusion"),
+    "2": Entry(
+        "figure2", "Diffusion of geometry and of forces", "diffusion", 0,
+        ("figure2_geometry", "figure2_forces"),
+    ),
     "3": Entry(
-        "figure3", "Theory against exact simulation, surface load", "comparison", 400
+        "figure3", "Theory against exact simulation, surface load", "comparison", 400,
+        ("figure3_q_model",),
     ),
     "4": Entry(
-        "figure4", "Mean and fluctuation of the response to an isolated load", "point_load", 4000
+        "figure4", "Mean and fluctuation of the response to an isolated load", "point_load", 4000,
+        ("figure4_cuts", "figure4_double_y"),
     ),
-    "pf": Entry("pf", "P(f) against the Gaussian", "distribution", 4000),
+    "pf": Entry("pf", "P(f) against the Gaussian", "distribution", 4000, ("pf_tests",)),
     "chains": Entry("chains", "Force chains", "chains"),
     "B2": Entry(
         "figureB2", "Fluctuation of the forces under a load at an angle", "directions", 400

@@ -86,12 +86,10 @@ def packings(
 
     Gives what was solved together and its realisations: the first axis of arrays, which a single
     one lacks. The next ones take the memory of the last: what is to stay has to be copied. So do
-    those of the next call, if of the last ones all is ``copied``. The
-    caller activates ``system``. ``physical`` looks at every packing. With ``carried``
-    numbers carry their errors: ``system`` is float64, and ``Solved.rest`` holds what one rounding
-    left of them. With ``any_number`` more may come together, so that all
-    cores have some. Raises what the sweeps raise for a packing that can't be built, or not be
-    decided.
+    those of the next call, if of the last ones all is ``copied``. The caller activates ``system``.
+    ``physical`` looks at every packing. With ``carried`` numbers, float64, carry their errors on
+    the way, and are rounded once. With ``any_number`` more may come together, so that all cores
+    have some. Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     work = Work() if work is None else work
     size = chunk_size(problem, system)

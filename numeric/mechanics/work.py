@@ -31,7 +31,6 @@ class Work:
     again: int = 0
     seconds: dict[str, float] = field(default_factory=dict, compare=False)
     arithmetic: list[str] = field(default_factory=list)
-    arithmetic_again: list[str] = field(default_factory=list)
     progress: Progress | None = None
     trace: bool = False
     rows: dict[str, list[Layer]] = field(default_factory=dict)
@@ -59,9 +58,8 @@ class Work:
 
     def uses(self, name: str) -> None:
         """Note the number system of a pass."""
-        names = self.arithmetic_again if self.repeating else self.arithmetic
-        if name not in names:
-            names.append(name)
+        if name not in self.arithmetic:
+            self.arithmetic.append(name)
 
     @contextmanager
     def timed(self, step: str) -> Iterator[None]:

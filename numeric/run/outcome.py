@@ -183,9 +183,7 @@ class Outcome:
             name = step["step"]
             clock = "radii" if name in {"read radii", "draw radii"} else name
             step["seconds"] = round(work.seconds.get(clock, 0.0), 6)
-            again = work.arithmetic_again if name == ESTIMATE else []
-            names = again or work.arithmetic
-            step["arithmetic"] = ", then ".join(names)
+            step["arithmetic"] = ", then ".join(work.arithmetic)
             step["beads"] = visited.get(name, 0)
         data["results"] = {self.quantity: self.decimals() if rows else []}
         data["accuracy"] = {

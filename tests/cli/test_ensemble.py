@@ -59,7 +59,7 @@ def test_kept_in_a_file_and_written_out(
     lines = (out / "profile.csv").read_text().splitlines()
     assert lines[0].startswith("j,branch,samples,mean,mean_change,mean_change_error,std,std_error,")
     first = (out / "result.json").read_bytes()
-    assert call(capsys, *arguments)[0] == 0  # again, from the file alone
+    assert call(capsys, *arguments, "--overwrite")[0] == 0  # again, from the file alone
     assert (out / "result.json").read_bytes() == first
     assert main(["ensemble-status", str(store)]) == 0
     assert "sound, 40 realisations" in capsys.readouterr().out

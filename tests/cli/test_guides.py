@@ -60,6 +60,8 @@ def _commands(page: Path) -> list[str]:
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "sh")], ids=_name)
 def test_its_commands_run_as_written(page: Path, folder: Path) -> None:
     _save_files(page, folder)
+    if "force-diffusion examples scenes" in _commands(page):
+        shutil.rmtree(folder / "scenes")
     earlier = {command for one in PAGES[: PAGES.index(page)] for command in _commands(one)}
     for command in _commands(page):
         program, *arguments = shlex.split(command)

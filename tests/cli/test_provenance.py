@@ -65,11 +65,6 @@ def test_an_answer_says_where_it_came_from(
         assert source["command"].startswith("force-diffusion run")
     else:
         assert source["seed"] == fd.read_scene(scene).disorder.seed
-    manifest = json.loads((out / "manifest.json").read_text())
-    for made in manifest["files"].values():
-        assert made["inputs"] == source["sha256"]
-        assert made.get("seed") == source["seed"]
-        assert made["command"].startswith(f"force-diffusion {command}")
     (quantity,) = about["results"]
     table = out / f"{quantity}.{written}"
     if written == "csv":
@@ -93,8 +88,9 @@ def test_numbers_of_longer_arithmetics_are_decimals(
     written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     scene = SCENES / "one_contact.toml"
-    assert call(capsys, "run", scene, "--out", tmp_path, "--format", written, "-q")[0] == 0
-    columns, _ = (npz_of if written == "npz" else parquet_of)(tmp_path / f"contact.{written}")
+    out = tmp_path / "out"
+    assert call(capsys, "run", scene, "--out", out, "--format", written, "-q")[0] == 0
+    columns, _ = (npz_of if written == "npz" else parquet_of)(out / f"contact.{written}")
     (row,) = fd.read_scene(scene).run().decimals()
     assert columns == {name: [value] for name, value in row.items()}
 

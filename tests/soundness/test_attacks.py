@@ -33,11 +33,13 @@ def test_it_is_refused(attack: Attack) -> None:
         attack.attempt()
 
 
+@pytest.mark.usefixtures("nothing_is_remembered")
 def test_a_kernel_that_lets_one_through_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(rules, "holds", lambda *_: True)
     assert list(succeeded())
 
 
+@pytest.mark.usefixtures("nothing_is_remembered")
 def test_a_kernel_that_stumbles_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     def stumble(*_: object) -> bool:
         raise ZeroDivisionError

@@ -1,6 +1,5 @@
 """Checkers with a planted fault: attacks, changes of an equation, or other statements notice it."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
@@ -14,33 +13,16 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine, signs
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
-from force_diffusion.symbolic.algebra.reading import read_with
-from force_diffusion.symbolic.kernel import limits, moments, rules, theorem
+from force_diffusion.symbolic.kernel import limits, rules, theorem
 from force_diffusion.symbolic.kernel.decisions import proved, refuted
 
 import force_diffusion as fd
 from tests.soundness import trial
 from tests.soundness.attacks.every import succeeded
 
+pytestmark = pytest.mark.usefixtures("nothing_is_remembered")
+
 Plant = pytest.MonkeyPatch
-
-
-@pytest.fixture(autouse=True)
-def _nothing_is_remembered() -> Iterator[None]:
-    remembering = (
-        signs.sign,
-        read_with,
-        moments.value,
-        moments.worked_out,
-        moments.in_the_radii,
-        moments._between,
-        theorem._instance_of,
-    )
-    for one in remembering:
-        one.cache_clear()
-    yield
-    for one in remembering:
-        one.cache_clear()
 
 
 def is_noticed(number: Number) -> bool:

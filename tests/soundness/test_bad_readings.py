@@ -1,6 +1,5 @@
 """Checkers with a planted fault in what they read: statements of known truth notice it."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -8,10 +7,9 @@ import sympy
 from force_diffusion.derivations.framework import record
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import signs, weights
-from force_diffusion.symbolic.algebra.reading import read_with
+from force_diffusion.symbolic.algebra import weights
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel import language, moments, rules, theorem
+from force_diffusion.symbolic.kernel import language, rules, theorem
 from force_diffusion.symbolic.kernel.decisions import proved
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.kernel.where import Where
@@ -22,17 +20,9 @@ from tests.soundness.attacks.every import succeeded
 from tests.soundness.trial import source_of
 from tests.soundness.variations import larger_domains
 
+pytestmark = pytest.mark.usefixtures("nothing_is_remembered")
+
 Plant = pytest.MonkeyPatch
-
-
-@pytest.fixture(autouse=True)
-def _nothing_is_remembered() -> Iterator[None]:
-    remembering = (signs.sign, read_with, moments.value, moments.worked_out, theorem._instance_of)
-    for one in remembering:
-        one.cache_clear()
-    yield
-    for one in remembering:
-        one.cache_clear()
 
 
 def is_noticed(number: int | str) -> bool:

@@ -1,4 +1,4 @@
-"""The LaTeX: one document, paste-ready fragments, a manifest that tells what is there."""
+"""The LaTeX: one document, and fragments that are ready to paste."""
 
 import re
 from collections.abc import Iterator
@@ -6,7 +6,6 @@ from collections.abc import Iterator
 import pytest
 from force_diffusion.derivations.export.document import (
     document,
-    finding,
     statement_latex,
 )
 from force_diffusion.derivations.export.prose import both, prose_latex
@@ -21,8 +20,7 @@ from tests.derivations import fakes
 
 
 def written() -> str:
-    outcomes = [run(fakes.PREMISE), run(fakes.with_claim(Verdict.UNDECIDED))]
-    return document([(outcome.derivation, finding(outcome)) for outcome in outcomes])
+    return document([run(fakes.PREMISE), run(fakes.with_claim(Verdict.UNDECIDED))])
 
 
 def test_a_fragment_is_the_statement_alone() -> None:
@@ -53,7 +51,7 @@ def test_only_packages_of_the_recommended_set() -> None:
 
 
 def test_a_page_may_end_within_a_long_step() -> None:
-    text = document([(load(14), finding(run(fakes.PREMISE)))])
+    text = document([run(load(14))])
     assert r"\allowdisplaybreaks" in text
     assert max(one.count("\\\\\n") for one in text.split(r"\begin{align*}")) > 10
     assert r"\begin{aligned}" not in text

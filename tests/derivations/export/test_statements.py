@@ -53,7 +53,7 @@ def refuted_shown(one: Refuted) -> str:
 @pytest.mark.parametrize("number", list(modules()))
 def test_statement(number: int, update_golden: bool) -> None:
     derivation = load(number)
-    compare(GOLDEN / fragment_name(derivation), statement_latex(derivation), update_golden)
+    compare(GOLDEN / fragment_name(derivation.number), statement_latex(derivation), update_golden)
 
 
 @pytest.mark.parametrize("number", range(1, 17))
@@ -62,5 +62,5 @@ def test_steps(number: int, update_golden: bool) -> None:
     steps = [step_shown(derivation, *one) for one in enumerate(derivation.steps(), start=1)]
     refuted = [refuted_shown(one) for one in derivation.refuted]
     found = "\n\n".join([f"{heading(derivation)}\n", *steps, *refuted])
-    path = GOLDEN / "steps" / fragment_name(derivation).replace(".tex", ".txt")
+    path = GOLDEN / "steps" / fragment_name(derivation.number).replace(".tex", ".txt")
     compare(path, found, update_golden)

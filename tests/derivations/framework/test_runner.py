@@ -9,8 +9,7 @@ from types import SimpleNamespace
 import pytest
 from force_diffusion.derivations.api.derived import Derived
 from force_diffusion.derivations.commands.alone import run_alone
-from force_diffusion.derivations.export.document import document, finding
-from force_diffusion.derivations.export.manifest import FoundEquation
+from force_diffusion.derivations.export.document import document
 from force_diffusion.derivations.export.terminal import (
     outcome_text,
     summary_line,
@@ -74,9 +73,7 @@ def test_what_is_assumed_is_told_everywhere(make: Callable[[Verdict], Derivation
     data = Derived((outcome,)).data()["equations"][0]
     assert data["verdict"] == "proved, assuming"
     assert data["assuming"] == [fakes.GUESS]
-    found = finding(outcome)
-    assert FoundEquation.model_validate_json(found.model_dump_json()) == found
-    latex = document([(outcome.derivation, found)])
+    latex = document([outcome])
     assert f"\\textbf{{{words}}}" in latex
     assert run_alone(replace(make(Verdict.ASSUMING), premises=()), []) == 0
 
