@@ -1,62 +1,73 @@
 """Linear forms in quantities on the lattice: SymPy expressions, read into weights on sites.
 
-A form holds a number, and for each quantity (a radius, a component of a displacement, a force) the
-weights of its sites. Vectors are two forms, their components n^±·v. Products are those of dual
-numbers: what is of first order in both factors is dropped.
+A form holds a number, and for each quantity (a radius, a component of a displacement) the weights
+of its sites. Forces of single contacts stand for unknown numbers: a form may hold products of
+them, and of one quantity. Vectors are two forms, their components n^±·v. Products are those of
+dual numbers: what is of first order in both factors is dropped.
 
 Indices across the packing are *straightened* while forms are read: with i = j − 2i′ a bead (i, j)
 is i′ steps along n⁻ and j − i′ along n⁺ from the origin, and no condition "i + j is even" is left.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Self
 
 import sympy
 
 from . import sets
+from . import symbols as sy
 from .algebra.bases import LINE_SUM
-from .algebra.exact import FIELD, SITE, SOURCE, NotExactError, RationalFunction
+from .algebra.exact import FIELD, SITE, SOURCE, NotAStatementError, NotExactError, RationalFunction
+from .algebra.signs import never_zero
 from .printing.text import text
 from .sets import Set
-from .symbols import (
-    INDICES,
-    Braces,
-    DeltaNMinus,
-    DeltaNPlus,
-    Dot,
-    ForceAlong,
-    ForceMinus,
-    ForcePlus,
-    MeanOver,
-    SecondDifference,
-    SiteFunction,
-    VerticalMinus,
-    VerticalPlus,
-    e_y,
-    i,
-    k,
-    m,
-    n,
-    n_y,
-    p,
-    q,
-    site_r,
-)
 from .weights import Weights
 
-NUMBER = ""
-"""What the part of a form that holds no quantity is filed under."""
+Factor = sympy.Expr | str
+"""The force of a contact by its place, or the name of a quantity with a weight for each site."""
 
-VERTICAL = {VerticalPlus: (ForcePlus, DeltaNPlus), VerticalMinus: (ForceMinus, DeltaNMinus)}
+Key = tuple[tuple[Factor, int], ...]
+"""What weights are of: factors with their powers."""
+
+NUMBER: Key = ()
+"""What the part of a form that holds no quantity is filed under."""
+RADII: Key = ((sy.DeltaR.__name__, 1),)
+SHIFT: Key = (("second order", 1),)
+"""What the shift of a mean is filed under."""
+
+FORCES = (sy.ForcePlus, sy.ForceMinus)
+VERTICAL = {
+    sy.VerticalPlus: (sy.ForcePlus, sy.DeltaNPlus),
+    sy.VerticalMinus: (sy.ForceMinus, sy.DeltaNMinus),
+}
 """The vertical component of a contact's force: the force, and how the contact turns."""
 
-_ACROSS = (i, k, site_r, p, q)
+_OF_ORDER_0 = tuple(kind.__name__ for kind in (sy.Position, sy.Load))
+_ACROSS = (sy.i, sy.k, sy.site_r, sy.p, sy.q)
 """Indices that lie across the packing, or may."""
 
 _HIGHEST = 4  # power of a quantity
 
 Image = Mapping[sympy.Symbol, sympy.Expr]
+
+
+def _product(one: Key, other: Key) -> Key | None:
+    """The key of a product; None where it is of second order.
+
+    Raises:
+        NotExactError: two quantities of order 0 are multiplied.
+    """
+    powers = dict(one)
+    for factor, power in other:
+        powers[factor] = powers.get(factor, 0) + power
+    located = [name for key in (one, other) for name, _ in key if isinstance(name, str)]
+    if len(located) > 1:
+        if any(name.startswith(_OF_ORDER_0) for name in located):
+            raise NotExactError("a product of two positions, or loads")
+        return None
+    return tuple(sorted(((f, p) for f, p in powers.items() if p), key=str))
 
 
 @dataclass(frozen=True)
@@ -85,7 +96,7 @@ class Straightening:
             factors, constant = sets.row(form)
             if not any(number % 2 for number in (constant, *factors.values())):
                 continue
-            free = (s for s in (*_ACROSS, *INDICES) if factors.get(s) in (1, -1) and s not in image)
+            free = (s for s in (*_ACROSS, *sy.INDICES) if factors.get(s) in (1, -1) and s not in image)
             symbol = next(free, None)
             if symbol is None:
                 raise NotExactError(f"{text(one)} is not shown to be even")
@@ -104,9 +115,9 @@ class Straightening:
 
 @dataclass(frozen=True)
 class Form:
-    """Weights by the quantity that they are of."""
+    """Weights by what they are of."""
 
-    parts: Mapping[str, Weights] = field(default_factory=dict)
+    parts: Mapping[Key, Weights] = field(default_factory=dict)
 
     @classmethod
     def number(cls, value: RationalFunction) -> Self:
@@ -115,8 +126,8 @@ class Form:
 
     def __add__(self, other: "Form") -> Self:
         found = dict(self.parts)
-        for quantity, weights in other.parts.items():
-            found[quantity] = found[quantity] + weights if quantity in found else weights
+        for key, weights in other.parts.items():
+            found[key] = found[key] + weights if key in found else weights
         return type(self)(found)
 
     def __sub__(self, other: "Form") -> Self:
@@ -124,40 +135,62 @@ class Form:
 
     def scaled(self, factor: RationalFunction) -> Self:
         """The same, times a number."""
-        return type(self)({name: weights.scaled(factor) for name, weights in self.parts.items()})
+        return self.mapped(lambda weights: weights.scaled(factor))
 
     def times(self, other: "Form") -> Self:
         """The product to first order."""
-        left, right = (one.parts.get(NUMBER, Weights()) for one in (self, other))
-        first = {name: weights.times(right) for name, weights in self.parts.items()}
-        second = {
-            name: weights.times(left) for name, weights in other.parts.items() if name != NUMBER
-        }
-        return type(self)(first) + type(self)(second)
+        found: dict[Key, Weights] = {}
+        for one, weights in self.parts.items():
+            for two, others in other.parts.items():
+                key = _product(one, two)
+                if key is not None:
+                    product = weights.times(others)
+                    found[key] = found[key] + product if key in found else product
+        return type(self)(found)
+
+    def mapped(self, change: Callable[[Weights], Weights]) -> Self:
+        """The same with its weights changed."""
+        return type(self)({key: change(weights) for key, weights in self.parts.items()})
 
     def on(self, points: Set) -> Self:
         """The same on a set of indices, and 0 elsewhere."""
-        return type(self)({name: weights.on(points) for name, weights in self.parts.items()})
+        return self.mapped(lambda weights: weights.on(points))
 
     def at(self, image: Image) -> Self:
         """The same at other indices."""
-        return type(self)({name: weights.at(image) for name, weights in self.parts.items()})
+        return self.mapped(lambda weights: weights.at(image)).renamed(image)
+
+    def renamed(self, image: Image) -> Self:
+        """The same with other indices in the places of its forces."""
+        total = type(self)()
+        for key, weights in self.parts.items():
+            moved = tuple(sorted(((_moved(one, image), power) for one, power in key), key=str))
+            total = total + type(self)({moved: weights})
+        return total
 
     def summed(self, index: sympy.Symbol) -> Self:
         """Σ over all values of an index."""
-        return type(self)({name: weights.summed(index) for name, weights in self.parts.items()})
+        return self.mapped(lambda weights: weights.summed(index))
 
     def without(self, *symbols: sympy.Symbol) -> Self:
         """The same in terms of other symbols, which give these."""
-        return type(self)({name: weights.without(*symbols) for name, weights in self.parts.items()})
+        return self.mapped(lambda weights: weights.without(*symbols))
 
     def merged(self) -> Self:
-        """The same in few pieces."""
-        return type(self)({name: weights.merged() for name, weights in self.parts.items()})
+        """The same in few pieces, without what is 0."""
+        merged = ((key, weights.merged()) for key, weights in self.parts.items())
+        return type(self)({key: weights for key, weights in merged if weights.pieces})
 
     def is_zero(self) -> bool:
         """Whether nothing is left of it anywhere."""
         return all(weights.is_zero() for weights in self.parts.values())
+
+
+def _moved(factor: Factor, image: Image) -> Factor:
+    """A force at the place that other indices give."""
+    if isinstance(factor, str):
+        return factor
+    return factor.func(*(sympy.expand(one.xreplace(dict(image))) for one in factor.args))
 
 
 Vector = tuple[Form, Form]
@@ -179,7 +212,7 @@ class Known:
 
 @dataclass(frozen=True, eq=False)
 class Reader:
-    """Reads expressions on a domain.
+    """Reads expressions on a domain, and refuses what has no value, or no single one, there.
 
     Attributes:
         points: the domain, straightened.
@@ -187,6 +220,7 @@ class Reader:
         known: what quantities are, by their kind; the others stay as they are.
         kind: of the forms that are read.
         linear: whether a product of two quantities that depend on the radii is refused.
+        summed: the indices of the sums around what is read.
     """
 
     points: Set
@@ -194,21 +228,23 @@ class Reader:
     known: Mapping[type, tuple[Known, ...]] = field(default_factory=dict)
     kind: type[Form] = Form
     linear: bool = False
+    summed: frozenset[sympy.Symbol] = frozenset()
 
     def read(self, expression: sympy.Expr) -> Value:
         """A number as one form, a vector as two.
 
         Raises:
+            NotAStatementError: it has no value, or no single one, somewhere on the domain.
             NotExactError: it is neither, is not linear, or holds what is not read.
         """
         if expression in LINE_SUM.vectors:
             first, second = LINE_SUM.vectors[expression]
             return self.kind.number(first), self.kind.number(second)
-        if isinstance(expression, SecondDifference):
+        if isinstance(expression, sy.SecondDifference):
             return self.read(expression.doit())
-        if isinstance(expression, SiteFunction):
+        if isinstance(expression, sy.SiteFunction):
             return self._quantity(expression)
-        if isinstance(expression, ForceAlong):
+        if isinstance(expression, sy.ForceAlong):
             return self._along(expression)
         if isinstance(expression, sympy.Add):
             return self._sum(expression.args)
@@ -216,15 +252,17 @@ class Reader:
             return self._product(expression.args)
         if isinstance(expression, sympy.Sum):
             return self._series(expression)
-        if isinstance(expression, MeanOver):
+        if isinstance(expression, sy.MeanOver):
             return self._average(*expression.args)
-        if isinstance(expression, sympy.Pow) and expression.has(SiteFunction):
+        if isinstance(expression, sympy.Pow) and expression.has(sy.SiteFunction):
             return self._power(*expression.args)
-        if isinstance(expression, Dot):
+        if isinstance(expression, sy.Dot):
             return self._dot(*map(self.vector, expression.args))
-        if isinstance(expression, Braces):
+        if isinstance(expression, sy.MatrixTimes):
+            return self._matrix_times(*expression.args)
+        if isinstance(expression, sy.Braces):
             return self._cases(*expression.args)
-        return self.kind.number(FIELD.from_sympy(expression.xreplace(self.straight.image)))
+        return self.kind.number(self.scalar(expression))
 
     def number(self, expression: sympy.Expr) -> Form:
         """A number as a form."""
@@ -242,7 +280,7 @@ class Reader:
             return self.kind(), self.kind()
         raise NotExactError(f"{text(expression)} is no vector")
 
-    def within(self, *relations: sympy.Basic) -> "Reader":
+    def within(self, *relations: sympy.Basic) -> Self:
         """On the part of the domain where relations hold."""
         inside = sets.where(*map(self.straight.relation, relations))
         return replace(self, points=self.points & inside)
@@ -251,28 +289,75 @@ class Reader:
         """The coordinates of a bead.
 
         Raises:
-            NotExactError: no bead is there.
+            NotAStatementError: none is there.
         """
         x, y = (sympy.expand(one.xreplace(self.straight.image)) for one in (across, layer))
         beside = sympy.expand((y - x) / 2)
-        sets.row(beside)  # whole, or refused
+        try:
+            sets.row(beside)
+            above = sets.where(sympy.Ge(y, 0, evaluate=False))
+        except NotExactError:
+            raise NotAStatementError(
+                f"no bead is shown to be at ({text(across)}, {text(layer)})"
+            ) from None
+        if not self.points.is_subset(above):
+            raise NotAStatementError(f"({text(across)}, {text(layer)}) may lie below the base")
         return sympy.expand(y - beside), beside
 
-    def _quantity(self, quantity: SiteFunction) -> Value:
+    def scalar(self, expression: sympy.Expr) -> RationalFunction:
+        """A number without quantities, whose divisors vanish nowhere."""
+        for one in expression.atoms(sympy.Pow):
+            if one.exp.is_negative and not one.base.is_positive:
+                base = FIELD.from_sympy(one.base.xreplace(self.straight.image))
+                if not never_zero(base, self.points):
+                    raise NotAStatementError(f"the divisor {text(one.base)} may be zero")
+        return FIELD.from_sympy(expression.xreplace(self.straight.image))
+
+    @cached_property
+    def _fixed(self) -> Image:
+        """Indices that equations of the domain fix."""
+        found = sets.fixed(self.points).items()
+        return {symbol: one.to_sympy() for symbol, one in found if symbol not in self.summed}
+
+    def _quantity(self, quantity: sy.SiteFunction) -> Value:
         kind, site = type(quantity), self.site(*quantity.args)
         if kind in VERTICAL:
             return self._vertical(kind, quantity)
-        if kind in self.known:
-            return self._known(quantity, site)
-        if kind is DeltaNPlus:
-            return self.kind(), self._alone(kind, "-", site)
-        if kind is DeltaNMinus:
-            return self._alone(kind, "+", site), self.kind()
-        if quantity.is_vector:
-            return self._alone(kind, "+", site), self._alone(kind, "-", site)
-        return self._alone(kind, "", site)
+        left, found = self.points, None
+        for one in self.known.get(kind, ()):
+            points, value = one.at(site)
+            inside = left & points
+            if not inside.is_empty():
+                there = tuple(part.on(inside).renamed(self._fixed) for part in value)
+                found = there if found is None else tuple(map(Form.__add__, found, there))
+                left = left - points
+        if found is None:
+            found = self._unknown(quantity, site)
+        elif not left.is_empty():
+            rest = (part.on(left) for part in self._unknown(quantity, site))
+            found = tuple(map(Form.__add__, found, rest))
+        return found if quantity.is_vector else found[0]
 
-    def _along(self, quantity: ForceAlong) -> Form:
+    def _unknown(
+        self, quantity: sy.SiteFunction, site: tuple[sympy.Expr, sympy.Expr]
+    ) -> tuple[Form, ...]:
+        """A quantity as it stands."""
+        kind = type(quantity)
+        if kind in FORCES:
+            place = kind(*(sympy.expand(one.xreplace(self._fixed)) for one in site))
+            if self.summed & place.free_symbols:
+                raise NotExactError(f"{text(quantity)} stands in a sum, and is not known")
+            one = Weights(((sets.EVERYTHING, FIELD.one),))
+            return (self.kind({((place, 1),): one}),)
+        here = (sympy.Eq(one, at, evaluate=False) for one, at in zip(SITE, site, strict=False))
+        weights = Weights.of(*here)
+
+        def named(axis: str) -> Form:
+            return self.kind({((kind.__name__ + axis, 1),): weights})
+
+        return (named("+"), named("-")) if quantity.is_vector else (named(""),)
+
+    def _along(self, quantity: sy.ForceAlong) -> Form:
         """A contact's force in three dimensions."""
         axis, *place = quantity.args
         if type(quantity) not in self.known or axis not in (1, 2, 3):
@@ -280,39 +365,25 @@ class Reader:
         site = tuple(sympy.expand(one.xreplace(self.straight.image)) for one in place)
         return self.known[type(quantity)][int(axis) - 1].at(site)[1][0]
 
-    def _vertical(self, kind: type, quantity: SiteFunction) -> Form:
+    def _vertical(self, kind: type, quantity: sy.SiteFunction) -> Form:
         """Force times vertical component of the contact's direction, n_y + e_y·δn."""
         force, turn = VERTICAL[kind]
         inside = replace(self, linear=False)
-        tilted = inside.number(n_y + Dot(e_y, turn(*quantity.args)))
+        tilted = inside.number(sy.n_y + sy.Dot(sy.e_y, turn(*quantity.args)))
         return tilted.times(inside.number(force(*quantity.args)))
-
-    def _alone(self, kind: type, axis: str, site: tuple[sympy.Expr, sympy.Expr]) -> Form:
-        here = (sympy.Eq(one, at, evaluate=False) for one, at in zip(SITE, site, strict=False))
-        return self.kind({kind.__name__ + axis: Weights.of(*here)})
-
-    def _known(self, quantity: SiteFunction, site: tuple[sympy.Expr, sympy.Expr]) -> Value:
-        left, found = self.points, (self.kind(), self.kind())
-        for one in self.known[type(quantity)]:
-            points, value = one.at(site)
-            inside = left & points
-            if not inside.is_empty():
-                found = tuple(a + b.on(inside) for a, b in zip(found, value, strict=False))
-                left = left - points
-        if not left.is_empty():
-            raise NotExactError(f"{text(quantity)} is not known on all of the domain")
-        return found[0] if len(found) == 1 else found
 
     def _sum(self, terms: Iterable[sympy.Expr]) -> Value:
         values = [self.read(term) for term in terms]
         if not any(isinstance(value, tuple) for value in values):
             return sum(values, self.kind())
-        pairs = [value if isinstance(value, tuple) else (value, value) for value in values]
-        if any(pair[0] is pair[1] and pair[0].parts for pair in pairs):
-            raise NotExactError("a number is added to a vector")
-        return sum((pair[0] for pair in pairs), self.kind()), sum(
-            (pair[1] for pair in pairs), self.kind()
-        )
+        total = self.kind(), self.kind()
+        for value in values:
+            if not isinstance(value, tuple):
+                if value.parts:
+                    raise NotExactError("a number is added to a vector")
+                continue
+            total = total[0] + value[0], total[1] + value[1]
+        return total
 
     def _product(self, factors: Iterable[sympy.Expr]) -> Value:
         product, vector = self.kind.number(FIELD.one), None
@@ -344,6 +415,17 @@ class Reader:
                 total = total + one.times(other).scaled(LINE_SUM.metric[0 if a == b else 1])
         return total
 
+    def _matrix_times(self, *arguments: sympy.Expr) -> Vector:
+        """A matrix of Cartesian components times a vector."""
+        *entries, vector = arguments
+        along = [self._dot(self.vector(axis), self.vector(vector)) for axis in (sy.e_x, sy.e_y)]
+        factors = [self.number(entry) for entry in entries]
+        x, y = (
+            factors[row].times(along[0]) + factors[row + 1].times(along[1]) for row in (0, 2)
+        )
+        n_x, n_y = map(FIELD.generator, (sy.n_x, sy.n_y))
+        return y.scaled(n_y) + x.scaled(n_x), y.scaled(n_y) - x.scaled(n_x)
+
     def _cases(self, *arguments: sympy.Expr) -> Form:
         first, second, index, last = arguments
         total = self.kind()
@@ -354,23 +436,30 @@ class Reader:
         return total
 
     def _power(self, base: sympy.Expr, exponent: sympy.Expr) -> Form:
-        if not (isinstance(exponent, sympy.Integer) and 0 < exponent <= _HIGHEST):
+        if not isinstance(exponent, sympy.Integer) or abs(exponent) > _HIGHEST:
             raise NotExactError(f"the power {text(exponent)} of {text(base)} is not read")
-        power = self._product([base] * int(exponent))
+        if exponent > 0:
+            power = self._product([base] * int(exponent))
+        elif isinstance(base, FORCES):  # one that others are compared with is one that acts
+            (power,) = self._unknown(base, self.site(*base.args))
+            (((key, weights),)) = power.parts.items()
+            power = self.kind({((key[0][0], int(exponent)),): weights})
+        else:
+            raise NotExactError(f"{text(base)}, by which is divided, depends on the radii")
         if isinstance(power, tuple):
             raise NotExactError("a power of a vector")
         return power
 
     def _average(self, expression: sympy.Expr, count: sympy.Expr, *indices: sympy.Symbol) -> Form:
         """Over neighbours two columns apart."""
-        step = m if expression.has(MeanOver) else n
+        step = sy.m if expression.has(sy.MeanOver) else sy.n
         inner = self.within(step >= 0, sympy.Le(step, count - 1, evaluate=False))
-        there, back = (self._moved(indices, sign * 2 * step) for sign in (1, -1))
+        there, back = (self._shifted(indices, sign * 2 * step) for sign in (1, -1))
         wide = replace(self, points=sets.without(sets.at(inner.points, back), step))
         total = wide.number(expression).merged().at(there).on(inner.points).summed(step)
         return total.merged().times(self.number(1 / count))
 
-    def _moved(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
+    def _shifted(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
         """Straightened indices, all of which go on by as many columns."""
         old = self.straight
         further = {index: old.back[index].xreplace({index: index + by}) for index in indices}
@@ -380,23 +469,26 @@ class Reader:
 
     def _series(self, series: sympy.Sum) -> Value:
         *others, (index, low, high) = series.limits
-        short = self.within(sympy.Lt(high, low - 1, evaluate=False))
-        if not short.points.is_empty():
-            raise NotExactError(
+        if index not in SUMMATION or index in self.summed or not self._is_free(index):
+            raise NotAStatementError(f"a sum over {text(index)}, which means something else")
+        if not self.within(sympy.Lt(high, low - 1, evaluate=False)).points.is_empty():
+            raise NotAStatementError(
                 f"the sum over {text(index)} from {text(low)} to {text(high)} may end more than "
-                "one below its start"
+                "one below its start, where it has no agreed value"
             )
-        inner = self.within(*(
-            kind(index, end, evaluate=False) for kind, end in ((sympy.Ge, low), (sympy.Le, high))
-        ))  # fmt: skip
+        bounds = (sympy.Ge(index, low, evaluate=False), sympy.Le(index, high, evaluate=False))
+        inner = replace(self.within(*bounds), summed=self.summed | {index})
         body = sympy.Sum(series.function, *others) if others else series.function
-        if inner.points.is_empty():
-            return (
-                self.kind()
-                if not isinstance(self.read(body), tuple)
-                else (self.kind(), self.kind())
-            )
         value = inner.read(body)
         if isinstance(value, tuple):
-            return tuple(one.on(inner.points).summed(index) for one in value)  # type: ignore
+            first, second = (one.on(inner.points).summed(index) for one in value)
+            return first, second
         return value.on(inner.points).summed(index)
+
+    def _is_free(self, index: sympy.Symbol) -> bool:
+        """Whether an index does not matter to the domain."""
+        return bool(sets.without(self.points, index).is_subset(self.points))
+
+
+SUMMATION = (sy.m, sy.n)
+"""The indices that a statement may sum over."""

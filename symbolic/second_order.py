@@ -22,13 +22,9 @@ import sympy
 
 from . import sets
 from .algebra.exact import FIELD, SITE, SOURCE
-from .forms import NUMBER, Form, Known
-from .symbols import DeltaNMinus, DeltaNPlus, DeltaR, DeltaX, ForceMinus, ForcePlus, n, phi, r
+from .forms import NUMBER, RADII, SHIFT, Form, Known
+from .symbols import DeltaNMinus, DeltaNPlus, DeltaX, ForceMinus, ForcePlus, n, phi, r
 from .weights import Weights
-
-RADII = DeltaR.__name__
-SHIFT = "second order"
-"""What the shift of a mean is filed under in a form."""
 
 PLUS, MINUS = 0, 1
 """The two branches, and the components n⁺·v and n⁻·v of a vector."""

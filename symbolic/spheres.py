@@ -25,8 +25,7 @@ import sympy
 
 from . import sets
 from .algebra.exact import FIELD, SITE, SOURCE, RationalFunction
-from .forms import NUMBER, Form, Known
-from .second_order import RADII
+from .forms import NUMBER, RADII, Form, Known
 from .symbols import ForceAlong, M, VerticalAlong, l, n, phi, r, t_2, t_3
 from .weights import Weights
 

@@ -6,7 +6,7 @@ counts there. Sums and products of forms are sums and products of pieces, cases 
 themselves, and two forms are the same where no piece of their difference is left.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,15 +14,17 @@ import sympy
 from numpy.typing import NDArray as Array
 
 from . import sets
-from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_polynomial
+from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_over
 from .sets import Set
+from .symbols import n_x, n_y, phi
 
 Fixed = Mapping[sympy.Symbol, RationalFunction]
 
 Piece = tuple[Set, RationalFunction]
 
 _NUMBERS = {symbol: 0.37 + 0.61803 * number % 1 for number, symbol in enumerate(FIELD.generators)}
-"""Numbers for symbols, no two of them alike."""
+_NUMBERS |= {n_x: 0.6, n_y: 0.8, phi: 0.28}
+"""Numbers for symbols, no two of them alike; those of φ, n_x and n_y belong together."""
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,10 @@ class Weights:
         if factor.is_zero():
             return Weights()
         return Weights(tuple((points, value * factor) for points, value in self.pieces))
+
+    def mapped(self, change: Callable[[RationalFunction], RationalFunction]) -> "Weights":
+        """The same with its values changed."""
+        return Weights(tuple((points, change(value)) for points, value in self.pieces))
 
     def times(self, other: "Weights") -> "Weights":
         """The product at each point."""
@@ -86,7 +92,7 @@ class Weights:
         pieces = self.pieces
         for symbol in symbols:
             pieces = tuple(
-                (there, sum_polynomial(value, symbol, low, high))
+                (there, sum_over(value, symbol, low, high))
                 for points, value in pieces
                 for there, low, high in sets.ranges(points, symbol)
             )
@@ -135,9 +141,9 @@ class Weights:
         cells = [(sets.fixed(part), part, value) for part, value in self.cells().pieces]
         cells.sort(key=lambda cell: len(cell[0]))
         places = np.array([_place(part) for _, part, _ in cells])
-        groups = [_Group(FIELD.zero, np.zeros(len(cells)))]
+        groups = [_Group(FIELD.zero, np.zeros(len(cells), dtype=complex))]
         for number, (held, part, value) in enumerate(cells):
-            own = float(_numbers(value, places[number : number + 1])[0])
+            own = complex(_numbers(value, places[number : number + 1])[0])
             for group in groups:
                 if _is_near(group.numbers[number], own) and _agree(group.value, value, held):
                     group.parts.append(part)
@@ -157,7 +163,7 @@ class _Group:
     """A polynomial, its values at a place of each cell, and the cells where it holds."""
 
     value: RationalFunction
-    numbers: Array[np.float64]
+    numbers: Array[np.complex128]
     parts: list[Set] = field(default_factory=list)
 
 
@@ -168,24 +174,26 @@ def _place(part: Set) -> list[float]:
     return [values[symbol] for symbol in FIELD.generators]
 
 
-def _numbers(function: RationalFunction, places: Array[np.float64]) -> Array[np.float64]:
-    """The values of a function at places; infinite where it has none."""
+def _numbers(function: RationalFunction, places: Array[np.float64]) -> Array[np.complex128]:
+    """The values of a function at places, and by how much they may be off as imaginary part."""
     with np.errstate(all="ignore"):
-        return _values(function.numerator, places) / _values(function.denominator, places)
+        below = _values(function.denominator, places)
+        return _values(function.numerator, places) / np.real(below)
 
 
-def _values(polynomial: Polynomial, places: Array[np.float64]) -> Array[np.float64]:
-    total = np.zeros(len(places))
+def _values(polynomial: Polynomial, places: Array[np.float64]) -> Array[np.complex128]:
+    total = np.zeros(len(places), dtype=complex)
     for powers, factor in polynomial.to_dict().items():
         held = [number for number, power in enumerate(powers) if power]
         exponents = [int(powers[number]) for number in held]
-        total += float(factor.p) / float(factor.q) * np.prod(places[:, held] ** exponents, axis=1)
+        terms = float(factor.p) / float(factor.q) * np.prod(places[:, held] ** exponents, axis=1)
+        total += terms + 1e-9j * np.abs(terms)
     return total
 
 
-def _is_near(one: float, other: float) -> bool:
+def _is_near(one: complex, other: complex) -> bool:
     """Whether two values may be the same number, rounded; what is not finite may be anything."""
-    return not abs(one - other) > 1e-6 * max(abs(one), abs(other), 1e-6)
+    return not abs(one.real - other.real) > abs(one.imag) + abs(other.imag)
 
 
 def _agree(one: RationalFunction, other: RationalFunction, held: Fixed) -> bool:

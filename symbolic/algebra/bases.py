@@ -1,4 +1,4 @@
-"""Bases in which vectors are read: line-sum components n^±·v, or Cartesian ones."""
+"""Line-sum components n^±·v, in which vectors are read: v = (n⁺·v) b⁺ + (n⁻·v) b⁻."""
 
 from dataclasses import dataclass
 
@@ -10,49 +10,33 @@ from .exact import FIELD, RationalFunction
 Pair = tuple[RationalFunction, RationalFunction]
 
 
-def _pair(first: sympy.Expr, second: sympy.Expr) -> Pair:
-    return (
-        FIELD.from_sympy(first),
-        FIELD.from_sympy(second),
-    )
+def _pair(first: sympy.Expr | int, second: sympy.Expr | int) -> Pair:
+    return FIELD.from_sympy(sympy.sympify(first)), FIELD.from_sympy(sympy.sympify(second))
 
 
-@dataclass(frozen=True, eq=False)  # each basis is one of its own
-class Basis:
-    """Components of the paper's vectors, and the metric of dot products in these components."""
+@dataclass(frozen=True)
+class LineSums:
+    """Components of the paper's vectors, and the metric of dot products in these components.
 
-    name: str
-    axes: tuple[str, str]
+    Attributes:
+        normals: what vectors are multiplied by.
+        vectors: the components of base vectors.
+        metric: b⁺·b⁺ and b⁺·b⁻.
+    """
+
+    normals: tuple[sympy.Symbol, sympy.Symbol]
     vectors: dict[sympy.Symbol, Pair]
-    metric: tuple[RationalFunction, RationalFunction]  # diagonal and off-diagonal entry
+    metric: Pair
 
 
-_ONE, _ZERO = sympy.Integer(1), sympy.Integer(0)
-
-LINE_SUM = Basis(
-    "line sums",
-    ("+", "-"),
+LINE_SUM = LineSums(
+    (n_plus, n_minus),
     {
-        n_plus: _pair(_ONE, phi),
-        n_minus: _pair(phi, _ONE),
-        b_plus: _pair(_ONE, _ZERO),
-        b_minus: _pair(_ZERO, _ONE),
+        n_plus: _pair(1, phi),
+        n_minus: _pair(phi, 1),
+        b_plus: _pair(1, 0),
+        b_minus: _pair(0, 1),
         e_y: _pair(n_y, n_y),
     },
     _pair(1 / (1 - phi**2), -phi / (1 - phi**2)),
 )
-"""Components c^± = n^±·v; v = c⁺ b⁺ + c⁻ b⁻."""
-
-CARTESIAN = Basis(
-    "Cartesian",
-    ("x", "y"),
-    {
-        n_plus: _pair(n_x, n_y),
-        n_minus: _pair(-n_x, n_y),
-        b_plus: _pair(1 / (2 * n_x), 1 / (2 * n_y)),
-        b_minus: _pair(-1 / (2 * n_x), 1 / (2 * n_y)),
-        e_y: _pair(_ZERO, _ONE),
-    },
-    _pair(_ONE, _ZERO),
-)
-"""Horizontal and vertical components."""

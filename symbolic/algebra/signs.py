@@ -1,91 +1,88 @@
-"""Signs over the whole domain: 0 < z < 1, −½ < φ < ½, and all that is positive by its name.
+"""Signs of functions on a domain, where −1/d < φ < ½, 0 < z < 1, and lengths are positive.
 
-Beside d ≥ 2, the number of dimensions, −1/d < φ < ½.
-
-A sign is found exactly, by the number of real roots of a polynomial in an interval; what is not
-shown to have one sign has none.
+A sign is found exactly, by isl or by the number of real roots of a polynomial in an interval; what
+is not shown to have one sign has none.
 """
 
-from functools import cache
+from collections.abc import Sequence
+from functools import lru_cache
 
 import sympy
 
+from .. import sets
 from ..notation import by_name
-from ..symbols import d, n_x, n_y, phi, z
-from .exact import Domain, NotExactError
+from ..symbols import INDICES, M, N, epsilon, n_x, n_y, phi, z
+from .exact import FIELD, SITE, SOURCE, NotExactError, Polynomial, RationalFunction
 
-Symbols = tuple[sympy.Symbol, ...]
-
+_WHOLE = {*INDICES, *SITE, *SOURCE}
 _COSINES = {n_x, n_y, phi}
-_UP = sympy.Dummy("up", positive=True)
-_BETWEEN = (d * _UP - 2) / (2 * d * (1 + _UP))
-"""φ from −1/d to ½, as _UP goes from 0 to infinity."""
-_MORE = sympy.Dummy("more", nonnegative=True)
-"""d − 2."""
 _HALF, _QUARTER = sympy.Rational(1, 2), sympy.Rational(1, 4)
 
+Symbols = Sequence[sympy.Symbol]
 
-@cache
-def sign(
-    expression: sympy.Expr,
-    positive: Symbols = (),
-    nonnegative: Symbols = (),
-    dimension: int = 2,
-) -> int:
-    """1 or −1 where the expression is that side of zero everywhere; 0 where that is not shown.
 
-    ``positive`` names further symbols that are positive, ``nonnegative`` those that may be zero. φ
-    is above −1/``dimension``.
+def never_zero(value: RationalFunction, points: sets.Set, dimension: int = 2) -> bool:
+    """Whether a function is shown to vanish nowhere on a set of indices.
+
+    Disorder is as weak as one likes: what differs from zero at ε = 0 does.
     """
-    if isinstance(expression, sympy.Mul):
-        product = 1
-        for factor in expression.args:
-            product *= sign(factor, positive, nonnegative, dimension)
-        return product
-    if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Rational):
-        base = sign(expression.base, positive, nonnegative, dimension)
-        if expression.exp.is_Integer:
-            return base ** (int(expression.exp) % 2) if base else 0
-        return base if base == 1 else 0
-    if expression.has(d) and expression.has(phi):
-        expression = expression.xreplace({phi: _BETWEEN})
-    if expression.has(d):
-        expression, nonnegative = expression.xreplace({d: _MORE + 2}), (*nonnegative, _MORE)
-    domain = Domain(by_name(expression.free_symbols))
-    try:
-        value = domain.from_sympy(expression)
-    except NotExactError:
-        return 0
-    if value.numerator == 0:
-        return 0
-    found = 1
-    for polynomial in (value.numerator, value.denominator):
-        number, powers = value.factors(polynomial)
-        found *= 1 if number > 0 else -1
-        for factor, power in powers.items():
-            one = _of_factor(factor, positive, nonnegative, sympy.Rational(-1, dimension))
-            found *= one ** (power % 2) if one else 0
-    return found
+    if value.holds(epsilon):
+        value = value.substitute({epsilon: FIELD.zero})
+    return bool(points.is_empty()) or sign(value, points, dimension=dimension) != 0
 
 
-def never_zero(
-    expression: sympy.Expr,
-    positive: Symbols = (),
-    nonnegative: Symbols = (),
-    dimension: int = 2,
-) -> bool:
-    """Whether it is shown to differ from zero everywhere in the domain."""
-    return sign(expression, positive, nonnegative, dimension) != 0
-
-
-def _of_factor(
-    factor: sympy.Expr, positive: Symbols, nonnegative: Symbols, lowest: sympy.Rational
+def sign(
+    value: RationalFunction, points: sets.Set, positive: Symbols = (), dimension: int = 2
 ) -> int:
-    if factor.free_symbols == {z}:
-        return _on_interval(sympy.Poly(factor, z), sympy.S.Zero, sympy.S.One)
-    if factor.free_symbols <= _COSINES and (found := _of_cosines(factor)):
+    """1 or −1 where a function is shown to be that side of zero everywhere; or else 0.
+
+    Args:
+        value: the function.
+        points: where its indices lie.
+        positive: further symbols that are positive.
+        dimension: d of the packing.
+    """
+    product = 1
+    for polynomial in (value.numerator, value.denominator):
+        if polynomial == 0:
+            return 0
+        number, factors = polynomial.factor()
+        product *= 1 if number > 0 else -1
+        for factor, power in factors:
+            own = _of_factor(factor, points, tuple(positive), dimension)
+            if own == 0:
+                return 0
+            product *= own ** (int(power) % 2)
+    return product
+
+
+def _of_factor(factor: Polynomial, points: sets.Set, positive: Symbols, dimension: int) -> int:
+    expression = RationalFunction(FIELD, factor, FIELD.one.numerator).to_sympy()
+    held = expression.free_symbols
+    if held <= _WHOLE and (found := _of_whole_numbers(expression, points)):
         return found
-    return _of_terms(factor, positive, nonnegative, lowest)
+    if held <= _COSINES and dimension == 2 and (found := _of_cosines(expression)):
+        return found
+    least = {symbol: _least(symbol, points) for symbol in held & _WHOLE}
+    return _of_terms(expression, least, positive, sympy.Rational(-1, dimension))
+
+
+def _of_whole_numbers(form: sympy.Expr, points: sets.Set) -> int:
+    try:
+        for side in (1, -1):
+            other = sympy.Le(sympy.expand(side * form), 0, evaluate=False)
+            if (points & sets.where(other)).is_empty():
+                return side
+    except NotExactError:
+        pass
+    return 0
+
+
+def _least(symbol: sympy.Symbol, points: sets.Set) -> int:
+    """The least value of an index, M and N being 1 or more."""
+    low = sets.least(symbol, points)
+    floor = 1 if symbol in (M, N) else -1
+    return floor if low is None else max(low, floor)
 
 
 def _on_interval(polynomial: sympy.Poly, low: sympy.Expr, high: sympy.Expr) -> int:
@@ -95,6 +92,7 @@ def _on_interval(polynomial: sympy.Poly, low: sympy.Expr, high: sympy.Expr) -> i
     return 0 if inside else int(sympy.sign(polynomial((low + high) / 2)))
 
 
+@lru_cache(maxsize=256)
 def _of_cosines(factor: sympy.Expr) -> int:
     """A polynomial in n_x, n_y and φ as A(n_x) + n_y B(n_x); its norm over ±n_y, ±n_x in n_x²."""
     u = sympy.Dummy("u")
@@ -113,18 +111,22 @@ def _of_cosines(factor: sympy.Expr) -> int:
 
 
 def _of_terms(
-    factor: sympy.Expr, positive: Symbols, nonnegative: Symbols, lowest: sympy.Rational
+    factor: sympy.Expr, least: dict[sympy.Symbol, int], positive: Symbols, lowest: sympy.Rational
 ) -> int:
     """All terms of one sign, factors in φ included, and one that is not zero anywhere."""
     symbols = by_name(factor.free_symbols - {phi})
-    may_vanish = {*nonnegative} - set(positive)
-    if not all(s in may_vanish or s == z or s.is_positive or s in positive for s in symbols):
+    if symbols == [z]:
+        return _on_interval(sympy.Poly(factor, z), sympy.S.Zero, sympy.S.One)
+    may_vanish = {symbol for symbol in symbols if least.get(symbol) == 0}
+    if not all(
+        s == z or s in positive or least.get(s, 0 if s.is_positive else -1) >= 0 for s in symbols
+    ):
         return 0
     found, strict = set(), False
     whole = sympy.Poly(factor, *symbols, phi).as_expr()
     for powers, c in sympy.Poly(whole, *symbols).terms() if symbols else (((), whole),):
-        one, never = _in_phi(c, lowest)
-        found.add(one)
+        own, never = _in_phi(c, lowest)
+        found.add(own)
         held = {symbol for symbol, power in zip(symbols, powers, strict=True) if power}
         strict = strict or (never and not may_vanish & held)
     return found.pop() if strict and len(found) == 1 else 0

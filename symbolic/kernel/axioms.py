@@ -10,17 +10,17 @@ from functools import cache
 import sympy
 
 from .. import symbols as sy
-from ..as_printed import equation, terms
-from ..notation import Symbol
+from ..as_printed import equation
+from ..mechanics import lattice
 from ..symbols import i, j, n_minus, n_plus, r, site_r, site_s
+from .domain import Domain, Loading
 from .theorem import Theorem, made
-from .where import Loading, Where
 
-_ANY_BEAD = Where.of(j >= 0)
+_ANY_BEAD = Domain.of(j >= 0)
 
 
-def _axiom(left: sympy.Expr, right: sympy.Expr | int, where: Where) -> Theorem:
-    return made(equation(left, sympy.sympify(right)), where, "axiom")
+def _axiom(left: sympy.Expr, right: sympy.Expr | int, domain: Domain) -> Theorem:
+    return made(equation(left, sympy.sympify(right)), domain, "axiom")
 
 
 @cache
@@ -28,7 +28,7 @@ def ordered() -> tuple[Theorem, Theorem, Theorem]:
     """The ordered packing: bead (0, 0) is the origin, and each touches the two above it."""
     here = sy.Position(i, j)
     return (
-        _axiom(sy.Position(0, 0), 0, Where()),
+        _axiom(sy.Position(0, 0), 0, Domain()),
         _axiom(sy.Position(i + 1, j + 1) - here, 2 * r * n_plus, _ANY_BEAD),
         _axiom(sy.Position(i - 1, j + 1) - here, 2 * r * n_minus, _ANY_BEAD),
     )
@@ -37,7 +37,7 @@ def ordered() -> tuple[Theorem, Theorem, Theorem]:
 @cache
 def base() -> Theorem:
     """The beads of the base stay where they are."""
-    return _axiom(sy.DeltaX(i, 0), 0, Where((i,), even=(i,)))
+    return _axiom(sy.DeltaX(i, j), 0, Domain.of(sympy.Eq(j, 0)))
 
 
 @cache
@@ -53,7 +53,7 @@ def contact(branch: int) -> Theorem:
     radii = sy.DeltaR(i, j) + sy.DeltaR(*support)
     separation = [sy.Dot(e, apart) + sy.epsilon * sy.Dot(e, moved) for e in (sy.e_x, sy.e_y)]
     return _axiom(
-        separation[0] ** 2 + separation[1] ** 2, (2 * r + sy.epsilon * radii) ** 2, Where.of(j >= 1)
+        separation[0] ** 2 + separation[1] ** 2, (2 * r + sy.epsilon * radii) ** 2, Domain.of(j >= 1)
     )
 
 
@@ -83,15 +83,15 @@ def balance() -> Theorem:
         -(n_plus + sy.DeltaNPlus(*here)) * sy.ForcePlus(*here),
         -(n_minus + sy.DeltaNMinus(*here)) * sy.ForceMinus(*here),
     )
-    return _axiom(sympy.Add(*forces), 0, Where.of(site_s >= 1))
+    return _axiom(sympy.Add(*forces), 0, Domain.of(site_s >= 1))
 
 
 @cache
 def loads(loading: Loading) -> tuple[Theorem, ...]:
     """What a loading says of the loads and of the forces above them."""
-    at_place = Where(loading=loading)
+    at_place = Domain.of(sympy.Ge(loading.place[-1], 0), loading=loading)
     given = [made(one, at_place, "loading") for one in loading.given]
-    beads = Where.of(indices=(site_r, site_s), loading=loading)
+    beads = Domain.of(site_s >= 0, indices=(site_r,), loading=loading)
     everywhere = [made(one, beads.also(*when), "loading") for one, when in loading.everywhere]
     return (*given, *everywhere)
 
@@ -99,15 +99,118 @@ def loads(loading: Loading) -> tuple[Theorem, ...]:
 GAUSSIAN_FORCES = "Gaussian forces"
 """An assumption that no rule ends: forces are normally distributed, given mean and variance."""
 
-FORCE = Symbol("f_rel", "f", "f", real=True)
-"""A force over its mean."""
-SQUARE = Symbol("v", positive=True)
-"""Its variance."""
 
-GAUSSIAN_BELOW = equation(
-    sympy.Derivative(
-        sympy.erfc(terms(1, -FORCE) / sympy.sqrt(2 * SQUARE), evaluate=False) / 2, FORCE
-    ),
-    sympy.exp(-(terms(1, -FORCE) ** 2) / (2 * SQUARE)) / sympy.sqrt(2 * sympy.pi * SQUARE),
+# loads
+
+_PLUS, _MINUS = sy.ForcePlus, sy.ForceMinus
+
+
+def _zero(quantity: sympy.Expr) -> sympy.Eq:
+    return sympy.Eq(quantity, 0, evaluate=False)
+
+
+_BEAD = (sy.site_r, sy.site_s)
+_DOWN = sympy.Eq(sy.Load(sy.k, sy.l), -sy.f_load * sy.e_y, evaluate=False)
+_NOTHING_ABOVE = (_zero(_PLUS(sy.k, sy.l)), _zero(_MINUS(sy.k, sy.l)))
+
+LOADED = Loading("loaded", "bead (k, l) carries nothing but its load", (sy.k, sy.l), _NOTHING_ABOVE)
+"""A loaded bead that no contact presses from above."""
+
+LOADED_VERTICALLY = Loading(
+    "loaded vertically",
+    "bead (k, l) carries nothing but its load, which points straight down",
+    (sy.k, sy.l),
+    (*_NOTHING_ABOVE, _DOWN),
 )
-"""The probability of a Gaussian force below f, which vanishes as f → −∞, and its density."""
+"""The same, its load being of magnitude f_load and vertical."""
+
+PASSING = Loading(
+    "passing",
+    "bead (r, s) carries no load of its own, and f⁺_rs alone enters it",
+    _BEAD,
+    (_zero(sy.Load(*_BEAD)), _zero(_MINUS(*_BEAD))),
+)
+"""A bead that one contact force passes."""
+
+ENTERING = Loading(
+    "entering",
+    "f⁺ enters through the contact from (k−1, l−1) to (k, l), and nothing else does",
+    (sy.k, sy.l),
+    (),
+    (
+        (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.l - 1,)),
+        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l - 1),)),
+        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l - 1), sy.site_r <= sy.k - 2)),
+        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l - 1), sy.site_r >= sy.k)),
+    ),
+)
+"""What one contact force contributes below itself."""
+
+_AT_SURFACE = sympy.Eq(sy.site_s, sy.M)
+_FREE_SURFACE = ((_zero(_PLUS(*_BEAD)), (_AT_SURFACE,)), (_zero(_MINUS(*_BEAD)), (_AT_SURFACE,)))
+
+
+def _carries(load: sympy.Expr, *where: sympy.Basic) -> tuple[sympy.Eq, tuple[sympy.Basic, ...]]:
+    return sympy.Eq(sy.Load(*_BEAD), load, evaluate=False), where
+
+
+def _on_surface(name: str, words: str, load: sympy.Expr) -> Loading:
+    """A load on each bead of the surface j = M."""
+    none_below = (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.M - 1,))
+    everywhere = (none_below, _carries(load, _AT_SURFACE), *_FREE_SURFACE)
+    return Loading(name, words, (sy.M,), (), everywhere)
+
+
+def _on_every_bead(name: str, words: str, load: sympy.Expr) -> Loading:
+    """A load on each bead of a packing of height M; the base bears its own."""
+    loaded = _carries(load, sy.site_s >= 1, sy.site_s <= sy.M)
+    return Loading(name, words, (sy.M,), (), (loaded, *_FREE_SURFACE))
+
+
+_TILTED = -sy.L_plus * (sy.n_plus + sy.t * sy.n_minus)
+
+SURFACE = _on_surface(
+    "surface",
+    "each bead of the surface j = M carries f_load straight down, no other a load",
+    -sy.f_load * sy.e_y,
+)
+"""A load on the surface of a packing of height M."""
+
+BULK = _on_every_bead(
+    "bulk",
+    "each bead above the base carries its weight mg straight down, and nothing lies above j = M",
+    -sy.m_g * sy.e_y,
+)
+"""A weight on every bead of a packing of height M."""
+
+SURFACE_TILTED = _on_surface(
+    "surface tilted",
+    "each bead of the surface j = M carries −(L⁺n⁺ + L⁻n⁻), L⁻ = tL⁺, no other a load",
+    _TILTED,
+)
+"""A load in any direction on the surface of a packing of height M."""
+
+BULK_TILTED = _on_every_bead(
+    "bulk tilted",
+    "each bead above the base carries −(L⁺n⁺ + L⁻n⁻), L⁻ = tL⁺, and nothing lies above j = M",
+    _TILTED,
+)
+"""A load in any direction on every bead of a packing of height M."""
+
+_LEFT_OF_IT = (sympy.Eq(sy.site_s, sy.l), sy.site_r <= sy.k - 2)
+
+POINT = Loading(
+    "point",
+    "bead (k, l) carries f_load straight down, no other bead in its layer or below it a load, and "
+    "no force comes from above",
+    (sy.k, sy.l),
+    (_DOWN,),
+    (
+        (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.l - 1,)),
+        (_zero(sy.Load(*_BEAD)), _LEFT_OF_IT),
+        (_zero(sy.Load(*_BEAD)), tuple(map(lattice.mirrored_relation, _LEFT_OF_IT))),
+        (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l),)),
+        (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l),)),
+    ),
+)
+"""A load on one bead, and nothing else."""

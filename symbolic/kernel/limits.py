@@ -1,7 +1,8 @@
-"""What holds as indices grow together: the same leading order, or the same but for a factor.
+"""What holds as indices grow together: leading orders, of closed forms at finite size.
 
-Orders count all growing indices together, at fixed ratios. They hold uniformly while the ratios and
-φ stay within closed parts of their ranges, as the leading parts of all divisors vanish nowhere.
+Orders count all growing indices together, at fixed ratios. A closed form has no divisor that mixes
+an index with φ, so its orders hold uniformly while the ratios and φ stay within closed parts of
+their ranges; of what has such a divisor nothing is said. Harmonic numbers H_M are at most M.
 """
 
 from collections.abc import Sequence
@@ -10,249 +11,244 @@ from functools import lru_cache
 import sympy
 
 from .. import symbols as sy
-from ..algebra import affine
 from ..algebra.exact import FIELD, SITE, NotExactError, Polynomial, RationalFunction
-from ..algebra.signs import never_zero
-from ..forms import NUMBER, Form
+from ..algebra.signs import sign
+from ..forms import FORCES, NUMBER, RADII, Form
 from ..notation import by_name
 from ..printing.text import text
-from ..second_order import RADII, covariance
+from ..second_order import covariance
+from ..sets import EVERYTHING
 from ..weights import Weights
+from .domain import Domain, Limit
 from .rules import Rule
 from .statistics import ClosedForm, Statistics
-from .theorem import FORCES, Facts, NotProvedError, Theorem, check, flat, made
-from .where import Limit, Where
+from .theorem import FalseStatementError, Group, Groups, NotProvedError, Theorem, check_domain, flat, made
 
 _NEVER = 10**9  # no order is as large
-FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+_FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
 """What stays as it is in every limit."""
 
 
-def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
+def asymptotic(*groups: Group) -> Rule:
     """Both sides are of the same leading order: left over right goes to 1.
 
-    Facts are put in and moments worked out at finite size. What the right-hand side goes as
+    Theorems are put in and moments worked out at finite size. What the right-hand side goes as
     vanishes nowhere, and the difference is of a lower order.
     """
 
-    def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = limit_of(formula, where, "∼")
-        left, right = read(formula, facts, where)
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        limit = limit_of(formula, domain, "∼")
+        left, right = (in_the_limit(side, domain, groups) for side in formula.args)
         low, high = order(left - right, limit), order(right, limit)
         if not low <= high - limit.orders:
-            raise NotProvedError(
-                f"left less right is of order {low}, the right-hand side of order {high}"
-            )
-        least = where.at_least
-        if not even(FIELD.one / right, limit, least):
-            raise NotProvedError("what the right-hand side goes as is not shown to vanish nowhere")
-        if not even(left - right, limit, least):
-            raise NotProvedError("the order of what is left is not shown to hold everywhere")
-        return made(formula, where, "leading order", flat(facts))
+            raise FalseStatementError(_other_order(left, right, limit))
+        if not _vanishes_nowhere(leading(right, limit), limit, domain.dimension):
+            raise NotProvedError("what the right-hand side goes as may vanish")
+        return made(formula, domain, "leading order", flat(groups))
 
     return rule
 
 
-def bounded(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
-    """The weight of each radius, or its share in the variance, is of the order on the right."""
-
-    def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = limit_of(formula, where, "O")
-        most, bound = formula.args
-        if not isinstance(most, sy.LargestShare | sy.LargestWeight):
-            raise NotProvedError(f"{text(most)} is no largest share, or weight, of a radius")
-        weights = _in_radii(most.args[0], facts, where)
-        whole = _read_side(bound, where) ** 2
-        if isinstance(most, sy.LargestShare):
-            whole = _sum_of_squares(weights, where) * _read_side(bound, where)
-        _grows_as(whole, limit)
-        if any(2 * one > order(whole, limit) for one in _orders(weights, limit)):
-            raise NotProvedError("a radius has more, or that is not excluded")
-        return made(formula, where, "largest share or weight", flat(facts))
-
-    return rule
+def _other_order(left: RationalFunction, right: RationalFunction, limit: Limit) -> str:
+    """How two sides go differently, in words."""
+    if order(left, limit) != order(right, limit) or limit.orders > 1:
+        shown = text(leading(left - right, limit).reduced().to_sympy())
+        return f"as {limit.words}, left less right goes as {shown}"
+    ratio = (leading(left, limit) / leading(right, limit)).reduced().to_sympy()
+    return f"as {limit.words}, left over right goes to {text(ratio)}, not to 1"
 
 
-def negligible(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
+def negligible(*groups: Group) -> Rule:
     """What a statement about one force drops varies less, by an order, than that force.
 
-    Facts are put in at finite size. Both sides have one mean. What they share beside that force
-    counts for nothing.
+    Theorems are put in at finite size. Both sides have one mean.
     """
 
-    def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = limit_of(formula, where, "≈")
-        varies = _sum_of_squares(_in_radii(_one_force(formula), facts, where), where)
-        _grows_as(varies, limit)
-        squares = _sum_of_squares(_difference(formula, facts, where), where)
-        dropped, kept = order(_fixed_but(squares, limit), limit), order(varies, limit)
-        if not even(squares, limit):
-            raise NotProvedError("the order of what is dropped is not shown to hold everywhere")
-        if not dropped < kept:
-            raise NotProvedError(
-                f"what is dropped varies as the power {dropped} of the height, the force as {kept}"
-            )
-        return made(formula, where, "dropped orders", flat(facts))
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        limit = limit_of(formula, domain, "≈")
+        forces = by_name(set().union(*(side.atoms(*FORCES) for side in formula.args)))
+        if len(forces) != 1:
+            raise NotProvedError("it is not about one contact force")
+        slope = sympy.expand(formula.lhs - formula.rhs).coeff(forces[0])
+        whole, rest = (
+            _in_radii(one, groups, domain)
+            for one in (slope * forces[0], sympy.Add(formula.lhs, -formula.rhs, evaluate=False))
+        )
+        if not rest.parts.get(NUMBER, Weights()).is_zero():
+            raise NotProvedError("the means of both sides differ")
+        kept, dropped = (_variance(one, domain) for one in (whole, rest))
+        if not _vanishes_nowhere(leading(kept, limit), limit):
+            raise NotProvedError("the force is not shown to vary everywhere")
+        if not order(dropped, limit) < order(kept, limit):
+            powers = f"{order(dropped, limit)}, and that of the force {order(kept, limit)}"
+            raise FalseStatementError(f"the variance of what is dropped has the power {powers}")
+        return made(formula, domain, "dropped orders", flat(groups))
 
     return rule
 
 
-def heaviest(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
-    """All weights of left less right are of a lower order than the largest of left."""
+def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
+    """The leading order of a variance, by that of what a statement about the force keeps.
 
-    def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        limit = limit_of(formula, where, "≈ by weight")
-        alone = _in_radii(formula.lhs, facts, where)
-        sure = [
-            one
-            for _, one in alone.merged().pieces
-            if even(one, limit) and even(FIELD.one / one, limit)
-        ]
-        most = max((order(_fixed_but(one, limit), limit) for one in sure), default=-_NEVER)
-        rest = _difference(formula, facts, where)
-        if not sure or any(one >= most for one in _orders(rest, limit)):
-            raise NotProvedError("left less right has weights of the order of the largest of left")
-        return made(formula, where, "heaviest weights", flat(facts))
+    ``dropping`` says L ≈ R: var(L − R) is of a lower order than var(L). Since √var is a norm,
+    var(L) and var(R) are then of the same leading order. ``exact`` are what is known of var(R).
+    """
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        limit = limit_of(formula, domain, "∼")
+        of = dropping.domain.limit
+        if of is None or of.relation != "≈" or (of.growing, of.positive) != (
+            limit.growing,
+            limit.positive,
+        ):
+            raise NotProvedError("what is dropped is so in another limit")
+        if limit.orders != 1 or dropping.domain.loading != domain.loading:
+            raise NotProvedError("what is dropped is so of other packings, or for one order alone")
+        left, right = dropping.formula.args
+        constant = sympy.expand(formula.lhs.args[0] - left) if formula.lhs.args else None
+        if not isinstance(formula.lhs, sy.Variance) or constant is None or not constant.is_number:
+            raise NotProvedError("it is not the variance of what something was dropped from")
+        known = equation_with(exact, sy.Variance(right))
+        finite = Domain.of(*domain.relations, *dropping.domain.relations, limit=limit)
+        asymptotic()(sympy.Eq(known, formula.rhs, evaluate=False), finite)
+        return made(formula, domain, "leading order of what is kept", (dropping, *exact))
 
     return rule
 
 
-def _one_force(formula: sympy.Eq) -> sympy.Expr:
-    """The force that a statement is about, with its factor.
+def equation_with(theorems: Sequence[Theorem], quantity: sympy.Expr) -> sympy.Expr:
+    """What the first of some theorems says that a quantity is, the others put in.
 
     Raises:
-        NotProvedError: there is not one.
+        NotProvedError: the first is not about it.
     """
-    found = by_name(set().union(*(side.atoms(*FORCES) for side in formula.args)))
-    if len(found) != 1:
-        raise NotProvedError("it is not about one contact force")
-    apart = sympy.expand(formula.lhs - formula.rhs)
-    return found[0] * apart.coeff(found[0])
+    first, *others = theorems
+    if first.formula.lhs != quantity:
+        raise NotProvedError(f"nothing is known of {text(quantity)}")
+    value = first.formula.rhs
+    for one in others:
+        value = value.xreplace({one.formula.lhs: one.formula.rhs})
+    return value
 
 
-def _in_radii(expression: sympy.Expr, facts: Facts, where: Where) -> Weights:
-    """The weights of the radii, in the limit; the place across the packing is put at 0."""
-    return _form(expression, facts, where).parts.get(RADII, Weights())
+def bounded(*groups: Group) -> Rule:
+    """No radius has more than a share of some order in a variance."""
 
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        limit = limit_of(formula, domain, "O")
+        most, bound = formula.args
+        if not isinstance(most, sy.LargestShare):
+            raise NotProvedError(f"{text(most)} is no largest share of a radius")
+        form = _in_radii(most.args[0], groups, domain)
+        whole = _variance(form, domain) * in_the_limit(bound, domain)
+        if not _vanishes_nowhere(leading(whole, limit), limit):
+            raise NotProvedError("what is compared with is not shown to vanish nowhere")
+        orders = [_order_at_sites(value, limit) for _, value in form.parts[RADII].pieces]
+        if any(2 * one > order(whole, limit) for one in orders):
+            raise NotProvedError("a radius has more, or that is not excluded")
+        return made(formula, domain, "largest share", flat(groups))
 
-def _form(expression: sympy.Expr, facts: Facts, where: Where) -> Form:
-    finite = where.in_the_limit(None)
-    try:
-        reader = Statistics.on(finite, flat(facts))
-        form = reader.in_radii(_at_height(expression, where))
-        free = {sy.i, sy.k, sy.site_r} & {*where.indices}
-        held = set().union(*(one.free_symbols for one in where.relations))
-        return form.at(dict.fromkeys(free - held, sympy.S.Zero)).merged()
-    except NotExactError as reason:
-        raise NotProvedError(str(reason)) from None
-
-
-def _difference(formula: sympy.Eq, facts: Facts, where: Where) -> Weights:
-    """The weights of left less right; their means agree."""
-    rest = _form(formula.lhs, facts, where) - _form(formula.rhs, facts, where)
-    if not rest.parts.get(NUMBER, Weights()).is_zero():
-        raise NotProvedError("the means of both sides differ")
-    return rest.parts.get(RADII, Weights()).merged()
-
-
-def _sum_of_squares(weights: Weights, where: Where) -> RationalFunction:
-    form = Form({RADII: weights})
-    return in_the_limit(covariance(form, form), where)
-
-
-def in_the_limit(number: Weights, where: Where) -> RationalFunction:
-    """The one function that a number is as indices grow.
-
-    Raises:
-        NotProvedError: it is not one throughout the limit.
-    """
-    limit = where.limit
-    assert limit is not None
-    reader = Statistics.on(where.in_the_limit(None), ())
-    form = ClosedForm(number.on(reader.points), reader.points, reader.straight)
-    for piece in form.pieces:
-        if any(all(_is_late(one, where) for one in part) for part in piece.where):
-            return piece.value.substitute(
-                {symbol: FIELD.from_sympy(at) for symbol, at in where.solved.items()}
-            )
-    raise NotProvedError(f"it is not one function in all of {limit.words}")
-
-
-def _is_late(relation: sympy.Basic, where: Where) -> bool:
-    """Whether a relation holds for all but the first of what grows."""
-    form = relation.lhs - relation.rhs
-    return not isinstance(relation, sympy.Eq) and _grows(form, where, least=0)
-
-
-def _grows(form: sympy.Expr, where: Where, least: int) -> bool:
-    """Whether a form grows in the limit, or is a constant that is large enough."""
-    assert where.limit is not None
-    whole = sympy.expand(form.xreplace(where.solved))
-    rest = whole.as_coeff_Add()[0]
-    at_large = (whole - rest).xreplace(_coordinates(where.limit))
-    if at_large == 0:
-        return bool(rest >= least)
-    factors = sympy.expand(at_large).as_coefficients_dict()
-    return all(c > 0 for c in factors.values()) and at_large.free_symbols <= set(_NAMES)
-
-
-def _at_height(side: sympy.Expr, where: Where) -> sympy.Expr:
-    """A side with z = j/M, and with what equations of the domain fix."""
-    height = {sy.z: (sy.j / sy.M).xreplace(where.solved)}
-    return side.xreplace(height)
-
-
-def _grows_as(whole: RationalFunction, limit: Limit) -> None:
-    """That it is at least of its order everywhere."""
-    if _fixed_but(whole, limit).is_zero() or not even(FIELD.one / whole, limit):
-        raise NotProvedError("what is compared with is not shown to be of one order everywhere")
-
-
-def _fixed_but(value: RationalFunction, limit: Limit) -> RationalFunction:
-    """The same, if only what grows stands in it beside what is fixed."""
-    strange = [
-        one for one in {*sy.INDICES, sy.z, sy.epsilon} - {*limit.growing} if value.holds(one)
-    ]
-    if strange:
-        raise NotProvedError(f"{text(by_name(strange)[0])} neither grows nor is fixed")
-    return value.reduced()
-
-
-def _orders(weights: Weights, limit: Limit) -> list[int]:
-    """The orders of all weights, at any site: a bead is at most of the order of M away."""
-    found = [value for _, value in weights.merged().pieces]
-    if not all(even(_fixed_but(one, limit), limit) for one in found):
-        raise NotProvedError("the order of a weight is not shown to hold everywhere")
-    return [_order_at_sites(one, limit) for one in found]
+    return rule
 
 
 def _order_at_sites(weight: RationalFunction, limit: Limit) -> int:
+    """The order of a weight at any site: a bead is at most of the order of M away."""
+    _uniform(weight, limit)
+    growing = (*limit.growing, *SITE)
     if any(weight.denominator.degrees()[FIELD.position[one]] > 0 for one in SITE):
         raise NotProvedError("a weight is divided by what depends on the site")
-    return max(_degrees(weight.numerator, (*limit.growing, *SITE))) - _degree(
-        weight.denominator, limit
-    )
+    return max(_degrees(weight.numerator, growing)) - max(_degrees(weight.denominator, growing))
 
 
-def limit_of(formula: sympy.Eq, where: Where, relation: str) -> Limit:
-    """The limit of a statement, if its domain holds all but the first of what grows so.
+def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
+    """The weights of the radii; the place across the packing is put at 0."""
+    finite = domain.in_the_limit(None)
+    held = set().union(*(one.free_symbols for one in domain.relations))
+    free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
+    try:
+        form = Statistics.on(finite, groups).in_radii(_at_height(expression))
+    except NotExactError as reason:
+        raise NotProvedError(str(reason)) from None
+    return form.at(dict.fromkeys(free, sympy.S.Zero)).merged()
+
+
+def _variance(form: Form, domain: Domain) -> RationalFunction:
+    return _one_function(covariance(form, form), domain)
+
+
+# one function in all of a limit
+
+
+def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> RationalFunction:
+    """The one function that a side is as indices grow, moments worked out at finite size.
 
     Raises:
-        NotProvedError: it is another one, or leaves the domain.
+        NotProvedError: it is not one, or holds what neither grows nor is fixed.
     """
-    check(formula, where, in_a_limit=True)
-    limit = where.limit
+    try:
+        reader = Statistics.on(domain.in_the_limit(None), groups)
+        number = reader.number(_at_height(side))
+    except NotExactError as reason:
+        raise NotProvedError(str(reason)) from None
+    if {*number.parts} - {NUMBER}:
+        raise NotProvedError(f"{text(side)} belongs to single beads")
+    return _one_function(number.parts.get(NUMBER, Weights()), domain)
+
+
+def _at_height(side: sympy.Expr) -> sympy.Expr:
+    """A side with z = j/M."""
+    return side.xreplace({sy.z: sy.j / sy.M})
+
+
+def _one_function(number: Weights, domain: Domain) -> RationalFunction:
+    limit = domain.limit
     assert limit is not None
-    if limit.relation != relation:
-        raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
-    _coordinates(limit)
-    if any(one in where.solved for one in limit.growing):
-        raise NotProvedError(f"its domain does not hold all of {limit.words}")
-    for row in where.rows:
-        whole = sympy.expand(affine.to_sympy(row).xreplace(where.solved))
-        if not _grows(whole, where, least=0):
-            raise NotProvedError(f"its domain does not hold all of {limit.words}")
-    return limit
+    form = ClosedForm(number.on(domain.points), domain.points, domain.straight)
+    for piece in form.pieces:
+        if any(all(_is_late(one, domain) for one in part) for part in piece.where):
+            fixed = {s: FIELD.from_sympy(at) for s, at in _fixed(domain).items()}
+            value = piece.value.substitute(fixed).reduced()
+            _uniform(value, limit)
+            return value
+    raise NotProvedError(f"it is not one function in all of {limit.words}")
+
+
+def _fixed(domain: Domain) -> dict[sympy.Symbol, sympy.Expr]:
+    """Indices that equations of a domain fix, by those that grow."""
+    assert domain.limit is not None
+    return _solved(domain.relations, domain.indices, domain.limit.growing)
+
+
+@lru_cache(maxsize=256)
+def _solved(
+    relations: Sequence[sympy.Basic],
+    indices: Sequence[sympy.Symbol],
+    growing: Sequence[sympy.Symbol],
+) -> dict[sympy.Symbol, sympy.Expr]:
+    equations = [one.lhs - one.rhs for one in relations if isinstance(one, sympy.Eq)]
+    unknown = [symbol for symbol in indices if symbol not in growing]
+    found = sympy.solve(equations, unknown, dict=True) if equations else [{}]
+    if len(found) != 1:
+        raise NotProvedError("the domain fixes what grows")
+    return dict(found[0])
+
+
+def _is_late(relation: sympy.Basic, domain: Domain) -> bool:
+    """Whether a relation holds for all but the first of what grows."""
+    limit = domain.limit
+    assert limit is not None
+    above, below = relation.args
+    if isinstance(relation, sympy.Le | sympy.Lt):
+        above, below = below, above
+    whole = sympy.expand((above - below).xreplace(_fixed(domain)))
+    rest = whole.as_coeff_Add()[0]
+    at_large = sympy.expand((whole - rest).xreplace(_coordinates(limit)))
+    if at_large == 0:
+        strict = isinstance(relation, sympy.Lt | sympy.Gt)
+        return bool(rest == 0 if isinstance(relation, sympy.Eq) else rest >= int(strict))
+    factors = at_large.as_coefficients_dict()
+    grows = all(c > 0 for c in factors.values()) and at_large.free_symbols <= {*_NAMES}
+    return grows and not isinstance(relation, sympy.Eq)
 
 
 _NAMES = tuple(sympy.Dummy(f"grows_{place}", positive=True) for place in range(4))
@@ -264,48 +260,37 @@ def _coordinates(limit: Limit) -> dict[sympy.Symbol, sympy.Expr]:
     names = _NAMES[: len(limit.positive)]
     rows = [one - name for one, name in zip(limit.positive, names, strict=True)]
     found = sympy.solve(rows, limit.growing, dict=True)
-    if len(found) != 1 or set(found[0]) != set(limit.growing):
+    if len(found) != 1 or {*found[0]} != {*limit.growing}:
         raise NotProvedError("the limit does not say how every index grows")
     return dict(found[0])
 
 
-def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunction, ...]:
-    """Both sides as functions of what grows and of parameters, moments worked out at finite size.
+def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
+    """The limit of a statement, if its domain holds all but the first of what grows so.
 
     Raises:
-        NotProvedError: they hold something else, or are none.
+        NotProvedError: it is another one, or leaves the domain.
     """
-    limit = where.limit
+    check_domain(formula, domain, in_a_limit=True)
+    limit = domain.limit
     assert limit is not None
-    known = {*FIXED, *limit.growing} | ({sy.d} if where.dimension == sy.d else set())
-    found = []
-    for side in formula.args:
-        try:
-            number = Statistics.on(where.in_the_limit(None), flat(facts)).number(
-                _at_height(side, where)
-            )
-            if strange := {*number.parts} - {NUMBER}:
-                raise NotProvedError(f"{min(strange)} belongs to single beads")
-            value = in_the_limit(number.parts.get(NUMBER, Weights()), where).reduced()
-        except NotExactError as reason:
-            raise NotProvedError(str(reason)) from None
-        for one in FIELD.generators:
-            if value.holds(one) and one not in known:
-                raise NotProvedError(f"{text(one)} neither grows nor is fixed")
-        found.append(value)
-    return tuple(found)
+    if limit.relation != relation:
+        raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
+    _coordinates(limit)
+    if not all(_is_late(one, domain) for one in domain.relations):
+        raise NotProvedError(f"its domain does not hold all of {limit.words}")
+    return limit
 
 
-def _read_side(side: sympy.Expr, where: Where) -> RationalFunction:
-    """A side that holds no moments."""
-    return read(sympy.Eq(side, side, evaluate=False), (), where)[0]
+# orders
 
 
 def order(value: RationalFunction, limit: Limit) -> int:
-    """The power with which a function grows; less than any for zero."""
+    """The power with which a function grows at most; less than any for zero."""
     if value.is_zero():
         return -_NEVER
-    return _degree(value.numerator, limit) - _degree(value.denominator, limit)
+    growing = (*limit.growing, sy.H_M)
+    return max(_degrees(value.numerator, growing)) - max(_degrees(value.denominator, growing))
 
 
 def leading(value: RationalFunction, limit: Limit) -> RationalFunction:
@@ -313,14 +298,40 @@ def leading(value: RationalFunction, limit: Limit) -> RationalFunction:
     return _top(value.numerator, limit) / _top(value.denominator, limit)
 
 
-def even(value: RationalFunction, limit: Limit, dimension: int = 2) -> bool:
-    """Whether its order holds at all ratios and φ: what its divisor goes as vanishes nowhere."""
-    below = _top(value.denominator, limit).to_sympy().xreplace(_coordinates(limit))
-    return never_zero(below, _NAMES, dimension=dimension)
+def _uniform(value: RationalFunction, limit: Limit) -> None:
+    """Refuse a function unless its order holds everywhere.
+
+    Raises:
+        NotProvedError: it holds what neither grows nor is fixed, or a divisor mixes what grows with
+            what is fixed, or goes as what may vanish.
+    """
+    known = {*_FIXED, *limit.growing, *SITE, sy.H_M}
+    strange = by_name(one for one in FIELD.generators if value.holds(one) and one not in known)
+    if strange:
+        raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
+    growing = [FIELD.position[one] for one in (*limit.growing, sy.H_M)]
+    for factor, _ in value.denominator.factor()[1]:
+        degrees = factor.degrees()
+        grows = any(degrees[place] > 0 for place in growing)
+        if grows and sum(degree > 0 for degree in degrees) > sum(degrees[p] > 0 for p in growing):
+            raise NotProvedError("a divisor mixes what grows with what is fixed")
+        if grows and not _vanishes_nowhere(FIELD.polynomial(_top(factor, limit).numerator), limit):
+            raise NotProvedError("what a divisor goes as may vanish")
 
 
-def _degree(polynomial: Polynomial, limit: Limit) -> int:
-    return max(_degrees(polynomial, limit.growing))
+def _vanishes_nowhere(value: RationalFunction, limit: Limit, dimension: int = 2) -> bool:
+    """Whether a leading order is shown to differ from zero at all ratios and φ."""
+    if value.holds(sy.H_M) or value.is_zero():
+        return False
+    coordinates = _coordinates(limit)
+    whole = {s: FIELD.from_sympy(at.xreplace(_AS_GROWING)) for s, at in coordinates.items()}
+    there = value.substitute(whole) if coordinates else value
+    return sign(there, EVERYTHING, _POSITIVE, dimension) != 0
+
+
+_POSITIVE = (sy.k, sy.l, sy.m, sy.n)
+"""Names in the field for what is positive and grows."""
+_AS_GROWING = dict(zip(_NAMES, _POSITIVE, strict=True))
 
 
 def _degrees(polynomial: Polynomial, growing: Sequence[sympy.Symbol]) -> list[int]:
@@ -335,4 +346,4 @@ def _top(polynomial: Polynomial, limit: Limit) -> RationalFunction:
         for (powers, c), degree in zip(polynomial.to_dict().items(), degrees, strict=True)
         if degree == max(degrees)
     }
-    return RationalFunction(FIELD, FIELD.context.from_dict(kept), FIELD.context.constant(1))
+    return FIELD.polynomial(FIELD.context.from_dict(kept))

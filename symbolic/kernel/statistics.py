@@ -6,25 +6,34 @@ quantities in the radii, put in one after the other. They are polynomials on set
 indices, so a moment is a polynomial on each of a few sets of indices: its closed form.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 
 import sympy
 
 from .. import sets, spheres
 from .. import symbols as sy
-from ..algebra.exact import FIELD, SOURCE, NotExactError, RationalFunction
+from ..algebra.exact import FIELD, NotExactError, RationalFunction
 from ..as_printed import equation
-from ..forms import NUMBER, Form, Known, Reader, Straightening, Value
-from ..notation import by_name
+from ..forms import NUMBER, RADII, SHIFT, Form, Reader, Straightening, Value
 from ..printing.text import text
-from ..second_order import RADII, SHIFT, Jet, Means, covariance
+from ..second_order import Jet, covariance
 from ..weights import Weights
-from .decisions import Ruling, proved, refuted, undecided
+from .domain import Domain, Loading
 from .rules import Rule
-from .theorem import NotProvedError, Theorem, check, made
-from .where import Loading, Where
+from .theorem import (
+    Group,
+    NotProvedError,
+    Theorem,
+    both_sides,
+    check_domain,
+    difference,
+    flat,
+    known,
+    made,
+    refuse,
+)
 
 _SQUARE = FIELD.generator(sy.sigma) ** 2
 _PLANE = 2
@@ -46,57 +55,6 @@ SPHERES = {
 """The loads on packings of spheres. What forces are in the radii is part of what is trusted."""
 
 
-# what theorems say of quantities
-
-
-@lru_cache(maxsize=64)
-def _known(facts: tuple[Theorem, ...], kind: type[Form]) -> Mapping[type, tuple[Known, ...]]:
-    """Quantities in the radii; forces by way of directions, and these of positions.
-
-    Raises:
-        NotProvedError: a theorem does not say what one quantity of a bead is.
-    """
-    if kind is Jet:
-        return Means(_known(facts, Form)).jets()
-    found: dict[type, tuple[Known, ...]] = {}
-    left = list(facts)
-    while left:
-        open_ones = {_about(one) for one in left}
-        ready = [one for one in left if not open_ones & _held(one)]
-        if not ready:
-            raise NotProvedError("theorems that are put in rest on one another in a circle")
-        values = [(_about(one), _said(one, found)) for one in ready]
-        for quantity, value in values:
-            found[quantity] = (*found.get(quantity, ()), value)
-        left = [one for one in left if one not in ready]
-    return found
-
-
-def _about(theorem: Theorem) -> type:
-    return type(theorem.solved[0])
-
-
-def _held(theorem: Theorem) -> set[type]:
-    return {type(quantity) for quantity in theorem.solved[1].atoms(sy.SiteFunction)}
-
-
-def _said(theorem: Theorem, known: Mapping[type, tuple[Known, ...]]) -> Known:
-    """What a theorem says of a quantity, by the coordinates of the quantity's bead."""
-    about, value = theorem.solved
-    reader = Reader(sets.EVERYTHING, Straightening.of(theorem.where.even), known)
-    reader = reader.within(*theorem.where.relations)
-    site = zip(SOURCE, reader.site(*about.args), strict=False)
-    here = sets.where(*(sympy.Eq(symbol, at, evaluate=False) for symbol, at in site))
-    loading, points = theorem.where.loading, reader.points & here
-    named = set().union(*(one.free_symbols for one in loading.place)) if loading else set()
-    bound = [symbol for symbol in theorem.where.indices if symbol not in named]
-    forms = reader.vector(value) if about.is_vector else (reader.number(value),)
-    return Known(
-        sets.without(points, *bound),
-        tuple(form.on(points).without(*bound).merged() for form in forms),
-    )
-
-
 # moments
 
 
@@ -105,35 +63,31 @@ class Statistics(Reader):
     """Reads numbers, and moments of what is linear in the radii.
 
     Attributes:
-        facts: the theorems that give quantities in the radii.
-        spheres: the load in three dimensions.
+        groups: the theorems that give quantities in the radii, to be put in one after the other.
+        loading: of the packing.
+        dimension: of the packing.
     """
 
-    facts: tuple[Theorem, ...] = ()
-    spheres: Loading | None = None
+    groups: tuple[Group, ...] = ()
+    loading: Loading | None = None
+    dimension: int = _PLANE
 
     @classmethod
-    def on(cls, where: Where, facts: Iterable[Theorem]) -> "Statistics":
-        """Those on a domain.
-
-        Raises:
-            NotProvedError: a theorem is of other packings or loads.
-        """
-        facts = tuple(dict.fromkeys(facts))
-        for one in facts:
-            same = one.where.loading in (None, where.loading)
-            if one.where.dimension != where.dimension or one.where.limit or not same:
-                raise NotProvedError(f"{text(one.solved[0])} is known of other packings or loads")
-        load = None if where.dimension == _PLANE else where.loading
-        if load and load not in SPHERES.values():
-            raise NotProvedError(f"forces under {load.name} are not known in three dimensions")
-        empty = cls(sets.EVERYTHING, Straightening.of(where.even), facts=facts, spheres=load)
-        return empty.within(*where.relations)  # type: ignore[return-value]
+    def on(cls, domain: Domain, groups: Iterable[Group] = ()) -> "Statistics":
+        """Those on a domain."""
+        return cls(
+            domain.points,
+            domain.straight,
+            groups=tuple(groups),
+            loading=domain.loading,
+            dimension=domain.dimension,
+        )
 
     def read(self, expression: sympy.Expr) -> Value:
         """A number; moments are worked out."""
         if isinstance(expression, sy.Moment):
-            return Form({NUMBER: self.moment(expression)})
+            value = self.moment(expression)
+            return Form({NUMBER: value.merged() if self.summed else value})
         return super().read(expression)
 
     def moment(self, moment: sy.Moment) -> Weights:
@@ -149,8 +103,7 @@ class Statistics(Reader):
         if isinstance(moment, sy.Mean):
             return forms[0].parts.get(NUMBER, Weights())
         if isinstance(moment, sy.Variance | sy.Covariance):
-            dimension = 3 if self.spheres else _PLANE
-            return covariance(forms[0], forms[-1], dimension).scaled(_SQUARE)
+            return covariance(forms[0], forms[-1], self.dimension).scaled(_SQUARE)
         raise NotExactError(f"{text(moment)} is not worked out")
 
     def in_radii(self, expression: sympy.Expr, kind: type[Form] = Form) -> Form:
@@ -159,13 +112,16 @@ class Statistics(Reader):
         Raises:
             NotExactError: it is not linear in them, or holds what is not given by them.
         """
-        if self.spheres and kind is not Form:
-            raise NotExactError("means to second order are not known in three dimensions")
-        known = spheres.known(self.spheres.name) if self.spheres else _known(self.facts, kind)
-        reader = Reader(self.points, self.straight, known, kind, linear=kind is Form)
+        if self.dimension == _PLANE:
+            facts = known(self.groups, self.loading, kind)
+        elif kind is Form and self.loading in SPHERES.values():
+            facts = spheres.known(self.loading.name)
+        else:
+            raise NotExactError("that is not known in three dimensions")
+        reader = Reader(self.points, self.straight, facts, kind, linear=kind is Form)
         form = reader.number(expression).on(self.points).merged()
-        if strange := {*form.parts} - {NUMBER, RADII, SHIFT}:
-            raise NotExactError(f"{min(strange)} is not given by the radii")
+        if {*form.parts} - {NUMBER, RADII, SHIFT}:
+            raise NotExactError(f"{text(expression)} is not given by the radii")
         return form
 
 
@@ -194,11 +150,17 @@ class ClosedForm:
     straight: Straightening
 
     @classmethod
-    def of(cls, expression: sympy.Expr, where: Where, facts: Iterable[Theorem]) -> "ClosedForm":
-        """An expression in moments on a domain."""
-        reader = Statistics.on(where, facts)
-        weights = reader.number(expression).parts.get(NUMBER, Weights())
-        return cls(weights.on(reader.points), reader.points, reader.straight)
+    def of(cls, expression: sympy.Expr, domain: Domain, *groups: Group) -> "ClosedForm":
+        """An expression in moments on a domain.
+
+        Raises:
+            NotExactError: it is not linear in the radii, or not given by them.
+        """
+        reader = Statistics.on(domain, groups)
+        form = reader.number(expression).on(reader.points)
+        if strange := {*form.parts} - {NUMBER}:
+            raise NotExactError(f"{min(map(str, strange))} belongs to single beads")
+        return cls(form.parts.get(NUMBER, Weights()), reader.points, reader.straight)
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -248,66 +210,25 @@ class ClosedForm:
         return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
 
 
+def moment(*groups: Group) -> Rule:
+    """Both sides are the same on all of the domain, moments worked out."""
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        check_domain(formula, domain)
+        apart = difference(both_sides(formula, Statistics.on(domain, groups)), domain)
+        if not all(form.is_zero() for form in apart):
+            raise refuse(apart, domain, groups)
+        return made(formula, domain, "moment", flat(groups))
+
+    return rule
+
+
 def theorems(
-    quantity: sympy.Expr, form: ClosedForm, where: Where, facts: Iterable[Theorem]
+    quantity: sympy.Expr, form: ClosedForm, domain: Domain, *groups: Group
 ) -> tuple[Theorem, ...]:
     """What a closed form of a quantity says: a theorem for each part of its domain."""
     return tuple(
-        made(equation(quantity, piece.value.to_sympy()), where.also(*part), "moment on sets", facts)
+        made(equation(quantity, piece.value.to_sympy()), domain.also(*part), "moment", flat(groups))
         for piece in form.pieces
         for part in piece.where
     )
-
-
-def worked_out(formula: sympy.Eq, where: Where, facts: Iterable[Theorem]) -> sympy.Eq:
-    """An equation with moments in closed form, each as on the largest part of the domain."""
-    facts = tuple(facts)
-    image = {
-        one: ClosedForm.of(one, where, facts).pieces[0].value.to_sympy()
-        for one in by_name(formula.atoms(sy.Moment))
-    }
-    return equation(*(side.xreplace(image) for side in formula.args))
-
-
-def decide(form: ClosedForm, where: Where, candidate: sympy.Expr) -> Ruling:
-    """Rule on a candidate for a closed form: whether it is the same on all of the domain."""
-    try:
-        read = Statistics.on(where.loaded(None), ()).number(sympy.sympify(candidate))
-        if strange := {*read.parts} - {NUMBER}:
-            return undecided(f"it holds {min(strange)}, which belongs to single beads")
-        differences = (form.weights - read.parts.get(NUMBER, Weights())).on(form.points).formulas()
-    except (NotExactError, NotProvedError, sympy.SympifyError, ZeroDivisionError) as reason:
-        return undecided(str(reason))
-    if not differences:
-        return proved("the same on all of the domain")
-    return refuted(_shown(form, *differences[0]))
-
-
-def _shown(form: ClosedForm, points: sets.Set, difference: RationalFunction) -> str:
-    """A point at which a closed form differs from what was said of it."""
-    at = sets.sample(sets.parts(points)[0])
-    whole = {symbol: FIELD.constant(at[symbol]) for symbol in at if difference.holds(symbol)}
-    left = difference.substitute(whole).to_sympy()
-    indices = {symbol: old.xreplace({s: sympy.Integer(n) for s, n in at.items()})
-               for symbol, old in form.straight.image.items()}  # fmt: skip
-    held = form.weights_symbols
-    values = {s: indices.get(s, at[s]) for s in sy.INDICES if s in held}
-    where = ", ".join(f"{text(symbol)} = {value}" for symbol, value in values.items())
-    return f"at {where or 'every point'} the true value less this one is {text(left)}"
-
-
-def moment(*facts: Theorem) -> Rule:
-    """Both sides are the same on all of the domain, moments worked out."""
-
-    def rule(formula: sympy.Eq, where: Where) -> Theorem:
-        check(formula, where)
-        try:
-            left, right = (Statistics.on(where, facts).number(side) for side in formula.args)
-            same = (left - right).on(Statistics.on(where, facts).points).is_zero()
-        except NotExactError as reason:
-            raise NotProvedError(str(reason)) from None
-        if not same:
-            raise NotProvedError("the moments of both sides differ")
-        return made(formula, where, "moment", facts)
-
-    return rule

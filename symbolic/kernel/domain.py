@@ -1,0 +1,291 @@
+"""Where a statement holds: whole indices and relations between them, a load, and a limit."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import sympy
+
+from .. import sets
+from .. import symbols as sy
+from ..algebra.exact import NotExactError
+from ..forms import Reader, Straightening
+from ..mechanics import lattice
+
+Image = Mapping[sympy.Basic, sympy.Expr]
+"""What is put in for symbols."""
+Site = tuple[sympy.Expr, sympy.Expr]
+"""Across and up."""
+
+LATTICE: tuple[Site, ...] = ((sy.i, sy.j), (sy.k, sy.l), (sy.site_r, sy.site_s))
+"""Indices of beads."""
+
+
+@dataclass(frozen=True)
+class Loading:
+    """What is known of the loads and of the forces above, before any balance.
+
+    Attributes:
+        name: "loaded", "passing", "entering", "surface" or "leaning surface", for example.
+        words: the same in plain words.
+        place: the indices that it names, which stand for the same wherever it is used.
+        given: equations that hold at that place.
+        everywhere: equations about any bead (r, s), each with relations of r and s.
+    """
+
+    name: str
+    words: str
+    place: tuple[sympy.Expr, ...] = ()
+    given: tuple[sympy.Eq, ...] = ()
+    everywhere: tuple[tuple[sympy.Eq, tuple[sympy.Basic, ...]], ...] = ()
+
+    @property
+    def fixed(self) -> set[sympy.Symbol]:
+        """The symbols of its place."""
+        return set().union(*(one.free_symbols for one in self.place))
+
+    def put_in(self, image: Image) -> "Loading":
+        """The same at another place.
+
+        Raises:
+            NotExactError: the place would hold r or s, which stand for any bead.
+        """
+        image = {symbol: one for symbol, one in image.items() if symbol in self.fixed}
+        if self.everywhere and any(one.has(sy.site_r, sy.site_s) for one in image.values()):
+            raise NotExactError("the indices r and s stand for any bead of this loading")
+        return replace(
+            self,
+            place=tuple(one.xreplace(image) for one in self.place),
+            given=tuple(_at(one, image) for one in self.given),
+            everywhere=tuple(
+                (_at(one, image), tuple(_at(relation, image) for relation in when))
+                for one, when in self.everywhere
+            ),
+        )
+
+    def mirrored(self) -> "Loading":
+        """The mirror image; one that is its own stays the same."""
+        given = tuple(map(lattice.mirror, self.given))
+        everywhere = tuple(
+            (lattice.mirror(one), tuple(map(lattice.mirrored_relation, when)))
+            for one, when in self.everywhere
+        )
+        if set(given) == set(self.given) and set(everywhere) == set(self.everywhere):
+            return self
+        end, before = ", mirrored", "the mirror image of: "
+        if self.name.endswith(end):
+            name, words = self.name.removesuffix(end), self.words.removeprefix(before)
+        else:
+            name, words = self.name + end, before + self.words
+        place = self.place
+        if len(place) == 2:  # that of a bead; a height is its own mirror image
+            place = lattice.mirrored_place(*place)
+        return Loading(name, words, place, given, everywhere)
+
+
+@dataclass(frozen=True)
+class Limit:
+    """How indices grow together, and how a statement relates its sides then.
+
+    Attributes:
+        relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
+            variance of left less right is of a lower order than that of the force it is about; "∝":
+            left over right goes to a positive function of φ; "=": both sides go to the same.
+        words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
+        growing: the indices that grow.
+        positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while
+            the ratios, and φ, stay within closed parts of their ranges.
+        orders: of what is related by "∼", how many leading orders are the same: left over right is
+            1 up to what vanishes faster than size^(1−orders).
+    """
+
+    relation: str
+    words: str
+    growing: tuple[sympy.Symbol, ...]
+    positive: tuple[sympy.Expr, ...]
+    orders: int = 1
+
+    def __post_init__(self) -> None:
+        if self.orders < 1:
+            raise ValueError("a limit compares at least one order")
+
+
+def inside_cone(relation: str) -> Limit:
+    """The limit l → ∞ at a fixed place inside of the cone below a point load.
+
+    The indices j, p and q grow: what l and k are stands in the domain.
+    """
+    words = "l → ∞ at fixed j/l and (i − k)/l, inside of the cone"
+    return Limit(relation, words, (sy.j, sy.p, sy.q), (sy.j, sy.p, sy.q))
+
+
+def on_leg(relation: str) -> Limit:
+    """The limit l → ∞ at a fixed place on a leg of that cone."""
+    return Limit(relation, "l → ∞ at fixed j/l, on a leg of the cone", (sy.j, sy.p), (sy.j, sy.p))
+
+
+def along_base(relation: str) -> Limit:
+    """The limit l → ∞ at the base, inside of that cone."""
+    words = "l → ∞ at j = 0 and fixed (i − k)/l, inside of the cone"
+    return Limit(relation, words, (sy.p, sy.q), (sy.p, sy.q))
+
+
+def at_fixed_height(relation: str) -> Limit:
+    """The limit M → ∞ at a fixed relative height z = j/M between base and surface."""
+    words = "M → ∞ at fixed z = j/M, 0 < z < 1"
+    return Limit(relation, words, (sy.M, sy.j), (sy.j, sy.M - sy.j))
+
+
+def at_large_height(relation: str, orders: int = 1) -> Limit:
+    """The limit M → ∞ of what belongs to no layer."""
+    return Limit(relation, "M → ∞", (sy.M,), (sy.M,), orders)
+
+
+def in_a_layer(relation: str) -> Limit:
+    """The limit M → ∞ of a layer at a fixed distance from base or surface."""
+    return Limit(relation, "M → ∞ in a fixed layer", (sy.M,), (sy.M,))
+
+
+AT_FIXED_RATIO = Limit("=", "M → ∞ at fixed M/M*, as σ decreases", (sy.M,), (sy.M,))
+"""The limit in which variances over squared means stay, as M* grows with M."""
+
+
+@dataclass(frozen=True)
+class Domain:
+    """The domain of a statement; :meth:`of` makes it.
+
+    Attributes:
+        indices: whole numbers that it speaks of, every one of the domain.
+        relations: between whole numbers; all of them hold.
+        loading: what is known of loads and forces; None for a statement about geometry alone.
+        beads: places at which beads are: across plus up is even there.
+        dimension: d of the packing, 2 or 3: −1/d < φ < ½.
+        limit: in which the statement holds, and not at finite size; None for most.
+    """
+
+    indices: tuple[sympy.Symbol, ...] = ()
+    relations: tuple[sympy.Basic, ...] = ()
+    loading: Loading | None = None
+    beads: tuple[Site, ...] = ()
+    dimension: int = 2
+    limit: Limit | None = None
+
+    @classmethod
+    def of(
+        cls,
+        *relations: sympy.Basic,
+        indices: Iterable[sympy.Symbol] = (),
+        loading: Loading | None = None,
+        beads: Iterable[Site] = (),
+        dimension: int = 2,
+        limit: Limit | None = None,
+    ) -> "Domain":
+        """The domain of all indices that the relations, the load and the beads speak of.
+
+        With one index of a bead (i, j), (k, l) or (r, s) the other is one of them.
+
+        Raises:
+            ValueError: the dimension is neither 2 nor 3.
+        """
+        if dimension not in (2, 3):
+            raise ValueError(f"dimension {dimension}: 2 and 3 are allowed")
+        places = tuple(beads)
+        held = {*indices}.union(*(one.free_symbols for one in relations))
+        held |= set().union(*(one.free_symbols for place in places for one in place))
+        held |= loading.fixed if loading else set()
+        of_lattice = [bead for bead in LATTICE if dimension == 2 and held & set(bead)]
+        held = held.union(*of_lattice)
+        ordered = tuple(symbol for symbol in sy.INDICES if symbol in held)
+        every = tuple(dict.fromkeys((*of_lattice, *places)))
+        kept = tuple(one for one in dict.fromkeys(relations) if one != sympy.true)
+        return cls(ordered, kept, loading, every, dimension, limit)
+
+    def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Domain":
+        """The part of it where further relations hold, in further indices."""
+        return Domain.of(
+            *self.relations,
+            *relations,
+            indices=(*self.indices, *indices),
+            loading=self.loading,
+            beads=self.beads,
+            dimension=self.dimension,
+            limit=self.limit,
+        )
+
+    def loaded(self, loading: Loading | None) -> "Domain":
+        """The same indices under another load."""
+        return replace(self, loading=loading)
+
+    def in_the_limit(self, limit: Limit | None) -> "Domain":
+        """The same indices in a limit, or (None) at finite size."""
+        return replace(self, limit=limit)
+
+    def put_in(self, image: Image) -> "Domain":
+        """The domain of other indices, in terms of which these are given."""
+        held = {*self.indices} - {*image}
+        held |= set().union(*(image[s].free_symbols for s in self.indices if s in image))
+        return Domain(
+            tuple(symbol for symbol in sy.INDICES if symbol in held),
+            tuple(_at(one, image) for one in self.relations),
+            self.loading and self.loading.put_in(image),
+            tuple((a.xreplace(image), b.xreplace(image)) for a, b in self.beads),
+            self.dimension,
+            self.limit,
+        )
+
+    def mirrored(self) -> "Domain":
+        """The domain of the mirror image of a statement."""
+        return replace(
+            self,
+            relations=tuple(map(lattice.mirrored_relation, self.relations)),
+            beads=tuple(lattice.mirrored_place(*place) for place in self.beads),
+            loading=self.loading and self.loading.mirrored(),
+        )
+
+    # as a set
+
+    @cached_property
+    def straight(self) -> Straightening:
+        """The indices in which no sum of them has to be even."""
+        return Straightening.of(across + up for across, up in self.beads)
+
+    @cached_property
+    def points(self) -> sets.Set:
+        """Its points, in straightened indices."""
+        positive = (one for one in self.indices if one.is_positive)
+        least = (sympy.Ge(symbol, 1, evaluate=False) for symbol in positive)
+        return sets.where(*map(self.straight.relation, self.relations), *least)
+
+    def reader(self) -> Reader:
+        """Reads expressions on it."""
+        return Reader(self.points, self.straight)
+
+    def implies(self, *relations: sympy.Basic) -> bool:
+        """Whether relations between whole numbers hold on all of it."""
+        return bool(self.points.is_subset(sets.where(*map(self.straight.relation, relations))))
+
+    def lies_in(self, other: "Domain") -> bool:
+        """Whether each of its points is one of another domain, with beads at the same places."""
+        even = [sympy.expand((a + b).xreplace(self.straight.image)) for a, b in other.beads]
+        return self.implies(*other.relations) and all(
+            self.points.is_subset(sets.even(form)) for form in even
+        )
+
+    # in words
+
+    def in_words(self) -> tuple[str, ...]:
+        """Its relations in plain text, such as "0 ≤ j < M", and its load."""
+        from ..words import chains
+
+        further = [one.words for one in (self.loading, self.limit) if one]
+        return (*chains(self.relations), *further)
+
+    def __str__(self) -> str:
+        return ", ".join(self.in_words())
+
+
+def _at(relation: sympy.Basic, image: Image) -> sympy.Basic:
+    """A relation with other indices."""
+    if not isinstance(relation, sympy.core.relational.Relational):
+        return relation
+    return relation.func(*(side.xreplace(dict(image)) for side in relation.args), evaluate=False)
