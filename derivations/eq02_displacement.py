@@ -1,42 +1,19 @@
 """Eq. 2: how far a deposited bead moves when its own and its supports' radii deviate."""
 
+# fmt: off
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq01_ordered_positions as eq01
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation,
-    Lines,
-    Part,
-    Where,
-    axioms,
-    equation,
-    follows,
-    inverse,
-    minus,
-    order,
-    solve,
-    terms,
-    times,
-)
-from force_diffusion.symbolic.mechanics import contacts
+    Derivation, Domain, Steps, Symbol, axioms, equation, follows, minus, order,
+    rewrite, solve,
+    terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaR,
-    DeltaX,
-    Dot,
-    MatrixTimes,
-    b_minus,
-    b_plus,
-    i,
-    j,
-    n_minus,
-    n_plus,
-    n_x,
-    n_y,
-    r,
-)
+    DeltaR, DeltaX, Dot, MatrixTimes, b_minus, b_plus, e_x, e_y, epsilon, i, j,
+    n_minus, n_plus, n_x, n_y, r)
+# fmt: on
 
-WHERE = Where.of(j >= 1)
+ABOVE = Domain.of(j >= 1)
 SUPPORTS = ((i - 1, j - 1), (i + 1, j - 1))
 LEFT, RIGHT = (DeltaX(*support) for support in SUPPORTS)
 half = sympy.Rational(1, 2)
@@ -51,64 +28,57 @@ PRINTED = equation(
     ),
 )
 
-
-def resting_on(left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
-    """δx_ij from its supports' displacements: each contact fixes one component n^±·δx."""
-    return terms(
-        times(terms(Dot(n_plus, left), DeltaR(i, j), DeltaR(i - 1, j - 1)), b_plus),
-        times(terms(Dot(n_minus, right), DeltaR(i, j), DeltaR(i + 1, j - 1)), b_minus),
+# δx of the bead less that of a support, and δr of both together
+dx, dy, rho = (
+    Symbol(name, latex, shown, real=True)
+    for name, latex, shown in (
+        ("dx", r"\Delta x", "Δx"),
+        ("dy", r"\Delta y", "Δy"),
+        ("rho", r"\rho", "ρ"),
     )
+)
+SIDES = sympy.ImmutableMatrix([[n_x, n_y], [-n_x, n_y]])
+"""The directions n⁺ and n⁻ from the supports to the bead, as rows."""
+
+
+def contact(side: int) -> sympy.Expr:
+    """What a contact makes vanish: squared distance of the centres less squared sum of the radii.
+
+    The strength of the disorder is ε.
+    """
+    apart = 2 * r * SIDES.row(side).T + epsilon * sympy.Matrix([dx, dy])
+    return apart.dot(apart) - (2 * r + epsilon * rho) ** 2
+
+
+def of_support(site: tuple[sympy.Expr, sympy.Expr]) -> dict[sympy.Symbol, sympy.Expr]:
+    """What Δx, Δy and ρ are for one of the supports."""
+    apart = DeltaX(i, j) - DeltaX(*site)
+    return {dx: Dot(e_x, apart), dy: Dot(e_y, apart), rho: DeltaR(i, j) + DeltaR(*site)}
 
 
 @cache
-def constraints() -> tuple[contacts.Linearised, contacts.Linearised]:
-    """What both contacts impose, SymPy differentiating: from the left support, from the right."""
-    apart = [
-        sympy.ImmutableMatrix([n_x * 2 * r, n_y * 2 * r]),
-        sympy.ImmutableMatrix([-n_x * 2 * r, n_y * 2 * r]),
-    ]
-    left, right = map(contacts.contact_constraint, apart)
-    return left, right
-
-
-ROWS = sympy.ImmutableMatrix([[n_x, n_y], [-n_x, n_y]])
-
-
-def _derivative(constraint: contacts.Linearised) -> sympy.Eq:
-    """That the derivative at ε = 0 vanishes, which is linear in Δx, Δy and ρ."""
-    parts = (contacts.dx, contacts.dy, contacts.radii)
-    slopes = (sympy.diff(constraint.order_1, one) / (4 * r) * one for one in parts)
-    return equation(times(4 * r, terms(*slopes)), 0)
-
-
-@cache
-def steps() -> Lines:
+def steps() -> Steps:
     """Differentiate both contact constraints and invert the 2×2 system."""
-    lines = Lines(WHERE)
-    meaning = tuple(contacts.of_beads((i, j), support) for support in SUPPORTS)
-    exact = lines.show(
+    steps = Steps(2, ABOVE)
+    contacts = sympy.Matrix([contact(0), contact(1)])
+    supports = tuple(map(of_support, SUPPORTS))
+    exact = steps.show(
         "The bead touches both supports: the squared distance of the centres is the squared "
         "sum of the radii. With ε the strength of the disorder, Δx, Δy the difference of "
         "the two displacements and ρ the sum of the two δr, this vanishes, from the left support "
         "and from the right:",
-        sympy.Tuple(*(equation(constraint.exact, 0) for constraint in constraints())),
+        sympy.Tuple(*(equation(constraint, 0) for constraint in contacts)),
         (follows(axioms.contact(1)), follows(axioms.contact(-1))),
-        meaning=meaning,
-        after=(eq01.DERIVATION,),
+        definitions=supports,
     )
-    lines.show(
-        "At ε = 0 it holds.",
-        sympy.Tuple(*(equation(constraint.order_0, 0) for constraint in constraints())),
-        (order(Part(exact, 0), 0), order(Part(exact, 1), 0)),
-        meaning=meaning,
+    slope = contacts.jacobian([epsilon]).subs(epsilon, 0)
+    linear = steps.show(
+        "It holds at ε = 0, so its derivative there must vanish too.",
+        sympy.Tuple(*(equation(sympy.expand(one), 0) for one in slope)),
+        tuple(order(theorem, 1) for theorem in exact.theorems),
+        definitions=supports,
     )
-    derivatives = lines.show(
-        "So its derivative there must vanish too.",
-        sympy.Tuple(*map(_derivative, constraints())),
-        (order(Part(exact, 0), 1), order(Part(exact, 1), 1)),
-        meaning=meaning,
-    )
-    components = lines.show(
+    components = steps.show(
         "A contact fixes one component of the displacement.",
         sympy.Tuple(
             equation(
@@ -120,30 +90,36 @@ def steps() -> Lines:
                 terms(DeltaR(i, j), DeltaR(i + 1, j - 1)),
             ),
         ),
-        (follows(Part(derivatives, 0)), follows(Part(derivatives, 1))),
+        tuple(map(follows, linear.theorems)),
     )
-    inverted = lines.show(
-        "The matrix of the two contacts has the rows n⁺ and n⁻; the columns of its inverse "
-        "are the reciprocal vectors b⁺ and b⁻.",
-        equation(sympy.Pow(ROWS, -1, evaluate=False), ROWS.inv()),
-        inverse(),
-        where=Where(),
-        after=(derivatives,),
+    inverse = SIDES.LUsolve(sympy.eye(2))  # its pivot n_x is positive
+    steps.show(
+        "The matrix of the two contacts has the rows n⁺ and n⁻. By elimination, with the pivot "
+        "n_x > 0, the columns of its inverse are the reciprocal vectors b⁺ and b⁻:",
+        sympy.Tuple(
+            *(
+                equation(Dot(axis, vector), inverse[row, column])
+                for column, vector in enumerate((b_plus, b_minus))
+                for row, axis in enumerate((e_x, e_y))
+            )
+        ),
+        rewrite(),
+        Domain(),
     )
-    solved = solve(components, [DeltaX(i, j)])
-    lines.show(
-        "Applied to both right-hand sides:",
-        equation(DeltaX(i, j), resting_on(LEFT, RIGHT)),
+    solved = solve(components.theorems, [DeltaX(i, j)])
+    steps.show(
+        "So the two components fix the displacement:",
+        equation(
+            DeltaX(i, j),
+            terms(
+                times(terms(Dot(n_plus, LEFT), DeltaR(i, j), DeltaR(i - 1, j - 1)), b_plus),
+                times(terms(Dot(n_minus, RIGHT), DeltaR(i, j), DeltaR(i + 1, j - 1)), b_minus),
+            ),
+        ),
         solved,
-        after=(inverted,),
     )
-    lines.show(
-        "Written out in Cartesian components, this is the printed form.",
-        PRINTED,
-        solved,
-        after=(inverted,),
-    )
-    return lines
+    steps.show("Written out in Cartesian components, this is the printed form.", PRINTED, solved)
+    return steps
 
 
 DERIVATION = Derivation(
@@ -160,12 +136,11 @@ DERIVATION = Derivation(
         "first order in δr",
         "the bead rests on (i−1, j−1) and (i+1, j−1)",
         "the contacts are those of the ordered packing",
-        *WHERE.in_words(),
+        *ABOVE.in_words(),
     ),
-    premises=(eq01.DERIVATION,),
     printed=(PRINTED,),
+    domain=ABOVE,
     steps=steps,
-    where=WHERE,
 )
 
 if __name__ == "__main__":

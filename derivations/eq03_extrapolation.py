@@ -1,36 +1,17 @@
 """Eq. 3: the displacement in terms of the radii alone, by induction from the base."""
 
+# fmt: off
 from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations.framework.vocabulary import (
-    SUPPOSED,
-    Derivation,
-    Lines,
-    Where,
-    axioms,
-    equation,
-    induct,
-    rewrite,
-    supposing,
-    terms,
-    times,
-)
+    Derivation, Domain, Steps, along, axioms, equation, follows, induct, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaR,
-    DeltaX,
-    Dot,
-    b_minus,
-    b_plus,
-    i,
-    j,
-    m,
-    n_minus,
-    n_plus,
-)
+    DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_minus, n_plus)
+# fmt: on
 
-WHERE = Where.of(j >= 1)
+ABOVE = Domain.of(j >= 1)
 
 PRINTED = equation(
     DeltaX(i, j),
@@ -55,62 +36,54 @@ PRINTED = equation(
 )
 
 FIRST_LAYER = terms(
-    times(terms(DeltaR(i, 1), DeltaR(i - 1, 0)), b_plus),
-    times(terms(DeltaR(i, 1), DeltaR(i + 1, 0)), b_minus),
+    times(terms(DeltaR(i, j), DeltaR(i - 1, j - 1)), b_plus),
+    times(terms(DeltaR(i, j), DeltaR(i + 1, j - 1)), b_minus),
 )
 
 
-def _along(across: sympy.Expr, layer: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
-    """n⁺·δx and n⁻·δx, as they are printed."""
-    at = {i: across, j: layer}
-    along_plus, along_minus = (term.args[0].xreplace(at) for term in PRINTED.rhs.args)
-    return along_plus, along_minus
-
-
 @cache
-def steps() -> Lines:
+def steps() -> Steps:
     """Base case on the fixed base, then one step of Eq. 2 with symbolic i and j."""
-    lines = Lines(WHERE)
-    resting = eq02.DERIVATION
-    above = WHERE.also(j >= 2)
-    first = lines.show(
+    steps = Steps(3, ABOVE)
+    resting, base = eq02.DERIVATION.theorem, axioms.base()
+    steps.show(
         "The base is held, δx_(i,0) = 0. A bead of layer 1 rests on two such beads. What Eq. 2 "
         "gives is the printed equation at j = 1, where both of its sums are empty.",
-        equation(DeltaX(i, 1), FIRST_LAYER),
-        rewrite(resting, axioms.base()),
-        where=WHERE.put_in({j: sympy.Integer(1)}, (i,)),
+        equation(DeltaX(i, j), FIRST_LAYER),
+        rewrite(resting, base),
+        ABOVE.also(sympy.Eq(j, 1)),
     )
-    left, right = _along(i - 1, j - 1)[0], _along(i + 1, j - 1)[1]
-    step = lines.show(
-        "Suppose that it holds in layer j − 1 ≥ 1. The support to the left lies on the "
-        "same diagonal towards the base, so that n⁺·δx gains the two radii of the new "
-        "contact, and likewise to the right.",
+    left, right = DeltaX(i - 1, j - 1), DeltaX(i + 1, j - 1)
+    steps.show(
+        "By Eq. 2, the component along n⁺ gains two radii from the support to the left, which lies "
+        "on the same diagonal towards the base; and likewise to the right.",
         sympy.Tuple(
-            equation(Dot(n_plus, DeltaX(i, j)), terms(left, DeltaR(i, j), DeltaR(i - 1, j - 1))),
-            equation(Dot(n_minus, DeltaX(i, j)), terms(right, DeltaR(i, j), DeltaR(i + 1, j - 1))),
+            equation(
+                Dot(n_plus, DeltaX(i, j)),
+                terms(Dot(n_plus, left), DeltaR(i, j), DeltaR(i - 1, j - 1)),
+            ),
+            equation(
+                Dot(n_minus, DeltaX(i, j)),
+                terms(Dot(n_minus, right), DeltaR(i, j), DeltaR(i + 1, j - 1)),
+            ),
         ),
-        supposing(PRINTED, WHERE, j, rewrite(resting, SUPPOSED)),
-        where=above,
+        [follows(along(resting, n_plus)), follows(along(resting, n_minus))],
     )
-    lines.show(
-        "The radius of the support is counted once by its own formula and once by the new "
-        "contact: it joins the sum with the weight 2. This is the printed equation in "
-        "layer j.",
+    steps.show(
+        "Suppose that the printed equation holds in layer j − 1 ≥ 1. The radius of the support is "
+        "counted once there and once by the new contact: it joins the sum with the weight 2. This "
+        "is the printed equation in layer j.",
         PRINTED,
-        induct(j, 1, rewrite(resting, axioms.base()), rewrite(resting, SUPPOSED)),
-        after=(first, step),
+        induct(j, 1, rewrite(resting, base), lambda supposed: rewrite(resting, supposed)),
     )
-    zero = sympy.Integer(0)
-    empty = dict.fromkeys(PRINTED.rhs.atoms(sympy.Sum), zero)
-    lines.claim(
+    empty = dict.fromkeys(PRINTED.rhs.atoms(sympy.Sum), sympy.S.Zero)
+    steps.claim(
         "at j = 0 the printed sums, read as empty, would leave 2δr_(i,0)(b⁺ + b⁻), not 0",
-        equation(
-            PRINTED.rhs.xreplace(empty).xreplace({j: zero}), 2 * DeltaR(i, 0) * (b_plus + b_minus)
-        ),
+        equation(PRINTED.rhs.xreplace(empty), 2 * DeltaR(i, 0) * (b_plus + b_minus)),
         rewrite(),
-        where=Where.of(j >= 0).put_in({j: zero}, (i,)),
+        Domain.of(sympy.Eq(j, 0)),
     )
-    return lines
+    return steps
 
 
 DERIVATION = Derivation(
@@ -128,12 +101,11 @@ DERIVATION = Derivation(
         "first order in δr",
         "the centres of the base beads are fixed: δx_(i,0) = 0",
         "no horizontal boundary is met",
-        *WHERE.in_words(),
+        *ABOVE.in_words(),
     ),
-    premises=(eq02.DERIVATION,),
     printed=(PRINTED,),
+    domain=ABOVE,
     steps=steps,
-    where=WHERE,
     remarks=(
         "The printed formula is for j ≥ 1. At j = 0 its empty sums leave 2δr_(i,0)(b⁺ + b⁻), "
         "while the base is fixed: δx_(i,0) = 0 is a condition of its own.",

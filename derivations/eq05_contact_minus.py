@@ -1,40 +1,19 @@
 """Eq. 5: the change of the direction of the contact along n⁻, derived, and as a mirror image."""
 
+# fmt: off
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq01_ordered_positions as eq01
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation,
-    Lines,
-    Where,
-    axioms,
-    equation,
-    minus,
-    mirror_of,
-    order,
-    rewrite,
-    terms,
-    times,
-)
-from force_diffusion.symbolic.mechanics.lattice import mirror
+    Derivation, Domain, Steps, axioms, equation, lattice, minus, mirror_of, order, rewrite,
+    terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus,
-    DeltaR,
-    DeltaX,
-    Dot,
-    b_minus,
-    b_plus,
-    i,
-    j,
-    m,
-    n_minus,
-    r,
-)
+    DeltaNMinus, DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_minus, r)
+# fmt: on
 
-WHERE = Where.of(j >= 0)
+BEADS = Domain.of(j >= 0)
 
 PRINTED = equation(
     times(2, r, DeltaNMinus(i, j)),
@@ -59,53 +38,49 @@ PRINTED = equation(
 ABOVE = (i - 1, j + 1)
 
 
-def contact_direction(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    """δn⁻ at a site, as a vector expression in the radii (Eq. 5), for layers 0 and above."""
-    return (PRINTED.rhs / (2 * r)).xreplace({i: across, j: layer})
-
-
 def from_displacements(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
     """2r δn⁻_ij: difference of the displacements less n⁻ times the sum of the two δr."""
     return terms(above, minus(below), minus(times(n_minus, terms(DeltaR(i, j), DeltaR(*ABOVE)))))
 
 
 @cache
-def steps() -> Lines:
+def steps() -> Steps:
     """The same derivation for the other contact, and the mirror image of Eq. 4."""
-    lines = Lines(WHERE)
-    changed = lines.show(
+    steps = Steps(5, BEADS)
+    changed = steps.show(
         "As for Eq. 4, from the exact unit vector of the contact along n⁻:",
         equation(times(2, r, DeltaNMinus(i, j)), from_displacements(DeltaX(*ABOVE), DeltaX(i, j))),
         order(axioms.direction(-1), 1),
-        after=(eq01.DERIVATION,),
     )
-    lines.show(
-        "With Eq. 3 for both beads, for j ≥ 1, now the b⁻ component is the two radii alone.",
+    displaced = (eq03.DERIVATION.theorem, axioms.base())
+    steps.show(
+        "With Eq. 3 for both beads, now the b⁻ component is the two radii alone.",
         equation(
             Dot(n_minus, terms(DeltaX(*ABOVE), minus(DeltaX(i, j)))),
             terms(DeltaR(i, j), DeltaR(*ABOVE)),
         ),
-        rewrite(eq03.DERIVATION),
-        where=WHERE.also(j >= 1),
+        rewrite(displaced),
     )
-    printed = lines.show(
+    printed = steps.show(
         "The b⁺ component compares two neighbouring diagonals along n⁺.",
         PRINTED,
-        eq04.from_eq_3(changed),
+        rewrite(changed.theorem, displaced),
     )
-    lines.show(
+    steps.show(
         "It is the mirror image of Eq. 4: i → −i at every bead, n⁺ ↔ n⁻ and b⁺ ↔ b⁻ in that "
         "equation give this one.",
-        equation(mirror(eq04.PRINTED.lhs), mirror(eq04.PRINTED.rhs)),
-        mirror_of(eq04.DERIVATION),
-        after=(printed,),
+        lattice.mirror(eq04.PRINTED),
+        mirror_of(eq04.DERIVATION.theorem),
     )
-    lines.show(
+    steps.show(
         "Again the change is at right angles to the contact.",
-        equation(Dot(n_minus, DeltaNMinus(i, j)), 0),
-        rewrite(printed),
+        RIGHT_ANGLE,
+        rewrite(printed.theorem),
     )
-    return lines
+    return steps
+
+
+RIGHT_ANGLE = equation(Dot(n_minus, DeltaNMinus(i, j)), 0)
 
 
 DERIVATION = Derivation(
@@ -120,11 +95,10 @@ DERIVATION = Derivation(
         (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
         (m, "layer of a bead on a diagonal down to the base"),
     ),
-    assumptions=("first order in δr", "fixed base", *WHERE.in_words()),
-    premises=(eq01.DERIVATION, eq03.DERIVATION, eq04.DERIVATION),
+    assumptions=("first order in δr", "fixed base", *BEADS.in_words()),
     printed=(PRINTED,),
+    domain=BEADS,
     steps=steps,
-    where=WHERE,
 )
 
 if __name__ == "__main__":

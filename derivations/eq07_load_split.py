@@ -1,56 +1,36 @@
 """Eq. 7: how a vertical load splits between the two supports."""
 
+# fmt: off
 from functools import cache
 
 import sympy
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation,
-    Lines,
-    Part,
-    Where,
-    axioms,
-    equation,
-    minus,
-    mirror_of,
-    solve,
-    terms,
-    times,
-)
-from force_diffusion.symbolic.kernel.where import LOADED_VERTICALLY
-from force_diffusion.symbolic.mechanics import balance
-from force_diffusion.symbolic.mechanics.lattice import mirror
+    Derivation, Domain, Steps, along, axioms, equation, follows, lattice, minus, mirror_of, solve,
+    terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus,
-    DeltaNPlus,
-    Dot,
-    ForceMinus,
-    ForcePlus,
-    f_load,
-    k,
-    l,
-    n_minus,
-    n_plus,
-    n_y,
-    phi,
-)
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, f_load, k, l, n_minus, n_plus,
+    n_y, phi)
+# fmt: on
 
-WHERE = Where.of(l >= 1, loading=LOADED_VERTICALLY)
-LEFT, RIGHT = eq06.LEFT, eq06.RIGHT
-TILT_PLUS = Dot(n_minus, DeltaNPlus(*LEFT))
-TILT_MINUS = Dot(n_plus, DeltaNMinus(*RIGHT))
+LOADED = Domain.of(l >= 1, loading=axioms.LOADED_VERTICALLY)
+FORCES = ForcePlus(k - 1, l - 1), ForceMinus(k + 1, l - 1)
+TILT_PLUS = Dot(n_minus, DeltaNPlus(k - 1, l - 1))
+TILT_MINUS = Dot(n_plus, DeltaNMinus(k + 1, l - 1))
 ORDERED = f_load / (2 * n_y)
 
 PRINTED = (
     equation(
-        ForcePlus(*LEFT),
+        FORCES[0],
         times(
             ORDERED,
             terms(1, times(1 / (1 - phi**2), terms(times(phi, TILT_PLUS), minus(TILT_MINUS)))),
         ),
     ),
     equation(
-        ForceMinus(*RIGHT),
+        FORCES[1],
         times(
             ORDERED,
             terms(1, times(1 / (1 - phi**2), terms(times(phi, TILT_MINUS), minus(TILT_PLUS)))),
@@ -60,46 +40,49 @@ PRINTED = (
 
 
 def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    """f⁺ below a loaded bead over f_load/2n_y, to first order (Eq. 7)."""
+    """f⁺ below a loaded bead over f_load/2n_y, to first order."""
     return PRINTED[0].rhs.args[1].xreplace({k: across, l: layer})
 
 
-FORCES = (ForcePlus(*LEFT), ForceMinus(*RIGHT))
+@cache
+def right_angles():
+    """What is used of Eqs. 4 and 5: n⁺·δn⁺ = 0 and n⁻·δn⁻ = 0."""
+    return eq04.steps()[-1].theorem, eq05.steps()[-1].theorem
 
 
 @cache
-def solved() -> balance.Solved:
-    """Eq. 6 solved for a load that points straight down, in units of f_load/2n_y."""
-    return eq06.solved(terms(n_plus, n_minus), k, l)
-
-
-@cache
-def steps() -> Lines:
-    """Dot the balance with n⁺ and n⁻, invert, and expand in the strength ε."""
-    lines = Lines(WHERE)
-    loads = axioms.loads(LOADED_VERTICALLY)
-    expanded = eq06.solving(
-        lines,
-        solved(),
-        "A vertical load is −(f_load/2n_y)(n⁺ + n⁻). Dotted with n⁺ and n⁻, Eq. 6 is a "
-        "2×2 system for the two forces in units of f_load/2n_y; ν⁺ = n⁻·δn⁺ and "
-        "ν⁻ = n⁺·δn⁻ are all that δn^± holds, by Eqs. 4 and 5.",
-        eq06.DERIVATION,
-        dict(zip(balance.FORCES, (one / ORDERED for one in FORCES), strict=True)),
-        loads,
+def steps() -> Steps:
+    """Dot the balance with n⁺ and n⁻, invert, and expand in the tilts."""
+    steps = Steps(7, LOADED, {eq06.nu_plus: TILT_PLUS, eq06.nu_minus: TILT_MINUS})
+    loads = axioms.loads(axioms.LOADED_VERTICALLY)
+    balance = eq06.DERIVATION.theorem
+    (plus, minus_), carried = FORCES, times(ORDERED, terms(1, phi))
+    rows = steps.show(
+        "A vertical load is −(f_load/2n_y)(n⁺ + n⁻). Dotted with n⁺ and n⁻, Eq. 6 is a 2×2 system "
+        "for the two forces; ν⁺ = n⁻·δn⁺ and ν⁻ = n⁺·δn⁻ are all that δn^± holds, by Eqs. 4 and 5.",
+        sympy.Tuple(
+            equation(terms(plus, times(terms(phi, eq06.nu_minus), minus_)), carried),
+            equation(terms(times(terms(phi, eq06.nu_plus), plus), minus_), carried),
+        ),
+        [follows(along(balance, axis), loads, right_angles()) for axis in (n_plus, n_minus)],
     )
-    printed = lines.show(
-        "In the paper's symbols:",
-        sympy.Tuple(*PRINTED),
-        solve(eq06.DERIVATION, FORCES, loads),
-        after=(expanded,),
+    forces = eq06.to_first_order(sympy.Matrix([1 + phi, 1 + phi]))
+    steps.show(
+        "Solved by elimination, with the pivots 1 and, at order 0, 1 − φ², and expanded in ν:",
+        sympy.Tuple(
+            *(equation(force, times(ORDERED, one)) for force, one in zip(FORCES, forces, strict=True))
+        ),
+        solve(rows.theorems, FORCES),
     )
-    lines.claim(
+    printed = steps.show(
+        "In the paper's symbols:", sympy.Tuple(*PRINTED), solve(rows.theorems, FORCES)
+    )
+    steps.claim(
         "the second part is the mirror image of the first",
-        equation(mirror(PRINTED[0].lhs), mirror(PRINTED[0].rhs)),
-        mirror_of(Part(printed, 0)),
+        lattice.mirror(PRINTED[0]),
+        mirror_of(printed.theorems[0]),
     )
-    return lines
+    return steps
 
 
 DERIVATION = Derivation(
@@ -109,15 +92,14 @@ DERIVATION = Derivation(
     symbols=(
         (f_load, "magnitude of the vertical load on bead (k, l)"),
         (phi, "n⁺·n⁻, between −½ and ½"),
-        (ForcePlus(*LEFT), "force of the contact from (k−1, l−1)"),
-        (ForceMinus(*RIGHT), "force of the contact from (k+1, l−1)"),
+        (FORCES[0], "force of the contact from (k−1, l−1)"),
+        (FORCES[1], "force of the contact from (k+1, l−1)"),
     ),
-    assumptions=("first order in δn^±", *WHERE.in_words()),
-    premises=(eq06.DERIVATION,),
+    assumptions=("first order in δn^±", *LOADED.in_words()),
     printed=PRINTED,
-    loads=("single",),
+    domain=LOADED,
     steps=steps,
-    where=WHERE,
+    loads=("single",),
 )
 
 if __name__ == "__main__":

@@ -1,99 +1,87 @@
 """Eq. 8: how a contact force passes through one bead."""
 
+# fmt: off
 from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq06_force_balance as eq06
+from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation,
-    Lines,
-    Part,
-    Where,
-    axioms,
-    equation,
-    minus,
-    mirror_of,
-    solve,
-    terms,
-    times,
-)
-from force_diffusion.symbolic.kernel.where import PASSING
-from force_diffusion.symbolic.mechanics import balance
-from force_diffusion.symbolic.mechanics.lattice import mirror
+    Derivation, Domain, Steps, Symbol, along, axioms, equation, follows, instance, lattice, minus,
+    mirror_of, solve, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus,
-    DeltaNPlus,
-    Dot,
-    ForceMinus,
-    ForcePlus,
-    n_minus,
-    n_plus,
-    phi,
-    site_r,
-    site_s,
-)
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, n_minus, n_plus, phi,
+    site_r, site_s)
+# fmt: on
 
-WHERE = Where.of(site_s >= 1, loading=PASSING)
+PASSED = Domain.of(site_s >= 1, loading=axioms.PASSING)
 HERE = (site_r, site_s)
 LEFT, RIGHT = (site_r - 1, site_s - 1), (site_r + 1, site_s - 1)
+FORCES = ForcePlus(*LEFT), ForceMinus(*RIGHT)
+ENTERING = ForcePlus(*HERE)
 TURN = Dot(n_minus, terms(DeltaNPlus(*LEFT), minus(DeltaNPlus(*HERE))))
 
 PRINTED = (
-    equation(ForcePlus(*LEFT) / ForcePlus(*HERE), terms(1, times(phi / (1 - phi**2), TURN))),
-    equation(ForceMinus(*RIGHT) / ForcePlus(*HERE), minus(times(1 / (1 - phi**2), TURN))),
+    equation(FORCES[0] / ENTERING, terms(1, times(phi / (1 - phi**2), TURN))),
+    equation(FORCES[1] / ENTERING, minus(times(1 / (1 - phi**2), TURN))),
 )
+
+nu_in = Symbol("nu_in", r"\nu_{\mathrm{in}}", "ν_in")  # n⁻·δn⁺ of the contact above
+TILTS = {
+    eq06.nu_plus: Dot(n_minus, DeltaNPlus(*LEFT)),
+    eq06.nu_minus: Dot(n_plus, DeltaNMinus(*RIGHT)),
+    nu_in: Dot(n_minus, DeltaNPlus(*HERE)),
+}
 
 
 def straight(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    """f⁺ leaving over f⁺ entering a bead (Eq. 8, first part)."""
+    """f⁺ leaving over f⁺ entering a bead (first part)."""
     return PRINTED[0].rhs.xreplace({site_r: across, site_s: layer})
 
 
 def branching(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-    """f⁻ leaving over f⁺ entering a bead (Eq. 8, second part)."""
+    """f⁻ leaving over f⁺ entering a bead (second part)."""
     return PRINTED[1].rhs.xreplace({site_r: across, site_s: layer})
 
 
 @cache
-def solved(entering: str) -> balance.Solved:
-    """Eq. 6 solved for an incoming unit force along n⁺ ("+") or n⁻ ("-")."""
-    along = n_plus + DeltaNPlus(*HERE) if entering == "+" else n_minus + DeltaNMinus(*HERE)
-    return eq06.solved(along, site_r, site_s)
-
-
-FORCES = (ForcePlus(*LEFT), ForceMinus(*RIGHT))
-
-
-@cache
-def steps() -> Lines:
+def steps() -> Steps:
     """The same 2×2 system with an incoming contact force in place of the load."""
-    lines = Lines(WHERE)
-    loads = axioms.loads(PASSING)
-    expanded = eq06.solving(
-        lines,
-        solved("+"),
-        "Eq. 6 holds with the load replaced by the incoming force −f⁺_rs (n⁺ + δn⁺_rs). "
-        "Dotted with n⁺ and n⁻, in units of f⁺_rs:",
-        axioms.balance(),
-        dict(zip(balance.FORCES, (one / ForcePlus(*HERE) for one in FORCES), strict=True)),
-        loads,
-        after=(eq06.DERIVATION,),
+    steps = Steps(8, PASSED, TILTS)
+    loads, (plus, minus_) = axioms.loads(axioms.PASSING), FORCES
+    balance = instance(axioms.balance(), {}, PASSED)
+    rows = steps.show(
+        "As in Eq. 6, with the load replaced by the incoming force −f⁺_rs (n⁺ + δn⁺_rs). Dotted "
+        "with n⁺ and n⁻:",
+        sympy.Tuple(
+            equation(terms(plus, times(terms(phi, eq06.nu_minus), minus_)), ENTERING),
+            equation(
+                terms(times(terms(phi, eq06.nu_plus), plus), minus_),
+                times(terms(phi, nu_in), ENTERING),
+            ),
+        ),
+        [follows(along(balance, axis), loads, eq07.right_angles()) for axis in (n_plus, n_minus)],
     )
-    printed = lines.show(
+    forces = eq06.to_first_order(sympy.Matrix([1, phi + epsilon * nu_in]))
+    steps.show(
+        "Solved as for Eq. 7, and expanded in the three tilts ν:",
+        sympy.Tuple(
+            *(equation(force / ENTERING, one) for force, one in zip(FORCES, forces, strict=True))
+        ),
+        solve(rows.theorems, FORCES),
+    )
+    printed = steps.show(
         "The direction of the other support drops out, since nothing leaves along it at order 0.",
         sympy.Tuple(*PRINTED),
-        solve(axioms.balance(), FORCES, loads),
-        after=(expanded,),
+        solve(rows.theorems, FORCES),
     )
-    lines.show(
-        "For an incoming force along n⁻ the same system, solved in the same way, gives the mirror "
-        "images.",
-        sympy.Tuple(*map(mirror, PRINTED)),
-        (mirror_of(Part(printed, 0)), mirror_of(Part(printed, 1))),
-        where=WHERE.mirrored(),
-        after=(eq06.DERIVATION,),
+    steps.show(
+        "For an incoming force along n⁻ the same system gives the mirror images.",
+        sympy.Tuple(*map(lattice.mirror, PRINTED)),
+        tuple(map(mirror_of, printed.theorems)),
+        PASSED.mirrored(),
     )
-    return lines
+    return steps
 
 
 DERIVATION = Derivation(
@@ -101,18 +89,17 @@ DERIVATION = Derivation(
     name="propagation",
     title="Passage of a contact force through a bead",
     symbols=(
-        (ForcePlus(*HERE), "force entering bead (r, s) from above along n⁺"),
-        (ForcePlus(*LEFT), "force leaving it along n⁺"),
-        (ForceMinus(*RIGHT), "force leaving it along n⁻: the branch"),
+        (ENTERING, "force entering bead (r, s) from above along n⁺"),
+        (FORCES[0], "force leaving it along n⁺"),
+        (FORCES[1], "force leaving it along n⁻: the branch"),
         (phi, "n⁺·n⁻"),
     ),
-    assumptions=("first order in δn^±", *WHERE.in_words()),
-    premises=(eq06.DERIVATION,),
+    assumptions=("first order in δn^±", *PASSED.in_words()),
     printed=PRINTED,
-    loads=("any",),
+    domain=PASSED,
     steps=steps,
-    where=WHERE,
-    remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is solved for here.",),
+    loads=("any",),
+    remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is shown here.",),
 )
 
 if __name__ == "__main__":

@@ -1,45 +1,22 @@
 """Eq. 9: the contribution of a contact force to a contact straight below it."""
 
+# fmt: off
 from functools import cache
 
 import sympy
+from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations.framework.vocabulary import (
-    SUPPOSED,
-    Derivation,
-    Lines,
-    Part,
-    Where,
-    axioms,
-    below,
-    equation,
-    in_terms_of,
-    induct,
-    minus,
-    rewrite,
-    terms,
-    times,
-    walk,
-)
-from force_diffusion.symbolic.kernel.where import ENTERING, PASSING
-from force_diffusion.symbolic.mechanics.paths import ENTRY, straight_end
+    Derivation, Domain, Steps, axioms, below, equation, induct, minus, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNPlus,
-    Dot,
-    ForceMinus,
-    ForcePlus,
-    epsilon,
-    i,
-    j,
-    k,
-    l,
-    n_minus,
-    p,
-    phi,
-    q,
-)
+    DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, i, j, k, l, n_minus, phi, site_r, site_s)
+from sympy import Eq
+# fmt: on
 
-WHERE = Where.of(sympy.Eq(k - i, l - j), l - j >= 1, j >= 0, loading=ENTERING)
+ENTRY = (k - 1, l - 1)
+"""The lower bead of the contact through which the force enters."""
+BELOW = Domain.of(j >= 0, j <= l - 1, indices=(i,), loading=axioms.ENTERING)
+STRAIGHT = Domain.of(Eq(k - i, l - j), l - j >= 1, j >= 0, loading=axioms.ENTERING)
 
 PRINTED = equation(
     ForcePlus(i, j) / ForcePlus(*ENTRY),
@@ -49,105 +26,68 @@ PRINTED = equation(
     ),
 )
 
+NOTHING_TO_THE_LEFT = (
+    (equation(ForceMinus(i, j), sympy.S.Zero), BELOW.also(k - i >= l - j)),
+    (equation(ForcePlus(i, j), sympy.S.Zero), BELOW.also(k - i >= l - j + 1)),
+)
+"""No force to the left of the path, nor along n⁻ on it: what is proved together with Eq. 9."""
+
 
 def first_order_product(left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
     """(1 + A)(1 + B) to first order, 1 + A and 1 + B given: one plus both changes."""
     return terms(left, right, -1)
 
 
-def after(candidate: sympy.Expr, steps_down: sympy.Expr) -> sympy.Expr:
-    """The ratio at the contact that lies ``steps_down`` straight below the entry."""
-    across, layer = straight_end(steps_down)
-    return candidate.xreplace({i: across, j: layer})
-
-
 FIRST, SECOND = sympy.symbols("A B")
-
-BY_BEADS = dict(zip((i, j), straight_end(q), strict=True))
-"""The contact reached after q beads."""
-
-PATH = Where.of(q >= 0, q <= l - 1, loading=ENTERING)
-"""Numbers q of beads passed, down to the base."""
-
-
-def left_of(beads: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
-    """The bead ``beads`` places to the left of the path, in the layer that q beads lead to."""
-    across, layer = straight_end(q)
-    return across - 2 * beads, layer
-
-
-NOTHING_BESIDE = (
-    (equation(ForceMinus(*left_of(p)), 0), PATH.also(p >= 0, indices=(p,))),
-    (equation(ForcePlus(*left_of(p)), 0), PATH.also(p >= 1, indices=(p,))),
-)
-"""No force to the left of the path, nor along n⁻ on it: what is proved together with Eq. 9."""
 
 
 @cache
-def steps() -> Lines:
-    """Induction on the number q of beads passed."""
-    lines = Lines(WHERE)
-    here = dict(zip(eq08.HERE, straight_end(q), strict=True))
-    reached = lines.show(
-        "After q beads the contact reached has the lower bead (k−1−q, l−1−q).",
-        sympy.Tuple(*map(equation, (i, j), straight_end(q))),
-        walk(
-            dict(zip((i, j), ENTRY, strict=True)),
-            {i: i - 1, j: j - 1},
-            q,
-            eq08.DERIVATION,
+def steps() -> Steps:
+    """Induction on the layer, downwards."""
+    steps = Steps(9, STRAIGHT)
+    above = (i + 1, j + 1)
+    steps.show(
+        "Each bead that is passed multiplies by Eq. 8.",
+        equation(ForcePlus(i, j) / ForcePlus(*above), eq08.straight(*above)),
+        rewrite(eq08.DERIVATION.theorems[0]),
+        Domain.of(
+            j >= 0, loading=axioms.PASSING.put_in(dict(zip((site_r, site_s), above, strict=True)))
         ),
-        where=Where.of(q >= 0, indices=(i, k)),
     )
-    next_bead = lines.show(
-        "The next bead multiplies by Eq. 8.",
-        equation(
-            ForcePlus(*straight_end(q + 1)) / ForcePlus(*straight_end(q)),
-            eq08.straight(*straight_end(q)),
-        ),
-        rewrite(Part(eq08.DERIVATION, 0)),
-        where=Where.of(q >= 0, q <= l - 2, loading=PASSING.put_in(here)),
-        after=(reached,),
-    )
-    product = lines.show(
+    steps.show(
         "To first order the changes in a product add up.",
         equation(
             times(terms(1, epsilon * FIRST), terms(1, epsilon * SECOND)),
             terms(1, times(epsilon, terms(FIRST, SECOND)), epsilon**2 * FIRST * SECOND),
         ),
         rewrite(),
-        where=Where(),
+        Domain(),
     )
-    cancelled = lines.show(
-        "The direction in between cancels: the printed ratio at q times Eq. 8 is that at q + 1.",
+    steps.show(
+        "The direction in between cancels: the printed ratio at the contact above, times Eq. 8, is "
+        "that at the contact below.",
         equation(
-            first_order_product(after(PRINTED.rhs, q), eq08.straight(*straight_end(q))),
-            after(PRINTED.rhs, q + 1),
+            first_order_product(PRINTED.rhs.xreplace({i: i + 1, j: j + 1}), eq08.straight(*above)),
+            PRINTED.rhs,
         ),
         rewrite(),
-        where=Where.of(q >= 0, q <= l - 2, indices=(k,)),
-        after=(next_bead, product),
+        Domain.of(Eq(k - i, l - j), l - j >= 2, j >= 0),
     )
-    loads = axioms.loads(ENTERING)
-    lines.show(
-        "At the entry itself, q = 0, the printed ratio is 1: no bead has been passed. So for every "
-        "q the ends are left.",
+    loads = axioms.loads(axioms.ENTERING)
+    steps.show(
+        "At the entry itself the printed ratio is 1: no bead has been passed. So from layer to "
+        "layer the ends are left.",
         PRINTED,
-        in_terms_of(
-            BY_BEADS,
-            {q: l - 1 - j},
-            PATH,
-            induct(
-                q,
-                0,
-                rewrite(loads),
-                below(axioms.balance(), (SUPPOSED, loads)),
-                family=NOTHING_BESIDE,
-            ),
+        induct(
+            j,
+            l - 1,
+            rewrite(loads),
+            lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+            down=True,
+            family=NOTHING_TO_THE_LEFT,
         ),
-        after=(cancelled,),
     )
-    return lines
+    return steps
 
 
 DERIVATION = Derivation(
@@ -160,14 +100,12 @@ DERIVATION = Derivation(
         (DeltaNPlus(i, j), "change of the direction from (i, j) to (i+1, j+1)"),
         (n_minus, "direction of the ordered contacts, up and to the left"),
         (phi, "n⁺·n⁻"),
-        (q, "number of beads passed"),
     ),
-    assumptions=("first order in δn^±", *WHERE.in_words()),
-    premises=(eq08.DERIVATION,),
+    assumptions=("first order in δn^±", *STRAIGHT.in_words()),
     printed=(PRINTED,),
-    loads=("single",),
+    domain=STRAIGHT,
     steps=steps,
-    where=WHERE,
+    loads=("single",),
 )
 
 if __name__ == "__main__":

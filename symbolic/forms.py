@@ -92,15 +92,14 @@ class Straightening:
         image: dict[sympy.Symbol, sympy.Expr] = {}
         back: dict[sympy.Symbol, sympy.Expr] = {}
         for one in even:
-            form = sympy.expand(one.xreplace(image))
-            factors, constant = sets.row(form)
-            if not any(number % 2 for number in (constant, *factors.values())):
-                continue
-            free = (s for s in (*_ACROSS, *sy.INDICES) if factors.get(s) in (1, -1) and s not in image)
-            symbol = next(free, None)
+            factors, constant = sets.row(sympy.expand(one.xreplace(image)))
+            odd = [symbol for symbol, number in factors.items() if number % 2]
+            symbol = next((s for s in (*_ACROSS, *sy.INDICES) if s in odd and s not in image), None)
             if symbol is None:
-                raise NotExactError(f"{text(one)} is not shown to be even")
-            rest = form - factors[symbol] * symbol
+                if odd or constant % 2:
+                    raise NotExactError(f"{text(one)} is not shown to be even")
+                continue
+            rest = sympy.Add(*(s for s in odd if s != symbol), constant % 2)
             value = {symbol: rest - 2 * symbol}
             image = {s: sympy.expand(old.xreplace(value)) for s, old in image.items()} | value
             back[symbol] = sympy.expand((rest.xreplace(back) - symbol) / 2)
@@ -293,13 +292,11 @@ class Reader:
         """
         x, y = (sympy.expand(one.xreplace(self.straight.image)) for one in (across, layer))
         beside = sympy.expand((y - x) / 2)
-        try:
-            sets.row(beside)
-            above = sets.where(sympy.Ge(y, 0, evaluate=False))
-        except NotExactError:
-            raise NotAStatementError(
-                f"no bead is shown to be at ({text(across)}, {text(layer)})"
-            ) from None
+        if not _is_whole(beside):
+            beside = sympy.expand(beside.xreplace(self._fixed))
+        if not _is_whole(beside) or not _is_whole(y):
+            raise NotAStatementError(f"no bead is shown to be at ({text(across)}, {text(layer)})")
+        above = sets.where(sympy.Ge(y, 0, evaluate=False))
         if not self.points.is_subset(above):
             raise NotAStatementError(f"({text(across)}, {text(layer)}) may lie below the base")
         return sympy.expand(y - beside), beside
@@ -488,6 +485,14 @@ class Reader:
     def _is_free(self, index: sympy.Symbol) -> bool:
         """Whether an index does not matter to the domain."""
         return bool(sets.without(self.points, index).is_subset(self.points))
+
+
+def _is_whole(form: sympy.Expr) -> bool:
+    try:
+        sets.row(form)
+    except NotExactError:
+        return False
+    return True
 
 
 SUMMATION = (sy.m, sy.n)

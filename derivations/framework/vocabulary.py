@@ -1,89 +1,67 @@
 """The words that equation files are written in, from one place.
 
-Symbols, what makes an expression as it is printed, the rules, the axioms, and what a derivation is.
+What makes an expression as it is printed, the axioms, the rules, and what a derivation is.
 """
 
-from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.as_printed import certificate, equation, minus, power, terms, times
 from force_diffusion.symbolic.as_written import formula, relations
 from force_diffusion.symbolic.kernel import axioms
-from force_diffusion.symbolic.kernel.where import Where
-
-from .grounds import (
-    SUPPOSED,
-    Beside,
-    By,
-    Chain,
-    Part,
-    Within,
+from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height
+from force_diffusion.symbolic.kernel.limits import asymptotic, bounded, negligible, of_what_is_kept
+from force_diffusion.symbolic.kernel.rules import (
     along,
-    asymptotic,
     below,
-    bounded,
-    cases,
     differentiate,
     follows,
-    heaviest,
-    in_cases,
-    in_terms_of,
     induct,
-    inverse,
+    instance,
+    mirror,
     mirror_of,
-    moment,
-    negligible,
     order,
     reach,
     rewrite,
-    slope,
     solve,
-    supposing,
-    walk,
 )
-from .layered import UNIT, Layered
-from .proving import Line, Lines
-from .record import Claim, Derivation
+from force_diffusion.symbolic.kernel.statistics import moment
+from force_diffusion.symbolic.mechanics import lattice
+from force_diffusion.symbolic.notation import Symbol
+
+from .proof import Steps
+from .record import FIRST_ORDER, Derivation, usual
 
 __all__ = [
-    "SUPPOSED",
-    "UNIT",
-    "Beside",
-    "By",
-    "Chain",
-    "Claim",
+    "FIRST_ORDER",
     "Derivation",
-    "Layered",
-    "Line",
-    "Lines",
-    "Part",
-    "Where",
-    "Within",
+    "Domain",
+    "Steps",
+    "Symbol",
     "along",
     "asymptotic",
+    "at_fixed_height",
     "axioms",
     "below",
     "bounded",
-    "cases",
+    "certificate",
     "differentiate",
     "equation",
     "follows",
     "formula",
-    "heaviest",
-    "in_cases",
-    "in_terms_of",
     "induct",
-    "inverse",
+    "instance",
+    "lattice",
     "minus",
+    "mirror",
     "mirror_of",
     "moment",
     "negligible",
+    "of_what_is_kept",
     "order",
     "power",
     "reach",
     "relations",
     "rewrite",
-    "slope",
     "solve",
-    "supposing",
     "terms",
     "times",
-    "walk",
+    "usual",
 ]

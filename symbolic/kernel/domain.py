@@ -44,6 +44,12 @@ class Loading:
         """The symbols of its place."""
         return set().union(*(one.free_symbols for one in self.place))
 
+    def implies(self, other: "Loading | None") -> bool:
+        """Whether all that is known by another one is known by this."""
+        return other is None or (
+            {*other.given} <= {*self.given} and {*other.everywhere} <= {*self.everywhere}
+        )
+
     def put_in(self, image: Image) -> "Loading":
         """The same at another place.
 

@@ -6,7 +6,6 @@ What finds a proof (places, factors, unknowns) is not trusted; that it is one is
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import replace
 from itertools import permutations
 
 import sympy
@@ -19,6 +18,7 @@ from ..forms import FORCES, NUMBER, Form, Image
 from ..mechanics import lattice
 from ..printing.text import text
 from ..weights import Weights
+from . import axioms
 from .domain import LATTICE, Domain
 from .theorem import (
     Group,
@@ -30,7 +30,7 @@ from .theorem import (
     difference,
     flat,
     isolated,
-    known,
+    knowing,
     made,
     moved,
     read,
@@ -139,7 +139,7 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
         if about not in unknowns:
             raise NotProvedError(f"{text(about)} is not what is solved for")
         image, names = _named(unknowns)
-        reader = replace(domain.reader(), known=known(tuple(groups), domain.loading))
+        reader = knowing(domain.reader(), domain, groups)
 
         def forms(one: sympy.Eq) -> tuple[Form, ...]:
             named = equation(*(side.xreplace(image) for side in one.args))
@@ -225,11 +225,10 @@ BRANCHES = {sy.ForcePlus: 1, sy.ForceMinus: -1}
 """Forces of contacts, and the side of the upper bead."""
 
 
-def below(balance: Theorem, *groups: Group) -> Rule:
+def below(*groups: Group) -> Rule:
     """A contact's force, by ``solve`` from the balance of the bead above it.
 
     Args:
-        balance: of the bead (r, s).
         groups: what is put in for loads, and for the forces and directions of contacts.
     """
 
@@ -239,20 +238,13 @@ def below(balance: Theorem, *groups: Group) -> Rule:
         if branch is None:
             raise NotProvedError(f"{text(about)} is no contact force")
         across, layer = sympy.expand(about.args[0] + branch), sympy.expand(about.args[1] + 1)
-        row = moved(balance, {sy.site_r: across, sy.site_s: layer}, domain.loaded(None))
         at = [(sympy.expand(across - side), sympy.expand(layer - 1)) for side in BRANCHES.values()]
         unknowns = [force(*place) for force, place in zip(BRANCHES, at, strict=True)]
-        proved = solve([_also_under(row, domain)], unknowns, *groups)(formula, domain)
+        row = moved(axioms.balance(), {sy.site_r: across, sy.site_s: layer}, domain)
+        proved = solve([row], unknowns, *groups)(equation(*isolated(formula, domain)), domain)
         return made(formula, domain, "balance of the bead above", proved.premises)
 
     return rule
-
-
-def _also_under(theorem: Theorem, domain: Domain) -> Theorem:
-    """A theorem about any loads, under one of them."""
-    if theorem.domain != domain.loaded(None) or theorem.domain.loading is not None:
-        raise NotProvedError("it is of other loads")
-    return made(theorem.formula, domain, "instance", (theorem,))
 
 
 def instance(theorem: Theorem, image: Image, domain: Domain) -> Theorem:

@@ -7,7 +7,7 @@ indices, so a moment is a polynomial on each of a few sets of indices: its close
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import sympy
@@ -30,7 +30,7 @@ from .theorem import (
     check_domain,
     difference,
     flat,
-    known,
+    knowing,
     made,
     refuse,
 )
@@ -63,25 +63,17 @@ class Statistics(Reader):
     """Reads numbers, and moments of what is linear in the radii.
 
     Attributes:
+        domain: as a whole.
         groups: the theorems that give quantities in the radii, to be put in one after the other.
-        loading: of the packing.
-        dimension: of the packing.
     """
 
+    domain: Domain = Domain()
     groups: tuple[Group, ...] = ()
-    loading: Loading | None = None
-    dimension: int = _PLANE
 
     @classmethod
     def on(cls, domain: Domain, groups: Iterable[Group] = ()) -> "Statistics":
         """Those on a domain."""
-        return cls(
-            domain.points,
-            domain.straight,
-            groups=tuple(groups),
-            loading=domain.loading,
-            dimension=domain.dimension,
-        )
+        return cls(domain.points, domain.straight, domain=domain, groups=tuple(groups))
 
     def read(self, expression: sympy.Expr) -> Value:
         """A number; moments are worked out."""
@@ -103,7 +95,7 @@ class Statistics(Reader):
         if isinstance(moment, sy.Mean):
             return forms[0].parts.get(NUMBER, Weights())
         if isinstance(moment, sy.Variance | sy.Covariance):
-            return covariance(forms[0], forms[-1], self.dimension).scaled(_SQUARE)
+            return covariance(forms[0], forms[-1], self.domain.dimension).scaled(_SQUARE)
         raise NotExactError(f"{text(moment)} is not worked out")
 
     def in_radii(self, expression: sympy.Expr, kind: type[Form] = Form) -> Form:
@@ -112,13 +104,14 @@ class Statistics(Reader):
         Raises:
             NotExactError: it is not linear in them, or holds what is not given by them.
         """
-        if self.dimension == _PLANE:
-            facts = known(self.groups, self.loading, kind)
-        elif kind is Form and self.loading in SPHERES.values():
-            facts = spheres.known(self.loading.name)
+        linear = kind is Form
+        plain, loading = Reader(self.points, self.straight, linear=linear), self.domain.loading
+        if self.domain.dimension == _PLANE:
+            reader = knowing(plain, self.domain, self.groups, kind)
+        elif linear and loading in SPHERES.values():
+            reader = replace(plain, known=spheres.known(loading.name))
         else:
             raise NotExactError("that is not known in three dimensions")
-        reader = Reader(self.points, self.straight, facts, kind, linear=kind is Form)
         form = reader.number(expression).on(self.points).merged()
         if {*form.parts} - {NUMBER, RADII, SHIFT}:
             raise NotExactError(f"{text(expression)} is not given by the radii")

@@ -209,7 +209,7 @@ def _under(theorem: Theorem, loading: Loading | None) -> Theorem:
         NotProvedError: it is of other loads.
     """
     own = theorem.domain.loading
-    if own is None or own == loading:
+    if own is None or (loading is not None and loading.implies(own)):
         return theorem
     if loading is None or own.name != loading.name or len(own.place) != len(loading.place):
         raise NotProvedError(f"{text(theorem.formula.lhs)} is known under another load")
@@ -227,11 +227,8 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
         NotProvedError: it does not hold there.
     """
     there = theorem.domain.put_in(image)
-    same = (there.loading, there.dimension, there.limit) == (
-        domain.loading,
-        domain.dimension,
-        domain.limit,
-    )
+    known_here = there.loading is None or (domain.loading and domain.loading.implies(there.loading))
+    same = known_here and (there.dimension, there.limit) == (domain.dimension, domain.limit)
     held = set().union(*(one.free_symbols for one in image.values())) & {*sy.INDICES}
     if (
         not same
@@ -267,8 +264,7 @@ def _what_it_says(
     site = reader.site(*quantity.args)
     here = zip(SOURCE, site, strict=False)
     points = reader.points & sets.where(*(sympy.Eq(a, b, evaluate=False) for a, b in here))
-    named = theorem.fixed | (domain.loading.fixed if domain.loading else set())
-    bound = [symbol for symbol in domain.indices if symbol not in named]
+    bound = [symbol for symbol in domain.indices if symbol not in _named(theorem)]
     given = sets.fixed(points, bound)
     by_bead = {symbol: given[symbol].to_sympy() for symbol in bound if symbol in given}
     forms = tuple(form.on(points).renamed(by_bead).without(*bound).merged() for form in forms)
@@ -293,8 +289,25 @@ def read(formula: sympy.Eq, domain: Domain, groups: Groups = ()) -> Sides:
         NotProvedError: it is not read.
     """
     check_domain(formula, domain)
-    reader = replace(domain.reader(), known=known(tuple(groups), domain.loading))
-    return both_sides(formula, reader)
+    return both_sides(formula, knowing(domain.reader(), domain, groups))
+
+
+def knowing(reader: Reader, domain: Domain, groups: Groups, kind: type[Form] = Form) -> Reader:
+    """A reader on a domain that puts theorems in, one group after the other."""
+    facts = known(tuple(groups), domain.loading, kind)
+    for theorem in flat(groups):
+        here = _under(theorem, domain.loading)
+        for symbol in _named(here) & {*domain.indices}:
+            images = (one.straight.image.get(symbol) for one in (here.domain, domain))
+            if len({*images}) > 1:
+                raise NotProvedError(f"{text(symbol)} is the place of a bead in one domain alone")
+    return replace(reader, known=facts, kind=kind)
+
+
+def _named(theorem: Theorem) -> set[sympy.Symbol]:
+    """Indices that stand for the same wherever a theorem is put in."""
+    loading = theorem.domain.loading
+    return theorem.fixed | (loading.fixed if loading else set())
 
 
 def both_sides(formula: sympy.Eq, reader: Reader) -> Sides:

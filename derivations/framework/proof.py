@@ -1,0 +1,242 @@
+"""The steps of a derivation: what each shows, why it holds, and the theorem that the kernel made.
+
+A step calls a rule of the kernel, and holds the theorem that it returns. What it rests on is read
+off that theorem.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import sympy
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.as_printed import in_place
+from force_diffusion.symbolic.kernel.domain import Domain
+from force_diffusion.symbolic.kernel.rules import Rule, proved_by
+from force_diffusion.symbolic.kernel.theorem import (
+    FalseStatementError,
+    NotProvedError,
+    Theorem,
+)
+from force_diffusion.symbolic.printing.text import text
+
+from .catalogue import Number
+
+Definitions = Mapping[Any, Any]
+"""What stands for a symbol of a step's own, or for a function of its arguments."""
+
+_OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.spacing}
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One or more equations with one reason.
+
+    Attributes:
+        equation: the number of the derivation.
+        reason: why it holds, in plain words (Unicode).
+        formula: the equation, or a Tuple of equations, as shown.
+        rules: that prove them, and anything said in their place.
+        domains: where they hold.
+        definitions: what symbols of each stand for.
+        theorems: what the kernel made of them.
+        number: its place among the steps, from 1; 0 of a claim.
+    """
+
+    equation: Number
+    reason: str
+    formula: sympy.Basic
+    rules: tuple[Rule, ...]
+    domains: tuple[Domain, ...]
+    definitions: tuple[Definitions, ...]
+    theorems: tuple[Theorem, ...]
+    number: int = 0
+
+    @property
+    def equations(self) -> tuple[sympy.Eq, ...]:
+        """Its equations, one by one."""
+        return tuple(self.formula) if isinstance(self.formula, sympy.Tuple) else (self.formula,)
+
+    @property
+    def theorem(self) -> Theorem:
+        """The theorem of a step with one equation."""
+        (theorem,) = self.theorems
+        return theorem
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides: "=", or as in the limit that it is about."""
+        limit = self.domains[0].limit
+        return limit.relation if limit else "="
+
+    @property
+    def assuming(self) -> tuple[str, ...]:
+        """What its proof assumes and no rule ends."""
+        return tuple(sorted(set().union(*(one.assuming for one in self.theorems))))
+
+    @cached_property
+    def uses(self) -> tuple[str, ...]:
+        """The steps and equations that its theorems rest on, in words."""
+        own, others = set[int](), dict[Number, None]()
+        for source in _sources(self.theorems):
+            if source.equation != self.equation:
+                others[source.equation] = None
+            elif source.number:
+                own.add(source.number)
+        return (*(f"Eq. {one}" for one in others), *(f"step {one}" for one in sorted(own)))
+
+    def prove(self, place: int, candidate: sympy.Eq) -> Theorem:
+        """What the rule of one of its equations makes of a candidate for that equation.
+
+        Raises:
+            NotProvedError: it proves nothing.
+        """
+        meant = in_place(candidate, self.definitions[place])
+        return proved_by(self.rules[place], meant, self.domains[place])
+
+
+_STEP_OF: dict[Theorem, Step] = {}
+"""The step that shows a theorem."""
+
+
+def _sources(theorems: Iterable[Theorem]) -> Iterator[Step]:
+    """The steps that show what theorems rest on, the nearest on each way."""
+    left, seen = [one for theorem in theorems for one in theorem.premises], set[Theorem]()
+    while left:
+        theorem = left.pop(0)
+        if theorem in seen:
+            continue
+        seen.add(theorem)
+        if theorem in _STEP_OF:
+            yield _STEP_OF[theorem]
+        else:
+            left += theorem.premises
+
+
+@dataclass(frozen=True)
+class Refuted:
+    """A printed statement that is false, which is expected.
+
+    Attributes:
+        reading: how the words of the paper are read in it.
+        formula: the equation.
+        domain: where it is to hold.
+        reason: how it is false, as the rule says.
+    """
+
+    reading: str
+    formula: sympy.Eq
+    domain: Domain
+    reason: str
+
+    @property
+    def relation(self) -> str:
+        """How it relates its sides."""
+        return self.domain.limit.relation if self.domain.limit else "="
+
+
+class Steps(list[Step]):
+    """The steps of a derivation, which number themselves.
+
+    Args:
+        equation: the number of the derivation.
+        domain: of a step that does not have its own.
+        definitions: what symbols of all steps stand for.
+    """
+
+    def __init__(
+        self, equation: Number, domain: Domain, definitions: Definitions | None = None
+    ) -> None:
+        super().__init__()
+        self._equation, self._domain = equation, domain
+        self._definitions = dict(definitions or {})
+        self.claims: list[Step] = []
+        self.refuted: list[Refuted] = []
+
+    def show(
+        self,
+        reason: str,
+        formula: sympy.Basic,
+        rule: Rule | Sequence[Rule],
+        domain: Domain | Sequence[Domain] | None = None,
+        definitions: Definitions | Sequence[Definitions] = (),
+    ) -> Step:
+        """Prove a step and add it.
+
+        Raises:
+            NotProvedError: the rule does not prove it.
+        """
+        step = self._proved(reason, formula, rule, domain, definitions, len(self) + 1)
+        self.append(step)
+        return step
+
+    def claim(
+        self,
+        name: str,
+        formula: sympy.Basic,
+        rule: Rule | Sequence[Rule],
+        domain: Domain | Sequence[Domain] | None = None,
+        definitions: Definitions | Sequence[Definitions] = (),
+    ) -> Step:
+        """Prove a further statement; it is not one of the steps."""
+        claim = self._proved(name, formula, rule, domain, definitions)
+        self.claims.append(claim)
+        return claim
+
+    def refute(
+        self,
+        reading: str,
+        formula: sympy.Eq,
+        rule: Rule,
+        domain: Domain,
+        definitions: Definitions = {},  # noqa: B006 (it is not changed)
+    ) -> None:
+        """Show that a printed statement is false.
+
+        Raises:
+            NotProvedError: it is not shown to be so.
+        """
+        try:
+            rule(in_place(formula, {**self._definitions, **definitions}), domain)
+        except FalseStatementError as reason:
+            self.refuted.append(Refuted(reading, formula, domain, str(reason)))
+            return
+        raise NotProvedError(f"this is proved, and was to be refuted: {reading}")
+
+    def _proved(
+        self,
+        reason: str,
+        formula: sympy.Basic,
+        rule: Rule | Sequence[Rule],
+        domain: Domain | Sequence[Domain] | None,
+        definitions: Definitions | Sequence[Definitions],
+        number: int = 0,
+    ) -> Step:
+        equations = tuple(formula) if isinstance(formula, sympy.Tuple) else (formula,)
+        count = len(equations)
+        where = self._domain if domain is None else domain
+        rules: tuple[Rule, ...] = _for_each(rule, count)
+        domains: tuple[Domain, ...] = _for_each(where, count)
+        defined = tuple({**self._definitions, **one} for one in _for_each(definitions, count))
+        for symbol in (symbol for one in defined for symbol in one):
+            if symbol in _OURS:
+                raise NotProvedError(f"{text(symbol)} has a meaning of its own")
+        theorems = tuple(
+            proved_by(by, in_place(one, meant), there)
+            for one, by, there, meant in zip(equations, rules, domains, defined, strict=True)
+        )
+        for theorem in theorems:
+            if type(theorem) is not Theorem or theorem.supposed:
+                raise NotProvedError(f"it rests on what is only supposed: {reason}")
+        step = Step(self._equation, reason, formula, rules, domains, defined, theorems, number)
+        for theorem in theorems:
+            _STEP_OF.setdefault(theorem, step)
+        return step
+
+
+def _for_each(given: Any, count: int) -> tuple[Any, ...]:
+    """One for each equation of a step, where one is for all."""
+    if isinstance(given, tuple | list):
+        return tuple(given) or ({},) * count
+    return (given,) * count
