@@ -1,5 +1,6 @@
 """Eq. 11: the contact force under a surface load, as the sum over all loads and paths."""
 
+# fmt: off
 from functools import cache
 
 import sympy
@@ -9,47 +10,18 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
-    SUPPOSED,
-    Chain,
-    Derivation,
-    Lines,
-    Part,
-    Where,
-    axioms,
-    below,
-    equation,
-    induct,
-    minus,
-    mirror_of,
-    rewrite,
-    terms,
-    times,
-)
-from force_diffusion.symbolic.algebra.affine import Region
-from force_diffusion.symbolic.kernel.where import ENTERING, LOADED_VERTICALLY, SURFACE
-from force_diffusion.symbolic.mechanics.lattice import mirror
+    Derivation, Domain, Steps, axioms, below, equation, induct, lattice, minus, mirror, mirror_of,
+    rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus,
-    DeltaNPlus,
-    Dot,
-    ForcePlus,
-    M,
-    f_load,
-    i,
-    j,
-    k,
-    l,
-    n,
-    n_minus,
-    n_plus,
-    n_y,
-    phi,
-)
+    DeltaNMinus, DeltaNPlus, Dot, ForcePlus, M, f_load, i, j, k, l, n, n_minus, n_plus, n_y, phi)
+# fmt: on
 
-WHERE = Where.of(j >= 0, j < M, loading=SURFACE)
+LAYERS = Domain.of(j >= 0, j < M)
+LOADED = LAYERS.loaded(axioms.SURFACE)
+ORDERED = f_load / (2 * n_y)
 
 PRINTED = equation(
-    ForcePlus(i, j) / (f_load / (2 * n_y)),
+    ForcePlus(i, j) / ORDERED,
     terms(
         1,
         times(
@@ -74,11 +46,10 @@ PRINTED = equation(
     ),
 )
 
-ORDERED = f_load / (2 * n_y)
-INTERIOR = Region({j: 0, M: j + 1})
-
 STRAIGHT_LOAD = (i + M - j, M)
 """The surface bead straight above the contact."""
+TOP = (STRAIGHT_LOAD[0] - 1, M - 1)
+"""Lower bead of the contact through which its load comes in."""
 
 
 def branched_load(count: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
@@ -87,104 +58,76 @@ def branched_load(count: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
 
 
 @cache
-def in_radii(expression: sympy.Expr) -> sympy.Expr:
-    """Put Eqs. 4 and 5 in for the contact directions."""
-    return expression.replace(DeltaNPlus, eq04.contact_direction).replace(
-        DeltaNMinus, eq05.contact_direction
-    )
-
-
-def straight_factors() -> tuple[sympy.Expr, sympy.Expr]:
-    """Split below the straight load (Eq. 7), and what arrives of it at the contact (Eq. 9)."""
-    at_load = {k: STRAIGHT_LOAD[0], l: STRAIGHT_LOAD[1]}
-    return eq07.split_plus(*STRAIGHT_LOAD), eq09.PRINTED.rhs.xreplace(at_load)
-
-
-def contributions() -> tuple[sympy.Expr, sympy.Expr]:
-    """Straight contribution, to first order, and the sum of the branched ones (Eq. 10)."""
-    branched = sympy.Sum(eq10.branched_plus(i, j, n), (n, 1, M - j - 1))
-    return eq09.first_order_product(*straight_factors()), branched
-
-
-TOP = (STRAIGHT_LOAD[0] - 1, M - 1)
-"""Lower bead of the contact through which the straight load comes in."""
-
-
-ONE_LOAD = Where.of(j >= 0, n >= 1, n <= M - j - 1)
-"""Branches of surface loads above a contact."""
+def in_radii():
+    """The forces and, in the radii, the directions of contacts: both branches."""
+    force = DERIVATION.theorem
+    return (force, mirror(force)), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
 
 
 @cache
-def steps() -> Lines:
+def steps() -> Steps:
     """One straight path, M − j − 1 paths with one branch."""
-    lines = Lines(WHERE)
-    split, carried = straight_factors()
-    straight, branched = contributions()
-    printed = terms(*PRINTED.rhs.args[:2]), PRINTED.rhs.args[2]
-    geometry = Where.of(j >= 0, j < M)
+    steps = Steps(11, LOADED)
     at_load = dict(zip((k, l), STRAIGHT_LOAD, strict=True))
-    factors = lines.show(
+    split, carried = eq07.split_plus(*STRAIGHT_LOAD), eq09.PRINTED.rhs.xreplace(at_load)
+    steps.show(
         "The surface bead straight above the contact is (i+M−j, M). Its load splits by Eq. 7, and "
         "Eq. 9 carries the force down.",
         sympy.Tuple(
             equation(ForcePlus(*TOP) / ORDERED, split),
             equation(ForcePlus(i, j) / ForcePlus(*TOP), carried),
         ),
-        (rewrite(Part(eq07.DERIVATION, 0)), rewrite(eq09.DERIVATION)),
-        where=(
-            geometry.loaded(LOADED_VERTICALLY.put_in(at_load)),
-            geometry.loaded(ENTERING.put_in(at_load)),
-        ),
+        [rewrite(eq07.DERIVATION.theorems[0]), rewrite(eq09.DERIVATION.theorem)],
+        [
+            LAYERS.loaded(axioms.LOADED_VERTICALLY.put_in(at_load)),
+            LAYERS.loaded(axioms.ENTERING.put_in(at_load)),
+        ],
     )
-    product = lines.show(
+    straight, printed = eq09.first_order_product(split, carried), PRINTED.rhs.args
+    steps.show(
         "To first order the changes in the product of the two add up. The direction of the contact "
         "below the straight load cancels.",
-        equation(straight, printed[0]),
+        equation(straight, terms(*printed[:2])),
         rewrite(),
-        where=geometry,
-        after=(factors,),
+        LAYERS,
     )
-    turned = ONE_LOAD.also(sympy.Eq(2 * n, (l - j) - (i - k)), sympy.Eq(l, M), indices=(k, l))
-    turning = lines.show(
+    one_load = Domain.of(j >= 0, n >= 1, n <= M - j - 1)
+    steps.show(
         "A surface load that reaches the contact with one branch turns at the bead (i+n, j+n): "
         "the mirror image of Eq. 10. It is the load on bead (k, l),",
         sympy.Tuple(*map(equation, (k, l), branched_load(n))),
         rewrite(),
-        where=turned,
-        after=(eq10.DERIVATION,),
+        one_load.also(sympy.Eq(2 * n, (l - j) - (i - k)), sympy.Eq(l, M), indices=(k, l)),
     )
-    mirrored = mirror(eq10.PRINTED)
-    bringing = lines.show(
+    steps.show(
         "one for each n = 1, …, M−j−1. It brings, of the force along n⁻ below its bead,",
-        equation(mirrored.lhs, eq10.branched_plus(i, j, n)),
-        mirror_of(eq10.DERIVATION),
-        where=eq10.WHERE.mirrored(),
-        after=(turning,),
+        lattice.mirror(eq10.PRINTED),
+        mirror_of(eq10.DERIVATION.theorem),
+        eq10.BRANCHED.mirrored(),
     )
-    summed = lines.show(
+    branched = sympy.Sum(eq10.branched_plus(i, j, n), (n, 1, M - j - 1))
+    steps.show(
         "Each enters with the ordered force as its source, since the branch is of first order. "
         "Added up over n:",
-        equation(branched, printed[1]),
+        equation(branched, printed[2]),
         rewrite(),
-        where=geometry,
-        after=(bringing,),
+        LAYERS,
     )
-    loads = axioms.loads(SURFACE)
-    lines.show(
-        "Both together:",
+    loads = axioms.loads(axioms.SURFACE)
+    steps.show(
+        "Both together; from layer to layer down, every bead is balanced by these forces:",
         PRINTED,
         induct(
             j,
             M - 1,
-            below(axioms.balance(), loads),
-            below(axioms.balance(), (SUPPOSED, loads)),
+            below(loads, eq07.right_angles()),
+            lambda supposed: below((*supposed, *loads), eq07.right_angles()),
             down=True,
             mirrored=True,
         ),
-        after=(product, summed),
     )
-    first, last = branched_load(sympy.Integer(1))[0], branched_load(M - j - 1)[0]
-    lines.claim(
+    first, last = branched_load(sympy.S.One)[0], branched_load(M - j - 1)[0]
+    steps.claim(
         "each surface load has one n; those that branch are k = i−M+j+2, …, i+M−j−2",
         sympy.Tuple(
             equation(((M - j) + (branched_load(n)[0] - i)) / 2, n),
@@ -194,24 +137,15 @@ def steps() -> Lines:
             equation(last, i + M - j - 2),
         ),
         rewrite(),
-        where=ONE_LOAD.also(indices=(k,)),
+        one_load.also(indices=(k, l)),
     )
-    lines.claim(
+    steps.claim(
         "at j = M − 1 the sum is empty and Eq. 7 is left",
-        equation(PRINTED.rhs.xreplace({j: M - 1}), eq07.split_plus(i + 1, M)),
+        equation(PRINTED.rhs, eq07.split_plus(i + 1, M)),
         rewrite(),
-        where=geometry.put_in({j: M - 1}, (i, M)),
+        LAYERS.also(sympy.Eq(j, M - 1)),
     )
-    base = {j: sympy.Integer(0)}
-    lines.claim(
-        "at j = 0 it holds in the radii too",
-        equation(
-            *(in_radii(one.xreplace(base)) for one in (PRINTED.rhs, terms(straight, branched)))
-        ),
-        rewrite(),
-        where=geometry.put_in(base, (i, M)),
-    )
-    return lines
+    return steps
 
 
 DERIVATION = Derivation(
@@ -226,20 +160,14 @@ DERIVATION = Derivation(
     ),
     assumptions=(
         "first order in δr",
-        *WHERE.in_words(),
+        *LOADED.in_words(),
         "no horizontal boundary is met (W > M)",
     ),
-    premises=(eq04.DERIVATION, eq05.DERIVATION, eq07.DERIVATION, eq09.DERIVATION, eq10.DERIVATION),
     printed=(PRINTED,),
-    loads=("surface",),
+    domain=LOADED,
     steps=steps,
-    where=WHERE,
+    loads=("surface",),
 )
-
-DIRECTIONS = (eq04.DERIVATION, eq05.DERIVATION)
-"""Both contact directions in the radii."""
-IN_RADII = Chain((DERIVATION, DIRECTIONS))
-"""Forces in the radii: Eqs. 4 and 5 put in."""
 
 if __name__ == "__main__":
     from force_diffusion.derivations.commands.alone import run_alone

@@ -1,58 +1,41 @@
 """Eq. 13: variance of the contact forces under a surface load; exact, and to leading order."""
 
+# fmt: off
 from functools import cache
 
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
+from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
-    UNIT,
-    Derivation,
-    Layered,
-    Lines,
-    Where,
-    asymptotic,
-    equation,
-    formula,
-    minus,
-    moment,
-    rewrite,
-    slope,
-    terms,
-    times,
-)
-from force_diffusion.symbolic.as_printed import certificate
-from force_diffusion.symbolic.kernel.where import SURFACE, at_fixed_height
-from force_diffusion.symbolic.notation import Symbol
+    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height, certificate,
+    differentiate, equation, formula, minus, moment, of_what_is_kept, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
+# fmt: on
 
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle^2}", "σ_f²(z)/⟨f⟩²"
 )
+MEANING = {RELATIVE_VARIANCE: Variance(eq11.PRINTED.lhs)}
+IN_THE_LIMIT = eq11.LOADED.in_the_limit(at_fixed_height("∼"))
 
 PRINTED = equation(
     RELATIVE_VARIANCE,
     formula("(2M³/(1 − φ²)²) (1 − z)²(2z + 1)(σ_δr/r)²"),
 )
 
-VARIANCE = Layered(RELATIVE_VARIANCE, Variance(eq11.PRINTED.lhs), (eq11.IN_RADII,), SURFACE)
-
-
-SQUARES = Symbol("squares", r"\sum w^2", "Σw²")
-"""Sum of the squared weights of all radii in Eq. 12, its prefactor left out."""
-
-OF_DELTA = Variance(sympy.Sum(times(eq12.BRACES, eq12.ON_DIAGONAL), (m, 1, M))) / sigma**2
-"""What it is."""
+KEPT = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
+"""The variance of what Eq. 12 keeps."""
 
 WEIGHTS = times(
     6,
     terms(sympy.Sum((M - j) ** 2, (m, 1, j)), sympy.Sum((M - m) ** 2, (m, j + 1, M))),
 )
+"""Six times the squared weights of the Δ in Eq. 12."""
 TOTAL = formula("2(M − j)²(M + 2j) − 3(M − j)² + (M − j)")
 """The same in closed form."""
-
-EVERY = Where.of(j >= 0, j < M)
+NEXT_ORDER = formula("−(3/2) M²(1 − z)(1 + 3z)")
+"""The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
 
 
 def _squares_to(last: sympy.Expr) -> sympy.Expr:
@@ -61,20 +44,19 @@ def _squares_to(last: sympy.Expr) -> sympy.Expr:
 
 
 @cache
-def steps() -> Lines:
+def steps() -> Steps:
     """Six radii's worth for each Δ, the squared weights summed."""
-    lines = Lines(EVERY)
-    of_delta = lines.show(
+    steps, groups = Steps(13, eq12.INSIDE), eq11.in_radii()
+    kept = steps.show(
         "Each Δ holds one radius with the weight 2 and two with the weight −1: its square sum is "
-        "6. Those of Eq. 12 lie in different layers and share no radius.",
-        equation(SQUARES, WEIGHTS),
+        "6. Those of Eq. 12 lie in different layers and share no radius. With its prefactor, the "
+        "variance of its right-hand side is",
+        equation(KEPT, times(eq12.PREFACTOR**2, sigma**2, WEIGHTS)),
         moment(),
-        where=EVERY.also(j >= 1),
-        meaning={SQUARES: OF_DELTA},
-        after=(eq12.DERIVATION,),
+        definitions={KEPT: Variance(eq12.PRINTED.rhs)},
     )
     below, above = sympy.Sum((M - j) ** 2, (m, 1, n)), sympy.Sum((M - m) ** 2, (m, j + 1, n))
-    certified = lines.show(
+    steps.show(
         "Each of the two sums has a certificate: what it is up to n gains the term at n, and is "
         "zero before the first term, at n = 0 (first) and at n = j (second).",
         sympy.Tuple(
@@ -82,57 +64,40 @@ def steps() -> Lines:
             *certificate(above, terms(_squares_to(M - j), minus(_squares_to(M - n)))),
         ),
         rewrite(),
-        where=EVERY.also(n >= j, indices=(n,)),
+        eq12.INSIDE.also(n >= j),
     )
-    added = lines.show("Added up:", equation(WEIGHTS, TOTAL), rewrite(), after=(certified,))
-    highest = lines.show(
-        "The first term has the highest order. With the prefactor of Eq. 12 squared, the factor "
-        "(M − j)²(M + 2j) is the printed form at z = j/M.",
-        equation(times(eq12.PREFACTOR**2, sigma**2, TOTAL.args[0]), PRINTED.rhs),
-        rewrite(),
-        meaning={z: j / M},
-        after=(of_delta, added),
-    )
-    VARIANCE.show_leading(
-        lines,
-        "What Eq. 12 drops does not change it: the printed form is the leading order of the exact "
-        "variance, which follows.",
+    added = steps.show("Added up:", equation(WEIGHTS, TOTAL), rewrite())
+    steps.show(
+        "What Eq. 12 drops varies less by an order, and the first term has the highest order: with "
+        "z = j/M it is the printed form.",
         PRINTED,
-        highest,
+        of_what_is_kept(eq12.DERIVATION.theorem, kept.theorem, added.theorem),
+        IN_THE_LIMIT,
+        MEANING,
     )
-    inside = VARIANCE.show_forms(
-        lines, "Eqs. 4 and 5 put into Eq. 11, every radius has one weight; each sum telescopes"
-    )
-    VARIANCE.show_next(lines, PRINTED.rhs, next_order(), DERIVATION, inside)
-    profile = formula("(1 − z)²(2z + 1)")
-    lines.show(
+    how = "Eqs. 4 and 5 put into Eq. 11, every radius has one weight; each sum telescopes"
+    layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, eq11.LOADED, groups)
+    layers.show_next(steps, PRINTED, NEXT_ORDER, MEANING, eq11.LOADED, groups)
+    steps.show(
         "The profile ceases to broaden at the base, where its slope vanishes.",
-        equation(sympy.Derivative(profile, z), -6 * z * (1 - z)),
-        slope(),
-        where=Where(),
-        after=(DERIVATION,),
+        equation(sympy.Derivative(formula("(1 − z)²(2z + 1)"), z), -6 * z * (1 - z)),
+        differentiate,
+        Domain(),
     )
-    lines.claim(
-        "the first term of the sum of squares has its highest order",
-        equation(TOTAL, TOTAL.args[0]),
-        asymptotic(),
-        where=EVERY.in_the_limit(at_fixed_height("∼")),
+    steps.claim(
+        "the printed form is the leading order of the exact variance",
+        PRINTED,
+        asymptotic(*groups),
+        IN_THE_LIMIT,
+        MEANING,
     )
-    VARIANCE.claim_edges(
-        lines,
-        "leading orders of the exact forms at the base and below the surface",
-        {
-            sympy.S.Zero: PRINTED.rhs.xreplace({z: sympy.S.Zero}),
-            M - 1: 2 * M * (1 + phi**2) * UNIT,
-        },
-    )
-    VARIANCE.claim_shares(lines)
-    return lines
-
-
-def next_order() -> sympy.Expr:
-    """The M² term of the exact variance at fixed z, without (σ/r)²/(1−φ²)²."""
-    return sympy.Rational(-3, 2) * M**2 * (1 - z) * (1 + 3 * z)
+    edges = {
+        sympy.S.Zero: PRINTED.rhs.xreplace({z: sympy.S.Zero}),
+        M - 1: 2 * M * (1 + phi**2) * layers.UNIT,
+    }
+    layers.claim_edges(steps, RELATIVE_VARIANCE, edges, MEANING, eq11.LOADED, groups)
+    layers.claim_shares(steps, eq11.PRINTED.lhs, eq11.LOADED, groups)
+    return steps
 
 
 DERIVATION = Derivation(
@@ -144,13 +109,11 @@ DERIVATION = Derivation(
         *FIRST_ORDER,
         "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
     ),
-    premises=(eq11.DERIVATION, eq12.DERIVATION),
     printed=(PRINTED,),
+    domain=IN_THE_LIMIT,
+    steps=steps,
     loads=("surface",),
     relation="∼",
-    exact=lambda: VARIANCE.exact(4, 5, 11),
-    steps=steps,
-    where=VARIANCE.in_the_limit,
     remarks=(
         "The limit is taken at fixed z. A fixed number of layers below the surface the "
         "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "

@@ -495,5 +495,5 @@ def _is_whole(form: sympy.Expr) -> bool:
     return True
 
 
-SUMMATION = (sy.m, sy.n)
+SUMMATION = (sy.m, sy.n, sy.l)
 """The indices that a statement may sum over."""

@@ -83,15 +83,14 @@ class Derivation:
         """The step that shows one of ``printed``, and its place there.
 
         Raises:
-            LookupError: there is none, or it is of another domain or sign.
+            LookupError: there is none of its domain and sign.
         """
         for step in self.steps():
-            if self.printed[part] in step.equations:
-                place = step.equations.index(self.printed[part])
-                if (step.domains[place], step.relation) != (self.domain, self.relation):
-                    raise LookupError(f"{self.words} is proved on another domain, or otherwise")
-                return step, place
-        raise LookupError(f"no step of {self.words} shows what is printed")
+            shown = zip(step.equations, step.domains, strict=True)
+            for place, pair in enumerate(shown):
+                if pair == (self.printed[part], self.domain) and step.relation == self.relation:
+                    return step, place
+        raise LookupError(f"no step of {self.words} shows what is printed, on its domain")
 
     @property
     def theorems(self) -> tuple[Theorem, ...]:

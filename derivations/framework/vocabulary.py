@@ -6,7 +6,8 @@ What makes an expression as it is printed, the axioms, the rules, and what a der
 from force_diffusion.symbolic.as_printed import certificate, equation, minus, power, terms, times
 from force_diffusion.symbolic.as_written import formula, relations
 from force_diffusion.symbolic.kernel import axioms
-from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height
+from force_diffusion.symbolic.kernel.averages import power_law, tensile
+from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_height
 from force_diffusion.symbolic.kernel.limits import asymptotic, bounded, negligible, of_what_is_kept
 from force_diffusion.symbolic.kernel.rules import (
     along,
@@ -33,6 +34,7 @@ __all__ = [
     "FIRST_ORDER",
     "Derivation",
     "Domain",
+    "Limit",
     "Steps",
     "Symbol",
     "along",
@@ -57,10 +59,12 @@ __all__ = [
     "of_what_is_kept",
     "order",
     "power",
+    "power_law",
     "reach",
     "relations",
     "rewrite",
     "solve",
+    "tensile",
     "terms",
     "times",
     "usual",

@@ -108,27 +108,19 @@ def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
         constant = sympy.expand(formula.lhs.args[0] - left) if formula.lhs.args else None
         if not isinstance(formula.lhs, sy.Variance) or constant is None or not constant.is_number:
             raise NotProvedError("it is not the variance of what something was dropped from")
-        known = equation_with(exact, sy.Variance(right))
-        finite = Domain.of(*domain.relations, *dropping.domain.relations, limit=limit)
-        asymptotic()(sympy.Eq(known, formula.rhs, evaluate=False), finite)
+        kept, relations = sy.Variance(right), (*domain.relations, *dropping.domain.relations)
+        for one in exact:
+            if one.domain.limit or not (domain.loading and domain.loading.implies(one.domain.loading)):
+                raise NotProvedError("what is kept is known in a limit, or under another load")
+            kept = kept.xreplace({one.formula.lhs: one.formula.rhs})
+            relations = (*relations, *one.domain.relations)
+        if kept.has(sy.Moment):
+            raise NotProvedError("the variance of what is kept is not known")
+        finite = Domain.of(*relations, indices=domain.indices, limit=limit)
+        asymptotic()(sympy.Eq(kept, formula.rhs, evaluate=False), finite)
         return made(formula, domain, "leading order of what is kept", (dropping, *exact))
 
     return rule
-
-
-def equation_with(theorems: Sequence[Theorem], quantity: sympy.Expr) -> sympy.Expr:
-    """What the first of some theorems says that a quantity is, the others put in.
-
-    Raises:
-        NotProvedError: the first is not about it.
-    """
-    first, *others = theorems
-    if first.formula.lhs != quantity:
-        raise NotProvedError(f"nothing is known of {text(quantity)}")
-    value = first.formula.rhs
-    for one in others:
-        value = value.xreplace({one.formula.lhs: one.formula.rhs})
-    return value
 
 
 def bounded(*groups: Group) -> Rule:

@@ -143,7 +143,7 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
 
         def forms(one: sympy.Eq) -> tuple[Form, ...]:
             named = equation(*(side.xreplace(image) for side in one.args))
-            return difference(both_sides(named, reader), domain)
+            return difference(both_sides(named, domain, reader), domain)
 
         system = [part for row in rows for part in forms(moved(row, {}, domain).formula)]
         held = [name for one in unknowns for name in names[one]]
@@ -161,7 +161,7 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
         ):  # fmt: skip
             raise NotProvedError("the determinant is not shown to vanish nowhere")
         zero = about * 0 if not about.is_vector else sympy.S.Zero
-        claimed = difference(both_sides(equation(value, zero), reader), domain)
+        claimed = difference(both_sides(equation(value, zero), domain, reader), domain)
         if about.is_vector and len(claimed) == 1:
             raise NotProvedError("a number is set equal to a vector")
         for name, one in zip(names[about], claimed, strict=True):

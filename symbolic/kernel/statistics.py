@@ -208,7 +208,7 @@ def moment(*groups: Group) -> Rule:
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         check_domain(formula, domain)
-        apart = difference(both_sides(formula, Statistics.on(domain, groups)), domain)
+        apart = difference(both_sides(formula, domain, Statistics.on(domain, groups)), domain)
         if not all(form.is_zero() for form in apart):
             raise refuse(apart, domain, groups)
         return made(formula, domain, "moment", flat(groups))

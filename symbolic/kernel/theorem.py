@@ -289,7 +289,7 @@ def read(formula: sympy.Eq, domain: Domain, groups: Groups = ()) -> Sides:
         NotProvedError: it is not read.
     """
     check_domain(formula, domain)
-    return both_sides(formula, knowing(domain.reader(), domain, groups))
+    return both_sides(formula, domain, knowing(domain.reader(), domain, groups))
 
 
 def knowing(reader: Reader, domain: Domain, groups: Groups, kind: type[Form] = Form) -> Reader:
@@ -310,10 +310,15 @@ def _named(theorem: Theorem) -> set[sympy.Symbol]:
     return theorem.fixed | (loading.fixed if loading else set())
 
 
-def both_sides(formula: sympy.Eq, reader: Reader) -> Sides:
-    """Both sides of an equation as forms; the number 0 beside a vector is the zero vector."""
-    constants = names_for(formula)
-    sides = (side.xreplace(constants) for side in formula.args)
+def both_sides(formula: sympy.Eq, domain: Domain, reader: Reader) -> Sides:
+    """Both sides of an equation as forms; the number 0 beside a vector is the zero vector.
+
+    In a domain with a layer j and a height M, z is j/M.
+    """
+    image: dict[sympy.Symbol, sympy.Expr] = dict(names_for(formula))
+    if {sy.j, sy.M} <= {*domain.indices}:
+        image[sy.z] = sy.j / sy.M
+    sides = (side.xreplace(image) for side in formula.args)
     try:
         left, right = (
             side if isinstance(side, tuple) else (side,) for side in map(reader.read, sides)

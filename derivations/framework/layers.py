@@ -1,0 +1,97 @@
+"""What is said of a variance at every layer of a packing beside its printed leading order."""
+
+from collections.abc import Mapping, Sequence
+
+import sympy
+from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
+from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height, in_a_layer
+from force_diffusion.symbolic.kernel.limits import asymptotic, bounded
+from force_diffusion.symbolic.kernel.statistics import ClosedForm, moment
+from force_diffusion.symbolic.kernel.theorem import Group
+from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma
+from force_diffusion.symbolic.words import in_words
+
+from .proof import Definitions, Steps
+
+UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
+"""What variances of forces over their mean squared are numbers and powers of M times."""
+
+
+def show_closed_form(
+    steps: Steps,
+    how: str,
+    symbol: sympy.Symbol,
+    definitions: Definitions,
+    layers: Domain,
+    groups: Sequence[Group],
+) -> None:
+    """Show the formula of each part of a packing; ``how`` they come about."""
+    form = ClosedForm.of(in_place(symbol, definitions), layers, *groups)
+    for piece in form.pieces:
+        for part in piece.where:
+            steps.show(
+                f"Exact for {in_words(part)}: {how}.",
+                equation(symbol, piece.value.to_sympy()),
+                moment(*groups),
+                layers.also(*part),
+                definitions,
+            )
+
+
+def show_next(
+    steps: Steps,
+    printed: sympy.Eq,
+    following: sympy.Expr,
+    definitions: Definitions,
+    layers: Domain,
+    groups: Sequence[Group],
+) -> None:
+    """Show what comes after the printed leading order, in units of ``UNIT``."""
+    steps.show(
+        "The next order in M at fixed z:",
+        equation(terms(printed.lhs, minus(printed.rhs)), times(UNIT, following)),
+        asymptotic(*groups),
+        layers.in_the_limit(at_fixed_height("∼")),
+        definitions,
+    )
+
+
+def at_layer(layers: Domain, layer: sympy.Expr, relation: str) -> Domain:
+    """A layer at a fixed distance from base or surface, as M → ∞."""
+    fixed = sympy.Eq(j, layer, evaluate=False)
+    return layers.also(fixed).in_the_limit(in_a_layer(relation))
+
+
+def claim_edges(
+    steps: Steps,
+    symbol: sympy.Symbol,
+    edges: Mapping[sympy.Expr, sympy.Expr],
+    definitions: Definitions,
+    layers: Domain,
+    groups: Sequence[Group],
+) -> None:
+    """Claim what the closed form goes as in layers next to base and surface."""
+    steps.claim(
+        "leading orders of the exact forms at the base and below the surface",
+        sympy.Tuple(*(equation(symbol, value) for value in edges.values())),
+        asymptotic(*groups),
+        [at_layer(layers, layer, "∼") for layer in edges],
+        definitions,
+    )
+
+
+def claim_shares(
+    steps: Steps, ratio: sympy.Expr, layers: Domain, groups: Sequence[Group]
+) -> None:
+    """Claim that no radius dominates the variance of a ratio, inside and at the edges."""
+    domains = [
+        layers.in_the_limit(at_fixed_height("O")),
+        *(at_layer(layers, layer, "O") for layer in (sympy.S.Zero, sympy.S.One, M - 1)),
+    ]
+    steps.claim(
+        "at fixed z, and in the layers next to base and surface, no radius has more than "
+        "O(1/M) of the variance: what Lindeberg's theorem needs",
+        sympy.Tuple(*(equation(LargestShare(ratio), 1 / M) for _ in domains)),
+        bounded(*groups),
+        domains,
+    )
