@@ -1,56 +1,24 @@
 """Eq. 16: variance of the response to a point load, inside of its cone and on it."""
 
+# fmt: off
 from functools import cache
 
 import sympy
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
-from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.api.closed_form import ClosedForm
-from force_diffusion.derivations.framework.grounds import facts_of
-from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
+from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
-    UNIT,
-    Derivation,
-    Lines,
-    Where,
-    asymptotic,
-    equation,
-    formula,
-    moment,
-    rewrite,
-    terms,
-    times,
-)
-from force_diffusion.derivations.parts import cone
-from force_diffusion.symbolic.kernel import statistics
-from force_diffusion.symbolic.kernel.theorem import flat
-from force_diffusion.symbolic.kernel.where import POINT, along_base, inside_cone, on_leg
-from force_diffusion.symbolic.mechanics.lattice import mirror
-from force_diffusion.symbolic.mechanics.paths import IN_CONE
-from force_diffusion.symbolic.notation import Symbol
+    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, axioms, below, equation, formula,
+    inducted, lattice, minus, mirror, moment, rewrite, terms, times, usual)
+from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.symbols import (
-    Covariance,
-    ForceMinus,
-    ForcePlus,
-    Mean,
-    Variance,
-    VerticalMinus,
-    VerticalPlus,
-    f_load,
-    i,
-    j,
-    k,
-    l,
-    n_y,
-    p,
-    phi,
-    q,
-    r,
-    sigma,
-)
+    Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
+    VerticalPlus, e_y, f_load, i, j, k, l, n, n_minus, n_plus, n_y, p, phi, q, r, sigma)
 from sympy import Eq, Rational
+# fmt: on
 
 RESPONSE = Symbol(
     "response",
@@ -72,58 +40,48 @@ LEG_MAGNITUDE = Symbol(
     r"\frac{\sigma_{\mathrm{leg}}^{2}(f)}{\langle f\rangle^{2}}",
     "σ²(f on a leg)/⟨f⟩²",
 )
-
-PRINTED = equation(
-    RESPONSE,
-    formula("(3/(2(1 − φ²)²)) (l + j)(σ_δr/r)²"),
-)
-
-
-FACTS = (cone.FORCES, eq11.DIRECTIONS)
-BELOW = Where.of(j >= 0, j < l, indices=(i, k), loading=POINT)
-"""Contacts and beads below the loaded bead (k, l)."""
-
-
-def at_finite_size() -> dict[str, ClosedForm]:
-    """The exact forms everywhere below the load: of a bead, and of a contact along n⁺."""
-    known = tuple(flat(facts_of(FACTS)))
-
-    def closed(symbol: sympy.Symbol) -> ClosedForm:
-        meant = MEANING[symbol]
-        form = statistics.ClosedForm.of(meant, BELOW, known)
-        return ClosedForm(symbol, form, BELOW, (4, 5, 7, 9, 10), meant, known)
-
-    return {
-        "bead": closed(RESPONSE),
-        "contact": closed(ONE_CONTACT),
-        "force": closed(LEG_MAGNITUDE),
-    }
-
+ORDERED = f_load / (2 * n_y)
+"""Force of the contacts of the ordered packing: those on the legs of the cone."""
+PRESSED = VerticalPlus(i, j) + VerticalMinus(i, j)
+"""p: the vertical force that a bead gets from both upper contacts."""
 
 MEANING = {
-    RESPONSE: Variance(cone.PRESSED / f_load),
+    RESPONSE: Variance(PRESSED / f_load),
     ONE_CONTACT: Variance(VerticalPlus(i, j) / f_load),
     ON_LEG: Variance(VerticalPlus(i, j) / f_load),
-    LEG_MAGNITUDE: Variance(ForcePlus(i, j) / cone.ORDERED),
+    LEG_MAGNITUDE: Variance(ForcePlus(i, j) / ORDERED),
 }
 """What the symbols stand for; f⁺_ij inside of the cone has no part of order 0 to be tilted."""
 
+PRINTED = equation(RESPONSE, formula("(3/(2(1 − φ²)²)) (l + j)(σ_δr/r)²"))
 
-def _of(*symbols: sympy.Symbol) -> dict[sympy.Symbol, sympy.Expr]:
-    return {symbol: MEANING[symbol] for symbol in symbols}
+# bead (i, j) is p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l)
+ALL_BELOW = Domain.of(j >= 0, j < l, indices=(i, k), loading=axioms.POINT)
+REACHED = ALL_BELOW.also(Eq(k, i + p - q), Eq(l, j + p + q))
+INSIDE = REACHED.also(p >= 1, q >= 1)
+LEFT_LEG = REACHED.also(p >= 1, Eq(q, 0))
+CONE = INSIDE.in_the_limit(inside_cone("∼"))
 
+UPPER_RIGHT = eq10.branched_plus(i, j, p)
+UPPER_LEFT = eq10.PRINTED.rhs.xreplace({n: q})
+"""The forces f⁺_ij and f⁻_ij on a bead inside of the cone, over f_load/2n_y, to first order.
 
-OF_CONTACT = equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), UNIT))
-"""One contact to leading order: (3/2)(j + p), by the layer in which its path turns."""
+Each has one path with one branch from the loaded bead: q steps along n⁻ and p along n⁺, or the
+other way round. The branch is of first order; what enters it counts at order 0, f_load/2n_y.
+"""
+LEG_CONTACT = eq09.first_order_product(eq07.split_plus(k, l), eq09.PRINTED.rhs)
+"""f⁺_ij over f_load/2n_y on the left leg: the split of the load, carried down a straight path."""
+LEG_RESPONSE = (LEG_CONTACT + Dot(e_y, DeltaNPlus(i, j)) / n_y) / 2
+"""Its vertical component over f_load, the contact's own direction being tilted."""
+LEG_TILTS = terms(Dot(n_minus, DeltaNPlus(i, j)), minus(Dot(n_plus, DeltaNMinus(k + 1, l - 1))))
 
-READ_OF_ONE_CONTACT = equation(ONE_CONTACT, PRINTED.rhs)
-"""The printed form as the paper's words have it."""
-
-DEEP = cone.INSIDE.also(j >= 3, p + q >= 3)
-"""Beads inside of the cone, from the third layer on, but that straight below the load."""
-STRAIGHT = cone.INSIDE.also(j >= 3, Eq(p, 1), Eq(q, 1))
-TURNED = cone.INSIDE.also(j + p >= 2)
-DOWN_LEG = cone.LEFT_LEG.also(j >= 2, p >= 2)
+FAMILY = (
+    (equation(ForcePlus(i, j), times(ORDERED, LEG_CONTACT)), ALL_BELOW.also(Eq(k - i, l - j))),
+    (equation(ForcePlus(i, j), times(ORDERED, UPPER_RIGHT)), INSIDE),
+    (equation(ForcePlus(i, j), sympy.S.Zero), ALL_BELOW.also(k - i >= l - j + 1)),
+    (equation(ForcePlus(i, j), sympy.S.Zero), ALL_BELOW.also(i - k >= l - j)),
+)
+"""All forces along n⁺ below the load: on the left leg, inside of the cone, and none beside it."""
 
 EXACT = {
     RESPONSE: times(terms(6 * (l + j), -6, phi**2), UNIT / 4),
@@ -134,156 +92,161 @@ EXACT = {
     ),
 }
 """The usual formulas, away from base, load and legs."""
+DEEP = INSIDE.also(j >= 3, p + q >= 3)
+"""Beads inside of the cone, from the third layer on, but that straight below the load."""
 
 
 @cache
-def steps() -> Lines:
+def forces():
+    """The force of every contact below the load."""
+    loads = axioms.loads(axioms.POINT)
+    plus = inducted(
+        j,
+        l - 1,
+        below(loads, eq07.right_angles()),
+        lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+        FAMILY,
+        down=True,
+        mirrored=True,
+    )
+    return (*plus, *map(mirror, plus))
+
+
+@cache
+def in_radii():
+    """The forces and, in the radii, the directions of contacts."""
+    return forces(), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
+
+
+@cache
+def steps() -> Steps:
     """One path to each contact; squared weights; the sum of both upper contacts of a bead."""
-    lines = Lines(cone.INSIDE)
-    source = f_load / (2 * n_y)
-    by = moment(*FACTS)
-    loaded = lines.show(
+    steps, groups = Steps(16, INSIDE, MEANING), in_radii()
+    by = moment(*groups)
+    steps.show(
         "Let (i, j) lie p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): inside "
-        "of the cone for p, q ≥ 1. The loaded bead is",
-        sympy.Tuple(equation(k, IN_CONE[k]), equation(l, IN_CONE[l])),
-        rewrite(),
-    )
-    forces = lines.show(
-        "One path with one branch leads to f⁺_ij, along n⁻ and then n⁺, and one to f⁻_ij, along n⁺ "
-        "and then n⁻ (Eq. 10). The branch is of first order, and f_load/2n_y enters it (Eq. 7).",
+        "of the cone for p, q ≥ 1. One path with one branch leads to f⁺_ij, along n⁻ and then n⁺, "
+        "and one to f⁻_ij, along n⁺ and then n⁻ (Eq. 10). The branch is of first order, and "
+        "f_load/2n_y enters it (Eq. 7).",
         sympy.Tuple(
-            equation(ForcePlus(i, j) / source, cone.UPPER_RIGHT),
-            equation(ForceMinus(i, j) / source, cone.UPPER_LEFT),
+            equation(ForcePlus(i, j) / ORDERED, UPPER_RIGHT),
+            equation(ForceMinus(i, j) / ORDERED, UPPER_LEFT),
         ),
-        rewrite(cone.FORCES),
-        after=(eq07.DERIVATION, eq10.DERIVATION),
+        rewrite(forces()),
     )
-    lines.show(
+    steps.show(
         "They turn in the layers j + p and j + q; the two add up to l + j wherever the bead is.",
         equation(terms(j + p, j + q), l + j),
         rewrite(),
-        after=(loaded,),
     )
-    lines.show(
+    steps.show(
         "In the radii (Eqs. 4 and 5) f⁺_ij is a sum of second differences up to the layer below "
         "its turn, as in Eq. 12, and four radii. Exact variance of its vertical component:",
         equation(ONE_CONTACT, EXACT[ONE_CONTACT]),
         by,
-        where=TURNED,
-        meaning=_of(ONE_CONTACT),
-        after=(forces,),
+        INSIDE.also(j + p >= 2),
     )
-    interior = lines.show(
+    steps.show(
         "It depends on the horizontal position: what the paper says of the force at one contact "
         "is refuted. What does not is the vertical force p that the "
         "bead gets from both contacts together: their second differences lie on two diagonals, and "
         "where these cross, the common weights add up to zero. Exact, for j ≥ 3:",
         equation(RESPONSE, EXACT[RESPONSE]),
         by,
-        where=DEEP,
-        meaning=_of(RESPONSE),
-        after=(forces,),
+        DEEP,
     )
-    lines.show(
-        "To leading order:",
-        PRINTED,
-        asymptotic(*FACTS),
-        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
-        meaning=_of(RESPONSE),
-        after=(interior,),
-    )
-    leg = lines.show(
+    steps.show("To leading order:", PRINTED, asymptotic(*groups), CONE)
+    steps.show(
         "On the left leg of the cone f⁺_ij is the split of the load (Eq. 7), carried down by "
         "Eq. 9. With the contact's own tilt its vertical component over f_load is",
         equation(
-            cone.LEG_RESPONSE,
-            terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), cone.LEG_TILTS)),
+            LEG_RESPONSE,
+            terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), LEG_TILTS)),
         ),
-        rewrite(),
-        where=cone.LEFT_LEG,
-        after=(eq07.DERIVATION, eq09.DERIVATION),
+        rewrite(eq07.right_angles()),
+        LEFT_LEG,
     )
-    lines.show(
+    down_leg = LEFT_LEG.also(j >= 2, p >= 2)
+    steps.show(
         "The two tilts are independent but for a few radii. Exact, for 2 ≤ j ≤ l − 2:",
         equation(ON_LEG, EXACT[ON_LEG]),
         by,
-        where=DOWN_LEG,
-        meaning=_of(ON_LEG),
-        after=(leg,),
+        down_leg,
     )
-    lines.show(
+    steps.show(
         "The magnitude of that force, over its mean squared:",
         equation(LEG_MAGNITUDE, EXACT[LEG_MAGNITUDE]),
         by,
-        where=DOWN_LEG,
-        meaning=_of(LEG_MAGNITUDE),
-        after=(leg,),
+        down_leg,
     )
-    of_one = lines.claim(
+    claims(steps)
+    return steps
+
+
+def claims(steps: Steps) -> None:
+    """What else follows."""
+    groups = in_radii()
+    by, leading = moment(*groups), asymptotic(*groups)
+    steps.claim(
         "to leading order that of one contact is 3s/2 in units of (σ/r)²/(1−φ²)², "
         "s = ½(l+j+k−i) being the layer where it turns",
-        OF_CONTACT,
-        asymptotic(*FACTS),
-        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
-        meaning=_of(ONE_CONTACT),
+        equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), UNIT)),
+        leading,
+        CONE,
     )
-    lines.refute(
+    steps.refute(
         "the paper's reading is refuted: one contact alone depends on the horizontal position",
-        READ_OF_ONE_CONTACT,
-        of_one,
-        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
-        meaning=_of(ONE_CONTACT),
+        equation(ONE_CONTACT, PRINTED.rhs),
+        leading,
+        CONE,
     )
     both = Covariance(VerticalPlus(i, j) / f_load, VerticalMinus(i, j) / f_load)
     straight = times(Rational(1, 4), (1 + phi) ** 2, UNIT / 4)
-    lines.claim(
+    steps.claim(
         "the covariance of a bead's two contacts is zero for j ≥ 3, but for the bead straight "
         "below the load",
         sympy.Tuple(equation(both, 0), equation(both, straight)),
         by,
-        where=(DEEP, STRAIGHT),
+        [DEEP, INSIDE.also(j >= 3, Eq(p, 1), Eq(q, 1))],
     )
-    lines.claim(
+    steps.claim(
         "a bead passes on what it gets: forces do not change along a diagonal",
         sympy.Tuple(
             equation(ForcePlus(i - 1, j - 1), ForcePlus(i, j)),
             equation(ForceMinus(i + 1, j - 1), ForceMinus(i, j)),
         ),
-        rewrite(cone.FORCES),
-        where=cone.INSIDE.also(j >= 1),
+        rewrite(forces()),
+        INSIDE.also(j >= 1),
     )
-    lines.claim(
+    steps.claim(
         "the mean is that of the ordered packing",
         sympy.Tuple(
-            equation(Mean(cone.PRESSED), 0),
+            equation(Mean(PRESSED), 0),
             equation(Mean(VerticalPlus(i, j) / f_load), Rational(1, 2)),
         ),
         by,
-        where=(cone.INSIDE, cone.LEFT_LEG),
+        [INSIDE, LEFT_LEG],
     )
-    beside = (cone.LEFT_OF_ALL, cone.RIGHT_OF_ALL)
-    lines.claim(
+    beside = FAMILY[2:]
+    steps.claim(
         "no force of first order outside of the cone",
-        sympy.Tuple(*(one for one, _ in beside), *(mirror(one) for one, _ in beside)),
-        rewrite(cone.FORCES),
-        where=(*(where for _, where in beside), *(where.mirrored() for _, where in beside)),
+        sympy.Tuple(*(one for one, _ in beside), *(lattice.mirror(one) for one, _ in beside)),
+        rewrite(forces()),
+        [*(where for _, where in beside), *(where.mirrored() for _, where in beside)],
     )
-    lines.claim(
+    steps.claim(
         "on a leg the vertical force has a third of the variance, to leading order",
         equation(ON_LEG, PRINTED.rhs / 3),
-        asymptotic(*FACTS),
-        where=cone.LEFT_LEG.in_the_limit(on_leg("∼")),
-        meaning=_of(ON_LEG),
+        leading,
+        LEFT_LEG.in_the_limit(on_leg("∼")),
     )
-    at_base = cone.INSIDE.put_in({j: Rational(0)}, (i, k, l, p, q))
     apex = MEANING[RESPONSE].xreplace({i: k, j: l - 2})
-    lines.claim(
+    steps.claim(
         "the variance straight below the load is twice that at the base, as l → ∞",
-        equation(apex, times(2, MEANING[RESPONSE].xreplace({j: Rational(0)}))),
-        asymptotic(*FACTS),
-        where=at_base.in_the_limit(along_base("∼")),
+        equation(apex, times(2, RESPONSE)),
+        leading,
+        INSIDE.also(Eq(j, 0)).in_the_limit(along_base("∼")),
     )
-    return lines
 
 
 DERIVATION = Derivation(
@@ -311,18 +274,11 @@ DERIVATION = Derivation(
         "(i, j) is inside of the cone: p, q ≥ 1",
         "printed form: l → ∞ at fixed j/l and (i − k)/l; exact forms: every site",
     ),
-    premises=(
-        eq07.DERIVATION,
-        eq09.DERIVATION,
-        eq10.DERIVATION,
-        eq11.DERIVATION,
-    ),
     printed=(PRINTED,),
+    domain=CONE,
+    steps=steps,
     loads=("single",),
     relation="∼",
-    exact=at_finite_size,
-    steps=steps,
-    where=cone.CONE,
     remarks=(
         "The paper's p is the vertical component of the force at a contact f^±_ij. For one contact "
         "the printed form does not hold: its variance is (3/2) s (σ/r)²/(1−φ²)² with the layer "
