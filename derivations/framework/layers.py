@@ -6,7 +6,8 @@ import sympy
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
 from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.kernel.limits import asymptotic, bounded
-from force_diffusion.symbolic.kernel.statistics import ClosedForm, moment
+from force_diffusion.symbolic.kernel.rules import same
+from force_diffusion.symbolic.kernel.statistics import theorems
 from force_diffusion.symbolic.kernel.theorem import Group
 from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma
 from force_diffusion.symbolic.words import in_words
@@ -26,16 +27,15 @@ def show_closed_form(
     groups: Sequence[Group],
 ) -> None:
     """Show the formula of each part of a packing; ``how`` they come about."""
-    form = ClosedForm.of(in_place(symbol, definitions), layers, *groups)
-    for piece in form.pieces:
-        for part in piece.where:
-            steps.show(
-                f"Exact for {in_words(part)}: {how}.",
-                equation(symbol, piece.value.to_sympy()),
-                moment(*groups),
-                layers.also(*part),
-                definitions,
-            )
+    for theorem in theorems(in_place(symbol, definitions), layers, *groups):
+        part = theorem.domain.relations[len(layers.relations) :]
+        steps.show(
+            f"Exact for {in_words(part) or 'every height'}: {how}.",
+            equation(symbol, theorem.formula.rhs),
+            same(theorem),
+            theorem.domain,
+            definitions,
+        )
 
 
 def show_next(

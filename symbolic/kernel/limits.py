@@ -21,7 +21,7 @@ from ..sets import EVERYTHING
 from ..weights import Weights
 from .domain import Domain, Limit
 from .rules import Rule
-from .statistics import ClosedForm, Statistics
+from .statistics import ClosedForm, Statistics, worked_out
 from .theorem import FalseStatementError, Group, Groups, NotProvedError, Theorem, check_domain, flat, made
 
 _NEVER = 10**9  # no order is as large
@@ -178,8 +178,7 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
         NotProvedError: it is not one, or holds what neither grows nor is fixed.
     """
     try:
-        reader = Statistics.on(domain.in_the_limit(None), groups)
-        number = reader.number(_at_height(side))
+        number = worked_out(_at_height(side), domain.in_the_limit(None), tuple(groups))
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None
     if {*number.parts} - {NUMBER}:

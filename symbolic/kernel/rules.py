@@ -55,6 +55,17 @@ def proved_by(rule: Rule, formula: sympy.Eq, domain: Domain) -> Theorem:
     return theorem
 
 
+def same(theorem: Theorem) -> Rule:
+    """It is a theorem already."""
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        if (formula, domain) != (theorem.formula, theorem.domain):
+            raise NotProvedError("it is another statement than the theorem")
+        return theorem
+
+    return rule
+
+
 def rewrite(*groups: Group) -> Rule:
     """Both sides have one normal form, once theorems are put in, one group after the other."""
 

@@ -8,13 +8,13 @@ indices, so a moment is a polynomial on each of a few sets of indices: its close
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, lru_cache
 
 import sympy
 
 from .. import sets, spheres
 from .. import symbols as sy
-from ..algebra.exact import FIELD, NotExactError, RationalFunction
+from ..algebra.exact import FIELD, NotAStatementError, NotExactError, RationalFunction
 from ..as_printed import equation
 from ..forms import NUMBER, RADII, SHIFT, Form, Reader, Straightening, Value
 from ..printing.text import text
@@ -26,12 +26,12 @@ from .theorem import (
     Group,
     NotProvedError,
     Theorem,
-    both_sides,
     check_domain,
     difference,
     flat,
     knowing,
     made,
+    meant,
     refuse,
 )
 
@@ -118,6 +118,13 @@ class Statistics(Reader):
         return form
 
 
+@lru_cache(maxsize=256)
+def worked_out(expression: sympy.Expr, domain: Domain, groups: tuple[Group, ...]) -> Form:
+    """An expression in moments as a form, on a domain at finite size."""
+    reader = Statistics.on(domain, groups)
+    return reader.number(expression).on(reader.points)
+
+
 Relations = tuple[sympy.Basic, ...]
 
 
@@ -149,11 +156,10 @@ class ClosedForm:
         Raises:
             NotExactError: it is not linear in the radii, or not given by them.
         """
-        reader = Statistics.on(domain, groups)
-        form = reader.number(expression).on(reader.points)
+        form = worked_out(expression, domain, groups)
         if strange := {*form.parts} - {NUMBER}:
             raise NotExactError(f"{min(map(str, strange))} belongs to single beads")
-        return cls(form.parts.get(NUMBER, Weights()), reader.points, reader.straight)
+        return cls(form.parts.get(NUMBER, Weights()), domain.points, domain.straight)
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -208,7 +214,14 @@ def moment(*groups: Group) -> Rule:
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         check_domain(formula, domain)
-        apart = difference(both_sides(formula, domain, Statistics.on(domain, groups)), domain)
+        sides = meant(formula, domain)
+        try:
+            forms = [(worked_out(side, domain, groups),) for side in sides]
+        except NotAStatementError:
+            raise
+        except NotExactError as reason:
+            raise NotProvedError(str(reason)) from None
+        apart = difference((forms[0], forms[1]), domain)
         if not all(form.is_zero() for form in apart):
             raise refuse(apart, domain, groups)
         return made(formula, domain, "moment", flat(groups))
@@ -216,12 +229,10 @@ def moment(*groups: Group) -> Rule:
     return rule
 
 
-def theorems(
-    quantity: sympy.Expr, form: ClosedForm, domain: Domain, *groups: Group
-) -> tuple[Theorem, ...]:
-    """What a closed form of a quantity says: a theorem for each part of its domain."""
+def theorems(quantity: sympy.Expr, domain: Domain, *groups: Group) -> tuple[Theorem, ...]:
+    """What the closed form of a quantity says: a theorem for each part of a domain."""
     return tuple(
         made(equation(quantity, piece.value.to_sympy()), domain.also(*part), "moment", flat(groups))
-        for piece in form.pieces
+        for piece in ClosedForm.of(quantity, domain, *groups).pieces
         for part in piece.where
     )

@@ -310,18 +310,21 @@ def _named(theorem: Theorem) -> set[sympy.Symbol]:
     return theorem.fixed | (loading.fixed if loading else set())
 
 
-def both_sides(formula: sympy.Eq, domain: Domain, reader: Reader) -> Sides:
-    """Both sides of an equation as forms; the number 0 beside a vector is the zero vector.
-
-    In a domain with a layer j and a height M, z is j/M.
-    """
+def meant(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
+    """Both sides, in the symbols of the exact field; with a layer j and a height M, z is j/M."""
     image: dict[sympy.Symbol, sympy.Expr] = dict(names_for(formula))
     if {sy.j, sy.M} <= {*domain.indices}:
         image[sy.z] = sy.j / sy.M
-    sides = (side.xreplace(image) for side in formula.args)
+    left, right = (side.xreplace(image) for side in formula.args)
+    return left, right
+
+
+def both_sides(formula: sympy.Eq, domain: Domain, reader: Reader) -> Sides:
+    """Both sides of an equation as forms; the number 0 beside a vector is the zero vector."""
     try:
         left, right = (
-            side if isinstance(side, tuple) else (side,) for side in map(reader.read, sides)
+            side if isinstance(side, tuple) else (side,)
+            for side in map(reader.read, meant(formula, domain))
         )
     except NotAStatementError:
         raise
