@@ -14,7 +14,7 @@ from ..as_printed import equation
 from ..mechanics import lattice
 from ..symbols import i, j, n_minus, n_plus, r, site_r, site_s
 from .domain import Domain, Loading
-from .theorem import Theorem, made
+from .theorem import NotProvedError, Theorem, made
 
 _ANY_BEAD = Domain.of(j >= 0)
 
@@ -88,7 +88,13 @@ def balance() -> Theorem:
 
 @cache
 def loads(loading: Loading) -> tuple[Theorem, ...]:
-    """What a loading says of the loads and of the forces above them."""
+    """What a loading says of the loads and of the forces above them.
+
+    Raises:
+        NotProvedError: it is none of those below, nor one of them at another place.
+    """
+    if not any(loading.is_like(one) for one in LOADINGS):
+        raise NotProvedError(f"{loading.name} is no loading that is known")
     at_place = Domain.of(sympy.Ge(loading.place[-1], 0), loading=loading)
     given = [made(one, at_place, "loading") for one in loading.given]
     beads = Domain.of(site_s >= 0, indices=(site_r,), loading=loading)
@@ -214,3 +220,8 @@ POINT = Loading(
     ),
 )
 """A load on one bead, and nothing else."""
+
+LOADINGS = (
+    LOADED, LOADED_VERTICALLY, PASSING, ENTERING, SURFACE, BULK, SURFACE_TILTED, BULK_TILTED, POINT
+)  # fmt: skip
+"""All of them."""

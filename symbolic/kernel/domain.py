@@ -50,6 +50,11 @@ class Loading:
             {*other.given} <= {*self.given} and {*other.everywhere} <= {*self.everywhere}
         )
 
+    def is_like(self, other: "Loading") -> bool:
+        """Whether it is another one at another place."""
+        image = dict(zip(other.place, self.place, strict=False))
+        return len(self.place) == len(other.place) and other.put_in(image) == self
+
     def put_in(self, image: Image) -> "Loading":
         """The same at another place.
 

@@ -39,9 +39,12 @@ def asymptotic(*groups: Group) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit = limit_of(formula, domain, "∼")
         left, right = (in_the_limit(side, domain, groups) for side in formula.args)
-        low, high = order(left - right, limit), order(right, limit)
+        low, high = order(left - right, limit), order(leading(right, limit), limit)
         if not low <= high - limit.orders:
-            raise FalseStatementError(_other_order(left, right, limit))
+            unsure = (left - right).holds(sy.H_M)
+            raise (NotProvedError if unsure else FalseStatementError)(
+                _other_order(left, right, limit)
+            )
         if not _vanishes_nowhere(leading(right, limit), limit, domain.dimension):
             raise NotProvedError("what the right-hand side goes as may vanish")
         return made(formula, domain, "leading order", flat(groups))
@@ -66,13 +69,11 @@ def negligible(*groups: Group) -> Rule:
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit = limit_of(formula, domain, "≈")
-        forces = by_name(set().union(*(side.atoms(*FORCES) for side in formula.args)))
-        if len(forces) != 1:
-            raise NotProvedError("it is not about one contact force")
-        slope = sympy.expand(formula.lhs - formula.rhs).coeff(forces[0])
+        force = _only_force(formula)
+        slope = sympy.expand(formula.lhs - formula.rhs).coeff(force)
         whole, rest = (
             _in_radii(one, groups, domain)
-            for one in (slope * forces[0], sympy.Add(formula.lhs, -formula.rhs, evaluate=False))
+            for one in (slope * force, sympy.Add(formula.lhs, -formula.rhs, evaluate=False))
         )
         if not rest.parts.get(NUMBER, Weights()).is_zero():
             raise NotProvedError("the means of both sides differ")
@@ -85,6 +86,18 @@ def negligible(*groups: Group) -> Rule:
         return made(formula, domain, "dropped orders", flat(groups))
 
     return rule
+
+
+def _only_force(formula: sympy.Eq) -> sympy.Expr:
+    """The one contact force that an equation is about.
+
+    Raises:
+        NotProvedError: there is none, or more than one.
+    """
+    forces = by_name(set().union(*(side.atoms(*FORCES) for side in formula.args)))
+    if len(forces) != 1:
+        raise NotProvedError("it is not about one contact force")
+    return forces[0]
 
 
 def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
@@ -105,8 +118,12 @@ def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
         if limit.orders != 1 or dropping.domain.loading != domain.loading:
             raise NotProvedError("what is dropped is so of other packings, or for one order alone")
         left, right = dropping.formula.args
-        constant = sympy.expand(formula.lhs.args[0] - left) if formula.lhs.args else None
-        if not isinstance(formula.lhs, sy.Variance) or constant is None or not constant.is_number:
+        force = _only_force(dropping.formula)
+        if not isinstance(formula.lhs, sy.Variance) or right.has(force):
+            raise NotProvedError("it is not the variance of what something was dropped from")
+        (whole,) = formula.lhs.args
+        beside = (whole - left, left - left.coeff(force) * force)
+        if not all(sympy.expand(one).is_number for one in beside):
             raise NotProvedError("it is not the variance of what something was dropped from")
         kept, relations = sy.Variance(right), (*domain.relations, *dropping.domain.relations)
         for one in exact:

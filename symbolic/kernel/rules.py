@@ -35,6 +35,7 @@ from .theorem import (
     moved,
     read,
     refuse,
+    with_indices,
 )
 
 Rule = Callable[[sympy.Eq, Domain], Theorem]
@@ -337,8 +338,7 @@ def suppose(formula: sympy.Eq, domain: Domain, supposition: Supposition, before:
     """
     check_domain(formula, domain)
     image = {supposition.index: supposition.index - before}
-    about, value = isolated(formula, domain)
-    shifted = equation(*(side.xreplace(image) for side in (about, value)))
+    shifted = with_indices(equation(*isolated(formula, domain)), image)
     return made(shifted, domain.put_in(image), "supposition", supposed=(supposition,))
 
 
@@ -368,6 +368,8 @@ def inducted(
         at_first = domain.also(sympy.Eq(over, first, evaluate=False))
         if not at_first.points.is_empty():
             premises.append(proved_by(base, claim, at_first))
+            if premises[-1].supposed:
+                raise NotProvedError("what holds at the start must rest on nothing supposed")
         ends = (over, first - 1) if down else (first + 1, over)
         later = domain.also(sympy.Le(*ends, evaluate=False))
         if not later.points.is_empty():
@@ -396,7 +398,8 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
 
         def said(one: sympy.Eq) -> sympy.Eq:
             def at(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-                return value.xreplace({sy.i: across, sy.j: layer})
+                there = with_indices(equation(about, value), {sy.i: across, sy.j: layer})
+                return there.rhs
 
             return equation(*(side.replace(about.func, at) for side in one.args))
 

@@ -15,7 +15,16 @@ import sympy
 from .. import sets
 from .. import symbols as sy
 from ..algebra.bases import LINE_SUM
-from ..algebra.exact import CONSTANTS, FIELD, SOURCE, NotAStatementError, NotExactError, RationalFunction
+from ..algebra.exact import (
+    CONSTANTS,
+    FIELD,
+    SITE,
+    SOURCE,
+    UNKNOWNS,
+    NotAStatementError,
+    NotExactError,
+    RationalFunction,
+)
 from ..algebra.signs import never_zero
 from ..as_printed import equation
 from ..forms import FORCES, NUMBER, RADII, Form, Image, Key, Known, Reader
@@ -25,6 +34,7 @@ from ..second_order import Means
 from .domain import Domain, Loading
 
 _MADE_HERE = object()
+_RESERVED = {*SITE, *SOURCE, *UNKNOWNS, *CONSTANTS[0], *CONSTANTS[1]}
 
 
 class NotProvedError(ValueError):
@@ -148,6 +158,8 @@ def check_domain(formula: sympy.Eq, domain: Domain, *, in_a_limit: bool = False)
     free = set().union(*(side.free_symbols for side in formula.args))
     for symbol in by_name(free & {*sy.INDICES} - {*domain.indices}):
         raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
+    if free & _RESERVED:
+        raise NotAStatementError("it holds a name of the kernel's own")
 
 
 def isolated(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
@@ -237,9 +249,22 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
         or not domain.lies_in(there)
     ):
         raise NotProvedError(f"{text(theorem.formula.lhs)} is not known there")
-    formula = equation(*(side.xreplace(dict(image)) for side in theorem.formula.args))
+    formula = with_indices(theorem.formula, image)
     check_domain(formula, domain)
     return made(formula, domain, "instance", (theorem,))
+
+
+def with_indices(formula: sympy.Eq, image: Image) -> sympy.Eq:
+    """An equation with other indices put in, none of which it sums over.
+
+    Raises:
+        NotProvedError: an index would have two meanings.
+    """
+    summed = {limit[0] for one in formula.atoms(sympy.Sum) for limit in one.limits}
+    put_in = {*image}.union(*(one.free_symbols for one in image.values()))
+    if both := by_name(summed & put_in):
+        raise NotProvedError(f"{text(both[0])} would have two meanings")
+    return equation(*(side.xreplace(dict(image)) for side in formula.args))
 
 
 def _what_it_says(
