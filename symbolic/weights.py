@@ -37,7 +37,12 @@ class Weights:
         return cls(((sets.where(*relations), value),))
 
     def __add__(self, other: "Weights") -> "Weights":
-        return Weights((*self.pieces, *other.pieces))
+        found: dict[int, Piece] = {}
+        for points, value in (*self.pieces, *other.pieces):
+            if id(points) in found:
+                value = found[id(points)][1] + value
+            found[id(points)] = points, value
+        return Weights(tuple(piece for piece in found.values() if not piece[1].is_zero()))
 
     def __sub__(self, other: "Weights") -> "Weights":
         return self + other.scaled(FIELD.constant(-1))
@@ -50,6 +55,9 @@ class Weights:
 
     def times(self, other: "Weights") -> "Weights":
         """The product at each point."""
+        for one, rest in ((self, other), (other, self)):
+            if len(one.pieces) == 1 and one.pieces[0][0] is sets.EVERYTHING:
+                return rest.scaled(one.pieces[0][1])
         return Weights(
             tuple(
                 (points & there, value * factor)

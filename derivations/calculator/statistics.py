@@ -29,12 +29,44 @@ def response(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     return sy.VerticalPlus(across, layer) + sy.VerticalMinus(across, layer)
 
 
-def mean_over(observable: sympy.Expr, count: sympy.Expr | int) -> sympy.Expr:
+def force_moment(
+    across: sympy.Expr, layer: sympy.Expr, first: sympy.Expr, second: sympy.Expr
+) -> sympy.Expr:
+    """Σ f ℓ (u·N)(v·N) of both contacts above bead (i, j): the stress of a layer times its area.
+
+    ℓ is the distance of the two centres, N the unit vector between them.
+
+    Args:
+        across: i.
+        layer: j.
+        first: the vector u, such as e_x.
+        second: the vector v.
+    """
+    total = sympy.S.Zero
+    for force, direction, turn, side in (
+        (sy.ForcePlus, sy.n_plus, sy.DeltaNPlus, 1),
+        (sy.ForceMinus, sy.n_minus, sy.DeltaNMinus, -1),
+    ):
+        length = 2 * sy.r + sy.DeltaR(across, layer) + sy.DeltaR(across + side, layer + 1)
+        normal = direction + turn(across, layer)
+        total += force(across, layer) * length * sy.Dot(first, normal) * sy.Dot(second, normal)
+    return total
+
+
+def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Symbol) -> sympy.Expr:
     """The average of an observable over ``count`` neighbours in a layer, two columns apart each.
+
+    Args:
+        observable: of a place that is named by an index across the packing.
+        count: how many.
+        across: the indices that go on, all together; i where none is given. With k it is an average
+            over the loads of ``point(k, l)``.
 
     Raises:
         ObservableError: no index says where across the packing it is.
     """
+    if across:
+        return sy.MeanOver(observable, count, *across)
     places = [one.args[0] for one in observable.atoms(sy.SiteFunction)]
     indices = [s for s in (sy.i, sy.site_r) if any(one.has(s) for one in places)]
     if not indices or not all(one.has(*indices) for one in places):
@@ -50,6 +82,7 @@ def variance(
     load: str | Load = "surface",
     relative: bool = True,
     dimension: int = 2,
+    where: Iterable[sympy.Basic] = (),
 ) -> ClosedForm:
     """The exact variance of an observable that is linear in the radii.
 
@@ -65,11 +98,12 @@ def variance(
         relative: whether forces are relative to the ordered force of their own contact, vertical
             forces on beads to the load, and lengths to r.
         dimension: 3 for contact forces of spheres, ``f_along(axis, x, y, z)``.
+        where: relations of indices, to which the domain is restricted.
 
     Raises:
         ObservableError: it is not linear, not given by the radii, or holds a foreign symbol.
     """
-    return _closed(sy.Variance, [observable], load, relative, dimension)
+    return _closed(sy.Variance, [observable], load, relative, dimension, where)
 
 
 def covariance(
@@ -79,9 +113,10 @@ def covariance(
     load: str | Load = "surface",
     relative: bool = True,
     dimension: int = 2,
+    where: Iterable[sympy.Basic] = (),
 ) -> ClosedForm:
     """The exact covariance of two observables; arguments and errors are those of ``variance``."""
-    return _closed(sy.Covariance, [one, other], load, relative, dimension)
+    return _closed(sy.Covariance, [one, other], load, relative, dimension, where)
 
 
 def mean(
@@ -91,6 +126,7 @@ def mean(
     load: str | Load = "surface",
     relative: bool = True,
     dimension: int = 2,
+    where: Iterable[sympy.Basic] = (),
 ) -> ClosedForm:
     """The mean of an observable, or the shift of its mean to second order.
 
@@ -99,13 +135,16 @@ def mean(
         order: 1 for the value in the ordered packing, 2 for what disorder adds to it at order σ².
         load: as for ``variance``.
         relative: as for ``variance``.
+        where: as for ``variance``.
 
     Raises:
         ObservableError: as for ``variance``, or another order is asked for.
     """
     if order not in (1, 2):
         raise ObservableError(f"order={order}: 1 and 2 are allowed")
-    return _closed(sy.Mean if order == 1 else sy.Shift, [observable], load, relative, dimension)
+    return _closed(
+        sy.Mean if order == 1 else sy.Shift, [observable], load, relative, dimension, where
+    )
 
 
 def _closed(
@@ -114,9 +153,11 @@ def _closed(
     load: str | Load,
     relative: bool,
     dimension: int,
+    where: Iterable[sympy.Basic],
 ) -> ClosedForm:
     statistic = kind(*map(_read, observables))
-    return closed_form(statistic, statistic, load_of(load, dimension), relative=relative)
+    known = load_of(load, dimension)
+    return closed_form(statistic, statistic, known, *where, relative=relative)
 
 
 def closed_form(

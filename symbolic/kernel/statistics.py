@@ -145,7 +145,7 @@ class Statistics(Reader):
         if isinstance(moment, sy.Shift):
             form = self.in_radii(moment.args[0], Jet)
             return form.parts.get(SHIFT, Weights()).scaled(_SQUARE)
-        forms = [self.in_radii(one, Form) for one in moment.args]
+        forms = [self.in_radii(one, Form).merged() for one in moment.args]
         if isinstance(moment, sy.Mean):
             return forms[0].parts.get(NUMBER, Weights())
         if isinstance(moment, sy.Variance | sy.Covariance):
@@ -163,7 +163,7 @@ class Statistics(Reader):
             raise NotExactError("means to second order are not known in three dimensions")
         known = spheres.known(self.spheres.name) if self.spheres else _known(self.facts, kind)
         reader = Reader(self.points, self.straight, known, kind, linear=kind is Form)
-        form = reader.number(expression).on(self.points).merged()
+        form = reader.number(expression).on(self.points)
         if strange := {*form.parts} - {NUMBER, RADII, SHIFT}:
             raise NotExactError(f"{min(strange)} is not given by the radii")
         return form
