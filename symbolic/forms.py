@@ -355,7 +355,9 @@ class Reader:
 
     def _power(self, base: sympy.Expr, exponent: sympy.Expr) -> Form:
         if not (isinstance(exponent, sympy.Integer) and 0 < exponent <= _HIGHEST):
-            raise NotExactError(f"the power {text(exponent)} of {text(base)} is not read")
+            raise NotExactError(
+                f"the power {text(exponent)} of {text(base)} is not read: 1 to {_HIGHEST} are"
+            )
         power = self._product([base] * int(exponent))
         if isinstance(power, tuple):
             raise NotExactError("a power of a vector")
@@ -373,7 +375,7 @@ class Reader:
     def _moved(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
         """Straightened indices, all of which go on by as many columns."""
         old = self.straight
-        further = {index: old.back[index].xreplace({index: index + by}) for index in indices}
+        further = {one: old.back.get(one, one).xreplace({one: one + by}) for one in indices}
         return {
             index: sympy.expand(form.xreplace(dict(old.image))) for index, form in further.items()
         }

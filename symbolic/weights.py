@@ -85,6 +85,10 @@ class Weights:
             )
         )
 
+    def having(self, values: Fixed) -> "Weights":
+        """The same for values of symbols that are no indices."""
+        return Weights(tuple((points, value.substitute(values)) for points, value in self.pieces))
+
     def summed(self, *symbols: sympy.Symbol) -> "Weights":
         """Σ over all values of some symbols.
 
@@ -147,7 +151,7 @@ class Weights:
         for number, (held, part, value) in enumerate(cells):
             own = float(_numbers(value, places[number : number + 1])[0])
             for group in groups:
-                if _is_near(group.numbers[number], own) and _agree(group.value, value, held):
+                if _is_near(float(group.numbers[number]), own) and _agree(group.value, value, held):
                     group.parts.append(part)
                     break
             else:

@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
 from typing import Any
 
 import mpmath
@@ -15,7 +16,7 @@ from force_diffusion.symbolic.kernel import statistics
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.printing.code import python_expression
+from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.text import text
 
@@ -129,21 +130,27 @@ class ClosedForm:
         parts = [words.in_words(relations), *(f"{text(one)} even" for one in even)]
         return ", ".join(filter(None, parts))
 
+    @property
+    def _for_domain(self) -> str:
+        return f" for {self.domain}" if self.domain else ""
+
     # numbers
 
     @cached_property
     def _needed(self) -> set[sympy.Symbol]:
         """The symbols on which its value, and whether it has one, depend."""
         held = set().union(*(piece.expr.free_symbols for piece in self.pieces))
-        for piece in self._form.pieces:
-            for relations in piece.where:
-                held = held.union(*(one.free_symbols for one in relations))
-        for relation in self._where.relations:
-            if relation.free_symbols & held:
-                held |= relation.free_symbols
+        for relations in (self._where.relations, *chain(*(one.where for one in self.formulas))):
+            held = held.union(*(one.free_symbols for one in relations))
         cosine = {sy.phi} if held & {sy.n_x, sy.n_y} else set()
         height = {sy.M} if sy.H_M in held else set()
         return held - {sy.n_x, sy.n_y, sy.H_M} | cosine | height
+
+    @property
+    def symbols(self) -> dict[str, sympy.Symbol]:
+        """The symbols on which it depends, by the names of their values in :meth:`at`."""
+        named = {name_of(symbol): symbol for symbol in self._needed}
+        return {name: named[name] for name in in_order(named)}
 
     def at(self, **values: Any) -> Any:
         """The value for given numbers.
@@ -152,7 +159,7 @@ class ClosedForm:
         a float, the exact value for the given floats rounded once, where one of them is a float.
         Arrays, lists and ranges are broadcast as NumPy does.
 
-        >>>         >>> import force_diffusion as fd
+        >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
         >>> form = fd.variance(f_plus(i, j))
         >>> form.at(M=10, j=3, phi=Fraction(-1, 8), sigma=Fraction(1, 100), r=1)
@@ -257,9 +264,8 @@ class ClosedForm:
 
     def python(self, name: str = "closed_form") -> str:
         """Python source of a function that refuses what :meth:`at` refuses; it needs no import."""
-        arguments = in_order(symbol.in_code for symbol in self._needed)
-        lines = [f"def {name}({', '.join(arguments)}):"]
-        lines.append(f'    """{text(self._quantity)}, exact for {self.domain}."""')
+        lines = [f"def {name}({', '.join(self.symbols)}):"]
+        lines.append(f'    """{text(self._quantity)}, exact{self._for_domain}."""')
         conditions = [
             _in_python(one) for one in self._where.relations if one.free_symbols <= self._needed
         ]
@@ -279,12 +285,14 @@ class ClosedForm:
         return "\n".join(lines) + "\n"
 
     def __str__(self) -> str:
-        heading = f"{text(self._quantity)}, exact for {self.domain}"
+        heading = f"{text(self._quantity)}, exact{self._for_domain}"
         rows = (f"  {one.domain or 'everywhere'}: {text(one.expr)}" for one in self.pieces)
         return "\n".join((heading, *rows))
 
     def __repr__(self) -> str:
-        return f"<{text(self._quantity)}: {len(self.pieces)} formulas for {self.domain}>"
+        count = len(self.pieces)
+        formulas = "formula" if count == 1 else "formulas"
+        return f"<{text(self._quantity)}: {count} {formulas}{self._for_domain}>"
 
     # a candidate
 
@@ -312,7 +320,10 @@ class _Numbers:
 
     def at(self, given: Mapping[str, Number]) -> Any:
         """The value for single numbers."""
-        values, exact = read_arguments(self.about, self._form._needed, given)
+        form = self._form
+        values, exact = read_arguments(
+            self.about, form._needed, given, form.where.dimension, in_packing=False
+        )
         value = self._form.value(values, exact=exact)
         return value if exact else rounded(value)
 
@@ -354,9 +365,12 @@ def _number(value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rationa
         return value.to_sympy().xreplace({**values, **sides})
     numbers = [
         fmpq(int(values[one].p), int(values[one].q)) if one in values else fmpq(0)
-        for one in FIELD.generators
+        for one in value.domain.generators
     ]
-    found = value.numerator(*numbers) / value.denominator(*numbers)
+    divisor = value.denominator(*numbers)
+    if divisor == 0:
+        raise ArgumentError("it has no value there: it divides by 0")
+    found = value.numerator(*numbers) / divisor
     return sympy.Rational(int(found.p), int(found.q))
 
 
@@ -374,9 +388,9 @@ def _is_inside(part: Iterable[sympy.Basic]) -> bool:
 def _highest(value: RationalFunction, orders: int) -> Iterator[sympy.Expr]:
     """The highest powers of M of a function, by division of its numerator."""
     height = FIELD.generator(sy.M)
-    divisor = FIELD.polynomial(value.denominator)
+    divisor = value.domain.polynomial(value.denominator)
     below = divisor.coefficients(sy.M)
-    rest = FIELD.polynomial(value.numerator) * height**orders  # so that no power is negative
+    rest = value.domain.polynomial(value.numerator) * height**orders  # so that no power is negative
     for _ in range(orders):
         if rest.is_zero():
             return

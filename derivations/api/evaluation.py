@@ -16,6 +16,7 @@ from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.mechanics.lattice import kappa_in
 from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.printing.code import name_of
 from force_diffusion.symbolic.printing.text import text
 
 from ..export.prose import either
@@ -133,7 +134,7 @@ class _Named:
 
 def _named(about: str, needed: Iterable[sympy.Symbol], given: Iterable[str]) -> _Named:
     """Look at the names alone."""
-    by_name = {symbol.in_code: symbol for symbol in needed if isinstance(symbol, Symbol)}
+    by_name = {name_of(symbol): symbol for symbol in needed if not isinstance(symbol, sympy.Dummy)}
     by_layer = "z" in by_name and "j" in given
     if by_layer:
         if "z" in given:
@@ -159,7 +160,12 @@ def compare_names(about: str, needed: Iterable[sympy.Symbol], given: Iterable[st
 
 
 def read_arguments(
-    about: str, needed: Iterable[sympy.Symbol], given: Mapping[str, Number], dimension: int = 2
+    about: str,
+    needed: Iterable[sympy.Symbol],
+    given: Mapping[str, Number],
+    dimension: int = 2,
+    *,
+    in_packing: bool = True,
 ) -> tuple[dict[sympy.Symbol, sympy.Rational], bool]:
     """Values of the symbols that a formula needs, and whether all of them are exact.
 
@@ -171,6 +177,7 @@ def read_arguments(
         needed: symbols of the formula.
         given: values by name.
         dimension: of the packing, d; no spheres overlap where −1/d < φ < 1/2.
+        in_packing: whether i, j, k, l and M have to be those of a bead and of a packing.
 
     Raises:
         ArgumentError: a name is unknown or missing, or a value is not allowed.
@@ -181,12 +188,16 @@ def read_arguments(
         _assert_allowed(sy.d, values[sy.d], given["d"], dimension)
         dimension = int(values[sy.d])
     for symbol, value in values.items():
-        _assert_allowed(symbol, value, given[symbol.in_code], dimension)
+        if in_packing or symbol not in sy.INDICES:
+            _assert_allowed(symbol, value, given[name_of(symbol)], dimension)
+        elif not value.is_integer:
+            raise ArgumentError(f"{name_of(symbol)} = {value}: a whole number is allowed")
     if named.holds_angle:
         _put_angle(values, given)
     if named.holds_kappa:
         values[sy.kappa] = kappa_in(dimension).xreplace({sy.phi: values[sy.phi]})
-    _assert_together(values)
+    if in_packing:
+        _assert_together(values)
     if named.by_layer:
         values[sy.z] = values[sy.j] / values[sy.M]
     return values, all(isinstance(value, EXACT) for value in given.values())
@@ -239,7 +250,7 @@ def _assert_allowed(
 ) -> None:
     words, allowed = range_of(symbol, dimension)
     if not allowed(value) or (symbol.is_integer and not value.is_integer):
-        raise ArgumentError(f"{symbol.in_code} = {given}: {words} is allowed")
+        raise ArgumentError(f"{name_of(symbol)} = {given}: {words} is allowed")
 
 
 def _assert_together(values: Mapping[sympy.Symbol, sympy.Rational]) -> None:
@@ -258,7 +269,9 @@ def range_of(symbol: sympy.Symbol, dimension: int) -> tuple[str, Callable[[Any],
         return _ALLOWED[symbol]
     if symbol.is_integer:
         return "a whole number", lambda _: True
-    return "a number above 0", lambda value: value > 0
+    if symbol.is_positive:
+        return "a number above 0", lambda value: value > 0
+    return "a number", lambda _: True
 
 
 def told(symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]) -> str:

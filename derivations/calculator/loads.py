@@ -176,16 +176,16 @@ def load_of(load: str | Load, dimension: int = 2) -> Load:
         ObservableError: there is none of that name, or none in that dimension.
     """
     if dimension not in (2, 3):
-        raise ObservableError(f"dimension={dimension}: 2 and 3 are allowed")
-    if dimension == 3:
-        if load not in _IN_THREE:
-            either = ", ".join(map(repr, _IN_THREE))
-            raise ObservableError(f"load={load!r}: {either} are allowed in three dimensions")
-        return _IN_THREE[load]
-    if isinstance(load, Load):
+        raise ObservableError(f"dimension={dimension!r}: 2 and 3 are allowed")
+    if dimension == PLANE and isinstance(load, Load):
         return load
-    if load not in _BY_NAME:
-        raise ObservableError(
-            f"load={load!r}: 'surface', 'bulk', point(k, l) and leaning(t) are allowed"
-        )
-    return _BY_NAME[load]
+    known = _BY_NAME if dimension == PLANE else _IN_THREE
+    if not isinstance(load, str) or load not in known:
+        if dimension == PLANE:
+            raise ObservableError(
+                f"load={load!r}: 'surface', 'bulk', point(k, l) and leaning(t) are allowed"
+            )
+        shown = load.name if isinstance(load, Load) else repr(load)
+        either = ", ".join(map(repr, known))
+        raise ObservableError(f"load={shown}: {either} are allowed in three dimensions")
+    return known[load]

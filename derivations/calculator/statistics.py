@@ -3,25 +3,16 @@
 from collections.abc import Iterable
 
 import sympy
+from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.kernel import statistics
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
-from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
 from ..api.closed_form import ClosedForm
 from .loads import PLANE, Load, ObservableError, geometry, load_of
-
-_CONTACTS = (sy.ForcePlus, sy.ForceMinus, sy.VerticalPlus, sy.VerticalMinus)
-_SPHERES = (sy.ForceAlong, sy.VerticalAlong)
-_ALLOWED = (*_CONTACTS, sy.DeltaNPlus, sy.DeltaNMinus, sy.DeltaX, sy.DeltaR)
-_NAMED = {
-    name: symbol
-    for symbol in (*sy.INDICES, *sy.PARAMETERS)
-    for name in (symbol.name, symbol.in_code)
-}
+from .observables import ACROSS, SPHERES, domain, layer_of, read
 
 
 def response(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
@@ -58,22 +49,36 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
 
     Args:
         observable: of a place that is named by an index across the packing.
-        count: how many.
+        count: a whole number from 1 on, or N.
         across: the indices that go on, all together; i where none is given. With k it is an average
             over the loads of ``point(k, l)``.
 
     Raises:
-        ObservableError: no index says where across the packing it is.
+        ObservableError: no index says where across the packing it is, or the number is none.
     """
+    try:
+        averaged, number = sympy.sympify(observable, strict=True), sympy.sympify(count, strict=True)
+        sets.row(number)
+    except (sympy.SympifyError, NotExactError):
+        raise ObservableError(
+            f"mean_over({observable!r}, {count!r}): give an expression of force_diffusion.symbols, "
+            "and a whole number from 1 on or N"
+        ) from None
+    if number.is_Integer and number < 1:
+        raise ObservableError(f"mean_over(…, {number}): a whole number from 1 on is allowed")
+    if any(one.has(sy.MeanOver) for inner in averaged.atoms(sy.MeanOver) for one in inner.args):
+        raise ObservableError("an average of averages of averages is not read")
     if across:
-        return sy.MeanOver(observable, count, *across)
-    places = [one.args[0] for one in observable.atoms(sy.SiteFunction)]
+        if not {*across} <= {*ACROSS, sy.site_r}:
+            raise ObservableError(f"mean_over(…, {across}): i, k, p and q may go on")
+        return sy.MeanOver(averaged, number, *across)
+    places = [one.args[0] for one in averaged.atoms(sy.SiteFunction)]
     indices = [s for s in (sy.i, sy.site_r) if any(one.has(s) for one in places)]
     if not indices or not all(one.has(*indices) for one in places):
         raise ObservableError(
-            f"mean_over({text(observable)}): name the place across the packing by the index i"
+            f"mean_over({text(averaged)}): name the place across the packing by the index i"
         )
-    return sy.MeanOver(observable, count, *indices)
+    return sy.MeanOver(averaged, number, *indices)
 
 
 def variance(
@@ -141,7 +146,7 @@ def mean(
         ObservableError: as for ``variance``, or another order is asked for.
     """
     if order not in (1, 2):
-        raise ObservableError(f"order={order}: 1 and 2 are allowed")
+        raise ObservableError(f"order={order!r}: 1 and 2 are allowed")
     return _closed(
         sy.Mean if order == 1 else sy.Shift, [observable], load, relative, dimension, where
     )
@@ -155,9 +160,10 @@ def _closed(
     dimension: int,
     where: Iterable[sympy.Basic],
 ) -> ClosedForm:
-    statistic = kind(*map(_read, observables))
-    known = load_of(load, dimension)
-    return closed_form(statistic, statistic, known, *where, relative=relative)
+    under = load_of(load, dimension)
+    linear = kind is not sy.Shift
+    statistic = kind(*(read(one, under.dimension, linear=linear) for one in observables))
+    return closed_form(statistic, statistic, under, *where, relative=relative)
 
 
 def closed_form(
@@ -187,7 +193,8 @@ def closed_form(
     if relative:
         for one in observables:
             scales |= _scales(one, load)
-    meant = statistic.xreplace(scales).xreplace(dict(load.values))
+    values = dict(load.values)
+    meant = statistic.xreplace(scales).xreplace(values)
     facts: tuple[Theorem, ...] = ()
     equations: tuple[int | str, ...] = ()
     if load.dimension == PLANE:
@@ -195,78 +202,17 @@ def closed_form(
         if on.loading:
             facts, equations = (*facts, *load.theorems()), (*equations, *load.equations)
     try:
-        form = statistics.ClosedForm.of(meant, on, facts)
+        form = statistics.ClosedForm.of(meant, on, facts, values)
     except (NotExactError, NotProvedError) as reason:
         raise ObservableError(f"{text(statistic)}: {reason}") from None
     return ClosedForm(quantity, form, on, equations, meant, facts)
 
 
-def _read(observable: sympy.Expr) -> sympy.Expr:
-    """An observable, if it holds only what the calculator knows."""
-    try:
-        read = sympy.sympify(observable)
-    except sympy.SympifyError:
-        raise ObservableError(f"{observable!r} is no SymPy expression") from None
-    if not isinstance(read, sympy.Expr):
-        raise ObservableError(f"{observable!r} is no SymPy expression")
-    for quantity in read.atoms(sy.SiteFunction):
-        if not isinstance(quantity, _ALLOWED):
-            raise ObservableError(f"{text(quantity)} is no quantity of a disordered packing")
-    for symbol in by_name(read.free_symbols):
-        ours = _NAMED.get(symbol.name)
-        if ours is not None and ours != symbol:
-            raise ObservableError(
-                f"{symbol.name} is another symbol than {symbol.name} of force_diffusion.symbols: "
-                "import it from there, or give yours another name"
-            )
-    return read
-
-
-def domain(observables: Iterable[sympy.Expr], load: Load) -> Where:
-    """Where all contacts and beads that are named exist."""
-    quantities: set[sympy.Expr] = set()
-    relations: list[sympy.Basic] = []
-    for one in observables:
-        quantities |= one.atoms(sy.SiteFunction, *_SPHERES)
-        for average in one.atoms(sy.MeanOver):
-            relations.append(sympy.Ge(average.args[1], 1, evaluate=False))
-    forces = any(isinstance(one, (*_CONTACTS, *_SPHERES)) for one in quantities)
-    even = []
-    for one in by_name(quantities):
-        layer = _layer(one)
-        if isinstance(one, sy.SiteFunction):
-            even.append(sympy.Add(*one.args))
-        relations.append(sympy.Ge(layer, 0, evaluate=False))
-        if forces:
-            is_bead = isinstance(one, sy.DeltaX | sy.DeltaR)
-            last = load.top if is_bead else load.top - 1
-            relations.append(sympy.Le(layer, last, evaluate=False))
-    relations = [one for one in dict.fromkeys(relations) if one.free_symbols]
-    held = set().union(*(one.free_symbols for one in (*relations, *even, *observables)))
-    if forces:
-        held |= set().union(*(one.free_symbols for one in load.loading.place))
-        even += [sy.k + sy.l] if {sy.k, sy.l} <= held else []
-    indices = tuple(symbol for symbol in sy.INDICES if symbol in held)
-    return Where(
-        indices,
-        tuple(relations),
-        load.loading if forces else None,
-        tuple(dict.fromkeys(even)),
-        dimension=load.dimension,
-    )
-
-
-def _layer(quantity: sympy.Expr) -> sympy.Expr:
-    if isinstance(quantity, _SPHERES):
-        return sympy.Add(*quantity.args[1:])
-    return quantity.args[1]
-
-
 def _scales(observable: sympy.Expr, load: Load) -> dict[sympy.Expr, sympy.Expr]:
     """Every quantity over what it is compared with."""
     scales = {}
-    for one in observable.atoms(sy.SiteFunction, *_SPHERES):
-        at = {sy.j: _layer(one)}
+    for one in observable.atoms(sy.SiteFunction, *SPHERES):
+        at = {sy.j: layer_of(one)}
         if isinstance(one, sy.VerticalPlus | sy.VerticalMinus | sy.VerticalAlong):
             unit = load.unit.xreplace(at)
         elif isinstance(one, sy.ForceAlong):

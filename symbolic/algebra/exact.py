@@ -49,6 +49,10 @@ class Domain:
         self.one = self.constant(1)
         self._relations: tuple[Polynomial, ...] | None = None
 
+    def named(self, names: Mapping[sympy.Expr, sympy.Expr]) -> "Domain":
+        """The same field, whose generators have other names; its elements are those of this one."""
+        return Domain(names.get(one, one) for one in self.generators)
+
     def constant(self, value: int | Fraction | sympy.Rational) -> "RationalFunction":
         """A rational number as an element of the field."""
         numerator, denominator = _ratio(value)
@@ -208,6 +212,12 @@ class RationalFunction:
         for side in (self.numerator, self.denominator):
             _refuse_more_terms(_terms_of_power(side, exponent))
         return self._same(self.numerator**exponent, self.denominator**exponent)
+
+    def named(self, domain: Domain) -> "RationalFunction":
+        """The same element of a domain that is this one with other names."""
+        same = object.__new__(type(self))  # in lowest terms already
+        same.domain, same.numerator, same.denominator = domain, self.numerator, self.denominator
+        return same
 
     def is_zero(self) -> bool:
         """Decide whether this is zero, given n_x² + n_y² = 1."""

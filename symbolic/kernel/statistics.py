@@ -7,14 +7,14 @@ indices, so a moment is a polynomial on each of a few sets of indices: its close
 """
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
 import sympy
 
 from .. import sets, spheres
 from .. import symbols as sy
-from ..algebra.exact import FIELD, SOURCE, NotExactError, RationalFunction
+from ..algebra.exact import FIELD, SOURCE, UNKNOWNS, Domain, NotExactError, RationalFunction
 from ..as_printed import equation
 from ..forms import NUMBER, Form, Known, Reader, Straightening, Value
 from ..notation import by_name
@@ -185,20 +185,64 @@ class Piece:
     value: RationalFunction
 
 
+def constants(expression: sympy.Expr) -> dict[sympy.Symbol, sympy.Symbol]:
+    """Symbols that are not the paper's, and which unknown numbers stand for them.
+
+    Raises:
+        NotExactError: there are too many.
+    """
+    found = by_name(expression.free_symbols - {*FIELD.generators, *sy.VECTORS})
+    spare = UNKNOWNS[1]
+    if len(found) > len(spare):
+        raise NotExactError(f"{len(found)} constants: up to {len(spare)} are allowed")
+    return dict(zip(found, spare, strict=False))
+
+
 @dataclass(frozen=True, eq=False)
 class ClosedForm:
-    """A number that is a function of indices: a formula on each of a few parts of its domain."""
+    """A number that is a function of indices: a formula on each of a few parts of its domain.
+
+    Attributes:
+        weights: the number, by straightened indices.
+        points: its domain, straightened.
+        straight: which indices are put in for others.
+        constants: symbols that are not the paper's, and what stands for them in ``weights``.
+    """
 
     weights: Weights
     points: sets.Set
     straight: Straightening
+    constants: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
 
     @classmethod
-    def of(cls, expression: sympy.Expr, where: Where, facts: Iterable[Theorem]) -> "ClosedForm":
-        """An expression in moments on a domain."""
-        reader = Statistics.on(where, facts)
-        weights = reader.number(expression).parts.get(NUMBER, Weights())
-        return cls(weights.on(reader.points), reader.points, reader.straight)
+    def of(
+        cls,
+        expression: sympy.Expr,
+        where: Where,
+        facts: Iterable[Theorem],
+        values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
+    ) -> "ClosedForm":
+        """An expression in moments on a domain.
+
+        Args:
+            expression: in means, variances and covariances.
+            where: the domain.
+            facts: theorems that give quantities in the radii.
+            values: of parameters, of which the facts hold whatever they are.
+
+        Raises:
+            NotExactError: what it is of is not linear, or not given by the radii.
+        """
+        reader, own = Statistics.on(where, facts), constants(expression)
+        weights = reader.number(expression.xreplace(own)).parts.get(NUMBER, Weights())
+        weights = weights.having({s: FIELD.constant(n) for s, n in (values or {}).items()})
+        return cls(weights.on(reader.points), reader.points, reader.straight, own)
+
+    @cached_property
+    def _names(self) -> Domain:
+        """The field, in which constants have their own names."""
+        own = {stand_in: symbol for symbol, stand_in in self.constants.items()}
+        return FIELD.named(own) if own else FIELD
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -208,7 +252,7 @@ class ClosedForm:
         back = {symbol: FIELD.from_sympy(one) for symbol, one in self.straight.back.items()}
         for whole, value in self.weights.formulas():
             left = left - whole
-            found.append(Piece(self._relations(whole), value.substitute(back)))
+            found.append(Piece(self._relations(whole), value.substitute(back).named(self._names)))
         if not left.is_empty():
             found.append(Piece(self._relations(left), FIELD.zero))
         return tuple(found)
@@ -220,7 +264,7 @@ class ClosedForm:
             NotProvedError: it is not.
         """
         points = self.points & sets.where(*map(self.straight.relation, relations))
-        pieces = ClosedForm(self.weights.on(points), points, self.straight).pieces
+        pieces = replace(self, weights=self.weights.on(points), points=points).pieces
         if len(pieces) != 1:
             raise NotProvedError(f"there it is not one formula, but {len(pieces)}")
         return pieces[0].value
@@ -272,7 +316,8 @@ def worked_out(formula: sympy.Eq, where: Where, facts: Iterable[Theorem]) -> sym
 def decide(form: ClosedForm, where: Where, candidate: sympy.Expr) -> Ruling:
     """Rule on a candidate for a closed form: whether it is the same on all of the domain."""
     try:
-        read = Statistics.on(where.loaded(None), ()).number(sympy.sympify(candidate))
+        said = sympy.sympify(candidate).xreplace(form.constants)
+        read = Statistics.on(where.loaded(None), ()).number(said)
         if strange := {*read.parts} - {NUMBER}:
             return undecided(f"it holds {min(strange)}, which belongs to single beads")
         differences = (form.weights - read.parts.get(NUMBER, Weights())).on(form.points).formulas()
@@ -287,7 +332,7 @@ def _shown(form: ClosedForm, points: sets.Set, difference: RationalFunction) -> 
     """A point at which a closed form differs from what was said of it."""
     at = sets.sample(sets.parts(points)[0])
     whole = {symbol: FIELD.constant(at[symbol]) for symbol in at if difference.holds(symbol)}
-    left = difference.substitute(whole).to_sympy()
+    left = difference.substitute(whole).named(form._names).to_sympy()
     indices = {symbol: old.xreplace({s: sympy.Integer(n) for s, n in at.items()})
                for symbol, old in form.straight.image.items()}  # fmt: skip
     held = form.weights_symbols
