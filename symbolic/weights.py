@@ -39,9 +39,8 @@ class Weights:
     def __add__(self, other: "Weights") -> "Weights":
         found: dict[int, Piece] = {}
         for points, value in (*self.pieces, *other.pieces):
-            if id(points) in found:
-                value = found[id(points)][1] + value
-            found[id(points)] = points, value
+            before = found.get(id(points))
+            found[id(points)] = points, before[1] + value if before else value
         return Weights(tuple(piece for piece in found.values() if not piece[1].is_zero()))
 
     def __sub__(self, other: "Weights") -> "Weights":

@@ -125,7 +125,7 @@ class ClosedForm:
     def domain(self) -> str:
         """Where it holds, in words: where all contacts and beads that it names exist."""
         indices = self._needed & {*sy.INDICES}
-        relations = [one for one in self._where.relations if one.free_symbols <= indices]
+        relations = [one for one in self._form.domain if one.free_symbols <= indices]
         even = [one for one in self._where.even if one.free_symbols <= indices]
         parts = [words.in_words(relations), *(f"{text(one)} even" for one in even)]
         return ", ".join(filter(None, parts))
@@ -140,7 +140,7 @@ class ClosedForm:
     def _needed(self) -> set[sympy.Symbol]:
         """The symbols on which its value, and whether it has one, depend."""
         held = set().union(*(piece.expr.free_symbols for piece in self.pieces))
-        for relations in (self._where.relations, *chain(*(one.where for one in self.formulas))):
+        for relations in (self._form.domain, *chain(*(one.where for one in self.formulas))):
             held = held.union(*(one.free_symbols for one in relations))
         cosine = {sy.phi} if held & {sy.n_x, sy.n_y} else set()
         height = {sy.M} if sy.H_M in held else set()
@@ -159,17 +159,18 @@ class ClosedForm:
         a float, the exact value for the given floats rounded once, where one of them is a float.
         Arrays, lists and ranges are broadcast as NumPy does.
 
+        >>> from fractions import Fraction
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
         >>> form = fd.variance(f_plus(i, j))
         >>> form.at(M=10, j=3, phi=Fraction(-1, 8), sigma=Fraction(1, 100), r=1)
         247909/1764000
         >>> form.at(M=3, j=[0, 1, 2], phi=0.0, sigma=0.01, r=1)
-        array([0.00465, 0.00335, 0.00085])
-        >>> form.at(M=3, j=3, phi=0, sigma=1, r=1)
+        array([0.00375, 0.00215, 0.0004 ])
+        >>> form.at(M=3, j=3, phi=0, sigma=1, r=1)  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         ...
-        force_diffusion...ArgumentError: var(f⁺_ij) is known for 0 ≤ j ≤ M − 1, not for j = 3, M = 3
+        force_diffusion...ArgumentError: var(f⁺_ij) is for 0 ≤ j ≤ M − 1, not for j = 3, M = 3
 
         Raises:
             ArgumentError: a name is unknown or missing, or a value is outside of the domain.
@@ -196,7 +197,7 @@ class ClosedForm:
         raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
 
     def _holds(self, whole: Mapping[sympy.Symbol, int]) -> bool:
-        relations = [one for one in self._where.relations if one.free_symbols <= {*whole}]
+        relations = [one for one in self._form.domain if one.free_symbols <= {*whole}]
         even = [sets.row(one) for one in self._where.even if one.free_symbols <= {*whole}]
         return all(_is_met(sets.condition(one), whole) for one in relations) and all(
             _total(form, whole) % 2 == 0 for form in even
@@ -216,7 +217,7 @@ class ClosedForm:
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
         >>> fd.variance(f_plus(i, j)).profile(M=3, phi=0.0, sigma=0.01, r=1)
-        array([0.00465, 0.00335, 0.00085])
+        array([0.00375, 0.00215, 0.0004 ])
 
         Raises:
             ArgumentError: it does not depend on the layer j, or as for :meth:`at`.
@@ -267,7 +268,7 @@ class ClosedForm:
         lines = [f"def {name}({', '.join(self.symbols)}):"]
         lines.append(f'    """{text(self._quantity)}, exact{self._for_domain}."""')
         conditions = [
-            _in_python(one) for one in self._where.relations if one.free_symbols <= self._needed
+            _in_python(one) for one in self._form.domain if one.free_symbols <= self._needed
         ]
         conditions += [
             f"({python_expression(one)}) % 2 == 0"

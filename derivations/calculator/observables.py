@@ -172,11 +172,28 @@ class _Check:
                 raise ObservableError(f"{shown} is at {text(one)}: {_PLACE}")
 
 
-def domain(observables: Iterable[sympy.Expr], load: Load) -> Where:
-    """Where all contacts and beads that are named exist.
+def relations_of(where: Any) -> tuple[sympy.Basic, ...]:
+    """Relations of indices, from one or several of them.
 
     Raises:
-        ObservableError: they exist nowhere.
+        ObservableError: something else is among them.
+    """
+    found = (where,) if isinstance(where, sympy.Basic | bool) else where
+    try:
+        several = tuple(sympy.sympify(one, strict=True) for one in found)
+        sets.where(*several)
+    except (TypeError, sympy.SympifyError, NotExactError):
+        raise ObservableError(
+            f"where={where!r}: relations between indices are allowed, such as (j >= 2, j < M)"
+        ) from None
+    return several
+
+
+def domain(observables: Iterable[sympy.Expr], load: Load, *more: sympy.Basic) -> Where:
+    """Where all contacts and beads that are named exist, and further relations hold.
+
+    Raises:
+        ObservableError: that is nowhere.
     """
     observables = tuple(observables)
     quantities: set[sympy.Expr] = set()
@@ -185,8 +202,16 @@ def domain(observables: Iterable[sympy.Expr], load: Load) -> Where:
         quantities |= one.atoms(sy.SiteFunction, *SPHERES)
         counts |= {average.args[1] for average in one.atoms(sy.MeanOver)}
     forces = any(isinstance(one, (*DISCS, *SPHERES)) for one in quantities)
-    relations = [sympy.Ge(one, 1, evaluate=False) for one in by_name(counts) if one.free_symbols]
-    relations += _layers(quantities, load.top if forces else None)
+    relations = [sympy.Ge(one, 1, evaluate=False) for one in by_name(counts)]
+    for one in by_name(quantities):
+        layer = layer_of(one)
+        relations.append(sympy.Ge(layer, 0, evaluate=False))
+        if forces:
+            top = load.top if isinstance(one, _BEADS) else load.top - 1
+            relations.append(sympy.Le(layer, top, evaluate=False))
+    if sets.where(*relations, *more).is_empty():
+        raise ObservableError("what is named exists nowhere: a layer is too low or too high")
+    relations = [one for one in dict.fromkeys((*relations, *more)) if one.free_symbols]
     even = [sympy.Add(*one.args) for one in by_name(quantities) if isinstance(one, sy.SiteFunction)]
     held = set().union(*(one.free_symbols for one in (*relations, *even, *observables)))
     if forces:
@@ -204,25 +229,6 @@ def domain(observables: Iterable[sympy.Expr], load: Load) -> Where:
 def layer_of(quantity: sympy.Expr) -> sympy.Expr:
     """The layer of a bead, or of the bead below a contact."""
     return sympy.Add(*quantity.args[1:]) if isinstance(quantity, SPHERES) else quantity.args[1]
-
-
-def _layers(quantities: Iterable[sympy.Expr], top: sympy.Symbol | None) -> list[sympy.Basic]:
-    """That all beads lie between the base and the highest layer, the upper ones of contacts too."""
-    ends: dict[sympy.Expr, tuple[sympy.Integer, sympy.Integer]] = {}
-    for one in by_name(quantities):
-        lower, rest = sympy.expand(layer_of(one)).as_coeff_Add()
-        upper = lower if isinstance(one, _BEADS) else lower + 1
-        least, largest = ends.get(rest, (lower, upper))
-        ends[rest] = min(least, lower), max(largest, upper)
-    relations = []
-    for rest, (least, largest) in ends.items():
-        relations.append(sympy.Ge(rest + least, 0, evaluate=False))
-        if top is not None:
-            relations.append(sympy.Le(rest + largest - 1, top - 1, evaluate=False))
-    for one in relations:
-        if one.func(*(sympy.expand(side) for side in one.args)) == sympy.false:
-            raise ObservableError("a contact or a bead is named in a layer that does not exist")
-    return [one for one in relations if one.free_symbols]
 
 
 def _even(sums: Iterable[sympy.Expr]) -> list[sympy.Expr]:

@@ -12,7 +12,7 @@ from force_diffusion.symbolic.printing.text import text
 
 from ..api.closed_form import ClosedForm
 from .loads import PLANE, Load, ObservableError, geometry, load_of
-from .observables import ACROSS, SPHERES, domain, layer_of, read
+from .observables import ACROSS, SPHERES, domain, layer_of, read, relations_of
 
 
 def response(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
@@ -87,7 +87,7 @@ def variance(
     load: str | Load = "surface",
     relative: bool = True,
     dimension: int = 2,
-    where: Iterable[sympy.Basic] = (),
+    where: sympy.Basic | Iterable[sympy.Basic] = (),
 ) -> ClosedForm:
     """The exact variance of an observable that is linear in the radii.
 
@@ -118,7 +118,7 @@ def covariance(
     load: str | Load = "surface",
     relative: bool = True,
     dimension: int = 2,
-    where: Iterable[sympy.Basic] = (),
+    where: sympy.Basic | Iterable[sympy.Basic] = (),
 ) -> ClosedForm:
     """The exact covariance of two observables; arguments and errors are those of ``variance``."""
     return _closed(sy.Covariance, [one, other], load, relative, dimension, where)
@@ -131,7 +131,7 @@ def mean(
     load: str | Load = "surface",
     relative: bool = True,
     dimension: int = 2,
-    where: Iterable[sympy.Basic] = (),
+    where: sympy.Basic | Iterable[sympy.Basic] = (),
 ) -> ClosedForm:
     """The mean of an observable, or the shift of its mean to second order.
 
@@ -158,12 +158,12 @@ def _closed(
     load: str | Load,
     relative: bool,
     dimension: int,
-    where: Iterable[sympy.Basic],
+    where: sympy.Basic | Iterable[sympy.Basic],
 ) -> ClosedForm:
     under = load_of(load, dimension)
     linear = kind is not sy.Shift
     statistic = kind(*(read(one, under.dimension, linear=linear) for one in observables))
-    return closed_form(statistic, statistic, under, *where, relative=relative)
+    return closed_form(statistic, statistic, under, *relations_of(where), relative=relative)
 
 
 def closed_form(
@@ -186,9 +186,7 @@ def closed_form(
         ObservableError: as for ``variance``.
     """
     observables = [one for moment in statistic.atoms(sy.Moment) for one in moment.args]
-    on = domain(observables, load)
-    more = set().union(*(one.free_symbols for one in where))
-    on = on.also(*where, indices=more) if where else on
+    on = domain(observables, load, *where)
     scales = {}
     if relative:
         for one in observables:

@@ -245,6 +245,12 @@ class ClosedForm:
         return FIELD.named(own) if own else FIELD
 
     @cached_property
+    def domain(self) -> Relations:
+        """The fewest relations that say where it holds, beside what is even."""
+        (found,) = self._relations(self.points, sets.EVERYTHING)
+        return found
+
+    @cached_property
     def pieces(self) -> tuple[Piece, ...]:
         """Its formulas, on parts of the domain that cover it and share no point."""
         found = []
@@ -252,9 +258,13 @@ class ClosedForm:
         back = {symbol: FIELD.from_sympy(one) for symbol, one in self.straight.back.items()}
         for whole, value in self.weights.formulas():
             left = left - whole
-            found.append(Piece(self._relations(whole), value.substitute(back).named(self._names)))
+            found.append(
+                Piece(
+                    self._relations(whole, self.points), value.substitute(back).named(self._names)
+                )
+            )
         if not left.is_empty():
-            found.append(Piece(self._relations(left), FIELD.zero))
+            found.append(Piece(self._relations(left, self.points), FIELD.zero))
         return tuple(found)
 
     def on(self, *relations: sympy.Basic) -> RationalFunction:
@@ -276,13 +286,13 @@ class ClosedForm:
                              for part in piece.where for one in part))  # fmt: skip
         return held | {s for s in sy.INDICES if any(piece.value.holds(s) for piece in self.pieces)}
 
-    def _relations(self, whole: sets.Set) -> tuple[Relations, ...]:
+    def _relations(self, whole: sets.Set, context: sets.Set) -> tuple[Relations, ...]:
         return tuple(
             (
                 *(sympy.Eq(self._whole(form), 0, evaluate=False) for form in equations),
                 *(sympy.Ge(self._whole(form), 0, evaluate=False) for form in bounds),
             )
-            for equations, bounds in sets.conditions(whole, self.points)
+            for equations, bounds in sets.conditions(whole, context)
         )
 
     def _whole(self, form: sets.Row) -> sympy.Expr:

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.symbols import M, j
+from force_diffusion.symbolic.symbols import j
 from force_diffusion.symbolic.weights import Weights
 from hypothesis import given
 from hypothesis import strategies as st

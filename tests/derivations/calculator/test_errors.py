@@ -64,9 +64,9 @@ own = sympy.Symbol
         (FORCE + f_plus(i + 1, j), r"i \+ j is even for each bead \(i, j\)"),
         (FORCE - f_plus(i + p, j) + f_plus(i + p + 1, j), "no packing has all beads"),
         (f_plus(1, 2), "no packing has all beads that are named"),
-        (f_plus(1, -1), "in a layer that does not exist"),
-        (f_plus(1, -1) + FORCE, "in a layer that does not exist"),
-        (f_plus(i, M), "in a layer that does not exist"),
+        (f_plus(1, -1), "what is named exists nowhere: a layer is too low or too high"),
+        (f_plus(1, -1) + FORCE, "what is named exists nowhere: a layer is too low or too high"),
+        (f_plus(i, M), "what is named exists nowhere: a layer is too low or too high"),
         (f_along(1, i, j, k), "is a force between spheres: give dimension=3"),
         (Load(i, j), "Fˡᵒᵃᵈ_ij does not depend on the radii, or is not known"),
         (Position(i, j), "x_ij does not depend on the radii, or is not known"),
@@ -150,6 +150,17 @@ def test_second_order() -> None:
         fd.mean(FORCE**5, order=2)
     with pytest.raises(ObservableError, match="divides by what depends on the radii"):
         fd.mean(1 / FORCE, order=2)
+
+
+@pytest.mark.parametrize("where", ["j >= 2", [j], phi > 0, None, 3, [j > 2, "M"], j**2 > 3])
+def test_domains(where: Any) -> None:
+    with pytest.raises(ObservableError, match="relations between indices are allowed, such as"):
+        fd.variance(FORCE, where=where)
+
+
+def test_a_domain_with_nothing_in_it() -> None:
+    with pytest.raises(ObservableError, match="what is named exists nowhere"):
+        fd.variance(FORCE, where=j >= M)
 
 
 @pytest.mark.parametrize("count", [0, -1, 2.5, "N", None, own("N"), own("a"), N / 2, N**2])

@@ -193,6 +193,14 @@ def test_domains_in_words(observable: sympy.Expr, words: str) -> None:
     assert fd.variance(observable).domain == words
 
 
+def test_a_domain_of_ones_own() -> None:
+    whole, part = fd.variance(f_plus(i, j)), fd.variance(f_plus(i, j), where=(j >= 2, j <= M - 2))
+    assert part.domain == "2 ≤ j ≤ M − 2"
+    assert [one.expr for one in part.pieces] == [whole.pieces[0].expr]
+    assert part.at(**HERE) == whole.at(**HERE)
+    assert fd.variance(f_plus(i, j), where=j >= 0).domain == whole.domain
+
+
 def test_layers_are_those_of_the_contact_and_not_of_the_index() -> None:
     moved = fd.variance(f_plus(i, j + 2))
     assert moved.domain == "-2 ≤ j ≤ M − 3"
