@@ -24,6 +24,9 @@ Piece = tuple[Set, RationalFunction]
 _NUMBERS = {symbol: 0.37 + 0.61803 * number % 1 for number, symbol in enumerate(FIELD.generators)}
 """Numbers for symbols, no two of them alike."""
 
+_ROUNDING = 1e-12
+"""Of a sum of products, relative to the sum of their sizes: thousands of roundings."""
+
 
 @dataclass(frozen=True)
 class Weights:
@@ -146,11 +149,14 @@ class Weights:
         cells = [(sets.fixed(part), part, value) for part, value in self.cells().pieces]
         cells.sort(key=lambda cell: len(cell[0]))
         places = np.array([_place(part) for _, part, _ in cells])
-        groups = [_Group(FIELD.zero, np.zeros(len(cells)))]
+        groups = [_Group(FIELD.zero, (np.zeros(len(cells)), np.zeros(len(cells))))]
         for number, (held, part, value) in enumerate(cells):
-            own = float(_numbers(value, places[number : number + 1])[0])
+            own, error = (one[0] for one in _numbers(value, places[number : number + 1]))
             for group in groups:
-                if _is_near(float(group.numbers[number]), own) and _agree(group.value, value, held):
+                apart = abs(group.numbers[0][number] - own)
+                if apart > error + group.numbers[1][number]:
+                    continue
+                if _agree(group.value, value, held):
                     group.parts.append(part)
                     break
             else:
@@ -163,12 +169,16 @@ class Weights:
         return not self.formulas()
 
 
+Numbers = tuple[Array[np.float64], Array[np.float64]]
+"""Values, and how far they may be off."""
+
+
 @dataclass
 class _Group:
-    """A polynomial, its values at a place of each cell, and the cells where it holds."""
+    """A polynomial, its value at a place of each cell, and the cells where it holds."""
 
     value: RationalFunction
-    numbers: Array[np.float64]
+    numbers: Numbers
     parts: list[Set] = field(default_factory=list)
 
 
@@ -179,24 +189,27 @@ def _place(part: Set) -> list[float]:
     return [values[symbol] for symbol in FIELD.generators]
 
 
-def _numbers(function: RationalFunction, places: Array[np.float64]) -> Array[np.float64]:
-    """The values of a function at places; infinite where it has none."""
+def _numbers(function: RationalFunction, places: Array[np.float64]) -> Numbers:
+    """The values of a function at places; what it is not worked out to may be anything."""
+    above, of_above = _values(function.numerator, places)
+    below, of_below = _values(function.denominator, places)
     with np.errstate(all="ignore"):
-        return _values(function.numerator, places) / _values(function.denominator, places)
+        value = above / below
+        error = (of_above + abs(value) * of_below) / (abs(below) - of_below)
+    sure = (abs(below) > of_below) & np.isfinite(value) & np.isfinite(error)
+    return np.where(sure, value, 0), np.where(sure, error, np.inf)
 
 
-def _values(polynomial: Polynomial, places: Array[np.float64]) -> Array[np.float64]:
-    total = np.zeros(len(places))
-    for powers, factor in polynomial.to_dict().items():
-        held = [number for number, power in enumerate(powers) if power]
-        exponents = [int(powers[number]) for number in held]
-        total += float(factor.p) / float(factor.q) * np.prod(places[:, held] ** exponents, axis=1)
-    return total
-
-
-def _is_near(one: float, other: float) -> bool:
-    """Whether two values may be the same number, rounded; what is not finite may be anything."""
-    return not abs(one - other) > 1e-6 * max(abs(one), abs(other), 1e-6)
+def _values(polynomial: Polynomial, places: Array[np.float64]) -> Numbers:
+    total, size = np.zeros(len(places)), np.zeros(len(places))
+    with np.errstate(all="ignore"):
+        for powers, factor in polynomial.to_dict().items():
+            held = [number for number, power in enumerate(powers) if power]
+            exponents = [int(powers[number]) for number in held]
+            term = float(factor.p) / float(factor.q) * np.prod(places[:, held] ** exponents, axis=1)
+            total += term
+            size += abs(term)
+    return total, _ROUNDING * size
 
 
 def _agree(one: RationalFunction, other: RationalFunction, held: Fixed) -> bool:

@@ -12,15 +12,24 @@ from flint import fmpq
 from force_diffusion.symbolic import sets, words
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import statistics
-from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.kernel.decisions import Ruling, undecided
+from force_diffusion.symbolic.kernel.language import unreadable
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.code import name_of, python_expression
-from force_diffusion.symbolic.printing.latex import latex
+from force_diffusion.symbolic.printing.lines import (
+    TEXT_WIDTH,
+    column_width,
+    latex_body,
+    latex_cases,
+    text_lines,
+)
 from force_diffusion.symbolic.printing.text import text
 
 from .arrays import evaluate
+from .deciding import decided
 from .evaluation import ArgumentError, Number, in_order, read_arguments, rounded, told
 
 _DIGITS = 40  # of harmonic numbers, beside floats
@@ -79,10 +88,20 @@ class ClosedForm:
         """Its formulas as the kernel has them."""
         return self._form.pieces
 
+    @property
+    def facts(self) -> tuple[Theorem, ...]:
+        """The theorems that are put in."""
+        return self._facts
+
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
         """What it says on each part of its domain."""
-        return statistics.theorems(self.meant, self._form, self._where, self._facts)
+        return statistics.theorems(self.meant, self._where, self._facts)
+
+    def __reduce__(self) -> tuple[type["ClosedForm"], tuple[Any, ...]]:
+        """No theorem comes out of a pickle."""
+        parts = self._quantity, self._form, self._where, self._premises, self._meant
+        return ClosedForm, parts
 
     def named(self, symbol: sympy.Expr) -> "ClosedForm":
         """The same, shown as a symbol."""
@@ -115,20 +134,51 @@ class ClosedForm:
         >>> [piece.domain for piece in fd.variance(f_plus(i, j), load="bulk").pieces]
         ['j ≥ 2', 'j = 1', 'j = 0']
         """
-        return tuple(Piece(self._words(one), one.value.to_sympy()) for one in self._form.pieces)
+        return tuple(
+            Piece("; or ".join(map(words.in_words, one.where)), one.value.to_sympy())
+            for one in self._form.pieces
+        )
 
-    def _words(self, piece: statistics.Piece, *, tex: bool = False) -> str:
-        either = r" \text{ or } " if tex else "; or "
-        return either.join(words.in_words(one, tex=tex) for one in piece.where)
+    @cached_property
+    def expr(self) -> sympy.Expr:
+        """The formula as one SymPy expression; of several, a ``Piecewise``.
+
+        >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j
+        >>> type(fd.variance(f_plus(i, j)).expr).__name__
+        'Piecewise'
+        """
+        if len(self.pieces) == 1:
+            return self.pieces[0].expr
+        return sympy.Piecewise(
+            *(
+                (shown.expr, sympy.Or(*(sympy.And(*part) for part in piece.where)))
+                for shown, piece in zip(self.pieces, self._form.pieces, strict=True)
+            ),
+            evaluate=False,
+        )
+
+    @property
+    def equation(self) -> sympy.Eq:
+        """That the quantity is this expression."""
+        return equation(self._quantity, self.expr)
 
     @property
     def domain(self) -> str:
         """Where it holds, in words: where all contacts and beads that it names exist."""
+        return ", ".join(self._domain())
+
+    def _domain(self, style: words.Style = words.TEXT) -> list[str]:
+        relations, even = self._conditions_of_indices
+        suffix = r" \text{ even}" if style is words.LATEX else " even"
+        return [*words.parts(relations, style), *(style.shown(one) + suffix for one in even)]
+
+    @property
+    def _conditions_of_indices(self) -> tuple[list[sympy.Basic], list[sympy.Expr]]:
+        """The relations of its domain that its value depends on, and what is even there."""
         indices = self._needed & {*sy.INDICES}
         relations = [one for one in self._form.domain if one.free_symbols <= indices]
-        even = [one for one in self._where.even if one.free_symbols <= indices]
-        parts = [words.in_words(relations), *(f"{text(one)} even" for one in even)]
-        return ", ".join(filter(None, parts))
+        return relations, [one for one in self._where.even if one.free_symbols <= indices]
 
     @property
     def _for_domain(self) -> str:
@@ -248,17 +298,21 @@ class ClosedForm:
 
     # how it is written
 
-    def latex(self) -> str:
-        """LaTeX for mathematics mode, which needs amsmath: a formula, or ``cases`` of them."""
-        left = latex(self._quantity)
+    def latex(self, columns: int = 1) -> str:
+        """LaTeX for mathematics mode, which needs amsmath: a formula, or ``cases`` of them.
+
+        The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
+        """
+        room, below = column_width(columns), _with_commas(self._domain(words.LATEX), "for")
         if len(self.pieces) == 1:
-            return f"{left} = {latex(self.pieces[0].expr)}"
-        rows = (
-            rf"{latex(shown.expr)} & {self._words(piece, tex=True)}"
-            for shown, piece in zip(self.pieces, self._form.pieces, strict=True)
-        )
-        body = " \\\\\n".join(rows)
-        return f"{left} = \\begin{{cases}}\n{body}\n\\end{{cases}}"
+            return latex_body((self.equation,), room=room, below=below)
+        domain = self.formulas[0].value.domain
+        factor = domain.from_sympy(_common([piece.expr for piece in self.pieces]))
+        rows = [
+            ((piece.value / factor).to_sympy(), _alternatives(piece.where))
+            for piece in self._form.pieces
+        ]
+        return latex_cases(self._quantity, factor.to_sympy(), rows, below, room)
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"
@@ -267,28 +321,38 @@ class ClosedForm:
         """Python source of a function that refuses what :meth:`at` refuses; it needs no import."""
         lines = [f"def {name}({', '.join(self.symbols)}):"]
         lines.append(f'    """{text(self._quantity)}, exact{self._for_domain}."""')
-        conditions = [
-            _in_python(one) for one in self._form.domain if one.free_symbols <= self._needed
-        ]
-        conditions += [
-            f"({python_expression(one)}) % 2 == 0"
-            for one in self._where.even
-            if one.free_symbols <= self._needed
-        ]
+        relations, even = self._conditions_of_indices
+        conditions = words.parts(relations, words.PYTHON)
+        conditions += [f"({python_expression(one)}) % 2 == 0" for one in even]
         if conditions:
             lines.append(f"    if not ({' and '.join(conditions)}):")
             lines.append(f'        raise ValueError("outside of {self.domain}")')
+        if any(piece.expr.has(sy.H_M) for piece in self.pieces):
+            lines.append(f"    {sy.H_M.in_code} = sum(1/n for n in range(1, M + 1))")
         for shown, piece in zip(self.pieces, self._form.pieces, strict=True):
-            parts = (" and ".join(map(_in_python, part)) or "True" for part in piece.where)
-            either = " or ".join(f"({part})" for part in parts)
-            lines.append(f"    if {either}:")
-            lines.append(f"        return {python_expression(shown.expr)}")
+            either = [" and ".join(words.parts(part, words.PYTHON)) for part in piece.where]
+            value = f"return {python_expression(shown.expr)}"
+            lines += (
+                [f"    if {' or '.join(either)}:", f"        {value}"]
+                if all(either)
+                else [f"    {value}"]
+            )
         return "\n".join(lines) + "\n"
 
+    def lines(self, room: int = TEXT_WIDTH) -> list[str]:
+        """The lines that it prints as."""
+        lines = [f"{text(self._quantity)}, exact{self._for_domain}"]
+        for piece in self.pieces:
+            where = f"  {piece.domain or 'everywhere'}:"
+            first, *others = text_lines(piece.expr, room=room - 4)
+            if not others and len(where) + len(first) < room:
+                lines.append(f"{where} {first}")
+            else:
+                lines += [where, *(f"    {line}" for line in (first, *others))]
+        return lines
+
     def __str__(self) -> str:
-        heading = f"{text(self._quantity)}, exact{self._for_domain}"
-        rows = (f"  {one.domain or 'everywhere'}: {text(one.expr)}" for one in self.pieces)
-        return "\n".join((heading, *rows))
+        return "\n".join(self.lines())
 
     def __repr__(self) -> str:
         count = len(self.pieces)
@@ -297,8 +361,11 @@ class ClosedForm:
 
     # a candidate
 
-    def decide(self, candidate: sympy.Expr) -> Ruling:
-        """Rule on an expression of your own: is it this statistic, on all of the domain?
+    def decide(self, candidate: Any) -> Ruling:
+        """Rule on a formula of your own: is it this statistic, on all of the domain?
+
+        The verdict is *proved*; *refuted*, with a point at which it differs; *undecided*; or *not a
+        statement*. ``.note`` says why, and no error is raised.
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j, M
@@ -306,7 +373,19 @@ class ClosedForm:
         >>> print(form.decide(M / M))
         proved: the same on all of the domain
         """
-        return statistics.decide(self._form, self._where, candidate)
+        return decided(candidate, (self.equation,), lambda _, one: self.rule_on(one))
+
+    def rule_on(self, candidate: sympy.Eq) -> Ruling:
+        """Rule on an equation, whose left-hand side has to be the quantity."""
+        if candidate.lhs not in (self._quantity, self.meant):
+            return undecided(f"its left-hand side is {text(candidate.lhs)}, not that of this form")
+        value = candidate.rhs
+        formulas = [one for one, _ in value.args] if value.is_Piecewise else [value]
+        for one in formulas:
+            known = {*self._where.indices, *self._needed}
+            if refusal := unreadable(equation(sympy.S.One, one), (self.equation,), known):
+                return refusal
+        return statistics.decide(self._form, self._where, value)
 
 
 class _Numbers:
@@ -315,7 +394,8 @@ class _Numbers:
     def __init__(self, form: ClosedForm) -> None:
         self._form, self.about, self.sides = form, text(form.quantity), (None,)
 
-    def asked(self, _given: Iterable[str]) -> set[sympy.Symbol]:
+    @property
+    def needed(self) -> set[sympy.Symbol]:
         """The symbols to give a value."""
         return self._form._needed
 
@@ -327,6 +407,41 @@ class _Numbers:
         )
         value = self._form.value(values, exact=exact)
         return value if exact else rounded(value)
+
+
+def _alternatives(parts: Iterable[statistics.Relations]) -> list[str]:
+    """Where a formula holds, as pieces of LaTeX."""
+    first, *others = (words.parts(one, words.LATEX) for one in parts)
+    return [*_with_commas(first), *(one for part in others for one in _with_commas(part, " or"))]
+
+
+def _with_commas(parts: list[str], before: str = "") -> list[str]:
+    """Pieces of LaTeX behind one another, with a word before the first."""
+    if parts and before:
+        parts = [rf"\text{{{before} }} {parts[0]}", *parts[1:]]
+    return [*(rf"{one},\;" for one in parts[:-1]), *parts[-1:]]
+
+
+def _common(formulas: Iterable[sympy.Expr]) -> sympy.Expr:
+    """A factor of formulas: of divisors, only those that hold an index are left in each."""
+    numbers, powers = [], []
+    for number, rest in (one.as_coeff_Mul() for one in formulas if one != 0):
+        numbers.append(number)
+        held = rest.as_powers_dict()
+        if square := held.pop(1 - sy.phi**2, 0):
+            for base in (1 - sy.phi, 1 + sy.phi):
+                held[base] = held.get(base, 0) + square
+        powers.append(held)
+    factor = sympy.Rational(
+        sympy.igcd(0, *(one.p for one in numbers)), sympy.ilcm(1, *(one.q for one in numbers))
+    )
+    for base in set().union(*powers):
+        found = [held.get(base, 0) for held in powers]
+        if max(found) < 0 and base.free_symbols & {*sy.INDICES}:
+            factor *= base ** max(found)
+        elif min(found) > 0 or not base.free_symbols & {*sy.INDICES}:
+            factor *= base ** min(found)
+    return factor
 
 
 def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
@@ -399,9 +514,3 @@ def _highest(value: RationalFunction, orders: int) -> Iterator[sympy.Expr]:
         term = above[-1] / below[-1] * height ** (len(above) - len(below))
         yield (term / height**orders).to_sympy()
         rest = rest - term * divisor
-
-
-def _in_python(relation: sympy.Basic) -> str:
-    signs = {sympy.Eq: "==", sympy.Ge: ">=", sympy.Le: "<=", sympy.Gt: ">", sympy.Lt: "<"}
-    left, right = map(python_expression, relation.args)
-    return f"{left} {signs[relation.func]} {right}"

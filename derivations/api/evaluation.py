@@ -64,8 +64,6 @@ class Evaluation:
         dimension: of the packing, d; no spheres overlap where −1/d < φ < 1/2.
         domain: relations of whole numbers, all of which hold where it is meant.
         validity: the same in words.
-        missed: relations, and the value where all of them hold; the first that fits holds.
-        elsewhere: where to look for other layers, in words.
     """
 
     about: str
@@ -73,24 +71,11 @@ class Evaluation:
     dimension: int = 2
     domain: tuple[sympy.Basic, ...] = ()
     validity: str = ""
-    missed: tuple[tuple[tuple[sympy.Basic, ...], sympy.Expr], ...] = ()
-    elsewhere: str = ""
 
     @cached_property
     def needed(self) -> set[sympy.Symbol]:
         """The symbols that decide its value, and whether it has one."""
-        conditions = [*self.domain, *(one for when, _ in self.missed for one in when)]
-        sides = [*self.sides, *(value for _, value in self.missed)]
-        return set().union(*(one.free_symbols for one in (*sides, *conditions)))
-
-    @cached_property
-    def fixed(self) -> dict[sympy.Symbol, sympy.Expr]:
-        """Symbols that its domain fixes, which may be left out."""
-        return {one.lhs: one.rhs for one in self.domain if isinstance(one, sympy.Eq)}
-
-    def asked(self, given: Iterable[str]) -> set[sympy.Symbol]:
-        """The symbols to give a value: those that are fixed only where they are given."""
-        return self.needed - {one for one in self.fixed if one.in_code not in given}
+        return set().union(*(one.free_symbols for one in (*self.sides, *self.domain)))
 
     def at(self, given: Mapping[str, Number]) -> Any:
         """The value for single numbers: exact for exact ones, else a float; a tuple of several.
@@ -98,27 +83,12 @@ class Evaluation:
         Raises:
             ArgumentError: a name is unknown or missing, or a value is not allowed.
         """
-        asked = self.asked(given)
-        values, exact = read_arguments(self.about, asked, given, self.dimension)
-        for symbol, value in self.fixed.items():
-            if symbol not in asked:
-                values[symbol] = value.xreplace(values)
-        _assert_together(values)
+        values, exact = read_arguments(self.about, self.needed, given, self.dimension)
         for relation in self.domain:
             if not holds(relation, values):
                 at = told(sorted(relation.free_symbols, key=str), values)
-                raise ArgumentError(
-                    f"{self.about} is for {self.validity}, not for {at}{self.elsewhere}"
-                )
-        return self.value(values, exact=exact)
-
-    def value(
-        self, values: Mapping[sympy.Symbol, sympy.Rational], *, exact: bool
-    ) -> sympy.Expr | float | tuple[sympy.Expr | float, ...]:
-        """The value within its domain; its names and ranges have been looked at."""
-        fitting = ((v,) for when, v in self.missed if all(holds(one, values) for one in when))
-        sides = next(fitting, self.sides)
-        found = tuple(value_of(side, values, exact=exact) for side in sides)
+                raise ArgumentError(f"{self.about} is for {self.validity}, not for {at}")
+        found = tuple(value_of(side, values, exact=exact) for side in self.sides)
         return found[0] if len(found) == 1 else found
 
 

@@ -51,11 +51,6 @@ def numpy_function(
     compiled = _Compiler(list(by_name.values()), derived)
     sides = [compiled.value(side) for side in evaluation.sides]
     domain = [(relation, compiled.relation(relation)) for relation in evaluation.domain]
-    fixed = {symbol: compiled.value(symbol) for symbol in evaluation.fixed}
-    missed = [
-        ([compiled.relation(one) for one in when], compiled.value(value))
-        for when, value in evaluation.missed
-    ]
     signature = inspect.Signature(
         [inspect.Parameter(one, inspect.Parameter.POSITIONAL_OR_KEYWORD) for one in by_name]
     )
@@ -66,11 +61,11 @@ def numpy_function(
         shape = shared_shape({one: array for one, array in arrays.items() if array.ndim})
         values = {by_name[one]: np.broadcast_to(array, shape) for one, array in arrays.items()}
         _assert_allowed(evaluation, values)
-        _assert_together(values | {symbol: value(values) for symbol, value in fixed.items()})
+        _assert_together(values)
         for relation, holds in domain:
             _refuse(~holds(values), partial(_outside, evaluation, relation, values))
-        with np.errstate(all="ignore"):  # of forms where another one holds
-            found = [_first_fitting(side, missed, values) for side in sides]
+        with np.errstate(all="ignore"):
+            found = [side(values)[()] for side in sides]
         for one in found:
             _refuse(~np.isfinite(one), lambda _: "the value is beyond the range of floats: use at")
         return found[0] if len(found) == 1 else tuple(found)
@@ -81,23 +76,12 @@ def numpy_function(
     return function
 
 
-def _first_fitting(side: Call, missed: list[tuple[list[Call], Call]], values: Arrays) -> Any:
-    """The value of a side, but of the first of ``missed`` that fits where one does."""
-    value = side(values)
-    for when, other in reversed(missed):
-        fits = np.logical_and.reduce([holds(values) for holds in when])
-        value = np.where(fits, other(values), value)
-    return value[()]
-
-
 def _arguments(
     evaluation: Evaluation,
 ) -> tuple[dict[str, sympy.Symbol], dict[sympy.Symbol, sympy.Expr]]:
     """What the function takes, in order, and the symbols that follow from it."""
-    needed = evaluation.asked(())
+    needed = set(evaluation.needed)
     derived: dict[sympy.Symbol, sympy.Expr] = {}
-    for symbol, value in evaluation.fixed.items():
-        derived[symbol] = value.xreplace(derived)
     if sy.kappa in needed:
         derived[sy.kappa] = kappa_in(sy.d if sy.d in needed else evaluation.dimension)
         needed |= {sy.phi}
@@ -211,7 +195,7 @@ def _outside(
 ) -> str:
     symbols = sorted(relation.free_symbols & set(values), key=str)
     told = _with_values(symbols, values, at)
-    return f"{evaluation.about} is for {evaluation.validity}, not for {told}{evaluation.elsewhere}"
+    return f"{evaluation.about} is for {evaluation.validity}, not for {told}"
 
 
 def _with_values(symbols: Iterable[sympy.Symbol], values: Arrays, at: tuple[int, ...]) -> str:

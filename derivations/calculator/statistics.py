@@ -191,8 +191,7 @@ def closed_form(
     if relative:
         for one in observables:
             scales |= _scales(one, load)
-    values = dict(load.values)
-    meant = statistic.xreplace(scales).xreplace(values)
+    meant = statistic.xreplace(scales).xreplace(dict(load.values))
     facts: tuple[Theorem, ...] = ()
     equations: tuple[int | str, ...] = ()
     if load.dimension == PLANE:
@@ -200,7 +199,7 @@ def closed_form(
         if on.loading:
             facts, equations = (*facts, *load.theorems()), (*equations, *load.equations)
     try:
-        form = statistics.ClosedForm.of(meant, on, facts, values)
+        form = statistics.ClosedForm.of(meant, on, facts, load.values)
     except (NotExactError, NotProvedError) as reason:
         raise ObservableError(f"{text(statistic)}: {reason}") from None
     return ClosedForm(quantity, form, on, equations, meant, facts)

@@ -21,7 +21,6 @@ from .output import Overwrite, folder_of, out_option
 
 if TYPE_CHECKING:
     from ..api.equation import Equation
-    from ..api.formula import Formula
 
 
 class Form(StrEnum):
@@ -103,61 +102,57 @@ def show(
     ],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
-        bool, typer.Option("--exact", help="The exact form at finite size, where there is one.")
+        bool, typer.Option("--exact", help="The exact forms at finite size, where there are any.")
     ] = False,
-    at_j: Annotated[
-        str | None,
-        typer.Option(
-            "--at-j",
-            "--case",
-            metavar="CASE",
-            help="Which exact form. Eqs. 13 and 14: interior (2 ≤ j ≤ M − 2, the default), "
-            "base (j = 0), base+1 (j = 1) or surface (j = M − 1). Eq. 15: surface-load (the "
-            "default) or bulk-load. Eq. 16: bead (both upper contacts, the default), contact (one "
-            "of them), leg (the contact on a leg of the cone) or leg-force (its magnitude). Beyond "
-            "the paper, a case that is none of them is answered by a list of them.",
-        ),
-    ] = None,
     columns: Columns = 1,
 ) -> None:
     """Print equations, or all of a theorem, without deriving them."""
-    wanted = wanted_of(numbers)
-    if exact and len(wanted) > 1:
-        names = ", ".join(map(str, wanted))
-        raise typer.BadParameter(
-            f"--exact goes with one, and {' '.join(numbers)} are several; name one: {names}.",
-            param_hint="N",
-        )
-    if at_j is not None and not exact:
-        raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
-    from ..api.equation import NoSuchFormError
-
     if exact and form is Form.STEPS:
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
     written = []
-    for whole in map(fd.equation, wanted):
-        try:
-            shown = whole.exact(at_j) if exact else whole
-        except NoSuchFormError as unknown:
-            hint = "--exact" if unknown.hint == "exact" else "--at-j / --case"
-            raise typer.BadParameter(str(unknown), param_hint=hint) from None
-        written.append(_written(shown, whole, form, columns))
+    for one in map(fd.equation, wanted_of(numbers)):
+        written += _exact(one, form, columns) if exact else [_written(one, form, columns)]
     print("\n\n".join(written))
 
 
-def _written(shown: "Formula", whole: "Equation", form: Form, columns: int) -> str:
+def _written(one: "Equation", form: Form, columns: int) -> str:
     match form:
         case Form.LATEX:
-            return f"\\begin{{equation}}\n{shown.latex(columns)}\n\\end{{equation}}"
+            return _display(one.latex(columns))
         case Form.SYMPY:
-            return shown.sympy_code()
+            return one.sympy_code()
         case Form.PYTHON:
-            return shown.python_code()
+            return one.python_code()
         case Form.STEPS:
-            return str(whole.steps())
-    return str(shown)
+            return str(one.steps())
+    return str(one)
+
+
+def _exact(one: "Equation", form: Form, columns: int) -> list[str]:
+    """The exact forms, each with its name where there are several."""
+    from ..api.equation import NoSuchFormError
+
+    try:
+        one.exact()
+    except NoSuchFormError as unknown:
+        raise typer.BadParameter(str(unknown), param_hint="--exact") from None
+    forms = {name: one.exact(name) for name in one.forms}
+    match form:
+        case Form.LATEX:
+            return [_display(exact.latex(columns)) for exact in forms.values()]
+        case Form.SYMPY:
+            from force_diffusion.symbolic.printing.code import sympy_source
+
+            return [sympy_source(exact.expr) for exact in forms.values()]
+        case Form.PYTHON:
+            return [exact.python(f"{one.name}_{name}") for name, exact in forms.items()]
+    return [f"Eq. {one.number}, {name}: {exact}" for name, exact in forms.items()]
+
+
+def _display(latex: str) -> str:
+    return f"\\begin{{equation}}\n{latex}\n\\end{{equation}}"
 
 
 def list_equations() -> None:

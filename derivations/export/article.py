@@ -24,7 +24,7 @@ from sympy import Basic, Eq
 
 from ..framework.catalogue import THEOREMS, modules, number_of
 from ..framework.loading import load
-from ..framework.record import Derivation, Outcome
+from ..framework.record import Outcome, Statement
 from .document import sentence, statement_latex
 from .prose import both, phrase_latex, pieces, prose_latex, prose_markdown, text_latex
 from .quoted import quoted
@@ -184,7 +184,7 @@ def _display(latex: str) -> str:
     return f"$$\n{latex}\n$$\n\n"
 
 
-def _forms(derivation: Derivation, columns: int) -> str:
+def _forms(derivation: Statement, columns: int) -> str:
     said = [
         f"### Eq. {derivation.number}: {derivation.title}\n\n*Assumed:* "
         f"{prose_markdown(sentence('; '.join(derivation.assumptions)))}\n\n"

@@ -13,7 +13,7 @@ from force_diffusion.symbolic.printing.text import text
 from ..coq.record import recorded
 from ..framework.catalogue import theorem_of
 from ..framework.proving import Shown
-from ..framework.record import Check, Derivation, Outcome
+from ..framework.record import Check, Outcome, Statement
 from .prose import both
 
 _PAIR = re.compile(r"\((\S+), (\S+)\)")
@@ -32,17 +32,12 @@ def _paragraph(words: str, first: str = "  ", later: str | None = None) -> str:
     return filled.replace("\N{NO-BREAK SPACE}", " ")
 
 
-def printed_text(derivation: Derivation, indent: str = "  ") -> str:
+def printed_text(derivation: Statement, indent: str = "  ") -> str:
     """The printed equation or equations."""
-    lines = [
-        line
-        for equation in derivation.printed
-        for line in text_lines(equation, derivation.relation, TEXT_WIDTH - len(indent))
-    ]
-    return "\n".join(indent + line for line in lines)
+    return "\n".join(indent + line for line in derivation.lines(TEXT_WIDTH - len(indent)))
 
 
-def refuted_text(derivation: Derivation) -> list[str]:
+def refuted_text(derivation: Statement) -> list[str]:
     """The printed statements that do not hold, each with how the paper's words are read in it."""
     lines = []
     for one in derivation.refuted:
@@ -63,12 +58,12 @@ def expected_text(refuted: int) -> str:
     return f"{refuted} printed statement{plural} refuted, as expected (see ERRATA)" * bool(refuted)
 
 
-def heading(derivation: Derivation) -> str:
+def heading(derivation: Statement) -> str:
     """Number and title."""
     return f"Eq. {derivation.number}: {derivation.title}"
 
 
-def statement_text(derivation: Derivation) -> str:
+def statement_text(derivation: Statement) -> str:
     """What the equation says, in what symbols, under which assumptions."""
     parts = [heading(derivation), "", printed_text(derivation), *refuted_text(derivation)]
     parts += ["", "Symbols"]
@@ -88,7 +83,7 @@ def statement_text(derivation: Derivation) -> str:
     return "\n".join(parts)
 
 
-def relation_of(derivation: Derivation, step: Shown) -> str:
+def relation_of(derivation: Statement, step: Shown) -> str:
     """The sign between the sides of a step; the printed equation has its own."""
     printed = all(one in derivation.printed for one in step.equations)
     return derivation.relation if printed else step.relation
@@ -99,7 +94,7 @@ def follows_text(step: Shown, verdict: str) -> str:
     return f"{verdict}, from {both(step.uses)}" if step.uses else verdict
 
 
-def steps_text(derivation: Derivation, verdicts: Sequence[str]) -> str:
+def steps_text(derivation: Statement, verdicts: Sequence[str]) -> str:
     """The steps: the reason, the formula that it gives, the verdict, and what it follows from."""
     parts = []
     steps = enumerate(zip(derivation.steps(), verdicts, strict=True), start=1)

@@ -69,7 +69,7 @@ class Layered:
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
         """What the closed form says on each part of the packing."""
-        return statistics.theorems(self._meant, self.form, self.where, self._facts)
+        return statistics.theorems(self._meant, self.where, self._facts)
 
     def exact(self, *premises: int | str) -> dict[str, ClosedForm]:
         """The closed form as users get it, with the equations that it rests on."""

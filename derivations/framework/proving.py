@@ -25,6 +25,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 from force_diffusion.symbolic.kernel.disproofs import Disproof, other_leading_order
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
+    DisprovedError,
     NotAStatementError,
     NotProvedError,
     Theorem,
@@ -176,6 +177,8 @@ class Line:
         meant, where = self._meant(part, candidate), self.domain(part)
         try:
             theorem, *others = self._proofs(part, candidate)
+        except DisprovedError as reason:
+            return refuted(str(reason))
         except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
             none = isinstance(reason, NotAStatementError) and no_statement(meant, where)
             # what has no value somewhere is mostly without one at a place that no packing shows

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import sympy
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
@@ -25,6 +26,8 @@ from force_diffusion.symbolic.kernel.language import (
 )
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.printing.latex import RELATIONS
+from force_diffusion.symbolic.printing.lines import column_width, latex_body, text_lines
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.values import WithoutValue
 
@@ -81,12 +84,35 @@ class Statement:
     """An equation and how it is decided: a derivation, or a row of the calculator."""
 
     number: Number
+    name: str
+    title: str
     symbols: tuple[tuple[sympy.Basic, str], ...]
+    assumptions: tuple[str, ...]
+    premises: tuple["Statement", ...]
     printed: tuple[sympy.Eq, ...]
     claims: tuple[Claim, ...]
+    remarks: tuple[str, ...]
     relation: str
+    domain: tuple[sympy.Basic, ...]
     dimension: int
+    loads: tuple[str, ...]
     steps: Callable[[], Lines]
+    exact: Callable[[], dict[str, ClosedForm]] | None
+
+    @cached_property
+    def exact_forms(self) -> dict[str, ClosedForm]:
+        """Closed forms, exact at finite size, by name; the first is the usual one."""
+        return self.exact() if self.exact else {}
+
+    def latex(self, columns: int = 1) -> str:
+        """What is printed, for one display in text of one column or of two."""
+        return latex_body(self.printed, RELATIONS[self.relation], column_width(columns))
+
+    def lines(self, room: int) -> list[str]:
+        """What is printed, as lines of plain text."""
+        return [
+            line for equation in self.printed for line in text_lines(equation, self.relation, room)
+        ]
 
     def domain_of(self, part: int) -> Where:
         """Where one of ``printed`` is proved."""
@@ -216,7 +242,7 @@ class Derivation(Statement):
     title: str
     symbols: tuple[tuple[sympy.Basic, str], ...]
     assumptions: tuple[str, ...]
-    premises: tuple["Derivation", ...]
+    premises: tuple[Statement, ...]
     printed: tuple[sympy.Eq, ...]
     steps: Callable[[], Lines]
     claims: tuple[Claim, ...] = ()
@@ -230,7 +256,7 @@ class Derivation(Statement):
 
 
 def proved_by_line(
-    derivation: Derivation, line: Line, place: int, printed: sympy.Eq, candidate: sympy.Eq
+    derivation: Statement, line: Line, place: int, printed: sympy.Eq, candidate: sympy.Eq
 ) -> Ruling:
     """Rule on a candidate for what a line prints: by its rule, as the whole or as a component.
 
@@ -302,7 +328,7 @@ class Check:
 class Outcome:
     """All that running one derivation found."""
 
-    derivation: Derivation
+    derivation: Statement
     verdict: Verdict
     checks: tuple[Check, ...]
     seconds: float = 0.0

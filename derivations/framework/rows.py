@@ -55,13 +55,9 @@ class Row(Statement):
     domain = ()
     loads = ()
 
-    @cached_property
-    def _forms(self) -> Forms:
-        return self.forms()
-
-    def exact(self) -> Forms:
+    def exact(self) -> Forms:  # type: ignore[override]
         """The closed forms, by name."""
-        return self._forms
+        return self.forms()
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -70,22 +66,35 @@ class Row(Statement):
 
     @cached_property
     def printed(self) -> tuple[sympy.Eq, ...]:  # type: ignore[override]
-        """The first formula of each closed form."""
-        return tuple(
-            equation(form.quantity, form.formulas[0].value.to_sympy())
-            for form in self._forms.values()
-        )
+        """The closed forms as equations."""
+        return tuple(form.equation for form in self.exact_forms.values())
+
+    def latex(self, columns: int = 1) -> str:
+        """The closed forms, for one display in text of one column or of two."""
+        first, *others = (form.latex(columns) for form in self.exact_forms.values())
+        if not others:
+            return first
+        body = " \\\\[6pt]\n&".join((first, *others))
+        return f"\\begin{{aligned}}\n&{body}\n\\end{{aligned}}"
+
+    def lines(self, room: int) -> list[str]:
+        """The closed forms as lines of plain text."""
+        return [line for form in self.exact_forms.values() for line in form.lines(room)]
+
+    def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
+        """Rule on a candidate for one of the closed forms."""
+        return [*self.exact_forms.values()][part].rule_on(candidate)
 
     @property
     def where(self) -> Where:
         """The domain of the first closed form."""
-        return next(iter(self._forms.values())).where
+        return next(iter(self.exact_forms.values())).where
 
     @property
     def claims(self) -> tuple[Claim, ...]:  # type: ignore[override]
         """Further statements, decided from the closed forms."""
         return tuple(
-            Claim(words, partial(decide, self._forms)) for words, decide in self.statements
+            Claim(words, partial(decide, self.exact_forms)) for words, decide in self.statements
         )
 
     def steps(self) -> Lines:  # type: ignore[override]
@@ -95,7 +104,7 @@ class Row(Statement):
     @cached_property
     def _steps(self) -> Lines:
         lines = Lines(self.where)
-        for form in self._forms.values():
+        for form in self.exact_forms.values():
             by = _by(form)
             for formula in form.formulas:
                 for part in formula.where:
@@ -110,7 +119,7 @@ class Row(Statement):
 
 
 def _by(form: ClosedForm) -> By:
-    return closed(lambda: form.theorems, *form._facts)
+    return closed(lambda: form.theorems, *form.facts)
 
 
 # what may be claimed

@@ -14,7 +14,7 @@ from typing import Any, Self
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from ..symbols import H_M, INDICES, PARAMETERS, M, d, n_x, n_y, phi
+from ..symbols import H_M, INDICES, PARAMETERS, M, d, l, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
 
@@ -52,6 +52,12 @@ class Domain:
     def named(self, names: Mapping[sympy.Expr, sympy.Expr]) -> "Domain":
         """The same field, whose generators have other names; its elements are those of this one."""
         return Domain(names.get(one, one) for one in self.generators)
+
+    def __reduce__(self) -> str:
+        """The one domain that pickles hold is found by its name."""
+        if self is not FIELD:
+            raise TypeError("elements of another domain than FIELD are not pickled")
+        return "FIELD"
 
     def constant(self, value: int | Fraction | sympy.Rational) -> "RationalFunction":
         """A rational number as an element of the field."""
@@ -161,6 +167,12 @@ class RationalFunction:
             numerator, denominator = numerator / lead, denominator / lead
         self.numerator = numerator
         self.denominator = denominator
+
+    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        """Polynomials go into pickles as their terms."""
+        parts = (one.to_dict().items() for one in (self.numerator, self.denominator))
+        terms = ({tuple(map(int, x)): (int(c.p), int(c.q)) for x, c in one} for one in parts)
+        return _from_terms, (self.domain, *terms)
 
     def _same(self, numerator: Polynomial, denominator: Polynomial) -> Self:
         return type(self)(self.domain, numerator, denominator)
@@ -347,10 +359,16 @@ class RationalFunction:
         return number, powers
 
 
+def _from_terms(domain: Domain, *parts: Mapping[tuple[int, ...], tuple[int, int]]) -> Any:
+    """A quotient from the terms of numerator and denominator."""
+    terms = ({x: fmpq(*c) for x, c in part.items()} for part in parts)
+    return RationalFunction(domain, *map(domain.context.from_dict, terms))
+
+
 def _reads_negative(factor: sympy.Expr) -> bool:
     """Whether −factor reads better: M − j rather than j − M, 1 − z rather than z − 1."""
-    if M in factor.free_symbols:
-        found = [term.as_coeff_exponent(M) for term in sympy.Add.make_args(factor)]
+    if height := next((one for one in (M, l) if one in factor.free_symbols), None):
+        found = [term.as_coeff_exponent(height) for term in sympy.Add.make_args(factor)]
         highest = max(power for _, power in found)
         top = sympy.Add(*(c for c, power in found if power == highest))
         return bool(top.could_extract_minus_sign())

@@ -20,7 +20,7 @@ from ..second_order import RADII, covariance
 from ..weights import Weights
 from .rules import Rule
 from .statistics import ClosedForm, Statistics
-from .theorem import FORCES, Facts, NotProvedError, Theorem, check, flat, made
+from .theorem import FORCES, DisprovedError, Facts, NotProvedError, Theorem, check, flat, made
 from .where import Limit, Where
 
 _NEVER = 10**9  # no order is as large
@@ -40,9 +40,7 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
         left, right = read(formula, facts, where)
         low, high = order(left - right, limit), order(right, limit)
         if not low <= high - limit.orders:
-            raise NotProvedError(
-                f"left less right is of order {low}, the right-hand side of order {high}"
-            )
+            raise DisprovedError(how_apart(left, right, limit))
         least = where.at_least
         if not even(FIELD.one / right, limit, least):
             raise NotProvedError("what the right-hand side goes as is not shown to vanish nowhere")
@@ -51,6 +49,32 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
         return made(formula, where, "leading order", flat(facts))
 
     return rule
+
+
+def how_apart(left: RationalFunction, right: RationalFunction, limit: Limit) -> str:
+    """How what is not of the same leading orders goes.
+
+    Functions of what grows and of parameters that differ in their leading parts do so at almost
+    every ratio and φ.
+    """
+    if left.is_zero() or right.is_zero():
+        side = "left" if left.is_zero() else "right"
+        return f"the {side}-hand side is zero, the other one is not"
+    if order(left - right, limit) < order(right, limit):
+        rest = _as_shown(leading(left - right, limit), limit)
+        return f"left less right goes as {rest}, an order that both are to share"
+    power = order(left, limit) - order(right, limit)
+    share = _as_shown(leading(left, limit) / leading(right, limit), limit)
+    goes = f"goes as the power {power} of what grows" if power else f"goes to {share}"
+    true = _as_shown(leading(left, limit), limit)
+    return f"left over right {goes}, not to 1: the left-hand side goes as {true}"
+
+
+def _as_shown(value: RationalFunction, limit: Limit) -> str:
+    """A function of what grows; at a fixed relative height, of that."""
+    if limit.growing == (sy.M, sy.j):
+        value = value.substitute({sy.j: FIELD.generator(sy.z) * FIELD.generator(sy.M)})
+    return text(value.reduced().to_sympy())
 
 
 def bounded(*facts: Theorem | tuple[Theorem, ...]) -> Rule:

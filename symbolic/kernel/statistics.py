@@ -6,7 +6,7 @@ quantities in the radii, put in one after the other. They are polynomials on set
 indices, so a moment is a polynomial on each of a few sets of indices: its closed form.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
@@ -21,9 +21,16 @@ from ..notation import by_name
 from ..printing.text import text
 from ..second_order import RADII, SHIFT, Jet, Means, covariance
 from ..weights import Weights
-from .decisions import Ruling, proved, refuted, undecided
+from .decisions import Ruling, not_a_statement, proved, refuted, undecided
 from .rules import Rule
-from .theorem import NotProvedError, Theorem, check, made
+from .theorem import (
+    DisprovedError,
+    NotAStatementError,
+    NotProvedError,
+    Theorem,
+    check,
+    made,
+)
 from .where import Loading, Where
 
 _SQUARE = FIELD.generator(sy.sigma) ** 2
@@ -215,12 +222,13 @@ class ClosedForm:
     constants: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
 
     @classmethod
+    @lru_cache(maxsize=256)
     def of(
         cls,
         expression: sympy.Expr,
         where: Where,
-        facts: Iterable[Theorem],
-        values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
+        facts: tuple[Theorem, ...],
+        values: tuple[tuple[sympy.Symbol, sympy.Rational], ...] = (),
     ) -> "ClosedForm":
         """An expression in moments on a domain.
 
@@ -235,7 +243,7 @@ class ClosedForm:
         """
         reader, own = Statistics.on(where, facts), constants(expression)
         weights = reader.number(expression.xreplace(own)).parts.get(NUMBER, Weights())
-        weights = weights.having({s: FIELD.constant(n) for s, n in (values or {}).items()})
+        weights = weights.having({s: FIELD.constant(n) for s, n in values})
         return cls(weights.on(reader.points), reader.points, reader.straight, own)
 
     @cached_property
@@ -302,13 +310,11 @@ class ClosedForm:
         return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
 
 
-def theorems(
-    quantity: sympy.Expr, form: ClosedForm, where: Where, facts: Iterable[Theorem]
-) -> tuple[Theorem, ...]:
-    """What a closed form of a quantity says: a theorem for each part of its domain."""
+def theorems(quantity: sympy.Expr, where: Where, facts: tuple[Theorem, ...]) -> tuple[Theorem, ...]:
+    """What the closed form of a quantity says: a theorem for each part of its domain."""
     return tuple(
         made(equation(quantity, piece.value.to_sympy()), where.also(*part), "moment on sets", facts)
-        for piece in form.pieces
+        for piece in ClosedForm.of(quantity, where, facts).pieces
         for part in piece.where
     )
 
@@ -325,30 +331,58 @@ def worked_out(formula: sympy.Eq, where: Where, facts: Iterable[Theorem]) -> sym
 
 def decide(form: ClosedForm, where: Where, candidate: sympy.Expr) -> Ruling:
     """Rule on a candidate for a closed form: whether it is the same on all of the domain."""
+    where, left, difference = where.loaded(None), form.points, form.weights
     try:
-        said = sympy.sympify(candidate).xreplace(form.constants)
-        read = Statistics.on(where.loaded(None), ()).number(said)
-        if strange := {*read.parts} - {NUMBER}:
-            return undecided(f"it holds {min(strange)}, which belongs to single beads")
-        differences = (form.weights - read.parts.get(NUMBER, Weights())).on(form.points).formulas()
-    except (NotExactError, NotProvedError, sympy.SympifyError, ZeroDivisionError) as reason:
+        for value, part in _parts(candidate):
+            domain = where.also(*part)
+            check(equation(value, value), domain)
+            reader = Statistics.on(domain, ())
+            read = reader.number(value.xreplace(form.constants))
+            if strange := {*read.parts} - {NUMBER}:
+                return undecided(f"it holds {min(strange)}, which belongs to single beads")
+            difference = difference - read.parts.get(NUMBER, Weights()).on(left & reader.points)
+            left = left - reader.points
+        if not left.is_empty():
+            return not_a_statement(f"it has no value at {_point(form, left)}")
+        differences = difference.on(form.points).formulas()
+    except NotAStatementError as reason:
+        return not_a_statement(str(reason))
+    except (NotExactError, NotProvedError, ZeroDivisionError) as reason:
         return undecided(str(reason))
     if not differences:
         return proved("the same on all of the domain")
     return refuted(_shown(form, *differences[0]))
 
 
+def _parts(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
+    """The formulas of a function that is given in pieces, with relations; the first that fits."""
+    height = {sy.z: sy.j / sy.M}
+    if not isinstance(candidate, sympy.Piecewise):
+        yield candidate.xreplace(height), ()
+        return
+    for value, condition in candidate.args:
+        either = condition.args if isinstance(condition, sympy.Or) else (condition,)
+        for part in either:
+            both = part.args if isinstance(part, sympy.And) else (part,)
+            yield value.xreplace(height), tuple(one for one in both if one != sympy.true)
+
+
 def _shown(form: ClosedForm, points: sets.Set, difference: RationalFunction) -> str:
     """A point at which a closed form differs from what was said of it."""
     at = sets.sample(sets.parts(points)[0])
     whole = {symbol: FIELD.constant(at[symbol]) for symbol in at if difference.holds(symbol)}
-    left = difference.substitute(whole).named(form._names).to_sympy()
+    value = text(difference.substitute(whole).named(form._names).to_sympy())
+    return f"at {_point(form, points)} the true value less this one is {value}"
+
+
+def _point(form: ClosedForm, points: sets.Set) -> str:
+    """A point of a set, in words."""
+    at = sets.sample(sets.parts(points)[0])
     indices = {symbol: old.xreplace({s: sympy.Integer(n) for s, n in at.items()})
                for symbol, old in form.straight.image.items()}  # fmt: skip
     held = form.weights_symbols
     values = {s: indices.get(s, at[s]) for s in sy.INDICES if s in held}
-    where = ", ".join(f"{text(symbol)} = {value}" for symbol, value in values.items())
-    return f"at {where or 'every point'} the true value less this one is {text(left)}"
+    return ", ".join(f"{text(one)} = {value}" for one, value in values.items()) or "every point"
 
 
 def moment(*facts: Theorem) -> Rule:
@@ -357,12 +391,17 @@ def moment(*facts: Theorem) -> Rule:
     def rule(formula: sympy.Eq, where: Where) -> Theorem:
         check(formula, where)
         try:
-            left, right = (Statistics.on(where, facts).number(side) for side in formula.args)
-            same = (left - right).on(Statistics.on(where, facts).points).is_zero()
+            reader = Statistics.on(where, facts)
+            left, right = map(reader.number, formula.args)
         except NotExactError as reason:
             raise NotProvedError(str(reason)) from None
-        if not same:
-            raise NotProvedError("the moments of both sides differ")
-        return made(formula, where, "moment", facts)
+        difference = (left - right).on(reader.points)
+        if difference.is_zero():
+            return made(formula, where, "moment", facts)
+        rest = difference.parts.get(NUMBER, Weights())
+        if rest.is_zero():
+            raise NotProvedError("both sides hold different weights of single beads")
+        form = ClosedForm(rest, reader.points, reader.straight)
+        raise DisprovedError(_shown(form, *rest.formulas()[0]))
 
     return rule

@@ -39,6 +39,10 @@ class NotProvedError(ValueError):
     """A rule does not prove a statement, and why."""
 
 
+class DisprovedError(NotProvedError):
+    """A rule finds that a statement is false, and where or how."""
+
+
 class NotAStatementError(NotProvedError):
     """What is written has no value, or no single one, somewhere on its domain."""
 

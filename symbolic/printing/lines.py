@@ -8,6 +8,7 @@ that no line is overfull, which the compilation of the document checks.
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import zip_longest
 
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 
@@ -354,11 +355,65 @@ def latex_body(
         found = [[f"&{one[0].replace('&', '', 1)}", *one[1:]] for one in found]
     lines = [line for one in found for line in one]
     left_over = room - max(float(width(line.split("&")[0])) for line in lines) - 22
-    said = pack([(piece, float(width(piece))) for piece in below], left_over, left_over)
-    lines += [rf"&\quad {line}" for line in said]
+    lines += [rf"&\quad {line}" for line in _packed(below, left_over)]
     if len(lines) == 1:
         return re.sub(r"^&| &(?==|\\[a-z]+ )", lambda found: found[0][:-1], lines[0], count=1)
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
+
+
+Case = tuple[Basic, Sequence[str]]
+"""A formula, and in pieces of LaTeX where it holds."""
+
+
+def latex_cases(
+    left: Basic, factor: Basic, rows: Sequence[Case], below: Sequence[str], room: float
+) -> str:
+    """Formulas of one quantity, times a factor, each beside or above where it holds.
+
+    ``below``: pieces of LaTeX for where they hold together.
+    """
+    printer = PaperLatex()
+    scale = "" if factor == 1 else rf" {printer.doprint(factor)} \times"
+    head = f"{printer.doprint(left)} ="
+    alone = width(head + scale) > room / 3
+    left_over = room - 16 - (20 if alone else width(head + scale))
+    layouts = [_beside(rows, left_over), _above(rows, left_over)]
+    body = " \\\\[3pt]\n".join(" \\\\\n".join(one) for one in min(layouts, key=_height))
+    cases = f"\\begin{{cases}}\n{body}\n\\end{{cases}}"
+    lines = [f"&{head}{scale}", rf"&\quad {cases}"] if alone else [f"{head[:-1]}&={scale} {cases}"]
+    lines += [rf"&\quad {line}" for line in _packed(below, room - 30)]
+    return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
+
+
+def _height(layout: Sequence[Sequence[str]]) -> int:
+    return sum(map(len, layout))
+
+
+def _beside(rows: Sequence[Case], room: float) -> list[list[str]]:
+    """The lines of each row, where it holds beside it."""
+    places = [_packed(where, 0.4 * room) for _, where in rows]
+    rest = room - 20 - max(width(line) for place in places for line in place)
+    return [
+        [f"{line} & {beside}" for line, beside in zip_longest(_lines(one, rest), at, fillvalue="")]
+        for (one, _), at in zip(rows, places, strict=True)
+    ]
+
+
+def _above(rows: Sequence[Case], room: float) -> list[list[str]]:
+    """The lines of each row, where it holds below it."""
+    return [
+        [*_lines(one, room), *(rf"\quad {line}" for line in _packed(where, room - 10))]
+        for one, where in rows
+    ]
+
+
+def _lines(formula: Basic, room: float) -> list[str]:
+    first, *others = (line.removeprefix("&") for line in latex_lines(formula, room=room - 10))
+    return [first, *(rf"\quad {line}" for line in others)]
+
+
+def _packed(pieces: Iterable[str], room: float) -> list[str]:
+    return pack([(piece, float(width(piece))) for piece in pieces], room, room)
 
 
 def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> list[str]:
