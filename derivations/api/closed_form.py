@@ -54,11 +54,11 @@ class ClosedForm:
 
     >>> import force_diffusion as fd
     >>> from force_diffusion.symbols import f_plus, i, j
-    >>> print(fd.variance(f_plus(i, j), load="bulk"))  # doctest: +ELLIPSIS
-    var(f⁺_ij), exact for 0 ≤ j ≤ M − 1
-      j ≥ 2: σ_δr² (36 M⁴ + 36 M³ j + ...
-      j = 1: σ_δr² (36 M⁴ + 81 M³ + ...
-      j = 0: σ_δr² (36 M⁴ + 45 M³ + ...
+    >>> print(fd.variance(f_plus(i, j) - f_plus(i - 1, j - 1)))
+    var(f⁺_ij − f⁺_(i−1,j−1)), exact for 1 ≤ j ≤ M − 1
+      j ≥ 3: σ_δr² (12 j φ² + 12 j + φ⁴ + 3 φ² − 6)/[2 r² (1 − φ²)²]
+      j = 2: σ_δr² (φ⁴ + 27 φ² + 3 φ + 18)/[2 r² (1 − φ²)²]
+      j = 1: σ_δr² (φ⁴ − φ³ + 12 φ² − 5 φ + 7)/[2 r² (1 − φ²)²]
     """
 
     def __init__(
