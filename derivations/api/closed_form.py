@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
+from numbers import Integral
 from typing import Any
 
 import mpmath
@@ -15,7 +16,7 @@ from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import statistics
 from force_diffusion.symbolic.kernel.decisions import Ruling, undecided
-from force_diffusion.symbolic.kernel.language import unreadable
+from force_diffusion.symbolic.kernel.language import unreadable, usual_form
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.code import name_of, python_expression
@@ -272,10 +273,11 @@ class ClosedForm:
         Raises:
             ArgumentError: it does not depend on the layer j, or as for :meth:`at`.
         """
-        top = next((symbol for symbol in (sy.M, sy.l) if symbol.in_code in values), None)
+        top = next((values[name] for name in ("M", "l") if name in values), None)
         if sy.j not in self._needed or top is None:
             raise ArgumentError("a profile needs a form that depends on the layer j, and M or l")
-        return self.at(j=range(int(values[top.in_code])), **values)
+        is_height = isinstance(top, Integral) and top > 0
+        return self.at(j=range(int(top)) if is_height else 0, **values)
 
     # the leading orders
 
@@ -377,9 +379,10 @@ class ClosedForm:
 
     def rule_on(self, candidate: sympy.Eq) -> Ruling:
         """Rule on an equation, whose left-hand side has to be the quantity."""
+        candidate = usual_form(candidate, (self.equation,))
         if candidate.lhs not in (self._quantity, self.meant):
-            return undecided(f"its left-hand side is {text(candidate.lhs)}, not that of this form")
-        value = candidate.rhs
+            return undecided(f"it is not about {text(self._quantity)}")
+        value = sympy.piecewise_fold(candidate.rhs)
         formulas = [one for one, _ in value.args] if value.is_Piecewise else [value]
         for one in formulas:
             known = {*self._where.indices, *self._needed}

@@ -276,13 +276,7 @@ class Equation:
         )
 
     def _about(self, line: sympy.Eq) -> str:
-        about = "what must vanish" if line.rhs == 0 else text(line.lhs)
-        return f"{about}, for {self._domain}" if self._domain else about
-
-    @property
-    def _domain(self) -> str:
-        """Where the printed form holds, in words: "N ≥ 3, j ≥ N + 1, M ≥ j + 3"; or none."""
-        return ", ".join(text(relation) for relation in self._derivation.domain)
+        return "what must vanish" if line.rhs == 0 else text(line.lhs)
 
     # exact forms
 
@@ -373,13 +367,7 @@ class Equation:
                 f"the right-hand side of Eq. {self.number} is no number: it holds what belongs to "
                 "single beads. equation(…).python_code() is a function of these."
             )
-        return Evaluation(
-            about=f"Eq. {self.number}",
-            sides=sides,
-            dimension=self._derivation.dimension,
-            domain=self._derivation.domain,
-            validity=self._domain,
-        )
+        return Evaluation(f"Eq. {self.number}", sides)
 
     def function(self) -> Callable[..., Any]:
         """The right-hand side as a function for NumPy, by position or by name.

@@ -93,7 +93,6 @@ class Statement:
     claims: tuple[Claim, ...]
     remarks: tuple[str, ...]
     relation: str
-    domain: tuple[sympy.Basic, ...]
     dimension: int
     loads: tuple[str, ...]
     steps: Callable[[], Lines]
@@ -225,8 +224,7 @@ class Derivation(Statement):
         steps: gives the lines.
         claims: what else a procedure of its own decides.
         remarks: in words.
-        domain: relations of whole numbers, where the printed form holds at finite size.
-        where: the same for the kernel, with the load and the limit.
+        where: where the kernel proves it, with the load and the limit.
         dimension: of the packing.
         loads: in words, for Coq: "surface", "bulk" or "single".
         relation: the printed sign, as the line of ``printed`` has to prove it: "=", at every size
@@ -247,8 +245,7 @@ class Derivation(Statement):
     steps: Callable[[], Lines]
     claims: tuple[Claim, ...] = ()
     remarks: tuple[str, ...] = ()
-    domain: tuple[sympy.Basic, ...] = ()  # relations of whole numbers, where the printed form holds
-    where: Where | None = None  # the same, with the load, of what the kernel proves
+    where: Where | None = None  # with the load
     dimension: int = 2  # of the packing: −1/d < φ < 1/2
     loads: tuple[str, ...] = ()  # "single", "surface", "bulk", or "any" but on the bead passed
     relation: str = "="  # how the printed equation relates its sides: "=", "≈", "∼" or "∝"

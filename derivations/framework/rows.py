@@ -52,7 +52,6 @@ class Row(Statement):
     statements: tuple[tuple[str, Callable[[Forms], Ruling]], ...] = ()
     dimension: int = 2
     relation = "="
-    domain = ()
     loads = ()
 
     def exact(self) -> Forms:  # type: ignore[override]

@@ -43,10 +43,11 @@ def exact(case: Case) -> Array:
 
 def leading(load: str, z: Array) -> Array:
     """The leading orders over M^(3/2)."""
-    bulk = load == "bulk"
-    form = (
-        closed_forms.bulk_diffusion_of_spheres if bulk else closed_forms.surface_diffusion_of_spheres
+    surface, bulk = (
+        closed_forms.surface_diffusion_of_spheres,
+        closed_forms.bulk_diffusion_of_spheres,
     )
+    form = bulk if load == "bulk" else surface
     return np.sqrt([form(1, at, float(PHI), PAPER_STD, 1.0) for at in z])
 
 

@@ -9,7 +9,6 @@ layers, simulated with the estimated correlations (a multivariate t).
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 

@@ -221,6 +221,10 @@ class ClosedForm:
     straight: Straightening
     constants: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
 
+    def __reduce__(self) -> tuple[type["ClosedForm"], tuple[object, ...]]:
+        """Relations are left out of pickles: SymPy would evaluate them."""
+        return ClosedForm, (self.weights, self.points, self.straight, self.constants)
+
     @classmethod
     @lru_cache(maxsize=256)
     def of(

@@ -491,6 +491,8 @@ class Where:
 @lru_cache(maxsize=4096)
 def _rows_of(relation: sympy.Basic) -> tuple[Affine, ...]:
     """What is ≥ 0 where a relation between whole numbers holds."""
+    if relation == sympy.true:  # M ≥ 1, of a positive M, when SymPy has evaluated it
+        return ()
     if not isinstance(relation, sympy.Eq | sympy.Le | sympy.Lt | sympy.Ge | sympy.Gt):
         raise NotExactError(f"{relation} is no relation between whole numbers")
     left, right = (affine.from_sympy(sympy.expand(side)) for side in relation.args)

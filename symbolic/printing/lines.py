@@ -377,34 +377,28 @@ def latex_cases(
     head = f"{printer.doprint(left)} ="
     alone = width(head + scale) > room / 3
     left_over = room - 16 - (20 if alone else width(head + scale))
-    layouts = [_beside(rows, left_over), _above(rows, left_over)]
-    body = " \\\\[3pt]\n".join(" \\\\\n".join(one) for one in min(layouts, key=_height))
+    body = " \\\\[3pt]\n".join(" \\\\\n".join(lines) for lines in _laid_out(rows, left_over))
     cases = f"\\begin{{cases}}\n{body}\n\\end{{cases}}"
     lines = [f"&{head}{scale}", rf"&\quad {cases}"] if alone else [f"{head[:-1]}&={scale} {cases}"]
     lines += [rf"&\quad {line}" for line in _packed(below, room - 30)]
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
 
 
-def _height(layout: Sequence[Sequence[str]]) -> int:
-    return sum(map(len, layout))
-
-
-def _beside(rows: Sequence[Case], room: float) -> list[list[str]]:
-    """The lines of each row, where it holds beside it."""
+def _laid_out(rows: Sequence[Case], room: float) -> list[list[str]]:
+    """The lines of each row; where it holds stands beside it, or below if that is shorter."""
     places = [_packed(where, 0.4 * room) for _, where in rows]
     rest = room - 20 - max(width(line) for place in places for line in place)
-    return [
-        [f"{line} & {beside}" for line, beside in zip_longest(_lines(one, rest), at, fillvalue="")]
-        for (one, _), at in zip(rows, places, strict=True)
-    ]
-
-
-def _above(rows: Sequence[Case], room: float) -> list[list[str]]:
-    """The lines of each row, where it holds below it."""
-    return [
+    below = [
         [*_lines(one, room), *(rf"\quad {line}" for line in _packed(where, room - 10))]
         for one, where in rows
     ]
+    if rest < 0.4 * room:
+        return below
+    beside = [
+        [f"{line} & {at}" for line, at in zip_longest(_lines(one, rest), place, fillvalue="")]
+        for (one, _), place in zip(rows, places, strict=True)
+    ]
+    return min((beside, below), key=lambda layout: sum(map(len, layout)))
 
 
 def _lines(formula: Basic, room: float) -> list[str]:
@@ -413,6 +407,7 @@ def _lines(formula: Basic, room: float) -> list[str]:
 
 
 def _packed(pieces: Iterable[str], room: float) -> list[str]:
+    pieces = [line for piece in pieces for line in folded(piece, room)]
     return pack([(piece, float(width(piece))) for piece in pieces], room, room)
 
 
