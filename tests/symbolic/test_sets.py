@@ -71,9 +71,7 @@ def test_a_union_is_the_same_in_disjoint_parts_and_joined(first, second):
 def test_a_projection_leaves_out_one_symbol(given_relations):
     shadow = {(a, c) for a, _, c in expected(given_relations)}
     flat = sets.without(sets.where(*given_relations, *IN_BOX), j)
-    assert points_of(flat) == {
-        (a, b, c) for a, b, c in BOX if (a, c) in shadow
-    }
+    assert points_of(flat) == {(a, b, c) for a, b, c in BOX if (a, c) in shadow}
 
 
 @given(several, forms)

@@ -13,9 +13,7 @@ from sympy import Eq
 
 from .test_sets import BOX, HIGH, IN_BOX, LOW, SYMBOLS, expected, forms, points_of, several, value
 
-functions = st.builds(
-    lambda a, b, n: FIELD.from_sympy(a * b**n), forms, forms, st.integers(0, 2)
-)
+functions = st.builds(lambda a, b, n: FIELD.from_sympy(a * b**n), forms, forms, st.integers(0, 2))
 pieces = st.lists(st.tuples(several, functions), max_size=3)
 RANGE = range(LOW, HIGH + 1)
 
