@@ -1,6 +1,6 @@
 """A closed form as a Python user holds it: formulas with domains, numbers, LaTeX, decisions."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import chain
@@ -20,6 +20,7 @@ from force_diffusion.symbolic.kernel.language import unreadable, usual_form
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.printing.code import name_of, python_expression
+from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import (
     TEXT_WIDTH,
     column_width,
@@ -35,6 +36,7 @@ from .evaluation import ArgumentError, Number, in_order, read_arguments, rounded
 
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
+_HIGH = 30  # lines of a display that fits a page of usual classes
 
 
 @dataclass(frozen=True)
@@ -305,19 +307,46 @@ class ClosedForm:
 
         The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
         """
+        return self._shown(self.formulas, columns)
+
+    def _shown(self, formulas: Sequence[statistics.Piece], columns: int) -> str:
+        """LaTeX of some of its formulas."""
         room, below = column_width(columns), _with_commas(self._domain(words.LATEX), "for")
-        if len(self.pieces) == 1:
-            return latex_body((self.equation,), room=room, below=below)
-        domain = self.formulas[0].value.domain
-        factor = domain.from_sympy(_common([piece.expr for piece in self.pieces]))
-        rows = [
-            ((piece.value / factor).to_sympy(), _alternatives(piece.where))
-            for piece in self._form.pieces
-        ]
+        if len(formulas) == 1:
+            (piece,) = formulas
+            below = [*_alternatives(piece.where, "if"), *below]
+            line = equation(self._quantity, piece.value.to_sympy())
+            return latex_body((line,), room=room, below=below)
+        common = _common([piece.expr for piece in self.pieces])
+        factor = formulas[0].value.domain.from_sympy(common)
+        rows = [((one.value / factor).to_sympy(), _alternatives(one.where)) for one in formulas]
         return latex_cases(self._quantity, factor.to_sympy(), rows, below, room)
+
+    def displays(self, columns: int = 1) -> list[str]:
+        """The same in displays that fit a page: several, if one for all formulas would not."""
+        found: list[list[statistics.Piece]] = [[]]
+        for one in self.formulas:
+            if self._shown([*found[-1], one], columns).count(r"\\") <= _HIGH or not found[-1]:
+                found[-1].append(one)
+            else:
+                found.append([one])
+        return [self._shown(some, columns) for some in found]
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"
+
+    def data(self) -> list[dict[str, str]]:
+        """Its pieces as JSON has them: domain, text and LaTeX of each.
+
+        >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j
+        >>> fd.mean(f_plus(i, j)).data()
+        [{'domain': '', 'text': '1', 'latex': '1'}]
+        """
+        return [
+            {"domain": one.domain, "text": text(one.expr), "latex": latex(one.expr)}
+            for one in self.pieces
+        ]
 
     def python(self, name: str = "closed_form") -> str:
         """Python source of a function that refuses what :meth:`at` refuses; it needs no import."""
@@ -412,10 +441,13 @@ class _Numbers:
         return value if exact else rounded(value)
 
 
-def _alternatives(parts: Iterable[statistics.Relations]) -> list[str]:
+def _alternatives(parts: Iterable[statistics.Relations], before: str = "") -> list[str]:
     """Where a formula holds, as pieces of LaTeX."""
     first, *others = (words.parts(one, words.LATEX) for one in parts)
-    return [*_with_commas(first), *(one for part in others for one in _with_commas(part, " or"))]
+    return [
+        *_with_commas(first, before),
+        *(one for part in others for one in _with_commas(part, " or")),
+    ]
 
 
 def _with_commas(parts: list[str], before: str = "") -> list[str]:

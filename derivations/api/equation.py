@@ -17,7 +17,7 @@ from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
 from ..export.prose import both, either
-from ..export.terminal import statement_text
+from ..export.terminal import statement_data, statement_text
 from ..framework.catalogue import Number as EquationNumber
 from ..framework.catalogue import (
     allowed,
@@ -238,6 +238,20 @@ class Equation:
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"
+
+    def displays(self, columns: int = 1) -> list[str]:
+        """The same for displays that fit pages: one, or for long closed forms one a formula."""
+        return self._derivation.displays(columns)
+
+    def data(self) -> dict[str, Any]:
+        """What JSON can hold: text and LaTeX, and domain, text and LaTeX of its exact formulas.
+
+        >>> import force_diffusion as fd
+        >>> found = fd.equation(13).data()["exact"]
+        >>> [piece["domain"] for piece in found["layer"]][:2]
+        ['2 ≤ j ≤ M − 2', 'j = M − 1, M ≥ 3']
+        """
+        return statement_data(self._derivation)
 
     def sympy_code(self) -> str:
         """SymPy source of the right-hand side, in the names of :attr:`symbols`; a line for each.

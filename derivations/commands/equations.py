@@ -1,5 +1,6 @@
 """The commands for equations: a thin layer over ``deriving`` and ``Equation``."""
 
+import json
 from collections.abc import Iterable
 from enum import StrEnum
 from pathlib import Path
@@ -31,6 +32,7 @@ class Form(StrEnum):
     SYMPY = "sympy"
     PYTHON = "python"
     STEPS = "steps"
+    JSON = "json"
 
 
 Columns = Annotated[
@@ -111,8 +113,12 @@ def show(
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
+    equations = [*map(fd.equation, wanted_of(numbers))]
+    if form is Form.JSON:
+        print(json.dumps({"equations": [one.data() for one in equations]}, indent=2))
+        return
     written = []
-    for one in map(fd.equation, wanted_of(numbers)):
+    for one in equations:
         written += _exact(one, form, columns) if exact else [_written(one, form, columns)]
     print("\n\n".join(written))
 
@@ -120,7 +126,7 @@ def show(
 def _written(one: "Equation", form: Form, columns: int) -> str:
     match form:
         case Form.LATEX:
-            return _display(one.latex(columns))
+            return _displayed(one.displays(columns))
         case Form.SYMPY:
             return one.sympy_code()
         case Form.PYTHON:
@@ -131,7 +137,9 @@ def _written(one: "Equation", form: Form, columns: int) -> str:
 
 
 def _exact(one: "Equation", form: Form, columns: int) -> list[str]:
-    """The exact forms, each with its name where there are several."""
+    """The exact forms, each with its name."""
+    from force_diffusion.symbolic.printing.code import sympy_source
+
     from ..api.equation import NoSuchFormError
 
     try:
@@ -141,18 +149,16 @@ def _exact(one: "Equation", form: Form, columns: int) -> list[str]:
     forms = {name: one.exact(name) for name in one.forms}
     match form:
         case Form.LATEX:
-            return [_display(exact.latex(columns)) for exact in forms.values()]
+            return [_displayed(exact.displays(columns)) for exact in forms.values()]
         case Form.SYMPY:
-            from force_diffusion.symbolic.printing.code import sympy_source
-
             return [sympy_source(exact.expr) for exact in forms.values()]
         case Form.PYTHON:
             return [exact.python(f"{one.name}_{name}") for name, exact in forms.items()]
     return [f"Eq. {one.number}, {name}: {exact}" for name, exact in forms.items()]
 
 
-def _display(latex: str) -> str:
-    return f"\\begin{{equation}}\n{latex}\n\\end{{equation}}"
+def _displayed(bodies: Iterable[str]) -> str:
+    return "\n".join(f"\\begin{{equation}}\n{one}\n\\end{{equation}}" for one in bodies)
 
 
 def list_equations() -> None:

@@ -56,12 +56,16 @@ READING = (
 
 
 def statement_latex(derivation: Statement, columns: int = 1) -> str:
-    """The printed equation as one numbered display, ready to paste into text of 1 or 2 columns.
+    """The printed equation as a numbered display, ready to paste into text of 1 or 2 columns.
 
-    Its label is ``eq:fd13`` of Eq. 13, and so on.
+    Its label is ``eq:fd13`` of Eq. 13, and so on; several displays are (B7a), (B7b) and so on.
     """
     label = f"\\label{{eq:fd{derivation.number}}}"
-    return f"\\begin{{equation}}{label}\n{derivation.latex(columns)}\n\\end{{equation}}\n"
+    first, *others = derivation.displays(columns)
+    if not others:
+        return f"\\begin{{equation}}{label}\n{first}\n\\end{{equation}}\n"
+    displays = (f"\\begin{{equation}}\n{one}\n\\end{{equation}}\n" for one in (first, *others))
+    return f"\\begin{{subequations}}{label}\n{''.join(displays)}\\end{{subequations}}\n"
 
 
 def fragment_name(number: Number) -> str:

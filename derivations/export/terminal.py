@@ -147,6 +147,19 @@ def trouble_lines(outcome: Outcome) -> list[str]:
     ]
 
 
+def statement_data(derivation: Statement) -> dict[str, Any]:
+    """What JSON says of an equation: text and LaTeX, and the pieces of its exact forms."""
+    return {
+        "number": derivation.number,
+        "name": derivation.name,
+        "title": derivation.title,
+        "premises": [premise.number for premise in derivation.premises],
+        "text": "\n".join(derivation.lines(TEXT_WIDTH)),
+        "latex": derivation.latex(),
+        "exact": {name: form.data() for name, form in derivation.exact_forms.items()},
+    }
+
+
 def outcomes_data(outcomes: Iterable[Outcome], *, timed: bool = True) -> dict[str, Any]:
     """What ``derive --json`` prints; verdicts are words, times, if they are wanted, seconds."""
 
@@ -155,10 +168,7 @@ def outcomes_data(outcomes: Iterable[Outcome], *, timed: bool = True) -> dict[st
 
     equations = [
         {
-            "number": outcome.derivation.number,
-            "name": outcome.derivation.name,
-            "title": outcome.derivation.title,
-            "premises": [premise.number for premise in outcome.derivation.premises],
+            **statement_data(outcome.derivation),
             "verdict": str(outcome.verdict),
             "assuming": list(outcome.assuming),
             "checks": [

@@ -107,6 +107,10 @@ class Statement:
         """What is printed, for one display in text of one column or of two."""
         return latex_body(self.printed, RELATIONS[self.relation], column_width(columns))
 
+    def displays(self, columns: int = 1) -> list[str]:
+        """The same, in as many displays as it takes to fit pages."""
+        return [self.latex(columns)]
+
     def lines(self, room: int) -> list[str]:
         """What is printed, as lines of plain text."""
         return [

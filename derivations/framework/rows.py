@@ -76,6 +76,10 @@ class Row(Statement):
         body = " \\\\[6pt]\n&".join((first, *others))
         return f"\\begin{{aligned}}\n&{body}\n\\end{{aligned}}"
 
+    def displays(self, columns: int = 1) -> list[str]:
+        """The same, in as many displays as it takes to fit pages."""
+        return [one for form in self.exact_forms.values() for one in form.displays(columns)]
+
     def lines(self, room: int) -> list[str]:
         """The closed forms as lines of plain text."""
         return [line for form in self.exact_forms.values() for line in form.lines(room)]

@@ -407,8 +407,17 @@ def _lines(formula: Basic, room: float) -> list[str]:
 
 
 def _packed(pieces: Iterable[str], room: float) -> list[str]:
-    pieces = [line for piece in pieces for line in folded(piece, room)]
+    parts = [part for one in pieces for part in _in_parts(one, room)]
+    pieces = [line for part in parts for line in folded(part, room)]
     return pack([(piece, float(width(piece))) for piece in pieces], room, room)
+
+
+def _in_parts(piece: str, room: float) -> list[str]:
+    """A chain of relations, before each of its signs but the first where it is too wide."""
+    if width(piece) <= room:
+        return [piece]
+    first, *others = re.split(r" (?=\\leq )", piece)
+    return [" ".join([first, *others[:1]]), *others[1:]]
 
 
 def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> list[str]:
