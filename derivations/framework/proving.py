@@ -250,7 +250,7 @@ def _at(part: int, one: Any) -> Any:
 
 
 def _in_order(name: str) -> tuple[bool, int]:
-    kind, number = name.split()
+    kind, _, number = name.rpartition(" ")
     return kind == "step", int(number) if number.isdigit() else 0
 
 
