@@ -279,14 +279,22 @@ def fixed(points: Set) -> dict[sympy.Symbol, RationalFunction]:
     return {symbol: polynomial(value) for symbol, value in _fixed(points).items()}
 
 
-def _fixed(points: Set) -> dict[sympy.Symbol, tuple[dict[sympy.Symbol, sympy.Rational], Any]]:
-    """The same as forms, by elimination."""
-    forms = []
+def equations(points: Set) -> list[Row]:
+    """Forms that are 0 on all of a set; remainders are left out."""
+    found = []
     for one in points.affine_hull().get_constraints():
         divided = (_number(one, isl.dim_type.div, n).is_zero() for n in range(_divisions(one)))
         if one.is_equality() and all(divided):
-            factors, constant = _row(one)
-            forms.append(({s: sympy.Rational(n) for s, n in factors.items()}, constant))
+            found.append(_row(one))
+    return found
+
+
+def _fixed(points: Set) -> dict[sympy.Symbol, tuple[dict[sympy.Symbol, sympy.Rational], Any]]:
+    """The same as forms, by elimination."""
+    forms = [
+        ({s: sympy.Rational(n) for s, n in factors.items()}, constant)
+        for factors, constant in equations(points)
+    ]
     solved: dict[sympy.Symbol, Any] = {}
     while forms:
         factors, constant = forms.pop()
@@ -409,17 +417,42 @@ def sample(part: Set) -> dict[sympy.Symbol, int]:
     }
 
 
-def joined(pieces: Iterable[Set]) -> Set:
-    """The union of sets, in as few convex parts as isl and a look at their hull find."""
-    whole = NOTHING
-    for one in pieces:
-        whole = whole | one
-    whole = whole.coalesce()
+def joined(pieces: Sequence[Set]) -> Set:
+    """The union of sets, in as few convex parts as isl and a look at their hull find.
+
+    Single points far apart are not joined to a line that holds no others.
+    """
+    whole = _union(pieces).coalesce()
     if whole.n_basic_set() > 1:
         hull = whole.simple_hull().to_set()
         if hull.is_subset(whole):
-            return hull
+            whole = hull
+    several = [part.to_set() for part in whole.get_basic_sets()]
+    if not any(map(_steep, several)):
+        return whole
+    before = [part.to_set() for part in _union(pieces).get_basic_sets()]
+    known = set().union(*map(_steep, before))
+    return _union(
+        kept
+        for part in several
+        for kept in ([part] if _steep(part) <= known else (part & one for one in before))
+    )
+
+
+def _union(pieces: Iterable[Set]) -> Set:
+    whole = NOTHING
+    for one in pieces:
+        whole = whole | one
     return whole
+
+
+def _steep(part: Set) -> set[Any]:
+    """The equations of a convex set in which a symbol has another factor than 1 or −1."""
+    return {
+        (frozenset(factors.items()), constant)
+        for factors, constant in equations(part)
+        if any(abs(factor) > 1 for factor in factors.values())
+    }
 
 
 Conditions = tuple[list[Row], list[Row]]
@@ -437,18 +470,17 @@ def conditions(whole: Set, context: Set) -> list[Conditions]:
     for part in parts(whole & context):
         if part.is_disjoint(left):
             continue
-        equations, bounds = rows(part.affine_hull().to_set())[0], rows(part)[1]
-        equations = _needed(sorted(equations, key=_length), context)
-        forms = [*sorted(bounds, key=_length, reverse=True), *reversed(equations)]
+        held = _needed(sorted(equations(part), key=_length), context)
+        forms = [*sorted(rows(part)[1], key=_length, reverse=True), *reversed(held)]
         for one in tuple(forms):
             fewer = [form for form in forms if form is not one]
-            if _inside(context, fewer, equations).is_subset(whole):
+            if _inside(context, fewer, held).is_subset(whole):
                 forms = fewer
-        left = left - _inside(context, forms, equations)
+        left = left - _inside(context, forms, held)
         found.append(
             (
-                [form for form in equations if form in forms],
-                [form for form in reversed(forms) if form not in equations],
+                [form for form in held if form in forms],
+                [form for form in reversed(forms) if form not in held],
             )
         )
     if not left.is_empty() or not all(_both(context, one).is_subset(whole) for one in found):

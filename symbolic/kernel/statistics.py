@@ -7,12 +7,13 @@ indices, so a moment is a polynomial on each of a few sets of indices: its close
 """
 
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 
 import sympy
 
-from .. import sets, spheres
+from .. import sets, spheres, words
 from .. import symbols as sy
 from ..algebra.exact import FIELD, SOURCE, UNKNOWNS, Domain, NotExactError, RationalFunction
 from ..as_printed import equation
@@ -267,14 +268,9 @@ class ClosedForm:
         """Its formulas, on parts of the domain that cover it and share no point."""
         found = []
         left = self.points
-        back = {symbol: FIELD.from_sympy(one) for symbol, one in self.straight.back.items()}
         for whole, value in self.weights.formulas():
             left = left - whole
-            found.append(
-                Piece(
-                    self._relations(whole, self.points), value.substitute(back).named(self._names)
-                )
-            )
+            found.append(Piece(self._relations(whole, self.points), self._formula(whole, value)))
         if not left.is_empty():
             found.append(Piece(self._relations(left, self.points), FIELD.zero))
         return tuple(found)
@@ -306,6 +302,15 @@ class ClosedForm:
             )
             for equations, bounds in sets.conditions(whole, context)
         )
+
+    def _formula(self, whole: sets.Set, value: RationalFunction) -> RationalFunction:
+        """A value in the old indices, without those that the equations of its part give."""
+        value = value.substitute({s: FIELD.from_sympy(x) for s, x in self.straight.back.items()})
+        held = (sympy.Eq(self._whole(form), 0, evaluate=False) for form in sets.equations(whole))
+        given = {one.lhs: FIELD.from_sympy(one.rhs) for one in words.equations(held)}
+        with suppress(NotExactError):  # a divisor vanishes there
+            value = value.substitute(given)
+        return value.named(self._names)
 
     def _whole(self, form: sets.Row) -> sympy.Expr:
         """A form in the old indices, without fractions."""
