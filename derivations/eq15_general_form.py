@@ -34,13 +34,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.derivations.parts.tensile import (
-    BELOW_THE_PEAK,
-    HEIGHT,
-    PROFILES,
-    TENSILE,
-    tensile_fraction,
-)
 from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_BELOW
 from force_diffusion.symbolic.kernel.where import AT_FIXED_RATIO, at_large_height
@@ -73,6 +66,8 @@ DEVIATION = Symbol("relative_deviation", r"\frac{\sigma_f}{\langle f\rangle}", "
 MEAN_SQUARE = Symbol(
     "mean_square", r"\overline{\sigma_f^2/\langle f\rangle^2}", "mean of σ_f²/⟨f⟩²"
 )
+HEIGHT = Symbol("M_star", "M^{*}", "M*", positive=True)
+TENSILE = Symbol("tensile", "P(f<0)", "P(f < 0)")
 PRINTED = equation(DEVIATION, times(power(M, Rational(3, 2)), sigma, 1 / r))
 PRINTED_HEIGHT = equation(HEIGHT, power(times(sigma, 1 / r), Rational(-2, 3)))
 
@@ -98,6 +93,36 @@ MEAN_DEVIATION = {
     "bulk": sympy.sqrt(Rational(3, 10)) * (25 * sympy.sqrt(5) - 11) / 60,
 }
 """Mean of σ_f/⟨f⟩ itself, in units of M^(3/2) (σ/r)/(1−φ²)."""
+
+
+PROFILES = {
+    "surface": times(2, terms(1, -z) ** 2, terms(1, times(2, z))),
+    "bulk": times(Rational(3, 2), terms(1, -z) ** 2, terms(1, times(4, z))),
+}
+"""σ_f²/⟨f⟩² at leading order in units of (M/M*)³: their mean over z is 1."""
+
+SPREAD = {
+    "surface": times(2, terms(1, -z), power(terms(1, times(2, z)), sympy.S.Half)),
+    "bulk": times(sympy.sqrt(3), terms(1, -z), power(terms(1, times(4, z)), sympy.S.Half)),
+}
+"""√(2 profile): what a Gaussian's error function has below one."""
+
+BELOW_THE_PEAK = {
+    "surface": (sympy.Integer(2), times(2, z**2, terms(3, times(-2, z)))),
+    "bulk": (
+        Rational(125, 72),
+        times(Rational(1, 72), power(terms(1, times(-6, z)), 2), terms(17, times(-12, z))),
+    ),
+}
+"""The largest value of a profile, at z = 0 and 1/6, and what a profile is below it."""
+
+
+def tensile_fraction(load: str) -> sympy.Expr:
+    """Expected fraction of tensile contacts at M ≫ 1 as a function of M/M*."""
+    ratio = power(times(HEIGHT, 1 / M), Rational(3, 2))
+    inner = times(ratio, power(SPREAD[load], -1))
+    half = times(sympy.S.Half, sympy.erfc(inner, evaluate=False))
+    return sympy.Integral(half, (z, 0, 1))
 
 
 @cache

@@ -8,7 +8,7 @@ from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.api.closed_form import ClosedForm
-from force_diffusion.derivations.framework.grounds import facts_of
+from force_diffusion.derivations.framework.grounds import Beside, facts_of
 from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (
     UNIT,
@@ -16,33 +16,42 @@ from force_diffusion.derivations.framework.vocabulary import (
     Lines,
     Where,
     asymptotic,
+    axioms,
     equation,
     formula,
+    minus,
     moment,
     rewrite,
     terms,
     times,
 )
-from force_diffusion.derivations.parts import cone
-from force_diffusion.symbolic.kernel import statistics
-from force_diffusion.symbolic.kernel.theorem import flat
+from force_diffusion.symbolic.kernel import rules, statistics
+from force_diffusion.symbolic.kernel.rules import Rule
+from force_diffusion.symbolic.kernel.theorem import Theorem, flat
 from force_diffusion.symbolic.kernel.where import POINT, along_base, inside_cone, on_leg
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.mechanics.paths import IN_CONE
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     Covariance,
+    DeltaNMinus,
+    DeltaNPlus,
+    Dot,
     ForceMinus,
     ForcePlus,
     Mean,
     Variance,
     VerticalMinus,
     VerticalPlus,
+    e_y,
     f_load,
     i,
     j,
     k,
     l,
+    n,
+    n_minus,
+    n_plus,
     n_y,
     p,
     phi,
@@ -78,8 +87,83 @@ PRINTED = equation(
     formula("(3/(2(1 − φ²)²)) (l + j)(σ_δr/r)²"),
 )
 
+# the forces below the load: inside of its cone, on it and beside it
 
-FACTS = (cone.FORCES, eq11.DIRECTIONS)
+ORDERED = f_load / (2 * n_y)
+"""Force of the contacts of the ordered packing: those on the legs of the cone."""
+
+CONE = Where.of(p >= 1, q >= 1, *(Eq(symbol, at) for symbol, at in IN_CONE.items()), loading=POINT)
+INSIDE = CONE.also(j >= 0)
+"""Beads (i, j) inside of the cone below bead (k, l)."""
+
+_ON_LEFT_LEG = (Eq(symbol, at.xreplace({q: sympy.S.Zero})) for symbol, at in IN_CONE.items())
+LEFT_LEG = Where.of(p >= 1, *_ON_LEFT_LEG, j >= 0, loading=POINT)
+
+UPPER_RIGHT = eq10.branched_plus(i, j, p)
+UPPER_LEFT = eq10.PRINTED.rhs.xreplace({n: q})
+"""The forces f⁺_ij and f⁻_ij on a bead inside of the cone, over f_load/2n_y, to first order.
+
+Each has one path with one branch from the loaded bead: q steps along n⁻ and p along n⁺, or the
+other way round. The branch is of first order; what enters it counts at order 0, f_load/2n_y.
+"""
+
+PRESSED = VerticalPlus(i, j) + VerticalMinus(i, j)
+"""p: the vertical force that a bead gets from both upper contacts."""
+
+LEG_CONTACT = eq09.first_order_product(eq07.split_plus(k, l), eq09.PRINTED.rhs)
+"""f⁺_ij over f_load/2n_y on the left leg: the split of the load, carried down a straight path."""
+
+LEG_RESPONSE = (LEG_CONTACT + Dot(e_y, DeltaNPlus(i, j)) / n_y) / 2
+"""Its vertical component over f_load, the contact's own direction being tilted."""
+
+LEG_TILTS = terms(Dot(n_minus, DeltaNPlus(i, j)), minus(Dot(n_plus, DeltaNMinus(k + 1, l - 1))))
+
+# The forces, proved from layer to layer down. In layer l − n the cone holds the contacts f⁺ with
+# q = 0 (on its left leg) and q = 1, …, n − 1 steps along n⁻ above them; the others are zero.
+
+_PLACE_BELOW = (k - n + 2 * q, l - n)
+"""Lower bead of a contact f⁺ in layer l − n."""
+
+LAYERS = Where.of(n >= 1, n <= l, loading=POINT)
+
+_INWARDS = {i: _PLACE_BELOW[0], j: _PLACE_BELOW[1], p: n - q}
+_STRAIGHT = {i: k - n, j: l - n}
+_LEG_BELOW, _BRANCHED = LEG_CONTACT.xreplace(_STRAIGHT), UPPER_RIGHT.xreplace(_INWARDS)
+
+RIGHT_OF_ALL = (equation(ForcePlus(*_PLACE_BELOW), 0), LAYERS.also(q >= n, indices=(q,)))
+LEFT_OF_ALL = (equation(ForcePlus(*_PLACE_BELOW), 0), LAYERS.also(q <= -1, indices=(q,)))
+
+FAMILY = (
+    (equation(ForcePlus(k - n, l - n), times(ORDERED, _LEG_BELOW)), LAYERS),
+    (
+        equation(ForcePlus(*_PLACE_BELOW), times(ORDERED, _BRANCHED)),
+        LAYERS.also(q >= 1, q <= n - 1, indices=(q,)),
+    ),
+    LEFT_OF_ALL,
+    RIGHT_OF_ALL,
+)
+
+_PLACES = ((q <= -1,), (q >= 1, q <= n - 2), (q >= 1, Eq(q, n - 1)), (q >= n,))
+
+
+def _forces() -> tuple[Theorem, ...]:
+    loads = axioms.loads(POINT)
+
+    def step(supposed: tuple[Theorem, ...]) -> Rule:
+        balanced = rules.below(axioms.balance(), (*supposed, *loads))
+        split = rules.cases(balanced, *_PLACES)
+        return lambda formula, where: (split if q in where.indices else balanced)(formula, where)
+
+    top = rules.below(axioms.balance(), loads)
+    plus = rules.inducted(n, Rational(1), top, step, FAMILY, mirrored=True)
+    return (*plus, *map(rules.mirror, plus))
+
+
+FORCES = Beside(_forces)
+"""The force of every contact below the load."""
+
+
+FACTS = (FORCES, eq11.DIRECTIONS)
 BELOW = Where.of(j >= 0, j < l, indices=(i, k), loading=POINT)
 """Contacts and beads below the loaded bead (k, l)."""
 
@@ -101,10 +185,10 @@ def at_finite_size() -> dict[str, ClosedForm]:
 
 
 MEANING = {
-    RESPONSE: Variance(cone.PRESSED / f_load),
+    RESPONSE: Variance(PRESSED / f_load),
     ONE_CONTACT: Variance(VerticalPlus(i, j) / f_load),
     ON_LEG: Variance(VerticalPlus(i, j) / f_load),
-    LEG_MAGNITUDE: Variance(ForcePlus(i, j) / cone.ORDERED),
+    LEG_MAGNITUDE: Variance(ForcePlus(i, j) / ORDERED),
 }
 """What the symbols stand for; f⁺_ij inside of the cone has no part of order 0 to be tilted."""
 
@@ -119,11 +203,11 @@ OF_CONTACT = equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), UNI
 READ_OF_ONE_CONTACT = equation(ONE_CONTACT, PRINTED.rhs)
 """The printed form as the paper's words have it."""
 
-DEEP = cone.INSIDE.also(j >= 3, p + q >= 3)
+DEEP = INSIDE.also(j >= 3, p + q >= 3)
 """Beads inside of the cone, from the third layer on, but that straight below the load."""
-STRAIGHT = cone.INSIDE.also(j >= 3, Eq(p, 1), Eq(q, 1))
-TURNED = cone.INSIDE.also(j + p >= 2)
-DOWN_LEG = cone.LEFT_LEG.also(j >= 2, p >= 2)
+STRAIGHT = INSIDE.also(j >= 3, Eq(p, 1), Eq(q, 1))
+TURNED = INSIDE.also(j + p >= 2)
+DOWN_LEG = LEFT_LEG.also(j >= 2, p >= 2)
 
 EXACT = {
     RESPONSE: times(terms(6 * (l + j), -6, phi**2), UNIT / 4),
@@ -139,7 +223,7 @@ EXACT = {
 @cache
 def steps() -> Lines:
     """One path to each contact; squared weights; the sum of both upper contacts of a bead."""
-    lines = Lines(cone.INSIDE)
+    lines = Lines(INSIDE)
     source = f_load / (2 * n_y)
     by = moment(*FACTS)
     loaded = lines.show(
@@ -152,10 +236,10 @@ def steps() -> Lines:
         "One path with one branch leads to f⁺_ij, along n⁻ and then n⁺, and one to f⁻_ij, along n⁺ "
         "and then n⁻ (Eq. 10). The branch is of first order, and f_load/2n_y enters it (Eq. 7).",
         sympy.Tuple(
-            equation(ForcePlus(i, j) / source, cone.UPPER_RIGHT),
-            equation(ForceMinus(i, j) / source, cone.UPPER_LEFT),
+            equation(ForcePlus(i, j) / source, UPPER_RIGHT),
+            equation(ForceMinus(i, j) / source, UPPER_LEFT),
         ),
-        rewrite(cone.FORCES),
+        rewrite(FORCES),
         after=(eq07.DERIVATION, eq10.DERIVATION),
     )
     lines.show(
@@ -188,7 +272,7 @@ def steps() -> Lines:
         "To leading order:",
         PRINTED,
         asymptotic(*FACTS),
-        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
+        where=INSIDE.in_the_limit(inside_cone("∼")),
         meaning=_of(RESPONSE),
         after=(interior,),
     )
@@ -196,11 +280,11 @@ def steps() -> Lines:
         "On the left leg of the cone f⁺_ij is the split of the load (Eq. 7), carried down by "
         "Eq. 9. With the contact's own tilt its vertical component over f_load is",
         equation(
-            cone.LEG_RESPONSE,
-            terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), cone.LEG_TILTS)),
+            LEG_RESPONSE,
+            terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), LEG_TILTS)),
         ),
         rewrite(),
-        where=cone.LEFT_LEG,
+        where=LEFT_LEG,
         after=(eq07.DERIVATION, eq09.DERIVATION),
     )
     lines.show(
@@ -224,14 +308,14 @@ def steps() -> Lines:
         "s = ½(l+j+k−i) being the layer where it turns",
         OF_CONTACT,
         asymptotic(*FACTS),
-        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
+        where=INSIDE.in_the_limit(inside_cone("∼")),
         meaning=_of(ONE_CONTACT),
     )
     lines.refute(
         "the paper's reading is refuted: one contact alone depends on the horizontal position",
         READ_OF_ONE_CONTACT,
         of_one,
-        where=cone.INSIDE.in_the_limit(inside_cone("∼")),
+        where=INSIDE.in_the_limit(inside_cone("∼")),
         meaning=_of(ONE_CONTACT),
     )
     both = Covariance(VerticalPlus(i, j) / f_load, VerticalMinus(i, j) / f_load)
@@ -249,33 +333,33 @@ def steps() -> Lines:
             equation(ForcePlus(i - 1, j - 1), ForcePlus(i, j)),
             equation(ForceMinus(i + 1, j - 1), ForceMinus(i, j)),
         ),
-        rewrite(cone.FORCES),
-        where=cone.INSIDE.also(j >= 1),
+        rewrite(FORCES),
+        where=INSIDE.also(j >= 1),
     )
     lines.claim(
         "the mean is that of the ordered packing",
         sympy.Tuple(
-            equation(Mean(cone.PRESSED), 0),
+            equation(Mean(PRESSED), 0),
             equation(Mean(VerticalPlus(i, j) / f_load), Rational(1, 2)),
         ),
         by,
-        where=(cone.INSIDE, cone.LEFT_LEG),
+        where=(INSIDE, LEFT_LEG),
     )
-    beside = (cone.LEFT_OF_ALL, cone.RIGHT_OF_ALL)
+    beside = (LEFT_OF_ALL, RIGHT_OF_ALL)
     lines.claim(
         "no force of first order outside of the cone",
         sympy.Tuple(*(one for one, _ in beside), *(mirror(one) for one, _ in beside)),
-        rewrite(cone.FORCES),
+        rewrite(FORCES),
         where=(*(where for _, where in beside), *(where.mirrored() for _, where in beside)),
     )
     lines.claim(
         "on a leg the vertical force has a third of the variance, to leading order",
         equation(ON_LEG, PRINTED.rhs / 3),
         asymptotic(*FACTS),
-        where=cone.LEFT_LEG.in_the_limit(on_leg("∼")),
+        where=LEFT_LEG.in_the_limit(on_leg("∼")),
         meaning=_of(ON_LEG),
     )
-    at_base = cone.INSIDE.put_in({j: Rational(0)}, (i, k, l, p, q))
+    at_base = INSIDE.put_in({j: Rational(0)}, (i, k, l, p, q))
     apex = MEANING[RESPONSE].xreplace({i: k, j: l - 2})
     lines.claim(
         "the variance straight below the load is twice that at the base, as l → ∞",
@@ -322,7 +406,7 @@ DERIVATION = Derivation(
     relation="∼",
     exact=at_finite_size,
     steps=steps,
-    where=cone.CONE,
+    where=CONE,
     remarks=(
         "The paper's p is the vertical component of the force at a contact f^±_ij. For one contact "
         "the printed form does not hold: its variance is (3/2) s (σ/r)²/(1−φ²)² with the layer "

@@ -370,7 +370,7 @@ class Reader:
         there, back = (self._moved(indices, sign * 2 * step) for sign in (1, -1))
         wide = replace(self, points=sets.without(sets.at(inner.points, back), step))
         total = wide.number(expression).merged().at(there).on(inner.points).summed(step)
-        return total.merged().times(self.number(1 / count))
+        return total.times(self.number(1 / count))
 
     def _moved(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
         """Straightened indices, all of which go on by as many columns."""

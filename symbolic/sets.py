@@ -174,8 +174,9 @@ def _number(constraint: Any, kind: Any, place: int) -> Any:
 
 
 def _row(constraint: Any) -> Row:
-    numbers = (_number(constraint, _DIM, place).to_python() for place in range(len(DIMENSIONS)))
-    factors = {symbol: n for symbol, n in zip(DIMENSIONS, numbers, strict=True) if n}
+    numbers = (_number(constraint, _DIM, place) for place in range(len(DIMENSIONS)))
+    held = zip(DIMENSIONS, numbers, strict=True)
+    factors = {symbol: n.to_python() for symbol, n in held if not n.is_zero()}
     return factors, constraint.get_constant_val().to_python()
 
 
@@ -219,35 +220,55 @@ def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
     bounded = [(number, _intervals(part, directions)) for number, part in enumerate(parts)]
     forms = [_affine((dict(direction), 0)) for direction in directions]
     factors = [dict(direction) for direction in directions]
+    opposite = [{symbol: -factor for symbol, factor in one.items()} for one in factors]
 
     def halved(
-        cell: Set, left: list[tuple[int, dict[int, Interval]]], inside: list[int]
+        cell: Set, left: list[tuple[int, dict[int, Interval]]], inside: list[int], cut: int
     ) -> Iterator[tuple[Set, list[int]]]:
-        reach = {
-            number: (_bounded(cell.min_val(forms[number])), _bounded(cell.max_val(forms[number])))
-            for number in {number for _, intervals in left for number in intervals}
-        }
+        reach: dict[int, Interval] = {}
+
+        def reached(number: int) -> Interval:
+            if number not in reach:
+                form = forms[number]
+                reach[number] = _bounded(cell.min_val(form)), _bounded(cell.max_val(form))
+            return reach[number]
+
         cuts: Counter[tuple[int, int]] = Counter()
         still_open = []
         for one, intervals in left:
-            if any(_outside(interval, reach[n]) for n, interval in intervals.items()):
+            if cut in intervals and _outside(intervals[cut], reached(cut)):
                 continue
-            parting = {n: list(_cuts(interval, reach[n])) for n, interval in intervals.items()}
-            open_ones = {n: intervals[n] for n, bounds in parting.items() if bounds}
-            if open_ones:
-                still_open.append((one, open_ones))
-                cuts.update((n, bound) for n in open_ones for bound in parting[n])
+            parting: dict[int, list[int]] = {}
+            for number, interval in intervals.items():
+                if _outside(interval, reached(number)):
+                    break
+                if bounds := list(_cuts(interval, reached(number))):
+                    parting[number] = bounds
             else:
-                inside = [*inside, one]
+                if parting:
+                    still_open.append((one, {number: intervals[number] for number in parting}))
+                    cuts.update((n, bound) for n, bounds in parting.items() for bound in bounds)
+                else:
+                    inside = [*inside, one]
+        if not inside and len(still_open) == 1:  # what is outside of all sets is of no interest
+            ((one, intervals),) = still_open
+            for number, (low, high) in intervals.items():
+                if low is not None:
+                    cell = cell.add_constraint(_constraint((factors[number], -low), False))
+                if high is not None:
+                    cell = cell.add_constraint(_constraint((opposite[number], high), False))
+            if not cell.is_empty():
+                yield cell, [one]
+            return
         if not still_open:
             yield cell, inside
             return
         ((number, bound), _), *_ = cuts.most_common(1)
-        downwards = {symbol: -factor for symbol, factor in factors[number].items()}
-        for form in ((factors[number], -bound), (downwards, bound - 1)):
-            yield from halved(cell.add_constraint(_constraint(form, False)), still_open, inside)
+        for form in ((factors[number], -bound), (opposite[number], bound - 1)):
+            half = cell.add_constraint(_constraint(form, False))
+            yield from halved(half, still_open, inside, number)
 
-    yield from halved(EVERYTHING, bounded, [])
+    yield from halved(EVERYTHING, bounded, [], -1)
 
 
 def _outside(interval: Interval, reach: Interval) -> bool:

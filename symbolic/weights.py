@@ -130,7 +130,7 @@ class Weights:
         pieces = [(part, value) for points, value in self.pieces for part in sets.parts(points)]
         found = []
         for cell, inside in sets.arrangement([part for part, _ in pieces]):
-            value = sum((pieces[number][1] for number in inside), FIELD.zero)
+            value = FIELD.total(pieces[number][1] for number in inside)
             if not value.is_zero():
                 found.append((cell, value))
         return Weights(tuple(found))

@@ -96,6 +96,11 @@ class ClosedForm:
         """The theorems that are put in."""
         return self._facts
 
+    @property
+    def function(self) -> statistics.ClosedForm:
+        """It as the kernel has it."""
+        return self._form
+
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
         """What it says on each part of its domain."""

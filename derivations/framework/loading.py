@@ -6,11 +6,10 @@ from importlib import import_module
 
 from .catalogue import Number, modules
 from .record import Derivation, Statement
-from .rows import Row
 
 
 def load(number: Number) -> Statement:
-    """The derivation of one equation.
+    """The derivation of one equation, or a row of the calculator.
 
     A module has one, ``DERIVATION``, or several by their numbers, ``DERIVATIONS``.
     """
@@ -19,25 +18,24 @@ def load(number: Number) -> Statement:
     return several[number] if several else module.DERIVATION
 
 
-def _pickled(derivation: Statement) -> tuple[Callable[[Number], Statement], tuple[Number]]:
+def pickled(statement: Statement) -> tuple[Callable[[Number], Statement], tuple[Number]]:
     """Say how a derivation is had again: by its number, since it is made of functions."""
-    return load, (derivation.number,)
+    return load, (statement.number,)
 
 
-for kind in (Derivation, Row):
-    copyreg.pickle(kind, _pickled)
+copyreg.pickle(Derivation, pickled)
 
 
 def with_premises(wanted: Iterable[Statement]) -> list[Statement]:
     """The derivations wanted and all that they rest on, premises first."""
     ordered: dict[Number, Statement] = {}
 
-    def visit(derivation: Statement) -> None:
-        if derivation.number not in ordered:
-            for premise in derivation.premises:
+    def visit(statement: Statement) -> None:
+        if statement.number not in ordered:
+            for premise in statement.premises:
                 visit(premise)
-            ordered[derivation.number] = derivation
+            ordered[statement.number] = statement
 
-    for derivation in wanted:
-        visit(derivation)
+    for statement in wanted:
+        visit(statement)
     return list(ordered.values())

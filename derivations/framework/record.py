@@ -64,12 +64,16 @@ _MEANINGS = {
     sy.M: "height of the packing",
     sy.z: "relative height j/M",
     sy.phi: "n⁺·n⁻",
+    sy.N: "number of neighbours",
+    sy.t: "L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻)",
+    sy.t_2: "L²/L¹ of the load −Σ_a L^a n^a",
+    sy.t_3: "L³/L¹",
 }
 
 
 def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
-    """Symbols with their usual meaning in words: σ, r, M, z and φ."""
-    return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols)
+    """Symbols with their usual meaning in words, those that have one: σ, r, M, z, φ and others."""
+    return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols if symbol in _MEANINGS)
 
 
 FIRST_ORDER = ("the radii are independent, of zero mean and variance σ²", "first order in δr")

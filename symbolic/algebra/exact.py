@@ -102,6 +102,19 @@ class Domain:
             return self.from_sympy(expression.base) ** int(expression.exp)
         raise NotExactError(f"{expression} is not a rational function of the symbols")
 
+    def total(self, values: Iterable["RationalFunction"]) -> "RationalFunction":
+        """The sum of elements; what has one denominator is brought to lowest terms once."""
+        found: list[list[Polynomial]] = []  # numerators and denominators
+        for one in values:
+            for part in found:
+                if part[1] == one.denominator:
+                    part[0] = part[0] + one.numerator
+                    break
+            else:
+                found.append([one.numerator, one.denominator])
+        parts = (RationalFunction(self, *part) for part in found)
+        return sum(parts, self.zero)
+
     def vanishes(self, polynomial: Polynomial) -> bool:
         """Decide whether a polynomial is zero where n_x² + n_y² = 1 and φ = n_y² − n_x²."""
         if polynomial == 0:
@@ -288,11 +301,18 @@ class RationalFunction:
         return int(self.numerator.degrees()[position])
 
     def substitute(self, images: Mapping[sympy.Expr, "RationalFunction"]) -> "RationalFunction":
-        """Replace generators by polynomials (elements with denominator one)."""
-        if any(image.denominator != 1 for image in images.values()):
-            raise NotExactError("only a polynomial can be put in place of a symbol")
+        """Replace generators by elements.
+
+        Raises:
+            NotExactError: a divisor vanishes.
+        """
         if not any(self.holds(symbol) for symbol in images):
             return self
+        if any(image.denominator != 1 for image in images.values()):
+            numerator, divisor = (
+                self._put_in(one, images) for one in (self.numerator, self.denominator)
+            )
+            return numerator / divisor
         full = list(self.domain._gens)
         for symbol, image in images.items():
             full[self.domain.position[symbol]] = image.numerator
@@ -300,6 +320,20 @@ class RationalFunction:
         if denominator == 0:
             raise NotExactError("a divisor vanishes for a value that is put in")
         return self._same(self.numerator.compose(*full), denominator)
+
+    def _put_in(
+        self, polynomial: Polynomial, images: Mapping[sympy.Expr, "RationalFunction"]
+    ) -> "RationalFunction":
+        total = self.domain.zero
+        for exponents, c in polynomial.to_dict().items():
+            term = self.domain.constant(Fraction(int(c.p), int(c.q)))
+            for generator, power in zip(self.domain.generators, exponents, strict=True):
+                if power:
+                    term = term * images.get(generator, self.domain.generator(generator)) ** int(
+                        power
+                    )
+            total = total + term
+        return total
 
     def derivative(self, symbol: sympy.Expr) -> "RationalFunction":
         """The derivative with respect to a generator."""

@@ -275,17 +275,31 @@ class ClosedForm:
             found.append(Piece(self._relations(left, self.points), FIELD.zero))
         return tuple(found)
 
+    def part(self, *relations: sympy.Basic) -> "ClosedForm":
+        """The same on a part of its domain."""
+        points = self.points & sets.where(*map(self.straight.relation, relations))
+        return replace(self, weights=self.weights.on(points), points=points)
+
+    def put_in(self, image: Mapping[sympy.Symbol, sympy.Expr]) -> "ClosedForm":
+        """The same with other numbers for symbols that are no indices."""
+        values = {symbol: FIELD.from_sympy(one) for symbol, one in image.items()}
+        return replace(self, weights=self.weights.having(values))
+
     def on(self, *relations: sympy.Basic) -> RationalFunction:
         """Its formula on a part of its domain, where it is one.
 
         Raises:
             NotProvedError: it is not.
         """
-        points = self.points & sets.where(*map(self.straight.relation, relations))
-        pieces = replace(self, weights=self.weights.on(points), points=points).pieces
+        pieces = self.part(*relations).pieces
         if len(pieces) != 1:
             raise NotProvedError(f"there it is not one formula, but {len(pieces)}")
         return pieces[0].value
+
+    def total(self, index: sympy.Symbol, weight: sympy.Expr) -> Weights:
+        """The sum over all values of an index, of which the number is multiplied by a weight."""
+        factor = FIELD.from_sympy(weight.xreplace(self.straight.image))
+        return self.weights.scaled(factor).summed(index)
 
     @cached_property
     def weights_symbols(self) -> set[sympy.Symbol]:
@@ -323,7 +337,7 @@ def theorems(quantity: sympy.Expr, where: Where, facts: tuple[Theorem, ...]) -> 
     """What the closed form of a quantity says: a theorem for each part of its domain."""
     return tuple(
         made(equation(quantity, piece.value.to_sympy()), where.also(*part), "moment on sets", facts)
-        for piece in ClosedForm.of(quantity, where, facts).pieces
+        for piece in ClosedForm.of(quantity, where, facts, ()).pieces
         for part in piece.where
     )
 
