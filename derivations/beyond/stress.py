@@ -164,7 +164,7 @@ DERIVATIONS: dict[Number, Row] = {
         quantities=(
             *((SHEAR[load], f"mean S_xy over that of the ordered packing, {load} load, t ≠ 1")
               for load in LAYERS),
-            *((SHEAR_BY_FLUX[load], f"S_xy over area; over the flux that the load fixes, {load} load")
+            *((SHEAR_BY_FLUX[load], f"S_xy over area; over the flux, {load} load")
               for load in LAYERS),
             *((AXES[load], f"ψ: angle of a principal axis of ⟨S⟩ to the vertical, {load} load")
               for load in LAYERS),
