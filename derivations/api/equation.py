@@ -21,10 +21,8 @@ from ..export.terminal import statement_data, statement_text
 from ..framework.catalogue import Number as EquationNumber
 from ..framework.catalogue import (
     allowed,
-    cases_of,
     modules,
     number_of,
-    theorem_of,
 )
 from ..framework.loading import load, with_premises
 from ..framework.record import Statement
@@ -104,17 +102,6 @@ class Equation:
         'Variance of the forces under a surface load'
         """
         return self._derivation.title
-
-    @property
-    def theorem(self) -> str | None:
-        """The theorem beyond the paper that it is a case of; None for the paper's own.
-
-        >>> import force_diffusion as fd
-        >>> fd.equation("B5").theorem, fd.equation(13).theorem
-        ('T4', None)
-        """
-        theorem = theorem_of(self.number)
-        return theorem.name if theorem else None
 
     @property
     def relation(self) -> str:
@@ -564,7 +551,6 @@ def equation(number: EquationNumber) -> Equation:
     known = number_of(number) if isinstance(number, str) else number
     is_number = isinstance(known, Integral | str) and not isinstance(known, bool)
     if not is_number or known not in modules():
-        cases = cases_of(number)
-        told = f"that theorem has {both(cases)}" if cases else f"give a number {allowed()}"
-        raise NoSuchFormError(f"there is no equation {number!r}: {told}", "number")
+        told = f"there is no equation {number!r}: give a number {allowed()}"
+        raise NoSuchFormError(told, "number")
     return _equation(known)

@@ -187,9 +187,9 @@ def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
             "discs": paper.DERIVATION.exact_forms["layer"],
             "spheres": DERIVATIONS[spheres].exact_forms["first"],
         },
-        meaning=f"Eqs. {paper.DERIVATION.number} and {spheres} side by side: in d dimensions the "
-        "variance keeps its profile and its power of M, with (d − 1)(2d − 1) κ² in front, κ being "
-        "[1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}.",
+        meaning=f"Eqs. {paper.DERIVATION.number} and {spheres} side by side: for d = 2 and d = 3 "
+        "the variance has one profile and one power of M, with (d − 1)(2d − 1) κ² in front, κ "
+        "being [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}.",
         quantities=(
             (paper.RELATIVE_VARIANCE, "of discs"),
             (FIRST, "of spheres, for the force along base vector 1"),

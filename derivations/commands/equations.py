@@ -13,7 +13,6 @@ import force_diffusion as fd
 from ..framework.catalogue import (
     Number,
     allowed,
-    cases_of,
     modules,
     number_of,
 )
@@ -53,14 +52,9 @@ def equation_number(word: str) -> Number:
     )
 
 
-def equations_of(word: str) -> list[Number]:
-    """The number of an equation, or those of all cases of a theorem, such as "T4"."""
-    return list(cases_of(word.upper())) or [equation_number(word)]
-
-
 def wanted_of(words: Iterable[str]) -> list[Number]:
-    """Numbers of equations, and of all cases of theorems."""
-    return [number for word in words for number in equations_of(word)]
+    """Numbers of equations."""
+    return [*map(equation_number, words)]
 
 
 def derive(
@@ -68,7 +62,7 @@ def derive(
         list[str] | None,
         typer.Argument(
             metavar="[N...]",
-            help="Equations, or theorems such as T4; all equations by default.",
+            help="Numbers of equations; all of them by default.",
         ),
     ] = None,
     out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
@@ -100,7 +94,7 @@ def derive(
 def show(
     numbers: Annotated[
         list[str],
-        typer.Argument(metavar="N", help="Numbers of equations, or a theorem's name."),
+        typer.Argument(metavar="N", help="Numbers of equations."),
     ],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
@@ -108,7 +102,7 @@ def show(
     ] = False,
     columns: Columns = 1,
 ) -> None:
-    """Print equations, or all of a theorem, without deriving them."""
+    """Print equations without deriving them."""
     if exact and form is Form.STEPS:
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
@@ -167,9 +161,7 @@ def list_equations() -> None:
     Beside each stands what Coq said of it when it was last asked.
     """
     for one in map(fd.equation, modules()):
-        print(
-            f"{one.number!s:>3}  {one.theorem or '':<2}  {one.name:<26}  {one.coq:<22}  {one.title}"
-        )
+        print(f"{one.number!s:>3}  {one.name:<26}  {one.coq:<22}  {one.title}")
 
 
 def register(app: typer.Typer) -> None:

@@ -11,7 +11,6 @@ from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
-from ..framework.catalogue import theorem_of
 from ..framework.proving import Shown
 from ..framework.record import Check, Outcome, Statement
 from .prose import both
@@ -71,8 +70,8 @@ def statement_text(derivation: Statement) -> str:
         parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
     parts += ["", "Assumptions"]
     parts += [_paragraph(words, "  - ", "    ") for words in derivation.assumptions]
-    if theorem := theorem_of(derivation.number):
-        parts += ["", f"A case of theorem {theorem.name}: {theorem.title}"]
+    if derivation.call:
+        parts += ["", f"The calculator: {derivation.call}"]
     if derivation.premises:
         numbers = ", ".join(str(premise.number) for premise in derivation.premises)
         parts += ["", f"Rests on Eq{'s' * (len(derivation.premises) > 1)}. {numbers}"]

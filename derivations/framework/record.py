@@ -101,6 +101,8 @@ class Statement:
     loads: tuple[str, ...]
     steps: Callable[[], Lines]
     exact: Callable[[], dict[str, ClosedForm]] | None
+    call: str
+    """How the calculator is asked for it; "" where it is no row of that."""
 
     @cached_property
     def exact_forms(self) -> dict[str, ClosedForm]:
@@ -243,6 +245,7 @@ class Derivation(Statement):
         exact: gives closed forms, exact at finite size, by name; the first is the usual one.
     """
 
+    call = ""
     number: Number
     name: str
     title: str
