@@ -144,7 +144,7 @@ def response(j: Any, l: Any, phi: Any) -> Any:
 
 def bead_response(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
     if i >= -j + k + l + 2 or i <= j + k - l - 2:
-        return (0) / ()
+        return 0 * phi
     if i == k and j == 0 and l == 2:
         return (phi*(3*phi - 2) + 11) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if i == k and j == 1 and l == 3:
@@ -178,7 +178,7 @@ def bead_response(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
 
 def contact_response(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
     if i >= -j + k + l or i <= j + k - l - 2:
-        return (0) / ()
+        return 0 * phi
     if i == j + k - 1 and l == 1:
         return (1) / (8 * (1 - phi) ** 2)
     if i == k - 1 and j == 1 and l == 2:
@@ -198,7 +198,7 @@ def contact_response(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
 
 def leg_variance(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
     if i >= -j + k + l or i <= j + k - l - 2:
-        return (0) / ()
+        return 0 * phi
     if i == j + k - 1 and l == 1:
         return (phi*(phi*(phi*(phi - 2) + 6) - 2) + 1) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if i == k - 1 and j == 1 and l == 2:

@@ -39,6 +39,8 @@ Branch = tuple[str, str]
 
 def _code(expression: sympy.Expr, *inner: sympy.Symbol) -> str:
     """Python source of a rational function: Horner polynomial over its denominator."""
+    if expression == 0:
+        return "0 * phi"  # of the type of phi
     in_units = sympy.together(expression.xreplace({sigma: sympy.Integer(1), r: sympy.Integer(1)}))
     top, bottom = sympy.fraction(in_units)
     scale, factors = sympy.factor_list(bottom)
