@@ -36,7 +36,7 @@ PRINTED = equation(
     formula("(2M³/(1 − φ²)²) (1 − z)²(2z + 1)(σ_δr/r)²"),
 )
 
-VARIANCE = Layered(RELATIVE_VARIANCE, Variance(eq11.PRINTED.lhs), (eq11.IN_RADII,), SURFACE)
+VARIANCE = Layered(13, RELATIVE_VARIANCE, Variance(eq11.PRINTED.lhs), (eq11.IN_RADII,), SURFACE)
 
 
 SQUARES = Symbol("squares", r"\sum w^2", "Σw²")

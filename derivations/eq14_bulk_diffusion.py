@@ -97,7 +97,7 @@ FORCE = Line(
 """The second step, on which the variance rests."""
 
 IN_RADII = Chain((FORCE, eq11.DIRECTIONS))
-VARIANCE = Layered(RELATIVE_VARIANCE, Variance(RATIO), (IN_RADII,), BULK, ORDERED)
+VARIANCE = Layered(14, RELATIVE_VARIANCE, Variance(RATIO), (IN_RADII,), BULK, ORDERED)
 
 
 TOP = sympy.Eq(j, M - 1, evaluate=False)

@@ -3,6 +3,8 @@
 from functools import cache
 
 import sympy
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
@@ -210,12 +212,10 @@ TURNED = INSIDE.also(j + p >= 2)
 DOWN_LEG = LEFT_LEG.also(j >= 2, p >= 2)
 
 EXACT = {
-    RESPONSE: times(terms(6 * (l + j), -6, phi**2), UNIT / 4),
-    ONE_CONTACT: times(terms(3 * (l + j + k - i), -3, phi**2 / 2), UNIT / 4),
-    ON_LEG: times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), UNIT / 4),
-    LEG_MAGNITUDE: times(
-        terms(2 * (l - 1), 2 * phi**2 * j, Rational(5, 2) * phi**2, phi**4 / 2), UNIT
-    ),
+    RESPONSE: (6 * l + 6 * j - 6 + phi**2) * UNIT / 4,
+    ONE_CONTACT: (6 * l + 6 * j + 6 * k - 6 * i - 6 + phi**2) * UNIT / 8,
+    ON_LEG: (2 * l + 2 * j - 2 + 2 * phi + phi**2) * UNIT / 4,
+    LEG_MAGNITUDE: (4 * l - 4 + 4 * phi**2 * j + 5 * phi**2 + phi**4) * UNIT / 2,
 }
 """The usual formulas, away from base, load and legs."""
 
@@ -396,6 +396,8 @@ DERIVATION = Derivation(
         "printed form: l → ∞ at fixed j/l and (i − k)/l; exact forms: every site",
     ),
     premises=(
+        eq04.DERIVATION,
+        eq05.DERIVATION,
         eq07.DERIVATION,
         eq09.DERIVATION,
         eq10.DERIVATION,

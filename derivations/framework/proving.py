@@ -250,7 +250,7 @@ def _at(part: int, one: Any) -> Any:
 
 
 def _in_order(name: str) -> tuple[bool, int]:
-    kind, _, number = name.rpartition(" ")
+    kind, number = name.split()
     return kind == "step", int(number) if number.isdigit() else 0
 
 
