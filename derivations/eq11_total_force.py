@@ -25,7 +25,6 @@ from force_diffusion.derivations.framework.vocabulary import (
     terms,
     times,
 )
-from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.kernel.where import ENTERING, LOADED_VERTICALLY, SURFACE
 from force_diffusion.symbolic.mechanics.lattice import mirror
 from force_diffusion.symbolic.symbols import (
@@ -75,7 +74,6 @@ PRINTED = equation(
 )
 
 ORDERED = f_load / (2 * n_y)
-INTERIOR = Region({j: 0, M: j + 1})
 
 STRAIGHT_LOAD = (i + M - j, M)
 """The surface bead straight above the contact."""

@@ -421,7 +421,7 @@ def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
 
 def _fixes_the_symbol(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
     """The same where a symbol stands beside others on the left, as in ⟨f⟩/f₀ − 1."""
-    known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, sy.d, sy.kappa, sy.N}
+    known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
     about = printed.lhs.free_symbols - known
     if printed.lhs.has(sy.SiteFunction) or len(about) != 1:
         return ""

@@ -14,7 +14,7 @@ from typing import Any, Self
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from ..symbols import H_M, INDICES, PARAMETERS, M, d, l, n_x, n_y, phi
+from ..symbols import H_M, INDICES, PARAMETERS, M, l, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
 
@@ -463,5 +463,5 @@ UNKNOWNS = (
 )
 """What stands for unknown numbers while two sides are compared: positive ones, and any."""
 
-FIELD = Domain((LAYER, *SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, d, *UNKNOWNS[0], *UNKNOWNS[1]))
+FIELD = Domain((LAYER, *SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS[0], *UNKNOWNS[1]))
 """The field of all the paper's symbols, and of some unknown numbers, used by linear forms."""

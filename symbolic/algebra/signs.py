@@ -1,7 +1,5 @@
 """Signs over the whole domain: 0 < z < 1, −½ < φ < ½, and all that is positive by its name.
 
-Beside d ≥ 2, the number of dimensions, −1/d < φ < ½.
-
 A sign is found exactly, by the number of real roots of a polynomial in an interval; what is not
 shown to have one sign has none.
 """
@@ -11,17 +9,12 @@ from functools import cache
 import sympy
 
 from ..notation import by_name
-from ..symbols import d, n_x, n_y, phi, z
+from ..symbols import n_x, n_y, phi, z
 from .exact import Domain, NotExactError
 
 Symbols = tuple[sympy.Symbol, ...]
 
 _COSINES = {n_x, n_y, phi}
-_UP = sympy.Dummy("up", positive=True)
-_BETWEEN = (d * _UP - 2) / (2 * d * (1 + _UP))
-"""φ from −1/d to ½, as _UP goes from 0 to infinity."""
-_MORE = sympy.Dummy("more", nonnegative=True)
-"""d − 2."""
 _HALF, _QUARTER = sympy.Rational(1, 2), sympy.Rational(1, 4)
 
 
@@ -47,10 +40,6 @@ def sign(
         if expression.exp.is_Integer:
             return base ** (int(expression.exp) % 2) if base else 0
         return base if base == 1 else 0
-    if expression.has(d) and expression.has(phi):
-        expression = expression.xreplace({phi: _BETWEEN})
-    if expression.has(d):
-        expression, nonnegative = expression.xreplace({d: _MORE + 2}), (*nonnegative, _MORE)
     domain = Domain(by_name(expression.free_symbols))
     try:
         value = domain.from_sympy(expression)

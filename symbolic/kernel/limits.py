@@ -41,7 +41,7 @@ def asymptotic(*facts: Theorem | tuple[Theorem, ...]) -> Rule:
         low, high = order(left - right, limit), order(right, limit)
         if not low <= high - limit.orders:
             raise DisprovedError(how_apart(left, right, limit))
-        least = where.at_least
+        least = where.dimension
         if not even(FIELD.one / right, limit, least):
             raise NotProvedError("what the right-hand side goes as is not shown to vanish nowhere")
         if not even(left - right, limit, least):
@@ -301,7 +301,7 @@ def read(formula: sympy.Eq, facts: Facts, where: Where) -> tuple[RationalFunctio
     """
     limit = where.limit
     assert limit is not None
-    known = {*FIXED, *limit.growing} | ({sy.d} if where.dimension == sy.d else set())
+    known = {*FIXED, *limit.growing}
     found = []
     for side in formula.args:
         try:

@@ -155,7 +155,7 @@ def check(formula: sympy.Eq, where: Where, *, in_a_limit: bool = False) -> None:
             raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
     if reserved := by_name(free & {*UNKNOWNS[0], *UNKNOWNS[1]}):
         raise NotAStatementError(f"{text(reserved[0])} is a name of the kernel's own")
-    if where.dimension != sy.d and where.dimension < 2:
+    if where.dimension < 2:
         raise NotAStatementError("a packing has two dimensions or more")
     if where.dimension != 2 and (found := by_name(free & _PLANE)):
         raise NotAStatementError(f"{text(found[0])} belongs to the plane")
@@ -202,7 +202,7 @@ def _check(node: sympy.Basic, where: Where, outer: frozenset[sympy.Symbol]) -> N
 
 
 _MOMENTS = (sy.Moment, sy.LargestShare, sy.LargestWeight)
-_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS, *sy.CONTACTS)
+_READ = (sympy.Add, sympy.Mul, sy.Dot, sy.MatrixTimes, sy.Braces, *_MOMENTS)
 _QUANTITIES = {
     *FORCES, sy.VerticalPlus, sy.VerticalMinus, sy.DeltaNMinus, sy.DeltaNPlus, sy.DeltaR,
     sy.DeltaX, sy.Load, sy.Position, sy.SecondDifference,
@@ -262,7 +262,6 @@ class Normal:
         if any(isinstance(one, FORCES) and bound & one.free_symbols for one in held):
             raise NotProvedError("a force is summed over, which is not one unknown number")
         known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, *UNKNOWNS[0], *UNKNOWNS[1]}
-        known |= {where.dimension} if where.dimension == sy.d else set()
         left = [list(reversed(UNKNOWNS[0])), list(reversed(UNKNOWNS[1]))]
         for used in held & {*UNKNOWNS[0], *UNKNOWNS[1]}:
             for one in left:
@@ -441,12 +440,6 @@ def _put_in(
                 image[atom] = found
                 break
     return node.xreplace(image) if image else node
-
-
-def said_of(quantity: sympy.Expr, facts: Facts, where: Where) -> sympy.Expr | None:
-    """What one of several theorems says of a quantity on all of a domain; None if none does."""
-    told = (_instance_of(one, quantity, where, facts) for one in flat(facts))
-    return next((one for one in told if one is not None), None)
 
 
 @lru_cache(maxsize=20_000)
