@@ -102,9 +102,10 @@ class Drawn:
         return Packing(height, self.n, self.kind, self.ratio or Fraction(1))
 
     def numbers(self, form: fd.ClosedForm, height: int) -> dict[str, Fraction | int]:
-        """What a form asks for, beside where."""
-        given = {"M": height, "phi": self.n[1] ** 2 - self.n[0] ** 2, "sigma": 1, "r": 1,
-                 "t": self.ratio or Fraction(1)}  # fmt: skip
+        """What a form may ask for, beside where."""
+        given = {"M": height, "phi": self.n[1] ** 2 - self.n[0] ** 2, "sigma": 1, "r": 1}
+        if self.as_symbol and self.ratio:
+            given["t"] = self.ratio
         return {name: given[name] for name in given if name in form.symbols}
 
 
@@ -240,7 +241,7 @@ def test_below_one_loaded_bead(terms: Terms, n: tuple[Fraction, Fraction]) -> No
     note(str(form))
     cosine = n[1] ** 2 - n[0] ** 2
     for level in range(1, 5):
-        packing = Packing(level, n, "point", at={k: level % 2})
+        packing = Packing(level, n, "point", at={k: level % 2}, order=1)
         for layer, column in product(range(-2, level + 3), range(-level - 5, level + 7)):
             at = {"i": column, "j": layer, "k": level % 2, "l": level, "phi": cosine}
             try:

@@ -8,17 +8,23 @@ expression are called.
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, reduce
+from itertools import product
 from operator import add, mul
 from typing import Any
 
 import sympy
 from flint import fmpq
+from force_diffusion.numeric.arithmetic.systems import zeros
+from force_diffusion.numeric.lattice.branch import PerAxis
+from force_diffusion.numeric.lattice.layers import whole
+from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 from force_diffusion.symbolic import symbols as sy
 
 from tests.numeric.mechanics import taylor
+from tests.soundness.witnesses import dimensions
 
 Direction = tuple[Fraction, Fraction]
 Site = tuple[int, ...]
@@ -148,13 +154,13 @@ def _quantities(
 
 
 @cache
-def below_one(level: int, n: Direction) -> Mapping[tuple[str, Site], Value]:
+def below_one(level: int, n: Direction, order: int) -> Mapping[tuple[str, Site], Value]:
     """Forces below a load −(n⁺ + n⁻) on bead (0, level), by name and place.
 
     Many equal loads share one packing, so far apart that none feels the bead that is enlarged below
-    another; below each, it is another bead.
+    another; below each, it is another bead. At ``order`` 1 shifts of means are left out.
     """
-    reach = 2 * level + 2
+    reach = order * level + 2
     apart = 2 * reach + 2
     sums = Sums()
     for source in range(level + 1):
@@ -166,13 +172,14 @@ def below_one(level: int, n: Direction) -> Mapping[tuple[str, Site], Value]:
             for top, o in zip(tops, offsets, strict=True)
         }
         loads = {(top, level): (Fraction(0), -2 * n[1]) for top in tops}
-        solved = taylor.solve(width, level, n=n, rho=beads, loads=loads, order=2)
+        solved = taylor.solve(width, level, n=n, rho=beads, loads=loads, order=order)
         for top, offset in zip(tops, offsets, strict=True):
             for j in range(level):
                 for i in range(-(level - j), level - j + 1, 2):
                     for branch, name in _NAMES.items():
                         place = (top + i) % (2 * width), j, branch
-                        sums.add((f"Force{name}", (i, j)), (offset, source), solved.force(*place))
+                        force = [*solved.force(*place), Fraction(0)][:3]
+                        sums.add((f"Force{name}", (i, j)), (offset, source), force)
     return sums.values
 
 
@@ -190,6 +197,7 @@ class Packing:
         load: "surface", "bulk" or "point".
         ratio: t = L⁻/L⁺ of the load; L⁺ = 1 on each bead, so that f_load = m_g = 2n_y for t = 1.
         at: numbers of indices and of other symbols.
+        order: 2 where shifts of means are asked for.
     """
 
     height: int
@@ -197,6 +205,7 @@ class Packing:
     load: str
     ratio: Fraction = Fraction(1)
     at: Numbers = field(default_factory=dict)
+    order: int = 2
 
     def symbols(self) -> dict[sympy.Symbol, Any]:
         """Numbers of the paper's symbols."""
@@ -225,7 +234,7 @@ class Packing:
             return Value(ZERO, {(i, j): ONE})
         if name.startswith("Force") and self.load == "point":
             across = self.symbols()[sy.k]
-            found = below_one(self.height, self.n).get((name, (i - across, j)), Value())
+            found = below_one(self.height, self.n, self.order).get((name, (i - across, j)), Value())
             return found.at(across, 0)
         load = "surface" if self.load == "point" else self.load
         return below_many(self.height, self.n, load, self.ratio)[name + axis, j].at(i, 0)
@@ -233,7 +242,7 @@ class Packing:
 
 @dataclass(frozen=True)
 class _Reading:
-    packing: Packing
+    packing: Any  # of discs or of spheres
     symbols: Numbers
 
     def moment(self, expression: sympy.Basic) -> fmpq:
@@ -279,21 +288,25 @@ class _Reading:
                 return self._average(*expression.args)
             case sy.VerticalPlus() | sy.VerticalMinus():
                 return self._vertical(type(expression).__name__, *expression.args)
+            case sy.ForceAlong():
+                axis, *bead = map(self.index, expression.args)
+                vertical = isinstance(expression, sy.VerticalAlong)
+                return self.packing.along(axis, tuple(bead), vertical=vertical)
             case sy.SiteFunction():
                 return self._quantity(type(expression).__name__, *expression.args)
         raise NotImplementedError(f"{expression} is not read here")
 
     def _symbol(self, symbol: sympy.Symbol) -> Value | Vector:
+        if symbol not in sy.VECTORS:
+            return Value(fmpq(self.symbols[symbol]))
         n_x, n_y = map(exact, self.packing.n)
         vectors = {
             sy.n_plus: (n_x, n_y), sy.n_minus: (-n_x, n_y), sy.e_y: (ZERO, ONE),
             sy.b_plus: (1 / (2 * n_x), 1 / (2 * n_y)),
             sy.b_minus: (-1 / (2 * n_x), 1 / (2 * n_y)),
         }  # fmt: skip
-        if symbol in vectors:
-            x, y = vectors[symbol]
-            return Value(x), Value(y)
-        return Value(fmpq(self.symbols[symbol]))
+        x, y = vectors[symbol]
+        return Value(x), Value(y)
 
     def _power(self, base: sympy.Expr, exponent: int) -> Value:
         value = self._number(base)
@@ -308,8 +321,7 @@ class _Reading:
         return int(value.p)
 
     def _quantity(self, name: str, across: sympy.Expr, layer: sympy.Expr) -> Value | Vector:
-        packing = Packing(self.packing.height, self.packing.n, self.packing.load,
-                          self.packing.ratio, self.symbols)  # fmt: skip
+        packing = replace(self.packing, at=self.symbols)
         place = self.index(across), self.index(layer)
         if name in ("DeltaX", "DeltaNPlus", "DeltaNMinus"):
             return packing.quantity(name, *place, "0"), packing.quantity(name, *place, "1")
@@ -328,6 +340,104 @@ class _Reading:
             moved = {symbol: self.symbols[symbol] + 2 * place for symbol in across}
             total = total + _Reading(self.packing, {**self.symbols, **moved})._number(expression)
         return total.scaled(fmpq(1, number))
+
+
+# packings of spheres
+
+
+@cache
+def spheres(
+    height: int, phi: Fraction, load: str, ratios: tuple[Fraction, Fraction]
+) -> Mapping[tuple[int, int], Value]:
+    """Forces by base vector and layer, of the contact at bead (0, 0, 0) (counted from there).
+
+    Under a load −(n¹ + ratios n² + … n³) on each sphere of the surface, or on each above the base;
+    one sphere of each layer in turn is enlarged.
+    """
+    system, width = taylor.Series(1), 2 * height + 3
+    sums = Sums()
+    with system.active():
+        region = whole(width**2, height, dimension=3)
+        share = zeros(system, width**2)
+        on = [
+            tuple(
+                share + system.number(ratio) if j == height or (load == "bulk" and j) else None
+                for j in range(height + 1)
+            )
+            for ratio in (Fraction(1), *ratios)
+        ]
+        for source in range(height + 1):
+            rho = [zeros(system, width**2) for _ in range(height + 1)]
+            rho[source][0] = system.series([Fraction(0), Fraction(1)])
+            packing = deposit(phi, region, rho, system)
+            forces = sweep_down(packing, region.rows, PerAxis(*on))
+            both = zip(forces.ordered, forces.change, strict=True)
+            for axis, ((_, ordered), (_, change)) in enumerate(both):
+                for upper, place in product(range(1, height + 1), range(width**2)):
+                    force = ordered[upper][place] + change[upper][place]
+                    x, y = divmod(place, width)  # of the upper one; the enlarged one is at (0, 0)
+                    lower = [x, y, upper - x - y]
+                    lower[axis] -= 1
+                    there = (0, 0, source)
+                    bead = tuple(a - b for a, b in zip(there, lower, strict=True))
+                    steps = tuple((one + height + 1) % width - height - 1 for one in bead[:2])
+                    numbers = (Fraction(int(force[k].p), int(force[k].q)) for k in (0, 1))
+                    sums.add(
+                        (axis + 1, upper - 1),
+                        (*steps, source - (upper - 1) - sum(steps)),
+                        (*numbers, Fraction(0)),
+                    )
+    return sums.values
+
+
+@dataclass(frozen=True)
+class Spheres:
+    """A packing of spheres under a load, and what expressions are in it.
+
+    Attributes:
+        height: M, or l of a point load on bead (0, 0, l).
+        phi: of each two base vectors; r = σ = 1.
+        load: "surface", "bulk" or "point".
+        ratios: L²/L¹ and L³/L¹ of the load, L¹ = 1.
+        at: numbers of indices and of other symbols.
+    """
+
+    height: int
+    phi: Fraction
+    load: str
+    ratios: tuple[Fraction, Fraction] = (Fraction(1), Fraction(1))
+    at: Numbers = field(default_factory=dict)
+
+    def symbols(self) -> dict[sympy.Symbol, Any]:
+        """Numbers of the paper's symbols."""
+        second, third = map(exact, self.ratios)
+        return {
+            sy.phi: exact(self.phi), sy.r: ONE, sy.sigma: ONE, sy.t_2: second, sy.t_3: third,
+            sy.M: self.height, sy.l: self.height, **self.at,
+        }  # fmt: skip
+
+    def moment(self, expression: sympy.Expr) -> fmpq:
+        """The number that an expression in moments is.
+
+        Raises:
+            AbsentError: it names a contact that is not there.
+        """
+        return _Reading(self, self.symbols()).moment(expression)
+
+    def along(self, axis: int, bead: Site, *, vertical: bool) -> Value:
+        """A force along a base vector; with a point load over that of the ordered legs."""
+        layer = sum(bead)
+        if not 0 <= layer < self.height:
+            raise AbsentError(f"no contact leads up from {bead}")
+        if self.load != "point":
+            assert not vertical
+            return spheres(self.height, self.phi, self.load, self.ratios)[axis, layer].at(*bead)
+        down = tuple(a - b for a, b in zip((0, 0, self.height), bead, strict=True))
+        weights = dimensions.response_weights(
+            3, self.height, self.phi, down, axis - 1, vertical=vertical
+        )
+        on_leg = min(down) >= 0 and sum(down) == down[axis - 1]
+        return Value(fmpq(int(on_leg)), {at: exact(w) for at, w in weights.items() if w})
 
 
 def _sum(one: Any, other: Any) -> Any:
