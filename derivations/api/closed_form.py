@@ -363,8 +363,13 @@ class ClosedForm:
         if conditions:
             lines.append(f"    if not ({' and '.join(conditions)}):")
             lines.append(f'        raise ValueError("outside of {self.domain}")')
-        if any(piece.expr.has(sy.H_M) for piece in self.pieces):
-            lines.append(f"    {sy.H_M.in_code} = sum(1/n for n in range(1, M + 1))")
+        for symbol, source in (
+            (sy.H_M, "sum(1/n for n in range(1, M + 1))"),
+            (sy.n_x, "((1 - phi)/2)**0.5"),
+            (sy.n_y, "((1 + phi)/2)**0.5"),
+        ):
+            if any(piece.expr.has(symbol) for piece in self.pieces):
+                lines.append(f"    {symbol.in_code} = {source}")
         for shown, piece in zip(self.pieces, self._form.pieces, strict=True):
             either = [" and ".join(words.parts(part, words.PYTHON)) for part in piece.where]
             value = f"return {python_expression(shown.expr)}"

@@ -324,7 +324,7 @@ class ClosedForm:
         given = {one.lhs: FIELD.from_sympy(one.rhs) for one in words.equations(held)}
         with suppress(NotExactError):  # a divisor vanishes there
             value = value.substitute(given)
-        return value.named(self._names)
+        return value.reduced().named(self._names)
 
     def _whole(self, form: sets.Row) -> sympy.Expr:
         """A form in the old indices, without fractions."""
