@@ -33,7 +33,7 @@ eq = fd.equation(13)
 assert eq.number == 13
 assert {"M", "z"} <= set(eq.symbols)
 assert "sigma" in eq.latex()
-assert eq.exact("base").at(M=10, phi=-0.125, sigma=0.01, r=1) > 0
+assert eq.exact().at(M=10, j=0, phi=-0.125, sigma=0.01, r=1) > 0
 assert eq.prove().verdict == "proved"
 assert eq.decide(2 * eq.rhs).verdict == "refuted"
 try:

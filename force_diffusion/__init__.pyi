@@ -1,8 +1,16 @@
 from .derivations.api.certificates import certify as certify
+from .derivations.api.closed_form import ClosedForm as ClosedForm
 from .derivations.api.derived import Derived as Derived
 from .derivations.api.derived import derive as derive
 from .derivations.api.equation import Equation as Equation
 from .derivations.api.equation import equation as equation
+from .derivations.calculator.loads import leaning as leaning
+from .derivations.calculator.loads import point as point
+from .derivations.calculator.statistics import covariance as covariance
+from .derivations.calculator.statistics import mean as mean
+from .derivations.calculator.statistics import mean_over as mean_over
+from .derivations.calculator.statistics import response as response
+from .derivations.calculator.statistics import variance as variance
 from .numeric.arithmetic.errors import ForceDiffusionError as ForceDiffusionError
 from .numeric.ensemble.ensemble import ensemble as ensemble
 from .numeric.ensemble.result import Ensemble as Ensemble

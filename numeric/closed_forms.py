@@ -1,4 +1,4 @@
-"""Closed forms: variances (13–14, 16, B2–3, B7–8, B11, B13–14) and means (B5–6).
+"""Closed forms: variances (13–14, 16, B2–3, B7–8, B13–14) and means (B5–6).
 
 All functions give a variance over a squared force, or a mean over its ordered value: numbers
 without unit. Their formulas are those of ``generated``, plain arithmetic with no constant but whole
@@ -14,11 +14,10 @@ Arguments:
     z: height of the contact over that of the packing, j/M, from 0 to 1; as an asymptotic form it
         holds for 0 < z < 1.
     t: L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻) for f⁺; L⁺/L⁻ for f⁻. 1 for a vertical load.
-    N: how many neighbours, a whole number ≥ 2.
-    d: dimensions, a whole number ≥ 2; every bead rests on d others.
+    N: how many neighbours, a whole number ≥ 1.
     l: layer of the loaded bead, a whole number ≥ 0.
-    phi: n⁺·n⁻, without unit; −1/2 < φ < 1/2 in a packing without overlaps (not checked). In d
-        dimensions the mutual dot product of the base vectors; −1/d < φ < 1/2.
+    phi: n⁺·n⁻, without unit; −1/2 < φ < 1/2 in a packing without overlaps (not checked). Of spheres
+        the mutual dot product of the base vectors; −1/3 < φ < 1/2.
     sigma: standard deviation σ_δr of the radii, a length.
     r: mean radius, in the same unit; not 0.
 
@@ -117,33 +116,27 @@ def bulk_mean_shift(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
     return _of_contact(generated.bulk_mean_shift, M, j, phi, sigma, r)
 
 
-def diffusion_in_dimensions(d: Any, M: Any, z: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Leading order of σ_f²/⟨f⟩² in d dimensions for M → ∞ at fixed z, surface load (Eq. B11)."""
-    d, M, z, phi = _whole("d", d, 2), _whole("M", M, 1), _fraction(z), _endless(phi)
-    kappa = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
-    return generated.diffusion_in_dimensions(d, M, z) * kappa**2 * (sigma / r) ** 2
+def surface_diffusion_of_spheres(M: Any, z: Any, phi: Any, sigma: Any, r: Any) -> Any:
+    """Leading order of σ_f²/⟨f⟩² of spheres for M → ∞ at fixed z, surface load (Eq. B13)."""
+    return _leading(generated.surface_diffusion_of_spheres, M, z, phi, sigma, r)
+
+
+def bulk_diffusion_of_spheres(M: Any, z: Any, phi: Any, sigma: Any, r: Any) -> Any:
+    """Leading order of σ_f²/⟨f⟩² of spheres for M → ∞ at fixed z, bulk load (Eq. B14)."""
+    return _leading(generated.bulk_diffusion_of_spheres, M, z, phi, sigma, r)
 
 
 def contacts_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact variance of the mean over N neighbouring f^±/⟨f⟩, surface load (Eq. B7).
-
-    For N + 1 ≤ j ≤ M − 2.
-    """
-    N = _whole("N", N, 2)
-    j = _whole("j", j, N + 1)
-    M = _whole("M", M, j + 2)
-    return generated.contacts_mean_variance(j, M - j, N, _endless(phi)) * (sigma / r) ** 2
+    """Exact variance of the mean over N neighbouring f^±/⟨f⟩, surface load (Eq. B7)."""
+    return _of_contact(generated.contacts_mean_variance, M, j, phi, sigma, r, _whole("N", N, 1))
 
 
 def beads_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
     """Exact variance of the mean over N neighbouring p/f_load, surface load (Eq. B8).
 
-    ``j`` is the layer of the beads, N + 2 ≤ j ≤ M − N − 1.
+    ``j`` is the layer of the beads, which lie below the surface.
     """
-    N = _whole("N", N, 2)
-    j = _whole("j", j, N + 2)
-    M = _whole("M", M, j + N + 1)
-    return generated.beads_mean_variance(j, M - j, N, _endless(phi)) * (sigma / r) ** 2
+    return _of_contact(generated.beads_mean_variance, M, j, phi, sigma, r, _whole("N", N, 1))
 
 
 def response(l: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
@@ -165,15 +158,7 @@ def bead_response(i: Any, j: Any, k: Any, l: Any, phi: Any, sigma: Any, r: Any) 
     loaded bead itself, it does not fluctuate. All indices are whole numbers, i + j and k + l even,
     j and l ≥ 0.
     """
-    (i, j, k, l), p, q = _below_load(i, j, k, l)
-    phi = _endless(phi)
-    if p < 0 or q < 0 or p == q == 0:
-        value = 0 * phi
-    elif p == 0 or q == 0:
-        value = generated.leg_response(j, l, l - j, phi)
-    else:
-        value = generated.bead_response(j, l, p, q, phi)
-    return value * (sigma / r) ** 2
+    return _below_load(generated.bead_response, i, j, k, l, phi) * (sigma / r) ** 2
 
 
 def contact_response(
@@ -188,17 +173,9 @@ def contact_response(
     """
     if branch not in ("+", "-"):
         raise ValueError(f"branch = {branch!r}: '+' or '-' is allowed")
-    (i, j, k, l), p, q = _below_load(i, j, k, l)
-    phi = _endless(phi)
     if branch == "-":  # the mirror image
-        i, k, p, q = -i, -k, q, p
-    if p < 1 or q < 0:
-        value = 0 * phi
-    elif q == 0:
-        value = generated.leg_response(j, l, l - j, phi)
-    else:
-        value = generated.contact_response(i, j, k, l, p, phi)
-    return value * (sigma / r) ** 2
+        i, k = -i, -k
+    return _below_load(generated.contact_response, i, j, k, l, phi) * (sigma / r) ** 2
 
 
 def leg_variance(j: Any, l: Any, phi: Any, sigma: Any, r: Any) -> Any:
@@ -210,14 +187,15 @@ def leg_variance(j: Any, l: Any, phi: Any, sigma: Any, r: Any) -> Any:
     l, j = _whole("l", l, 1), _whole("j", j, 0)
     if j >= l:
         raise ValueError(f"no contact of a leg starts at j = {j}: 0 <= j < l = {l} is allowed")
-    return generated.leg_variance(j, l, l - j, _endless(phi)) * (sigma / r) ** 2
+    return _below_load(generated.leg_variance, j, j, l, l, phi) * (sigma / r) ** 2
 
 
-def _below_load(i: Any, j: Any, k: Any, l: Any) -> tuple[tuple[int, int, int, int], int, int]:
-    """The indices, and how many steps along n⁺ and n⁻ lead from (k, l) down to (i, j)."""
+def _below_load(form: Callable[..., Any], i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
+    """A form of bead (i, j) or of a contact above it, for a load on bead (k, l); 0 if not below."""
     j, l = _whole("j", j, 0), _whole("l", l, 0)
     i, k = _whole("i", i, None), _whole("k", k, None)
     for across, layer in ((i, j), (k, l)):
         if (across + layer) % 2:
             raise ValueError(f"({across}, {layer}) is no site: an even sum is allowed")
-    return (i, j, k, l), (l - j + k - i) // 2, (l - j - k + i) // 2
+    phi = _endless(phi)
+    return form(i, j, k, l, phi) if j < l else 0 * phi

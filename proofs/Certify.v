@@ -199,6 +199,7 @@ Ltac prove_second_difference :=
 
 (** Mean and variance in every layer, case by case. *)
 Ltac site_of_case :=
+  try match goal with H : contact _ _ ?j |- _ => is_var j; assert (j = 0)%Z by lia end;
   repeat match goal with E : ?x = _ :> Z |- _ => is_var x; subst x end; unfold contact in *.
 Ltac every_layer G :=
   match goal with

@@ -25,7 +25,6 @@ _BEADS_OWN = (sy.site_r, sy.site_s)
 VOCABULARY = (
     *(one for one in sy.INDICES if one not in _BEADS_OWN),
     *sy.PARAMETERS,
-    *(sy.d, sy.kappa),
 )
 """Symbols that every formula may hold; r and s are the radius and the spacing."""
 

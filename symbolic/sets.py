@@ -174,8 +174,9 @@ def _number(constraint: Any, kind: Any, place: int) -> Any:
 
 
 def _row(constraint: Any) -> Row:
-    numbers = (_number(constraint, _DIM, place).to_python() for place in range(len(DIMENSIONS)))
-    factors = {symbol: n for symbol, n in zip(DIMENSIONS, numbers, strict=True) if n}
+    numbers = (_number(constraint, _DIM, place) for place in range(len(DIMENSIONS)))
+    held = zip(DIMENSIONS, numbers, strict=True)
+    factors = {symbol: n.to_python() for symbol, n in held if not n.is_zero()}
     return factors, constraint.get_constant_val().to_python()
 
 
@@ -219,35 +220,55 @@ def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
     bounded = [(number, _intervals(part, directions)) for number, part in enumerate(parts)]
     forms = [_affine((dict(direction), 0)) for direction in directions]
     factors = [dict(direction) for direction in directions]
+    opposite = [{symbol: -factor for symbol, factor in one.items()} for one in factors]
 
     def halved(
-        cell: Set, left: list[tuple[int, dict[int, Interval]]], inside: list[int]
+        cell: Set, left: list[tuple[int, dict[int, Interval]]], inside: list[int], cut: int
     ) -> Iterator[tuple[Set, list[int]]]:
-        reach = {
-            number: (_bounded(cell.min_val(forms[number])), _bounded(cell.max_val(forms[number])))
-            for number in {number for _, intervals in left for number in intervals}
-        }
+        reach: dict[int, Interval] = {}
+
+        def reached(number: int) -> Interval:
+            if number not in reach:
+                form = forms[number]
+                reach[number] = _bounded(cell.min_val(form)), _bounded(cell.max_val(form))
+            return reach[number]
+
         cuts: Counter[tuple[int, int]] = Counter()
         still_open = []
         for one, intervals in left:
-            if any(_outside(interval, reach[n]) for n, interval in intervals.items()):
+            if cut in intervals and _outside(intervals[cut], reached(cut)):
                 continue
-            parting = {n: list(_cuts(interval, reach[n])) for n, interval in intervals.items()}
-            open_ones = {n: intervals[n] for n, bounds in parting.items() if bounds}
-            if open_ones:
-                still_open.append((one, open_ones))
-                cuts.update((n, bound) for n in open_ones for bound in parting[n])
+            parting: dict[int, list[int]] = {}
+            for number, interval in intervals.items():
+                if _outside(interval, reached(number)):
+                    break
+                if bounds := list(_cuts(interval, reached(number))):
+                    parting[number] = bounds
             else:
-                inside = [*inside, one]
+                if parting:
+                    still_open.append((one, {number: intervals[number] for number in parting}))
+                    cuts.update((n, bound) for n, bounds in parting.items() for bound in bounds)
+                else:
+                    inside = [*inside, one]
+        if not inside and len(still_open) == 1:  # what is outside of all sets is of no interest
+            ((one, intervals),) = still_open
+            for number, (low, high) in intervals.items():
+                if low is not None:
+                    cell = cell.add_constraint(_constraint((factors[number], -low), False))
+                if high is not None:
+                    cell = cell.add_constraint(_constraint((opposite[number], high), False))
+            if not cell.is_empty():
+                yield cell, [one]
+            return
         if not still_open:
             yield cell, inside
             return
         ((number, bound), _), *_ = cuts.most_common(1)
-        downwards = {symbol: -factor for symbol, factor in factors[number].items()}
-        for form in ((factors[number], -bound), (downwards, bound - 1)):
-            yield from halved(cell.add_constraint(_constraint(form, False)), still_open, inside)
+        for form in ((factors[number], -bound), (opposite[number], bound - 1)):
+            half = cell.add_constraint(_constraint(form, False))
+            yield from halved(half, still_open, inside, number)
 
-    yield from halved(EVERYTHING, bounded, [])
+    yield from halved(EVERYTHING, bounded, [], -1)
 
 
 def _outside(interval: Interval, reach: Interval) -> bool:
@@ -266,46 +287,47 @@ def _cuts(interval: Interval, reach: Interval) -> Iterator[int]:
         yield high + 1
 
 
-def least(symbol: sympy.Symbol, points: Set) -> int | None:
-    """The least value of a symbol on a set that is not empty; None where there is none."""
-    return None if points.is_empty() else _bounded(points.min_val(_affine(({symbol: 1}, 0))))
-
-
 def _bounded(value: Any) -> int | None:
     return None if value.is_infty() or value.is_neginfty() else value.to_python()
 
 
-def fixed(
-    points: Set, first: Sequence[sympy.Symbol] = ()
-) -> dict[sympy.Symbol, RationalFunction]:
+def fixed(points: Set) -> dict[sympy.Symbol, RationalFunction]:
     """Symbols that the equations of a set fix, by those that they leave free.
 
     A polynomial in what is left that is zero on all of the set is zero, unless the set is finite in
     some direction.
-
-    Args:
-        points: the set.
-        first: which symbols are fixed, rather than others.
     """
-    rank = _FIXED_FIRST | {symbol: place - len(first) for place, symbol in enumerate(first)}
-    forms = []
+    return {symbol: polynomial(value) for symbol, value in _fixed(points).items()}
+
+
+def equations(points: Set) -> list[Row]:
+    """Forms that are 0 on all of a set; remainders are left out."""
+    found = []
     for one in points.affine_hull().get_constraints():
         divided = (_number(one, isl.dim_type.div, n).is_zero() for n in range(_divisions(one)))
         if one.is_equality() and all(divided):
-            factors, constant = _row(one)
-            forms.append(({s: sympy.Rational(n) for s, n in factors.items()}, constant))
+            found.append(_row(one))
+    return found
+
+
+def _fixed(points: Set) -> dict[sympy.Symbol, tuple[dict[sympy.Symbol, sympy.Rational], Any]]:
+    """The same as forms, by elimination."""
+    forms = [
+        ({s: sympy.Rational(n) for s, n in factors.items()}, constant)
+        for factors, constant in equations(points)
+    ]
     solved: dict[sympy.Symbol, Any] = {}
     while forms:
         factors, constant = forms.pop()
         if not factors:
             continue
-        symbol = min(factors, key=rank.__getitem__)
+        symbol = min(factors, key=_FIXED_FIRST.__getitem__)
         scale = -factors.pop(symbol)
         value = {s: n / scale for s, n in factors.items()}, sympy.Rational(constant) / scale
         forms = [_with(form, symbol, value) for form in forms]
         solved = {s: _with(form, symbol, value) for s, form in solved.items()}
         solved[symbol] = value
-    return {symbol: polynomial(value) for symbol, value in solved.items()}
+    return solved
 
 
 def _with(form: Any, symbol: sympy.Symbol, value: Any) -> Any:
@@ -407,35 +429,51 @@ def contains(part: Set, values: Mapping[sympy.Symbol, int]) -> bool:
     )
 
 
-def sample(points: Set) -> dict[sympy.Symbol, int]:
+def sample(part: Set) -> dict[sympy.Symbol, int]:
     """A point of a set that is not empty."""
-    return next(samples(points))
+    point = part.sample_point()
+    return {
+        symbol: point.get_coordinate_val(_DIM, place).to_python()
+        for symbol, place in _PLACE.items()
+    }
 
 
-def samples(points: Set, most: int = 8) -> Iterator[dict[sympy.Symbol, int]]:
-    """Some points of a set."""
-    for _ in range(most):
-        if points.is_empty():
-            return
-        point = points.sample_point()
-        yield {
-            symbol: point.get_coordinate_val(_DIM, place).to_python()
-            for symbol, place in _PLACE.items()
-        }
-        points = points - isl.Set.from_point(point)
+def joined(pieces: Sequence[Set]) -> Set:
+    """The union of sets, in as few convex parts as isl and a look at their hull find.
 
-
-def joined(pieces: Iterable[Set]) -> Set:
-    """The union of sets, in as few convex parts as isl and a look at their hull find."""
-    whole = NOTHING
-    for one in pieces:
-        whole = whole | one
-    whole = whole.coalesce()
+    Single points far apart are not joined to a line that holds no others.
+    """
+    whole = _union(pieces).coalesce()
     if whole.n_basic_set() > 1:
         hull = whole.simple_hull().to_set()
         if hull.is_subset(whole):
-            return hull
+            whole = hull
+    several = [part.to_set() for part in whole.get_basic_sets()]
+    if not any(map(_steep, several)):
+        return whole
+    before = [part.to_set() for part in _union(pieces).get_basic_sets()]
+    known = set().union(*map(_steep, before))
+    return _union(
+        kept
+        for part in several
+        for kept in ([part] if _steep(part) <= known else (part & one for one in before))
+    )
+
+
+def _union(pieces: Iterable[Set]) -> Set:
+    whole = NOTHING
+    for one in pieces:
+        whole = whole | one
     return whole
+
+
+def _steep(part: Set) -> set[Any]:
+    """The equations of a convex set in which a symbol has another factor than 1 or −1."""
+    return {
+        (frozenset(factors.items()), constant)
+        for factors, constant in equations(part)
+        if any(abs(factor) > 1 for factor in factors.values())
+    }
 
 
 Conditions = tuple[list[Row], list[Row]]
@@ -453,18 +491,17 @@ def conditions(whole: Set, context: Set) -> list[Conditions]:
     for part in parts(whole & context):
         if part.is_disjoint(left):
             continue
-        equations, bounds = rows(part.affine_hull().to_set())[0], rows(part)[1]
-        equations = _needed(sorted(equations, key=_length), context)
-        forms = [*sorted(bounds, key=_length, reverse=True), *reversed(equations)]
+        held = _needed(sorted(equations(part), key=_length), context)
+        forms = [*sorted(rows(part)[1], key=_length, reverse=True), *reversed(held)]
         for one in tuple(forms):
             fewer = [form for form in forms if form is not one]
-            if _inside(context, fewer, equations).is_subset(whole):
+            if _inside(context, fewer, held).is_subset(whole):
                 forms = fewer
-        left = left - _inside(context, forms, equations)
+        left = left - _inside(context, forms, held)
         found.append(
             (
-                [form for form in equations if form in forms],
-                [form for form in reversed(forms) if form not in equations],
+                [form for form in held if form in forms],
+                [form for form in reversed(forms) if form not in held],
             )
         )
     if not left.is_empty() or not all(_both(context, one).is_subset(whole) for one in found):

@@ -19,7 +19,8 @@ F_c being the ordered forces. Summed along the contact's line up to the load thi
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import cache, lru_cache
+from dataclasses import dataclass
+from functools import cache, lru_cache, partial
 
 import sympy
 
@@ -132,12 +133,32 @@ ORDERED: Mapping[str, Callable[[], tuple[Weights, ...]]] = {
 """F_c by the bead, in units of what the load gives contacts along n¹ for each layer of it."""
 
 
+@dataclass(frozen=True)
+class Axes:
+    """A quantity of contacts along each base vector, worked out when it is asked for."""
+
+    along: Callable[[int], Known]
+
+    def __getitem__(self, axis: int) -> Known:
+        return self.along(axis)
+
+
 @cache
-def known(load: str) -> Mapping[type, tuple[Known, ...]]:
+def _force(load: str, axis: int) -> Known:
+    return force(ORDERED[load](), axis)
+
+
+@cache
+def _vertical(load: str, axis: int) -> Known:
+    return vertical(_force(load, axis), 3, axis)
+
+
+def known(load: str) -> Mapping[type, Axes]:
     """The forces of all contacts of a packing of spheres, by axis."""
-    forces = tuple(force(ORDERED[load](), axis) for axis in range(3))
-    verticals = tuple(vertical(one, 3, axis) for axis, one in enumerate(forces))
-    return {ForceAlong: forces, VerticalAlong: verticals}
+    return {
+        ForceAlong: Axes(partial(_force, load)),
+        VerticalAlong: Axes(partial(_vertical, load)),
+    }
 
 
 def _is(symbol: sympy.Symbol, value: sympy.Expr) -> sympy.Basic:

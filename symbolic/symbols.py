@@ -29,12 +29,9 @@ z = Symbol("z", real=True)  # relative height j/M
 L_plus = Symbol("L_plus", "L^{+}", "L⁺", positive=True)
 L_minus = Symbol("L_minus", "L^{-}", "L⁻", positive=True)
 t = Symbol("t", positive=True)
-# in any dimension −Σ_a L^a n^a; sums of (L^a/L^1)ⁿ over the other vectors a ≠ 1, n = 1 and 2
-# in three dimensions L^2/L^1 and L^3/L^1
+# in three dimensions −Σ_a L^a n^a, t_2 = L^2/L^1 and t_3 = L^3/L^1
 t_2 = Symbol("t_2", "t_{2}", "t₂", positive=True)
 t_3 = Symbol("t_3", "t_{3}", "t₃", positive=True)
-tau_1 = Symbol("tau_1", r"\tau_{1}", "τ₁", positive=True)
-tau_2 = Symbol("tau_2", r"\tau_{2}", "τ₂", positive=True)
 
 # indices: beads (i, j), (k, l), (r, s); height M; summation and path indices
 i, j, k, l, m, n, p, q = (Symbol(name, integer=True) for name in "ijklmnpq")  # noqa: E741
@@ -45,15 +42,12 @@ N = Symbol("N", integer=True, positive=True)  # neighbouring contacts or beads o
 
 H_M = Symbol("H_M", "H_{M}", "H_M", positive=True)  # Σ 1/k over 1 ≤ k ≤ M
 
-d = Symbol("d", integer=True, positive=True)  # dimensions, and supports of a bead
-kappa = Symbol("kappa", r"\kappa", "κ", positive=True)  # squared length of a reciprocal vector
-
 INDICES = (i, j, k, l, m, n, p, q, site_r, site_s, M, N)
 """All index symbols, in the fixed order that normal forms use."""
 
 PARAMETERS = (
     phi, n_x, n_y, r, spacing, sigma, epsilon, f_load, m_g, z,
-    L_plus, L_minus, t, t_2, t_3, tau_1, tau_2,
+    L_plus, L_minus, t, t_2, t_3,
 )  # fmt: skip
 """All continuous symbols, in the fixed order that exact domains use."""
 
@@ -157,10 +151,6 @@ class VerticalMinus(SiteFunction):
 
     latex_head, text_head, in_code = "p", "p", "p_minus"
     branch = "-"
-
-
-TURNS = {ForcePlus: DeltaNPlus, ForceMinus: DeltaNMinus}
-"""The force of a contact, and how that contact turns."""
 
 
 class Load(SiteFunction):
@@ -313,49 +303,6 @@ class LargestShare(Function):  # type: ignore[misc]
 
     def _text(self, printer: Any) -> str:
         return f"max w²/Σw²({printer._print(self.args[0])})"
-
-
-class ForceOfLayer(Function):  # type: ignore[misc]
-    """The force of a contact that leads up from a bead of layer j, over its ordered value.
-
-    In any dimension, along vector 1; under loads along the sum of the base vectors all contacts of
-    a layer are alike.
-    """
-
-    nargs = 1
-
-    def _latex(self, printer: Any) -> str:
-        return rf"f_{{{printer._print(self.args[0])}}}/\langle f\rangle"
-
-    def _text(self, printer: Any) -> str:
-        return f"f_({printer._print(self.args[0])})/⟨f⟩"
-
-
-class ForceBelow(Function):  # type: ignore[misc]
-    """Below one loaded bead O in three dimensions: a contact's force over that of ordered legs.
-
-    ForceBelow(c, p, q, s) leads up along base vector c = 1, 2, 3 from O − p e_1 − q e_2 − s e_3.
-    """
-
-    nargs = 4
-    head = "f"
-
-    def _latex(self, printer: Any) -> str:
-        axis, *steps = map(printer._print, self.args)
-        return rf"{self.head}^{{({axis})}}_{{{','.join(steps)}}}"
-
-    def _text(self, printer: Any) -> str:
-        axis, *steps = map(printer._print, self.args)
-        return f"{self.head}{axis}_({','.join(steps)})"
-
-
-class PushBelow(ForceBelow):
-    """The vertical component of the same, over that of ordered legs."""
-
-    head = "p"
-
-
-CONTACTS = (ForceOfLayer, ForceBelow, PushBelow)
 
 
 class ForceAlong(Function):  # type: ignore[misc]

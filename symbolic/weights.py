@@ -6,7 +6,7 @@ counts there. Sums and products of forms are sums and products of pieces, cases 
 themselves, and two forms are the same where no piece of their difference is left.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,17 +14,18 @@ import sympy
 from numpy.typing import NDArray as Array
 
 from . import sets
-from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_over
+from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_polynomial
 from .sets import Set
-from .symbols import n_x, n_y, phi
 
 Fixed = Mapping[sympy.Symbol, RationalFunction]
 
 Piece = tuple[Set, RationalFunction]
 
 _NUMBERS = {symbol: 0.37 + 0.61803 * number % 1 for number, symbol in enumerate(FIELD.generators)}
-_NUMBERS |= {n_x: 0.6, n_y: 0.8, phi: 0.28}
-"""Numbers for symbols, no two of them alike; those of φ, n_x and n_y belong together."""
+"""Numbers for symbols, no two of them alike."""
+
+_ROUNDING = 1e-12
+"""Of a sum of products, relative to the sum of their sizes: thousands of roundings."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,11 @@ class Weights:
         return cls(((sets.where(*relations), value),))
 
     def __add__(self, other: "Weights") -> "Weights":
-        return Weights((*self.pieces, *other.pieces))
+        found: dict[int, Piece] = {}
+        for points, value in (*self.pieces, *other.pieces):
+            before = found.get(id(points))
+            found[id(points)] = points, before[1] + value if before else value
+        return Weights(tuple(piece for piece in found.values() if not piece[1].is_zero()))
 
     def __sub__(self, other: "Weights") -> "Weights":
         return self + other.scaled(FIELD.constant(-1))
@@ -50,12 +55,11 @@ class Weights:
             return Weights()
         return Weights(tuple((points, value * factor) for points, value in self.pieces))
 
-    def mapped(self, change: Callable[[RationalFunction], RationalFunction]) -> "Weights":
-        """The same with its values changed."""
-        return Weights(tuple((points, change(value)) for points, value in self.pieces))
-
     def times(self, other: "Weights") -> "Weights":
         """The product at each point."""
+        for one, rest in ((self, other), (other, self)):
+            if len(one.pieces) == 1 and one.pieces[0][0] is sets.EVERYTHING:
+                return rest.scaled(one.pieces[0][1])
         return Weights(
             tuple(
                 (points & there, value * factor)
@@ -83,6 +87,10 @@ class Weights:
             )
         )
 
+    def having(self, values: Fixed) -> "Weights":
+        """The same for values of symbols that are no indices."""
+        return Weights(tuple((points, value.substitute(values)) for points, value in self.pieces))
+
     def summed(self, *symbols: sympy.Symbol) -> "Weights":
         """Σ over all values of some symbols.
 
@@ -92,7 +100,7 @@ class Weights:
         pieces = self.pieces
         for symbol in symbols:
             pieces = tuple(
-                (there, sum_over(value, symbol, low, high))
+                (there, sum_polynomial(value, symbol, low, high))
                 for points, value in pieces
                 for there, low, high in sets.ranges(points, symbol)
             )
@@ -122,7 +130,7 @@ class Weights:
         pieces = [(part, value) for points, value in self.pieces for part in sets.parts(points)]
         found = []
         for cell, inside in sets.arrangement([part for part, _ in pieces]):
-            value = sum((pieces[number][1] for number in inside), FIELD.zero)
+            value = FIELD.total(pieces[number][1] for number in inside)
             if not value.is_zero():
                 found.append((cell, value))
         return Weights(tuple(found))
@@ -141,11 +149,14 @@ class Weights:
         cells = [(sets.fixed(part), part, value) for part, value in self.cells().pieces]
         cells.sort(key=lambda cell: len(cell[0]))
         places = np.array([_place(part) for _, part, _ in cells])
-        groups = [_Group(FIELD.zero, np.zeros(len(cells), dtype=complex))]
+        groups = [_Group(FIELD.zero, (np.zeros(len(cells)), np.zeros(len(cells))))]
         for number, (held, part, value) in enumerate(cells):
-            own = complex(_numbers(value, places[number : number + 1])[0])
+            own, error = (one[0] for one in _numbers(value, places[number : number + 1]))
             for group in groups:
-                if _is_near(group.numbers[number], own) and _agree(group.value, value, held):
+                apart = abs(group.numbers[0][number] - own)
+                if apart > error + group.numbers[1][number]:
+                    continue
+                if _agree(group.value, value, held):
                     group.parts.append(part)
                     break
             else:
@@ -158,12 +169,16 @@ class Weights:
         return not self.formulas()
 
 
+Numbers = tuple[Array[np.float64], Array[np.float64]]
+"""Values, and how far they may be off."""
+
+
 @dataclass
 class _Group:
-    """A polynomial, its values at a place of each cell, and the cells where it holds."""
+    """A polynomial, its value at a place of each cell, and the cells where it holds."""
 
     value: RationalFunction
-    numbers: Array[np.complex128]
+    numbers: Numbers
     parts: list[Set] = field(default_factory=list)
 
 
@@ -174,26 +189,27 @@ def _place(part: Set) -> list[float]:
     return [values[symbol] for symbol in FIELD.generators]
 
 
-def _numbers(function: RationalFunction, places: Array[np.float64]) -> Array[np.complex128]:
-    """The values of a function at places, and by how much they may be off as imaginary part."""
+def _numbers(function: RationalFunction, places: Array[np.float64]) -> Numbers:
+    """The values of a function at places; what it is not worked out to may be anything."""
+    above, of_above = _values(function.numerator, places)
+    below, of_below = _values(function.denominator, places)
     with np.errstate(all="ignore"):
-        below = _values(function.denominator, places)
-        return _values(function.numerator, places) / np.real(below)
+        value = above / below
+        error = (of_above + abs(value) * of_below) / (abs(below) - of_below)
+    sure = (abs(below) > of_below) & np.isfinite(value) & np.isfinite(error)
+    return np.where(sure, value, 0), np.where(sure, error, np.inf)
 
 
-def _values(polynomial: Polynomial, places: Array[np.float64]) -> Array[np.complex128]:
-    total = np.zeros(len(places), dtype=complex)
-    for powers, factor in polynomial.to_dict().items():
-        held = [number for number, power in enumerate(powers) if power]
-        exponents = [int(powers[number]) for number in held]
-        terms = float(factor.p) / float(factor.q) * np.prod(places[:, held] ** exponents, axis=1)
-        total += terms + 1e-9j * np.abs(terms)
-    return total
-
-
-def _is_near(one: complex, other: complex) -> bool:
-    """Whether two values may be the same number, rounded; what is not finite may be anything."""
-    return not abs(one.real - other.real) > abs(one.imag) + abs(other.imag)
+def _values(polynomial: Polynomial, places: Array[np.float64]) -> Numbers:
+    total, size = np.zeros(len(places)), np.zeros(len(places))
+    with np.errstate(all="ignore"):
+        for powers, factor in polynomial.to_dict().items():
+            held = [number for number, power in enumerate(powers) if power]
+            exponents = [int(powers[number]) for number in held]
+            term = float(factor.p) / float(factor.q) * np.prod(places[:, held] ** exponents, axis=1)
+            total += term
+            size += abs(term)
+    return total, _ROUNDING * size
 
 
 def _agree(one: RationalFunction, other: RationalFunction, held: Fixed) -> bool:

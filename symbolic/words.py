@@ -1,9 +1,11 @@
 """Relations between whole numbers as a person writes them: "2 ≤ j ≤ M − 2", "j = M − 1"."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 
 import sympy
 
+from .printing.code import python_expression
 from .printing.latex import latex
 from .printing.text import text
 from .symbols import M, N, i, j, k, l, m, n, p, q, site_r, site_s
@@ -38,8 +40,12 @@ Bounds = tuple[list[sympy.Expr], sympy.Symbol, list[sympy.Expr]]
 """Lower bounds of a symbol, the symbol, and upper bounds."""
 
 
-def bounds(relations: Iterable[sympy.Basic]) -> list[Bounds]:
-    """Symbols between their bounds, from relations that are no equations."""
+def bounds(relations: Iterable[sympy.Basic], given: Iterable[sympy.Eq] = ()) -> list[Bounds]:
+    """Symbols between their bounds, from relations that are no equations.
+
+    ``given`` symbols do not stand in them.
+    """
+    values = {one.lhs: one.rhs for one in given}
     found: dict[sympy.Symbol, tuple[list[sympy.Expr], list[sympy.Expr]]] = {}
     for relation in relations:
         if isinstance(relation, sympy.Eq):
@@ -48,50 +54,51 @@ def bounds(relations: Iterable[sympy.Basic]) -> list[Bounds]:
         if isinstance(relation, sympy.Le | sympy.Lt):
             above, below = below, above
         strict = int(isinstance(relation, sympy.Lt | sympy.Gt))
-        symbol, bound, sign = alone(above - below - strict)
+        form = _without_divisor((above - below - strict).xreplace(values))
+        if not form.free_symbols:
+            continue
+        symbol, bound, sign = alone(form)
         found.setdefault(symbol, ([], []))[0 if sign > 0 else 1].append(bound)
     return [(low, symbol, high) for symbol, (low, high) in found.items()]
 
 
-def in_words(relations: Sequence[sympy.Basic], tex: bool = False) -> str:
-    """Relations as text, or as LaTeX: equations first, then what lies between bounds."""
-    shown, at_most, at_least = (latex, r" \leq ", r" \geq ") if tex else (text, " ≤ ", " ≥ ")
-    parts = [f"{shown(one.lhs)} = {shown(one.rhs)}" for one in equations(relations)]
-    for low, symbol, high in bounds(relations):
+def _without_divisor(form: sympy.Expr) -> sympy.Expr:
+    """A form of whole numbers that is at least 0 where another one is: x − 1 for 2 x − 1."""
+    constant, rest = sympy.expand(form).as_coeff_Add()
+    divisor = sympy.igcd(0, *rest.as_coefficients_dict().values()) or 1
+    return rest / divisor + sympy.floor(constant / divisor)
+
+
+def in_words(relations: Iterable[sympy.Basic]) -> str:
+    """Relations as text: equations first, then what lies between bounds."""
+    return ", ".join(parts(relations))
+
+
+@dataclass(frozen=True)
+class Style:
+    """How expressions and the signs between them are written."""
+
+    shown: Callable[[sympy.Expr], str]
+    equal: str
+    at_most: str
+    at_least: str
+
+
+TEXT = Style(text, " = ", " ≤ ", " ≥ ")
+LATEX = Style(latex, " = ", r" \leq ", r" \geq ")
+PYTHON = Style(python_expression, " == ", " <= ", " >= ")
+
+
+def parts(relations: Iterable[sympy.Basic], style: Style = TEXT) -> list[str]:
+    """The same, one by one."""
+    relations, shown = tuple(relations), style.shown
+    solved = equations(relations)
+    found = [f"{shown(one.lhs)}{style.equal}{shown(one.rhs)}" for one in solved]
+    for low, symbol, high in bounds(relations, solved):
         if len(low) == 1 and high:
-            parts.append(at_most.join(map(shown, (low[0], symbol, high[0]))))
+            found.append(style.at_most.join(map(shown, (low[0], symbol, high[0]))))
         else:
-            parts += [f"{shown(symbol)}{at_least}{shown(bound)}" for bound in low]
+            found += [f"{shown(symbol)}{style.at_least}{shown(bound)}" for bound in low]
         rest = high[1:] if len(low) == 1 else high
-        parts += [f"{shown(symbol)}{at_most}{shown(bound)}" for bound in rest]
-    return ", ".join(parts)
-
-
-_SIGNS = {sympy.Eq: "=", sympy.Le: "≤", sympy.Lt: "<", sympy.Ge: "≥", sympy.Gt: ">"}
-_TURNED = {sympy.Ge: sympy.Le, sympy.Gt: sympy.Lt}
-
-
-def chains(relations: Sequence[sympy.Basic]) -> tuple[str, ...]:
-    """Relations in their order, as "0 ≤ j < M" where one begins with what the last ends with."""
-    return tuple(
-        " ".join(_SIGNS[one] if isinstance(one, type) else text(one) for one in chain)
-        for chain in _chains(relations)
-    )
-
-
-def _chains(relations: Sequence[sympy.Basic]) -> Iterator[list[sympy.Basic | type]]:
-    """Relations that go on where the one before ends, as sides and kinds in turn."""
-    chain: list[sympy.Basic | type] = []
-    for one, following in zip(relations, (*relations[1:], None), strict=False):
-        left, right, kind = one.lhs, one.rhs, one.func
-        goes_on = following is not None and following.lhs == left
-        if goes_on and kind in _TURNED and following.func not in _TURNED:
-            left, right, kind = right, left, _TURNED[kind]
-        if chain and chain[-1] == left and kind not in _TURNED:
-            chain += [kind, right]
-            continue
-        if chain:
-            yield chain
-        chain = [left, kind, right]
-    if chain:
-        yield chain
+        found += [f"{shown(symbol)}{style.at_most}{shown(bound)}" for bound in rest]
+    return found

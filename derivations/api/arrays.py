@@ -33,7 +33,7 @@ def evaluate(evaluation: Evaluation, given: Mapping[str, Any]) -> Any:
     }
     if not arrays:
         return evaluation.at(single)
-    compare_names(evaluation.about, evaluation.asked(given), given)
+    compare_names(evaluation.about, evaluation.needed, given)
     shape = shared_shape(arrays)
     spread = {name: np.broadcast_to(array, shape) for name, array in arrays.items()}
     found = []

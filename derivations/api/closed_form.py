@@ -1,8 +1,10 @@
 """A closed form as a Python user holds it: formulas with domains, numbers, LaTeX, decisions."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import chain
+from numbers import Integral
 from typing import Any
 
 import mpmath
@@ -11,19 +13,30 @@ from flint import fmpq
 from force_diffusion.symbolic import sets, words
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import statistics
-from force_diffusion.symbolic.kernel.decisions import Ruling
+from force_diffusion.symbolic.kernel.decisions import Ruling, undecided
+from force_diffusion.symbolic.kernel.language import unreadable, usual_form
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.printing.code import python_expression
+from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
+from force_diffusion.symbolic.printing.lines import (
+    TEXT_WIDTH,
+    column_width,
+    latex_body,
+    latex_cases,
+    text_lines,
+)
 from force_diffusion.symbolic.printing.text import text
 
 from .arrays import evaluate
+from .deciding import decided
 from .evaluation import ArgumentError, Number, in_order, read_arguments, rounded, told
 
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
+_HIGH = 30  # lines of a display that fits a page of usual classes
 
 
 @dataclass(frozen=True)
@@ -44,11 +57,11 @@ class ClosedForm:
 
     >>> import force_diffusion as fd
     >>> from force_diffusion.symbols import f_plus, i, j
-    >>> print(fd.variance(f_plus(i, j), load="bulk"))  # doctest: +ELLIPSIS
-    var(f⁺_ij), exact for 0 ≤ j ≤ M − 1
-      j ≥ 2: σ_δr² (36 M⁴ + 36 M³ j + ...
-      j = 1: σ_δr² (36 M⁴ + 81 M³ + ...
-      j = 0: σ_δr² (36 M⁴ + 45 M³ + ...
+    >>> print(fd.variance(f_plus(i, j) - f_plus(i - 1, j - 1)))
+    var(f⁺_ij − f⁺_(i−1,j−1)), exact for 1 ≤ j ≤ M − 1
+      j ≥ 3: σ_δr² (12 j φ² + 12 j + φ⁴ + 3 φ² − 6)/[2 r² (1 − φ²)²]
+      j = 2: σ_δr² (φ⁴ + 27 φ² + 3 φ + 18)/[2 r² (1 − φ²)²]
+      j = 1: σ_δr² (φ⁴ − φ³ + 12 φ² − 5 φ + 7)/[2 r² (1 − φ²)²]
     """
 
     def __init__(
@@ -78,10 +91,25 @@ class ClosedForm:
         """Its formulas as the kernel has them."""
         return self._form.pieces
 
+    @property
+    def facts(self) -> tuple[Theorem, ...]:
+        """The theorems that are put in."""
+        return self._facts
+
+    @property
+    def function(self) -> statistics.ClosedForm:
+        """It as the kernel has it."""
+        return self._form
+
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
         """What it says on each part of its domain."""
-        return statistics.theorems(self.meant, self._form, self._where, self._facts)
+        return statistics.theorems(self.meant, self._where, self._facts)
+
+    def __reduce__(self) -> tuple[type["ClosedForm"], tuple[Any, ...]]:
+        """No theorem comes out of a pickle."""
+        parts = self._quantity, self._form, self._where, self._premises, self._meant
+        return ClosedForm, parts
 
     def named(self, symbol: sympy.Expr) -> "ClosedForm":
         """The same, shown as a symbol."""
@@ -114,20 +142,55 @@ class ClosedForm:
         >>> [piece.domain for piece in fd.variance(f_plus(i, j), load="bulk").pieces]
         ['j ≥ 2', 'j = 1', 'j = 0']
         """
-        return tuple(Piece(self._words(one), one.value.to_sympy()) for one in self._form.pieces)
+        return tuple(
+            Piece("; or ".join(map(words.in_words, one.where)), one.value.to_sympy())
+            for one in self._form.pieces
+        )
 
-    def _words(self, piece: statistics.Piece, *, tex: bool = False) -> str:
-        either = r" \text{ or } " if tex else "; or "
-        return either.join(words.in_words(one, tex=tex) for one in piece.where)
+    @cached_property
+    def expr(self) -> sympy.Expr:
+        """The formula as one SymPy expression; of several, a ``Piecewise``.
+
+        >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j
+        >>> type(fd.variance(f_plus(i, j)).expr).__name__
+        'Piecewise'
+        """
+        if len(self.pieces) == 1:
+            return self.pieces[0].expr
+        return sympy.Piecewise(
+            *(
+                (shown.expr, sympy.Or(*(sympy.And(*part) for part in piece.where)))
+                for shown, piece in zip(self.pieces, self._form.pieces, strict=True)
+            ),
+            evaluate=False,
+        )
+
+    @property
+    def equation(self) -> sympy.Eq:
+        """That the quantity is this expression."""
+        return equation(self._quantity, self.expr)
 
     @property
     def domain(self) -> str:
         """Where it holds, in words: where all contacts and beads that it names exist."""
+        return ", ".join(self._domain())
+
+    def _domain(self, style: words.Style = words.TEXT) -> list[str]:
+        relations, even = self._conditions_of_indices
+        suffix = r" \text{ even}" if style is words.LATEX else " even"
+        return [*words.parts(relations, style), *(style.shown(one) + suffix for one in even)]
+
+    @property
+    def _conditions_of_indices(self) -> tuple[list[sympy.Basic], list[sympy.Expr]]:
+        """The relations of its domain that its value depends on, and what is even there."""
         indices = self._needed & {*sy.INDICES}
-        relations = [one for one in self._where.relations if one.free_symbols <= indices]
-        even = [one for one in self._where.even if one.free_symbols <= indices]
-        parts = [words.in_words(relations), *(f"{text(one)} even" for one in even)]
-        return ", ".join(filter(None, parts))
+        relations = [one for one in self._form.domain if one.free_symbols <= indices]
+        return relations, [one for one in self._where.even if one.free_symbols <= indices]
+
+    @property
+    def _for_domain(self) -> str:
+        return f" for {self.domain}" if self.domain else ""
 
     # numbers
 
@@ -135,15 +198,17 @@ class ClosedForm:
     def _needed(self) -> set[sympy.Symbol]:
         """The symbols on which its value, and whether it has one, depend."""
         held = set().union(*(piece.expr.free_symbols for piece in self.pieces))
-        for piece in self._form.pieces:
-            for relations in piece.where:
-                held = held.union(*(one.free_symbols for one in relations))
-        for relation in self._where.relations:
-            if relation.free_symbols & held:
-                held |= relation.free_symbols
+        for relations in (self._form.domain, *chain(*(one.where for one in self.formulas))):
+            held = held.union(*(one.free_symbols for one in relations))
         cosine = {sy.phi} if held & {sy.n_x, sy.n_y} else set()
         height = {sy.M} if sy.H_M in held else set()
         return held - {sy.n_x, sy.n_y, sy.H_M} | cosine | height
+
+    @property
+    def symbols(self) -> dict[str, sympy.Symbol]:
+        """The symbols on which it depends, by the names of their values in :meth:`at`."""
+        named = {name_of(symbol): symbol for symbol in self._needed}
+        return {name: named[name] for name in in_order(named)}
 
     def at(self, **values: Any) -> Any:
         """The value for given numbers.
@@ -152,17 +217,18 @@ class ClosedForm:
         a float, the exact value for the given floats rounded once, where one of them is a float.
         Arrays, lists and ranges are broadcast as NumPy does.
 
-        >>>         >>> import force_diffusion as fd
+        >>> from fractions import Fraction
+        >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
         >>> form = fd.variance(f_plus(i, j))
         >>> form.at(M=10, j=3, phi=Fraction(-1, 8), sigma=Fraction(1, 100), r=1)
         247909/1764000
         >>> form.at(M=3, j=[0, 1, 2], phi=0.0, sigma=0.01, r=1)
-        array([0.00465, 0.00335, 0.00085])
-        >>> form.at(M=3, j=3, phi=0, sigma=1, r=1)
+        array([0.00375, 0.00215, 0.0004 ])
+        >>> form.at(M=3, j=3, phi=0, sigma=1, r=1)  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         ...
-        force_diffusion...ArgumentError: var(f⁺_ij) is known for 0 ≤ j ≤ M − 1, not for j = 3, M = 3
+        force_diffusion...ArgumentError: var(f⁺_ij) is for 0 ≤ j ≤ M − 1, not for j = 3, M = 3
 
         Raises:
             ArgumentError: a name is unknown or missing, or a value is outside of the domain.
@@ -189,7 +255,7 @@ class ClosedForm:
         raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
 
     def _holds(self, whole: Mapping[sympy.Symbol, int]) -> bool:
-        relations = [one for one in self._where.relations if one.free_symbols <= {*whole}]
+        relations = [one for one in self._form.domain if one.free_symbols <= {*whole}]
         even = [sets.row(one) for one in self._where.even if one.free_symbols <= {*whole}]
         return all(_is_met(sets.condition(one), whole) for one in relations) and all(
             _total(form, whole) % 2 == 0 for form in even
@@ -209,15 +275,16 @@ class ClosedForm:
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
         >>> fd.variance(f_plus(i, j)).profile(M=3, phi=0.0, sigma=0.01, r=1)
-        array([0.00465, 0.00335, 0.00085])
+        array([0.00375, 0.00215, 0.0004 ])
 
         Raises:
             ArgumentError: it does not depend on the layer j, or as for :meth:`at`.
         """
-        top = next((symbol for symbol in (sy.M, sy.l) if symbol.in_code in values), None)
+        top = next((values[name] for name in ("M", "l") if name in values), None)
         if sy.j not in self._needed or top is None:
             raise ArgumentError("a profile needs a form that depends on the layer j, and M or l")
-        return self.at(j=range(int(values[top.in_code])), **values)
+        is_height = isinstance(top, Integral) and top > 0
+        return self.at(j=range(int(top)) if is_height else 0, **values)
 
     # the leading orders
 
@@ -240,56 +307,106 @@ class ClosedForm:
 
     # how it is written
 
-    def latex(self) -> str:
-        """LaTeX for mathematics mode, which needs amsmath: a formula, or ``cases`` of them."""
-        left = latex(self._quantity)
-        if len(self.pieces) == 1:
-            return f"{left} = {latex(self.pieces[0].expr)}"
-        rows = (
-            rf"{latex(shown.expr)} & {self._words(piece, tex=True)}"
-            for shown, piece in zip(self.pieces, self._form.pieces, strict=True)
-        )
-        body = " \\\\\n".join(rows)
-        return f"{left} = \\begin{{cases}}\n{body}\n\\end{{cases}}"
+    def latex(self, columns: int = 1) -> str:
+        """LaTeX for mathematics mode, which needs amsmath: a formula, or ``cases`` of them.
+
+        The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
+        """
+        return self._shown(self.formulas, columns)
+
+    def _shown(self, formulas: Sequence[statistics.Piece], columns: int) -> str:
+        """LaTeX of some of its formulas."""
+        room, below = column_width(columns), _with_commas(self._domain(words.LATEX), "for")
+        if len(formulas) == 1:
+            (piece,) = formulas
+            below = [*_alternatives(piece.where, "if"), *below]
+            line = equation(self._quantity, piece.value.to_sympy())
+            return latex_body((line,), room=room, below=below)
+        common = _common([piece.expr for piece in self.pieces])
+        factor = formulas[0].value.domain.from_sympy(common)
+        rows = [((one.value / factor).to_sympy(), _alternatives(one.where)) for one in formulas]
+        return latex_cases(self._quantity, factor.to_sympy(), rows, below, room)
+
+    def displays(self, columns: int = 1) -> list[str]:
+        """The same in displays that fit a page: several, if one for all formulas would not."""
+        found: list[list[statistics.Piece]] = [[]]
+        for one in self.formulas:
+            if self._shown([*found[-1], one], columns).count(r"\\") <= _HIGH or not found[-1]:
+                found[-1].append(one)
+            else:
+                found.append([one])
+        return [self._shown(some, columns) for some in found]
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"
 
+    def data(self) -> list[dict[str, str]]:
+        """Its pieces as JSON has them: domain, text and LaTeX of each.
+
+        >>> import force_diffusion as fd
+        >>> from force_diffusion.symbols import f_plus, i, j
+        >>> fd.mean(f_plus(i, j)).data()
+        [{'domain': '', 'text': '1', 'latex': '1'}]
+        """
+        return [
+            {"domain": one.domain, "text": text(one.expr), "latex": latex(one.expr)}
+            for one in self.pieces
+        ]
+
     def python(self, name: str = "closed_form") -> str:
         """Python source of a function that refuses what :meth:`at` refuses; it needs no import."""
-        arguments = in_order(symbol.in_code for symbol in self._needed)
-        lines = [f"def {name}({', '.join(arguments)}):"]
-        lines.append(f'    """{text(self._quantity)}, exact for {self.domain}."""')
-        conditions = [
-            _in_python(one) for one in self._where.relations if one.free_symbols <= self._needed
-        ]
-        conditions += [
-            f"({python_expression(one)}) % 2 == 0"
-            for one in self._where.even
-            if one.free_symbols <= self._needed
-        ]
+        lines = [f"def {name}({', '.join(self.symbols)}):"]
+        lines.append(f'    """{text(self._quantity)}, exact{self._for_domain}."""')
+        relations, even = self._conditions_of_indices
+        conditions = words.parts(relations, words.PYTHON)
+        conditions += [f"({python_expression(one)}) % 2 == 0" for one in even]
         if conditions:
             lines.append(f"    if not ({' and '.join(conditions)}):")
             lines.append(f'        raise ValueError("outside of {self.domain}")')
+        for symbol, source in (
+            (sy.H_M, "sum(1/n for n in range(1, M + 1))"),
+            (sy.n_x, "((1 - phi)/2)**0.5"),
+            (sy.n_y, "((1 + phi)/2)**0.5"),
+        ):
+            if any(piece.expr.has(symbol) for piece in self.pieces):
+                lines.append(f"    {symbol.in_code} = {source}")
         for shown, piece in zip(self.pieces, self._form.pieces, strict=True):
-            parts = (" and ".join(map(_in_python, part)) or "True" for part in piece.where)
-            either = " or ".join(f"({part})" for part in parts)
-            lines.append(f"    if {either}:")
-            lines.append(f"        return {python_expression(shown.expr)}")
+            either = [" and ".join(words.parts(part, words.PYTHON)) for part in piece.where]
+            value = f"return {python_expression(shown.expr)}"
+            lines += (
+                [f"    if {' or '.join(either)}:", f"        {value}"]
+                if all(either)
+                else [f"    {value}"]
+            )
         return "\n".join(lines) + "\n"
 
+    def lines(self, room: int = TEXT_WIDTH) -> list[str]:
+        """The lines that it prints as."""
+        lines = [f"{text(self._quantity)}, exact{self._for_domain}"]
+        for piece in self.pieces:
+            where = f"  {piece.domain or 'everywhere'}:"
+            first, *others = text_lines(piece.expr, room=room - 4)
+            if not others and len(where) + len(first) < room:
+                lines.append(f"{where} {first}")
+            else:
+                lines += [where, *(f"    {line}" for line in (first, *others))]
+        return lines
+
     def __str__(self) -> str:
-        heading = f"{text(self._quantity)}, exact for {self.domain}"
-        rows = (f"  {one.domain or 'everywhere'}: {text(one.expr)}" for one in self.pieces)
-        return "\n".join((heading, *rows))
+        return "\n".join(self.lines())
 
     def __repr__(self) -> str:
-        return f"<{text(self._quantity)}: {len(self.pieces)} formulas for {self.domain}>"
+        count = len(self.pieces)
+        formulas = "formula" if count == 1 else "formulas"
+        return f"<{text(self._quantity)}: {count} {formulas}{self._for_domain}>"
 
     # a candidate
 
-    def decide(self, candidate: sympy.Expr) -> Ruling:
-        """Rule on an expression of your own: is it this statistic, on all of the domain?
+    def decide(self, candidate: Any) -> Ruling:
+        """Rule on a formula of your own: is it this statistic, on all of the domain?
+
+        The verdict is *proved*; *refuted*, with a point at which it differs; *undecided*; or *not a
+        statement*. ``.note`` says why, and no error is raised.
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j, M
@@ -297,7 +414,20 @@ class ClosedForm:
         >>> print(form.decide(M / M))
         proved: the same on all of the domain
         """
-        return statistics.decide(self._form, self._where, candidate)
+        return decided(candidate, (self.equation,), lambda _, one: self.rule_on(one))
+
+    def rule_on(self, candidate: sympy.Eq) -> Ruling:
+        """Rule on an equation, whose left-hand side has to be the quantity."""
+        candidate = usual_form(candidate, (self.equation,))
+        if candidate.lhs not in (self._quantity, self.meant):
+            return undecided(f"it is not about {text(self._quantity)}")
+        value = sympy.piecewise_fold(candidate.rhs)
+        formulas = [one for one, _ in value.args] if value.is_Piecewise else [value]
+        for one in formulas:
+            known = {*self._where.indices, *self._needed}
+            if refusal := unreadable(equation(sympy.S.One, one), (self.equation,), known):
+                return refusal
+        return statistics.decide(self._form, self._where, value)
 
 
 class _Numbers:
@@ -306,15 +436,57 @@ class _Numbers:
     def __init__(self, form: ClosedForm) -> None:
         self._form, self.about, self.sides = form, text(form.quantity), (None,)
 
-    def asked(self, _given: Iterable[str]) -> set[sympy.Symbol]:
+    @property
+    def needed(self) -> set[sympy.Symbol]:
         """The symbols to give a value."""
         return self._form._needed
 
     def at(self, given: Mapping[str, Number]) -> Any:
         """The value for single numbers."""
-        values, exact = read_arguments(self.about, self._form._needed, given)
+        form = self._form
+        values, exact = read_arguments(
+            self.about, form._needed, given, form.where.dimension, in_packing=False
+        )
         value = self._form.value(values, exact=exact)
         return value if exact else rounded(value)
+
+
+def _alternatives(parts: Iterable[statistics.Relations], before: str = "") -> list[str]:
+    """Where a formula holds, as pieces of LaTeX."""
+    first, *others = (words.parts(one, words.LATEX) for one in parts)
+    return [
+        *_with_commas(first, before),
+        *(one for part in others for one in _with_commas(part, " or")),
+    ]
+
+
+def _with_commas(parts: list[str], before: str = "") -> list[str]:
+    """Pieces of LaTeX behind one another, with a word before the first."""
+    if parts and before:
+        parts = [rf"\text{{{before} }} {parts[0]}", *parts[1:]]
+    return [*(rf"{one},\;" for one in parts[:-1]), *parts[-1:]]
+
+
+def _common(formulas: Iterable[sympy.Expr]) -> sympy.Expr:
+    """A factor of formulas: of divisors, only those that hold an index are left in each."""
+    numbers, powers = [], []
+    for number, rest in (one.as_coeff_Mul() for one in formulas if one != 0):
+        numbers.append(number)
+        held = rest.as_powers_dict()
+        if square := held.pop(1 - sy.phi**2, 0):
+            for base in (1 - sy.phi, 1 + sy.phi):
+                held[base] = held.get(base, 0) + square
+        powers.append(held)
+    factor = sympy.Rational(
+        sympy.igcd(0, *(one.p for one in numbers)), sympy.ilcm(1, *(one.q for one in numbers))
+    )
+    for base in set().union(*powers):
+        found = [held.get(base, 0) for held in powers]
+        if max(found) < 0 and base.free_symbols & {*sy.INDICES}:
+            factor *= base ** max(found)
+        elif min(found) > 0 or not base.free_symbols & {*sy.INDICES}:
+            factor *= base ** min(found)
+    return factor
 
 
 def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
@@ -354,9 +526,12 @@ def _number(value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rationa
         return value.to_sympy().xreplace({**values, **sides})
     numbers = [
         fmpq(int(values[one].p), int(values[one].q)) if one in values else fmpq(0)
-        for one in FIELD.generators
+        for one in value.domain.generators
     ]
-    found = value.numerator(*numbers) / value.denominator(*numbers)
+    divisor = value.denominator(*numbers)
+    if divisor == 0:
+        raise ArgumentError("it has no value there: it divides by 0")
+    found = value.numerator(*numbers) / divisor
     return sympy.Rational(int(found.p), int(found.q))
 
 
@@ -374,9 +549,9 @@ def _is_inside(part: Iterable[sympy.Basic]) -> bool:
 def _highest(value: RationalFunction, orders: int) -> Iterator[sympy.Expr]:
     """The highest powers of M of a function, by division of its numerator."""
     height = FIELD.generator(sy.M)
-    divisor = FIELD.polynomial(value.denominator)
+    divisor = value.domain.polynomial(value.denominator)
     below = divisor.coefficients(sy.M)
-    rest = FIELD.polynomial(value.numerator) * height**orders  # so that no power is negative
+    rest = value.domain.polynomial(value.numerator) * height**orders  # so that no power is negative
     for _ in range(orders):
         if rest.is_zero():
             return
@@ -384,9 +559,3 @@ def _highest(value: RationalFunction, orders: int) -> Iterator[sympy.Expr]:
         term = above[-1] / below[-1] * height ** (len(above) - len(below))
         yield (term / height**orders).to_sympy()
         rest = rest - term * divisor
-
-
-def _in_python(relation: sympy.Basic) -> str:
-    signs = {sympy.Eq: "==", sympy.Ge: ">=", sympy.Le: "<=", sympy.Gt: ">", sympy.Lt: "<"}
-    left, right = map(python_expression, relation.args)
-    return f"{left} {signs[relation.func]} {right}"

@@ -9,13 +9,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, TypeAlias
 
-import mpmath
 import sympy
-from flint import fmpq
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.mechanics.lattice import kappa_in
-from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.printing.code import name_of
 from force_diffusion.symbolic.printing.text import text
 
 from ..export.prose import either
@@ -25,25 +22,17 @@ Number: TypeAlias = int | float | Fraction | Decimal
 
 _ORDER = "M l j z i k phi sigma r"
 _ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], Any]]] = {
-    sy.d: ("a whole number from 2 on", lambda value: value >= 2),
     sy.z: ("0 ≤ z ≤ 1", lambda value: (value >= 0) & (value <= 1)),
     sy.sigma: ("a number from 0 on", lambda value: value >= 0),
     sy.M: ("a whole number from 1 on", lambda value: value >= 1),
     sy.j: ("a whole number from 0 on", lambda value: value >= 0),
-    sy.N: ("a whole number from 1 on", lambda value: value >= 1),
     sy.l: ("a whole number from 0 on", lambda value: value >= 0),
 }
 TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], Any]]] = {
     (sy.j, sy.M): ("0 ≤ j < M", lambda j, height: j < height),
     (sy.j, sy.l): ("0 ≤ j ≤ l", lambda j, level: j <= level),
-    (sy.i, sy.j): ("an even sum i + j", lambda i, j: (i + j) % 2 == 0),
-    (sy.k, sy.l): ("an even sum k + l", lambda k, level: (k + level) % 2 == 0),
 }
 """What holds of two together; of numbers, and of arrays element by element."""
-
-_ROUNDING = sympy.Rational(4, 2**53)
-"""Of n_y, relative: a rounding of each of n_y and φ, and those of a square root and of a sum."""
-
 
 EXACT = (numbers.Rational, Decimal)
 """Types of exact numbers; others are taken for floats."""
@@ -55,41 +44,20 @@ class ArgumentError(ForceDiffusionError, ValueError):
 
 @dataclass(frozen=True)
 class Evaluation:
-    """A formula that numbers are put into, and where it is meant.
+    """A printed formula that numbers are put into.
 
     Attributes:
         about: what it is, for messages.
         sides: one expression, or several that are evaluated together.
-        dimension: of the packing, d; no spheres overlap where −1/d < φ < 1/2.
-        domain: relations of whole numbers, all of which hold where it is meant.
-        validity: the same in words.
-        missed: relations, and the value where all of them hold; the first that fits holds.
-        elsewhere: where to look for other layers, in words.
     """
 
     about: str
     sides: tuple[sympy.Expr, ...]
-    dimension: int = 2
-    domain: tuple[sympy.Basic, ...] = ()
-    validity: str = ""
-    missed: tuple[tuple[tuple[sympy.Basic, ...], sympy.Expr], ...] = ()
-    elsewhere: str = ""
 
     @cached_property
     def needed(self) -> set[sympy.Symbol]:
-        """The symbols that decide its value, and whether it has one."""
-        conditions = [*self.domain, *(one for when, _ in self.missed for one in when)]
-        sides = [*self.sides, *(value for _, value in self.missed)]
-        return set().union(*(one.free_symbols for one in (*sides, *conditions)))
-
-    @cached_property
-    def fixed(self) -> dict[sympy.Symbol, sympy.Expr]:
-        """Symbols that its domain fixes, which may be left out."""
-        return {one.lhs: one.rhs for one in self.domain if isinstance(one, sympy.Eq)}
-
-    def asked(self, given: Iterable[str]) -> set[sympy.Symbol]:
-        """The symbols to give a value: those that are fixed only where they are given."""
-        return self.needed - {one for one in self.fixed if one.in_code not in given}
+        """The symbols that decide its value."""
+        return set().union(*(one.free_symbols for one in self.sides))
 
     def at(self, given: Mapping[str, Number]) -> Any:
         """The value for single numbers: exact for exact ones, else a float; a tuple of several.
@@ -97,56 +65,24 @@ class Evaluation:
         Raises:
             ArgumentError: a name is unknown or missing, or a value is not allowed.
         """
-        asked = self.asked(given)
-        values, exact = read_arguments(self.about, asked, given, self.dimension)
-        for symbol, value in self.fixed.items():
-            if symbol not in asked:
-                values[symbol] = value.xreplace(values)
-        _assert_together(values)
-        for relation in self.domain:
-            if not holds(relation, values):
-                at = told(sorted(relation.free_symbols, key=str), values)
-                raise ArgumentError(
-                    f"{self.about} is for {self.validity}, not for {at}{self.elsewhere}"
-                )
-        return self.value(values, exact=exact)
-
-    def value(
-        self, values: Mapping[sympy.Symbol, sympy.Rational], *, exact: bool
-    ) -> sympy.Expr | float | tuple[sympy.Expr | float, ...]:
-        """The value within its domain; its names and ranges have been looked at."""
-        fitting = ((v,) for when, v in self.missed if all(holds(one, values) for one in when))
-        sides = next(fitting, self.sides)
-        found = tuple(value_of(side, values, exact=exact) for side in sides)
+        values, exact = read_arguments(self.about, self.needed, given)
+        found = tuple(side.xreplace(values) for side in self.sides)
+        found = found if exact else tuple(map(rounded, found))
         return found[0] if len(found) == 1 else found
 
 
-@dataclass(frozen=True)
-class _Named:
-    """What the arguments of a formula are called, and which of them stand for others."""
-
-    symbols: dict[str, sympy.Symbol]
-    by_layer: bool  # j is given in place of z
-    holds_kappa: bool  # worked out from φ
-    holds_angle: bool  # of φ and n_y one may be left out
-
-
-def _named(about: str, needed: Iterable[sympy.Symbol], given: Iterable[str]) -> _Named:
-    """Look at the names alone."""
-    by_name = {symbol.in_code: symbol for symbol in needed if isinstance(symbol, Symbol)}
-    by_layer = "z" in by_name and "j" in given
-    if by_layer:
+def _named(
+    about: str, needed: Iterable[sympy.Symbol], given: Iterable[str]
+) -> dict[str, sympy.Symbol]:
+    """The symbols by their names, j in place of z where it is given; looks at the names alone."""
+    by_name = {name_of(symbol): symbol for symbol in needed if not isinstance(symbol, sympy.Dummy)}
+    if "z" in by_name and "j" in given:
         if "z" in given:
             raise ArgumentError("z and j are given, and z is j/M: leave one of them out")
         del by_name["z"]
         by_name |= {"M": sy.M, "j": sy.j}
-    holds_kappa = by_name.pop("kappa", None) is not None
-    if holds_kappa:
-        by_name["phi"] = sy.phi
-    spared = [name for name in ("n_y", "phi") if {"n_y", "phi"} <= set(by_name)]
-    left_out = next((name for name in spared if name not in given), None)
-    _compare_names(about, {n: s for n, s in by_name.items() if n != left_out}, given)
-    return _Named(by_name, by_layer, holds_kappa, bool(spared))
+    _compare_names(about, by_name, given)
+    return by_name
 
 
 def compare_names(about: str, needed: Iterable[sympy.Symbol], given: Iterable[str]) -> None:
@@ -159,53 +95,40 @@ def compare_names(about: str, needed: Iterable[sympy.Symbol], given: Iterable[st
 
 
 def read_arguments(
-    about: str, needed: Iterable[sympy.Symbol], given: Mapping[str, Number], dimension: int = 2
+    about: str,
+    needed: Iterable[sympy.Symbol],
+    given: Mapping[str, Number],
+    dimension: int = 2,
+    *,
+    in_packing: bool = True,
 ) -> tuple[dict[sympy.Symbol, sympy.Rational], bool]:
     """Values of the symbols that a formula needs, and whether all of them are exact.
 
-    In place of z, ``j`` may be given: z = j/M. κ is worked out from φ; of φ and n_y, where both
-    are held, one may be left out.
+    In place of z, ``j`` may be given: z = j/M.
 
     Args:
         about: what is evaluated, for messages.
         needed: symbols of the formula.
         given: values by name.
         dimension: of the packing, d; no spheres overlap where −1/d < φ < 1/2.
+        in_packing: whether i, j, k, l and M have to be those of a bead and of a packing.
 
     Raises:
         ArgumentError: a name is unknown or missing, or a value is not allowed.
     """
-    named = _named(about, needed, given)
-    values = {named.symbols[name]: _exactly(name, value) for name, value in given.items()}
-    if sy.d in values:
-        _assert_allowed(sy.d, values[sy.d], given["d"], dimension)
-        dimension = int(values[sy.d])
+    needed = set(needed)
+    symbols = _named(about, needed, given)
+    values = {symbols[name]: _exactly(name, value) for name, value in given.items()}
     for symbol, value in values.items():
-        _assert_allowed(symbol, value, given[symbol.in_code], dimension)
-    if named.holds_angle:
-        _put_angle(values, given)
-    if named.holds_kappa:
-        values[sy.kappa] = kappa_in(dimension).xreplace({sy.phi: values[sy.phi]})
-    _assert_together(values)
-    if named.by_layer:
+        if in_packing or symbol not in sy.INDICES:
+            _assert_allowed(symbol, value, given[name_of(symbol)], dimension)
+        elif not value.is_integer:
+            raise ArgumentError(f"{name_of(symbol)} = {value}: a whole number is allowed")
+    if in_packing:
+        _assert_together(values)
+    if sy.z in needed - {*values}:
         values[sy.z] = values[sy.j] / values[sy.M]
     return values, all(isinstance(value, EXACT) for value in given.values())
-
-
-def _put_angle(values: dict[sympy.Symbol, sympy.Expr], given: Mapping[str, Number]) -> None:
-    """Put φ beside n_y, or n_y beside φ, by 2n_y² = 1 + φ; two that differ are refused."""
-    if sy.phi not in values:
-        values[sy.phi] = 2 * values[sy.n_y] ** 2 - 1
-        _assert_allowed(sy.phi, values[sy.phi], values[sy.phi], 2)
-    expected = sympy.sqrt((1 + values[sy.phi]) / 2)
-    rounded = any(isinstance(given.get(name), float) for name in ("n_y", "phi"))
-    allowed = expected * _ROUNDING if rounded else 0
-    if sy.n_y in values and abs(values[sy.n_y] - expected) > allowed:
-        raise ArgumentError(
-            f"n_y = {given['n_y']} and phi = {given['phi']} contradict each other: 2 n_y² = 1 + φ. "
-            "Leave one of them out"
-        )
-    values.setdefault(sy.n_y, expected)
 
 
 def in_order(names: Iterable[str]) -> list[str]:
@@ -213,7 +136,7 @@ def in_order(names: Iterable[str]) -> list[str]:
     return sorted(names, key=lambda name: (_ORDER.find(name) if name in _ORDER else 99, name))
 
 
-def _compare_names(about: str, known: Mapping[str, Symbol], given: Iterable[str]) -> None:
+def _compare_names(about: str, known: Iterable[str], given: Iterable[str]) -> None:
     names = in_order(known)
     takes = f"{about} takes " + ", ".join("z (or j)" if name == "z" else name for name in names)
     if unknown := [name for name in given if name not in known]:
@@ -239,7 +162,7 @@ def _assert_allowed(
 ) -> None:
     words, allowed = range_of(symbol, dimension)
     if not allowed(value) or (symbol.is_integer and not value.is_integer):
-        raise ArgumentError(f"{symbol.in_code} = {given}: {words} is allowed")
+        raise ArgumentError(f"{name_of(symbol)} = {given}: {words} is allowed")
 
 
 def _assert_together(values: Mapping[sympy.Symbol, sympy.Rational]) -> None:
@@ -248,7 +171,7 @@ def _assert_together(values: Mapping[sympy.Symbol, sympy.Rational]) -> None:
             raise ArgumentError(f"{told(pair, values)}: {words} is allowed")
 
 
-def range_of(symbol: sympy.Symbol, dimension: int) -> tuple[str, Callable[[Any], Any]]:
+def range_of(symbol: sympy.Symbol, dimension: int = 2) -> tuple[str, Callable[[Any], Any]]:
     """What is allowed of a symbol in words, and of a number or an array: whether it is."""
     if symbol == sy.phi:
         # 2 φ < 1 and d φ > −1, without a quotient that floats would round
@@ -258,31 +181,14 @@ def range_of(symbol: sympy.Symbol, dimension: int) -> tuple[str, Callable[[Any],
         return _ALLOWED[symbol]
     if symbol.is_integer:
         return "a whole number", lambda _: True
-    return "a number above 0", lambda value: value > 0
+    if symbol.is_positive:
+        return "a number above 0", lambda value: value > 0
+    return "a number", lambda _: True
 
 
 def told(symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]) -> str:
     """Values in words."""
     return ", ".join(f"{text(symbol)} = {values[symbol]}" for symbol in symbols)
-
-
-def holds(relation: sympy.Basic, values: Mapping[sympy.Symbol, sympy.Rational]) -> bool:
-    """Whether a relation between whole numbers holds."""
-    return relation.xreplace(values) is sympy.true
-
-
-def value_of(
-    expression: sympy.Expr, values: Mapping[sympy.Symbol, sympy.Rational], *, exact: bool
-) -> sympy.Expr | float:
-    """The value of a formula; a float is the exact value of the given floats, rounded once.
-
-    Raises:
-        ArgumentError: the value is beyond the range of floats.
-    """
-    value = expression.xreplace(values)
-    sums = {series: _summed(series, exact=exact) for series in value.atoms(sympy.Sum)}
-    value = value.xreplace(sums).doit()
-    return value if exact else rounded(value)
 
 
 def rounded(value: sympy.Expr) -> float:
@@ -299,20 +205,3 @@ def rounded(value: sympy.Expr) -> float:
         raise ArgumentError(
             "the value is beyond the range of floats: give exact arguments"
         ) from None
-
-
-def _summed(series: sympy.Sum, *, exact: bool) -> sympy.Expr:
-    """The value of a sum; SymPy would add up its terms one by one.
-
-    For floats harmonic numbers are taken to 40 digits, which no packing is too high for.
-    """
-    index, low, high = series.limits[0]
-    factor, term = series.function.as_independent(index, as_Add=False)
-    if term != 1 / index:
-        return series.doit()
-    if not exact:
-        with mpmath.workdps(40):
-            number = mpmath.harmonic(int(high)) - mpmath.harmonic(int(low) - 1)
-        return factor * sympy.Float(number, 40)
-    found = fmpq.harmonic(int(high)) - fmpq.harmonic(int(low) - 1)
-    return factor * sympy.Rational(int(found.p), int(found.q))

@@ -18,7 +18,7 @@ from ..export.terminal import (
     summary_line,
 )
 from ..framework.proving import Shown
-from ..framework.record import Check, Derivation, Outcome
+from ..framework.record import Check, Outcome, Statement
 
 
 @dataclass(frozen=True)
@@ -102,16 +102,16 @@ class Steps(tuple[Shown, ...]):
     Eq. 13: Variance of the forces under a surface
     """
 
-    _derivation: Derivation
+    _derivation: Statement
 
     @classmethod
-    def of(cls, derivation: Derivation) -> Self:
+    def of(cls, derivation: Statement) -> Self:
         """The steps of one derivation."""
         made = cls(derivation.steps())
         made._derivation = derivation
         return made
 
-    def __reduce__(self) -> tuple[Callable[[Derivation], Self], tuple[Derivation]]:
+    def __reduce__(self) -> tuple[Callable[[Statement], Self], tuple[Statement]]:
         """Derive them anew: no theorem comes out of a pickle."""
         return self.of, (self._derivation,)
 

@@ -1,36 +1,168 @@
-"""Eqs. B4, B5, B6, B9, B15 and B16: means of positions and forces, to second order in the radii."""
+"""Eqs. B4, B5, B6, B15 and B16: means of positions and forces, to second order in the radii."""
 
-from force_diffusion.derivations import eq03_extrapolation as eq03
-from force_diffusion.derivations import eq11_total_force as eq11
+import sympy
+from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import mean
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.record import SECOND_ORDER, usual
-from force_diffusion.derivations.framework.rows import Row, leads
-from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import ForcePlus, M, i, j, phi, r, sigma, z
-
-FORCE = Symbol(
-    "mean_force_shift",
-    r"\frac{\langle f^{\pm}_{ij}\rangle}{f^{\mathrm{load}}/2 n_{y}} - 1",
-    "⟨f^±_ij⟩/(f_load/2n_y) − 1",
+from force_diffusion.derivations.framework.layered import UNIT
+from force_diffusion.derivations.framework.rows import (
+    Row,
+    equals,
+    goes_as,
+    has_sign,
+    leads,
+    turns_positive,
 )
-_UNIT = (sigma / r) ** 2 / ((1 - phi**2) * (1 + phi))
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.symbols import (
+    DeltaX,
+    Dot,
+    ForceMinus,
+    ForcePlus,
+    M,
+    e_y,
+    i,
+    j,
+    n_y,
+    phi,
+    r,
+    sigma,
+    t,
+    z,
+)
+from sympy import Eq, Rational
+
+HEIGHT = Symbol("mean_delta_y", r"\langle\delta y_{ij}\rangle", "⟨δy_ij⟩")
+FORCE = Symbol(
+    "mean_force_ratio",
+    r"\frac{\langle f^{\pm}_{ij}\rangle}{f^{\mathrm{load}}/2 n_{y}}",
+    "⟨f^±_ij⟩/(f_load/2n_y)",
+)
+BULK_FORCE = Symbol(
+    "mean_bulk_ratio",
+    r"\frac{\langle f^{\pm}_{ij}\rangle}{(M-j)\,mg/2 n_{y}}",
+    "⟨f^±_ij⟩/[(M−j) mg/2n_y]",
+)
+PLUS, MINUS = (
+    Symbol(
+        f"mean_{name}_ratio",
+        rf"\frac{{\langle f^{{{sign}}}_{{ij}}\rangle}}{{\langle f^{{{sign}}}_{{ij}}\rangle_0}}",
+        f"⟨f{raised}_ij⟩/⟨f{raised}_ij⟩₀",
+    )
+    for name, sign, raised in (("plus", "+", "⁺"), ("minus", "-", "⁻"))
+)
+_UNIT = UNIT * (1 - phi)
+"""(σ/r)²/[(1−φ²)(1+φ)]."""
+BASE, ABOVE = (Eq(j, 0), M >= 3), (Eq(j, 1), M >= 3)
+
+
+def _upright(
+    number: Number, load: str, symbol: sympy.Symbol, leading: sympy.Expr, turns: sympy.Expr
+) -> Row:
+    share = {"surface": Rational(1, 4), "bulk": Rational(1, 8)}[load]
+    below_surface = equals("force", ("B5", "force"), Eq(j, M - 1))
+    return Row(
+        number=number,
+        name=f"mean_{load}",
+        title=f"Mean contact force under a {load} load, to second order",
+        call=f'mean(f_plus(i, j), order=2, load="{load}")',
+        forms=lambda: {"force": mean(ForcePlus(i, j), order=2, load=load).named(symbol - 1)},
+        meaning="Mean forces rise high up in the packing and fall further down, by shares of order "
+        "M(σ/r)², whatever the law of the radii; their fluctuation is of order M³(σ/r)².",
+        quantities=((symbol, "mean of f⁺, and of f⁻, over its value in the ordered packing"),),
+        claimed=(
+            ("the leading order", leads("force", leading * _UNIT)),
+            (
+                f"to leading order forces rise above z = {'φ' if turns == phi else 'φ/(2 − φ)'}, "
+                "and fall below",
+                turns_positive("force", z, turns),
+            ),
+            (
+                "at j = 0 they rise",
+                goes_as("force", 3 * M * (1 - 2 * phi) * share * _UNIT, *BASE),
+            ),
+            (
+                "at j = 1 they fall for φ > −3/8, by shares that z → 0 does not give",
+                goes_as("force", -M * (3 + 8 * phi) * share * _UNIT, *ABOVE),
+            ),
+            *([("one layer below the surface both loads agree", below_surface)]
+              if load == "bulk" else []),
+        ),
+    )  # fmt: skip
+
+
+def _leaning(number: Number, load: str, upright: Number, own: sympy.Expr, other: sympy.Expr) -> Row:
+    under = leaning(t, load)
+    return Row(
+        number=number,
+        name=f"mean_{load}_direction",
+        title=f"Mean contact force under a {load} load in any direction, to second order",
+        call=f'mean(f_plus(i, j), order=2, load=leaning(t, "{load}"))',
+        forms=lambda: {
+            "plus": mean(ForcePlus(i, j), order=2, load=under).named(PLUS - 1),
+            "minus": mean(ForceMinus(i, j), order=2, load=under).named(MINUS - 1),
+        },
+        meaning="Loads superpose: what a load along n⁺ makes of f⁺, and t times what one along n⁻ "
+        "does, which gives f⁺ a mean where the ordered packing has none.",
+        quantities=(
+            (PLUS, "mean of f⁺ over its value in the ordered packing"),
+            (MINUS, "the same of f⁻"),
+        ),
+        claimed=(
+            ("the leading order", leads("plus", M * (own + t * other) * UNIT)),
+            (
+                f"for t = 1 it is Eq. {upright}",
+                equals("plus", (upright, "force"), at={t: sympy.S.One}),
+            ),
+            ("f⁻ has 1/t in place of t", equals("minus", "plus", at={t: 1 / t})),
+            *([("one layer below the surface both loads agree",
+                equals("plus", ("B15", "plus"), Eq(j, M - 1)))] if load == "bulk" else []),
+        ),
+    )  # fmt: skip
+
 
 DERIVATIONS: dict[Number, Row] = {
-    "B5": Row(
-        number="B5",
-        name="mean_surface",
-        title="Mean contact force under a surface load, to second order",
-        call="mean(f_plus(i, j), order=2)",
-        forms=lambda: {"force": mean(ForcePlus(i, j), order=2).named(FORCE)},
-        meaning="Forces rise above z = φ and fall below, by shares of order M(σ/r)².",
-        symbols=((FORCE, "mean of f⁺ and of f⁻ over its ordered value, less 1"),
-                 *usual(sigma, r, M, phi)),
-        assumptions=SECOND_ORDER,
-        premises=(eq03.DERIVATION, eq11.DERIVATION),
-        statements=(
-            ("the leading order, which changes its sign at z = φ",
-             lambda forms: leads(forms["force"], 2 * M * (z - phi) * _UNIT)),
+    "B4": Row(
+        number="B4",
+        name="settling",
+        title="Mean displacement of the beads",
+        call="mean(dot(e_y, delta_x(i, j)), order=2, relative=False)",
+        forms=lambda: {
+            "height": mean(Dot(e_y, DeltaX(i, j)), order=2, relative=False).named(HEIGHT)
+        },
+        meaning="A contact that tilts, whichever way, carries its upper bead less far up: the pile "
+        "settles, at any φ and with no gravity in the argument, as the square of the height.",
+        quantities=(
+            (HEIGHT, "mean vertical displacement of bead (i, j); the horizontal one is 0"),
+            (n_y, "vertical component of n^±"),
+        ),
+        claimed=(
+            ("every layer above the base settles", has_sign("height", -1, j >= 1, at={j: j + 1})),
+            (
+                "by a share of its height that grows as its height",
+                goes_as(
+                    "height",
+                    -2 * j**2 * n_y * sigma**2 / (r * (1 + phi) * (1 - phi**2)),
+                    j >= 1,
+                    growing=j,
+                ),
+            ),
         ),
     ),
-}  # fmt: skip
+    "B5": _upright("B5", "surface", FORCE, 2 * M * (z - phi), phi),
+    "B6": _upright("B6", "bulk", BULK_FORCE, M * (2 * z - phi * (1 + z)), phi / (2 - phi)),
+    "B15": _leaning(
+        "B15",
+        "surface",
+        "B5",
+        z * (1 + phi + 2 * phi**2) - 2 * phi,
+        z * (1 - 3 * phi - 2 * phi**2) + 2 * phi**2,
+    ),
+    "B16": _leaning(
+        "B16",
+        "bulk",
+        "B6",
+        z * (1 + 2 * phi**2) - phi,
+        z * (1 - 3 * phi) + phi**2 * (1 - z),
+    ),
+}

@@ -10,13 +10,21 @@ from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.beyond import t1_forces as t1
-from force_diffusion.derivations.parts import cone
+from force_diffusion.derivations import eq16_response as eq16
+from force_diffusion.derivations.beyond import leaning as tilted
+from force_diffusion.derivations.framework.grounds import Within
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.statistics import SPHERES
 from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import BULK, POINT, SURFACE, Loading
+from force_diffusion.symbolic.kernel.where import (
+    BULK,
+    BULK_TILTED,
+    POINT,
+    SURFACE,
+    SURFACE_TILTED,
+    Loading,
+)
 from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t, t_2, t_3
 
 PLANE = 2
@@ -90,28 +98,21 @@ _POINT_LOAD = Load(
     l,
     (f_load / (2 * n_y),) * 2,
     f_load,
-    cache(cone._forces),
+    cache(lambda: eq16.FORCES.theorems),
     (7, 9, 10),
 )
 
 
-def _leaning(name: str, tilted: t1.Tilted) -> Load:
-    both = tilted.ordered[0], tilted.layers * t * L_plus
-    return Load(
-        name,
-        tilted.loading,
-        M,
-        both,
-        sum(both) * n_y,
-        cache(lambda: tilted.forces.theorems),
-        ("B1",),
-    )
+def _leaning(load: str, loading: Loading, layers: sympy.Expr, forces: Within) -> Load:
+    both = layers * L_plus, layers * t * L_plus
+    name = f"a leaning {load} load"
+    theorems = cache(lambda: forces.theorems)
+    return Load(name, loading, M, both, sum(both) * n_y, theorems, ("B1",))
 
 
-_ON_SURFACE, _IN_BULK = t1.Tilted.both()
 _LEANING = {
-    "surface": _leaning("a leaning surface load", _ON_SURFACE),
-    "bulk": _leaning("a leaning bulk load", _IN_BULK),
+    "surface": _leaning("surface", SURFACE_TILTED, sympy.S.One, tilted.UNDER_SURFACE),
+    "bulk": _leaning("bulk", BULK_TILTED, M - j, tilted.UNDER_BULK),
 }
 _BY_NAME = {"surface": SURFACE_LOAD, "bulk": BULK_LOAD}
 
@@ -176,16 +177,16 @@ def load_of(load: str | Load, dimension: int = 2) -> Load:
         ObservableError: there is none of that name, or none in that dimension.
     """
     if dimension not in (2, 3):
-        raise ObservableError(f"dimension={dimension}: 2 and 3 are allowed")
-    if dimension == 3:
-        if load not in _IN_THREE:
-            either = ", ".join(map(repr, _IN_THREE))
-            raise ObservableError(f"load={load!r}: {either} are allowed in three dimensions")
-        return _IN_THREE[load]
-    if isinstance(load, Load):
+        raise ObservableError(f"dimension={dimension!r}: 2 and 3 are allowed")
+    if dimension == PLANE and isinstance(load, Load):
         return load
-    if load not in _BY_NAME:
-        raise ObservableError(
-            f"load={load!r}: 'surface', 'bulk', point(k, l) and leaning(t) are allowed"
-        )
-    return _BY_NAME[load]
+    known = _BY_NAME if dimension == PLANE else _IN_THREE
+    if not isinstance(load, str) or load not in known:
+        if dimension == PLANE:
+            raise ObservableError(
+                f"load={load!r}: 'surface', 'bulk', point(k, l) and leaning(t) are allowed"
+            )
+        shown = load.name if isinstance(load, Load) else repr(load)
+        either = ", ".join(map(repr, known))
+        raise ObservableError(f"load={shown}: {either} are allowed in three dimensions")
+    return known[load]

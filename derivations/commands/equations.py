@@ -1,5 +1,6 @@
 """The commands for equations: a thin layer over ``deriving`` and ``Equation``."""
 
+import json
 from collections.abc import Iterable
 from enum import StrEnum
 from pathlib import Path
@@ -12,7 +13,6 @@ import force_diffusion as fd
 from ..framework.catalogue import (
     Number,
     allowed,
-    cases_of,
     modules,
     number_of,
 )
@@ -21,7 +21,6 @@ from .output import Overwrite, folder_of, out_option
 
 if TYPE_CHECKING:
     from ..api.equation import Equation
-    from ..api.formula import Formula
 
 
 class Form(StrEnum):
@@ -32,6 +31,7 @@ class Form(StrEnum):
     SYMPY = "sympy"
     PYTHON = "python"
     STEPS = "steps"
+    JSON = "json"
 
 
 Columns = Annotated[
@@ -52,14 +52,9 @@ def equation_number(word: str) -> Number:
     )
 
 
-def equations_of(word: str) -> list[Number]:
-    """The number of an equation, or those of all cases of a theorem, such as "T4"."""
-    return list(cases_of(word.upper())) or [equation_number(word)]
-
-
 def wanted_of(words: Iterable[str]) -> list[Number]:
-    """Numbers of equations, and of all cases of theorems."""
-    return [number for word in words for number in equations_of(word)]
+    """Numbers of equations."""
+    return [*map(equation_number, words)]
 
 
 def derive(
@@ -67,7 +62,7 @@ def derive(
         list[str] | None,
         typer.Argument(
             metavar="[N...]",
-            help="Equations, or theorems such as T4; all equations by default.",
+            help="Numbers of equations; all of them by default.",
         ),
     ] = None,
     out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
@@ -99,65 +94,65 @@ def derive(
 def show(
     numbers: Annotated[
         list[str],
-        typer.Argument(metavar="N", help="Numbers of equations, or a theorem's name."),
+        typer.Argument(metavar="N", help="Numbers of equations."),
     ],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
-        bool, typer.Option("--exact", help="The exact form at finite size, where there is one.")
+        bool, typer.Option("--exact", help="The exact forms at finite size, where there are any.")
     ] = False,
-    at_j: Annotated[
-        str | None,
-        typer.Option(
-            "--at-j",
-            "--case",
-            metavar="CASE",
-            help="Which exact form. Eqs. 13 and 14: interior (2 ≤ j ≤ M − 2, the default), "
-            "base (j = 0), base+1 (j = 1) or surface (j = M − 1). Eq. 15: surface-load (the "
-            "default) or bulk-load. Eq. 16: bead (both upper contacts, the default), contact (one "
-            "of them), leg (the contact on a leg of the cone) or leg-force (its magnitude). Beyond "
-            "the paper, a case that is none of them is answered by a list of them.",
-        ),
-    ] = None,
     columns: Columns = 1,
 ) -> None:
-    """Print equations, or all of a theorem, without deriving them."""
-    wanted = wanted_of(numbers)
-    if exact and len(wanted) > 1:
-        names = ", ".join(map(str, wanted))
-        raise typer.BadParameter(
-            f"--exact goes with one, and {' '.join(numbers)} are several; name one: {names}.",
-            param_hint="N",
-        )
-    if at_j is not None and not exact:
-        raise typer.BadParameter("goes with --exact only; add it.", param_hint="--at-j")
-    from ..api.equation import NoSuchFormError
-
+    """Print equations without deriving them."""
     if exact and form is Form.STEPS:
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
+    equations = [*map(fd.equation, wanted_of(numbers))]
+    if form is Form.JSON:
+        print(json.dumps({"equations": [one.data() for one in equations]}, indent=2))
+        return
     written = []
-    for whole in map(fd.equation, wanted):
-        try:
-            shown = whole.exact(at_j) if exact else whole
-        except NoSuchFormError as unknown:
-            hint = "--exact" if unknown.hint == "exact" else "--at-j / --case"
-            raise typer.BadParameter(str(unknown), param_hint=hint) from None
-        written.append(_written(shown, whole, form, columns))
+    for one in equations:
+        written += _exact(one, form, columns) if exact else [_written(one, form, columns)]
     print("\n\n".join(written))
 
 
-def _written(shown: "Formula", whole: "Equation", form: Form, columns: int) -> str:
+def _written(one: "Equation", form: Form, columns: int) -> str:
     match form:
         case Form.LATEX:
-            return f"\\begin{{equation}}\n{shown.latex(columns)}\n\\end{{equation}}"
+            return _displayed(one.displays(columns))
         case Form.SYMPY:
-            return shown.sympy_code()
+            return one.sympy_code()
         case Form.PYTHON:
-            return shown.python_code()
+            return one.python_code()
         case Form.STEPS:
-            return str(whole.steps())
-    return str(shown)
+            return str(one.steps())
+    return str(one)
+
+
+def _exact(one: "Equation", form: Form, columns: int) -> list[str]:
+    """The exact forms, each with its name."""
+    from force_diffusion.symbolic.printing.code import sympy_source
+
+    from ..api.equation import NoSuchFormError
+
+    try:
+        one.exact()
+    except NoSuchFormError as unknown:
+        raise typer.BadParameter(str(unknown), param_hint="--exact") from None
+    forms = {name: one.exact(name) for name in one.forms}
+    match form:
+        case Form.LATEX:
+            return [_displayed(exact.displays(columns)) for exact in forms.values()]
+        case Form.SYMPY:
+            return [sympy_source(exact.expr) for exact in forms.values()]
+        case Form.PYTHON:
+            return [exact.python(f"{one.name}_{name}") for name, exact in forms.items()]
+    return [f"Eq. {one.number}, {name}: {exact}" for name, exact in forms.items()]
+
+
+def _displayed(bodies: Iterable[str]) -> str:
+    return "\n".join(f"\\begin{{equation}}\n{one}\n\\end{{equation}}" for one in bodies)
 
 
 def list_equations() -> None:
@@ -166,9 +161,7 @@ def list_equations() -> None:
     Beside each stands what Coq said of it when it was last asked.
     """
     for one in map(fd.equation, modules()):
-        print(
-            f"{one.number!s:>3}  {one.theorem or '':<2}  {one.name:<26}  {one.coq:<22}  {one.title}"
-        )
+        print(f"{one.number!s:>3}  {one.name:<26}  {one.coq:<22}  {one.title}")
 
 
 def register(app: typer.Typer) -> None:

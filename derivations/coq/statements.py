@@ -14,6 +14,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.mechanics.lattice import mirror, mirrored_relation
 from force_diffusion.symbolic.mechanics.paths import IN_CONE
 from force_diffusion.symbolic.printing.structure import is_vector
+from force_diffusion.symbolic.words import Style, parts
 
 from ..framework.catalogue import Number
 from ..framework.record import Derivation
@@ -23,6 +24,7 @@ from .words import FIXED, HEIGHT, argument, index, words
 _OF_RHO = "fun rho e => let X := Xs rho in let F := Fs rho in"
 _UNIT = "((sigma / r G) ^ 2 / (1 - phi G ^ 2) ^ 2)"
 _HORIZONTAL = (sy.i, sy.k, sy.site_r)
+_IN_COQ = Style(index, " = ", " <= ", " >= ")
 _MIRRORED = (8, 9, 10, 11)  # stated of f⁻, too
 
 
@@ -295,13 +297,10 @@ def _averages(derivation: Derivation) -> Statement:
 def _exact(derivation: Derivation) -> Statement:
     """Mean and variance of one contact's force in every layer."""
     printed, statistic = statement(derivation, 0), words(derivation.printed[0].lhs)
-    assert derivation.exact
-    layers: dict[str, sympy.Expr] = {}
-    for case in derivation.exact().values():
-        missed = [_and(map(_relation, other.when)) for other in case.missed]
-        form = _and((*map(_relation, case.domain), *(f"~ {one}" for one in missed)))
-        layers[form] = case.expression
-        layers |= {one: other.expression for one, other in zip(missed, case.missed, strict=True)}
+    (form,) = derivation.exact_forms.values()
+    layers = {
+        _all_of(part): piece.value.to_sympy() for piece in form.formulas for part in piece.where
+    }
     claims = [
         f"exists f, linearised ({_OF_RHO} f_plus F i j e) f",
         f"expect L f = {LOADS[derivation.loads[0]].mean}",
@@ -317,8 +316,8 @@ def _exact(derivation: Derivation) -> Statement:
     )
 
 
-def _and(conditions: Iterable[str]) -> str:
-    return "(" + " /\\ ".join(conditions) + ")"
+def _all_of(relations: Iterable[sympy.Basic]) -> str:
+    return "(" + " /\\ ".join(f"({one})%Z" for one in parts(relations, _IN_COQ)) + ")"
 
 
 def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> Statement:
@@ -391,6 +390,6 @@ def statements(derivation: Derivation) -> list[Statement]:
     if number == 15:
         return [_averages(derivation)]
     images = (False, True) if number in _MIRRORED else (False,)
-    parts = range(len(derivation.printed))
-    made = [statement(derivation, part, mirrored=image) for image in images for part in parts]
+    places = range(len(derivation.printed))
+    made = [statement(derivation, part, mirrored=image) for image in images for part in places]
     return [*made, *(one(derivation) for one in BESIDE.get(number, ()))]

@@ -22,9 +22,9 @@ from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import column_width, latex_body
 from sympy import Basic, Eq
 
-from ..framework.catalogue import THEOREMS, modules, number_of
+from ..framework.catalogue import modules, number_of
 from ..framework.loading import load
-from ..framework.record import Derivation, Outcome
+from ..framework.record import Outcome, Statement
 from .document import sentence, statement_latex
 from .prose import both, phrase_latex, pieces, prose_latex, prose_markdown, text_latex
 from .quoted import quoted
@@ -125,8 +125,8 @@ def article_and_figures(
 
 
 def own_equations() -> list[str]:
-    """Give the labels of all equations beyond the paper, in the order in which they are stated."""
-    return [label for theorem in THEOREMS for label in theorem.cases]
+    """Give the labels of all equations beyond the paper."""
+    return [label for label in modules() if isinstance(label, str)]
 
 
 def _filled(markdown: str, **said: str) -> str:
@@ -146,8 +146,8 @@ def page(markdown: str) -> str:
     """The article as MyST, for the site; its figures lie in ``../figures``."""
     figures_of(markdown)
     run = (
-        "This page derives nothing: `force-diffusion derive` does, `derive T4` all equations of a "
-        "theorem, and `show B1 --as steps` prints the steps of one."
+        "This page derives nothing: `force-diffusion derive` does, and `show B1 --as steps` prints "
+        "the steps of an equation."
     )
     filled = _filled(markdown, run=run, naming="those beyond them are B1, B2 and so on")
     filled = _IMAGE.sub(
@@ -184,7 +184,7 @@ def _display(latex: str) -> str:
     return f"$$\n{latex}\n$$\n\n"
 
 
-def _forms(derivation: Derivation, columns: int) -> str:
+def _forms(derivation: Statement, columns: int) -> str:
     said = [
         f"### Eq. {derivation.number}: {derivation.title}\n\n*Assumed:* "
         f"{prose_markdown(sentence('; '.join(derivation.assumptions)))}\n\n"

@@ -4,12 +4,12 @@ from collections.abc import Iterable, Sequence
 
 from force_diffusion.symbolic.kernel.decisions import in_words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
-from force_diffusion.symbolic.printing.lines import column_width, latex_body
+from force_diffusion.symbolic.printing.lines import latex_body
 from sympy import Basic
 
 from ..coq.record import recorded
 from ..framework.catalogue import Number
-from ..framework.record import Derivation, Outcome
+from ..framework.record import Outcome, Statement
 from .prose import prose_latex
 from .terminal import follows_text, relation_of, step_verdicts
 
@@ -55,15 +55,17 @@ READING = (
 """What the words of a report mean."""
 
 
-def statement_latex(derivation: Derivation, columns: int = 1) -> str:
-    """The printed equation as one numbered display, ready to paste into text of 1 or 2 columns.
+def statement_latex(derivation: Statement, columns: int = 1) -> str:
+    """The printed equation as a numbered display, ready to paste into text of 1 or 2 columns.
 
-    Its label is ``eq:fd13`` of Eq. 13, and so on.
+    Its label is ``eq:fd13`` of Eq. 13, and so on; several displays are (B7a), (B7b) and so on.
     """
-    relation = RELATIONS[derivation.relation]
-    body = latex_body(derivation.printed, relation, column_width(columns))
     label = f"\\label{{eq:fd{derivation.number}}}"
-    return f"\\begin{{equation}}{label}\n{body}\n\\end{{equation}}\n"
+    first, *others = derivation.displays(columns)
+    if not others:
+        return f"\\begin{{equation}}{label}\n{first}\n\\end{{equation}}\n"
+    displays = (f"\\begin{{equation}}\n{one}\n\\end{{equation}}\n" for one in (first, *others))
+    return f"\\begin{{subequations}}{label}\n{''.join(displays)}\\end{{subequations}}\n"
 
 
 def fragment_name(number: Number) -> str:
@@ -95,7 +97,7 @@ def _noted(verdict: str, name: str, note: str) -> str:
     return f"{said} {prose_latex(sentence(note))}" if note else said
 
 
-def _steps(derivation: Derivation, verdicts: list[str]) -> str:
+def _steps(derivation: Statement, verdicts: list[str]) -> str:
     items = []
     steps = list(derivation.steps())
     for step, verdict in zip(steps, verdicts, strict=True):
@@ -117,7 +119,7 @@ def _shown(formula: Basic, relation: str) -> str:
     return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
 
 
-def _refuted(derivation: Derivation) -> str:
+def _refuted(derivation: Statement) -> str:
     """Printed statements that do not hold; they are in no fragment."""
     return "".join(
         f"\\par {prose_latex(sentence(one.reading))}\n"
@@ -126,7 +128,7 @@ def _refuted(derivation: Derivation) -> str:
     )
 
 
-def _numbered(derivation: Derivation) -> str:
+def _numbered(derivation: Statement) -> str:
     """What lets the next display have its number."""
     number = derivation.number
     if isinstance(number, int):

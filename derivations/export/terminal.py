@@ -11,9 +11,8 @@ from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
-from ..framework.catalogue import theorem_of
 from ..framework.proving import Shown
-from ..framework.record import Check, Derivation, Outcome
+from ..framework.record import Check, Outcome, Statement
 from .prose import both
 
 _PAIR = re.compile(r"\((\S+), (\S+)\)")
@@ -32,17 +31,12 @@ def _paragraph(words: str, first: str = "  ", later: str | None = None) -> str:
     return filled.replace("\N{NO-BREAK SPACE}", " ")
 
 
-def printed_text(derivation: Derivation, indent: str = "  ") -> str:
+def printed_text(derivation: Statement, indent: str = "  ") -> str:
     """The printed equation or equations."""
-    lines = [
-        line
-        for equation in derivation.printed
-        for line in text_lines(equation, derivation.relation, TEXT_WIDTH - len(indent))
-    ]
-    return "\n".join(indent + line for line in lines)
+    return "\n".join(indent + line for line in derivation.lines(TEXT_WIDTH - len(indent)))
 
 
-def refuted_text(derivation: Derivation) -> list[str]:
+def refuted_text(derivation: Statement) -> list[str]:
     """The printed statements that do not hold, each with how the paper's words are read in it."""
     lines = []
     for one in derivation.refuted:
@@ -63,12 +57,12 @@ def expected_text(refuted: int) -> str:
     return f"{refuted} printed statement{plural} refuted, as expected (see ERRATA)" * bool(refuted)
 
 
-def heading(derivation: Derivation) -> str:
+def heading(derivation: Statement) -> str:
     """Number and title."""
     return f"Eq. {derivation.number}: {derivation.title}"
 
 
-def statement_text(derivation: Derivation) -> str:
+def statement_text(derivation: Statement) -> str:
     """What the equation says, in what symbols, under which assumptions."""
     parts = [heading(derivation), "", printed_text(derivation), *refuted_text(derivation)]
     parts += ["", "Symbols"]
@@ -76,8 +70,8 @@ def statement_text(derivation: Derivation) -> str:
         parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
     parts += ["", "Assumptions"]
     parts += [_paragraph(words, "  - ", "    ") for words in derivation.assumptions]
-    if theorem := theorem_of(derivation.number):
-        parts += ["", f"A case of theorem {theorem.name}: {theorem.title}"]
+    if derivation.call:
+        parts += ["", f"The calculator: {derivation.call}"]
     if derivation.premises:
         numbers = ", ".join(str(premise.number) for premise in derivation.premises)
         parts += ["", f"Rests on Eq{'s' * (len(derivation.premises) > 1)}. {numbers}"]
@@ -88,7 +82,7 @@ def statement_text(derivation: Derivation) -> str:
     return "\n".join(parts)
 
 
-def relation_of(derivation: Derivation, step: Shown) -> str:
+def relation_of(derivation: Statement, step: Shown) -> str:
     """The sign between the sides of a step; the printed equation has its own."""
     printed = all(one in derivation.printed for one in step.equations)
     return derivation.relation if printed else step.relation
@@ -99,7 +93,7 @@ def follows_text(step: Shown, verdict: str) -> str:
     return f"{verdict}, from {both(step.uses)}" if step.uses else verdict
 
 
-def steps_text(derivation: Derivation, verdicts: Sequence[str]) -> str:
+def steps_text(derivation: Statement, verdicts: Sequence[str]) -> str:
     """The steps: the reason, the formula that it gives, the verdict, and what it follows from."""
     parts = []
     steps = enumerate(zip(derivation.steps(), verdicts, strict=True), start=1)
@@ -152,6 +146,19 @@ def trouble_lines(outcome: Outcome) -> list[str]:
     ]
 
 
+def statement_data(derivation: Statement) -> dict[str, Any]:
+    """What JSON says of an equation: text and LaTeX, and the pieces of its exact forms."""
+    return {
+        "number": derivation.number,
+        "name": derivation.name,
+        "title": derivation.title,
+        "premises": [premise.number for premise in derivation.premises],
+        "text": "\n".join(derivation.lines(TEXT_WIDTH)),
+        "latex": derivation.latex(),
+        "exact": {name: form.data() for name, form in derivation.exact_forms.items()},
+    }
+
+
 def outcomes_data(outcomes: Iterable[Outcome], *, timed: bool = True) -> dict[str, Any]:
     """What ``derive --json`` prints; verdicts are words, times, if they are wanted, seconds."""
 
@@ -160,10 +167,7 @@ def outcomes_data(outcomes: Iterable[Outcome], *, timed: bool = True) -> dict[st
 
     equations = [
         {
-            "number": outcome.derivation.number,
-            "name": outcome.derivation.name,
-            "title": outcome.derivation.title,
-            "premises": [premise.number for premise in outcome.derivation.premises],
+            **statement_data(outcome.derivation),
             "verdict": str(outcome.verdict),
             "assuming": list(outcome.assuming),
             "checks": [

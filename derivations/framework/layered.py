@@ -13,6 +13,7 @@ from force_diffusion.symbolic.symbols import LargestShare, M, Moment, j, phi, r,
 from force_diffusion.symbolic.words import in_words
 
 from ..api.closed_form import ClosedForm
+from .catalogue import Number
 from .grounds import By, Proved, Source, asymptotic, bounded, closed, facts_of
 from .proving import Line, Lines, Meaning
 
@@ -25,6 +26,7 @@ class Layered:
     """A mean, a variance or a covariance at every layer 0 ≤ j < M.
 
     Attributes:
+        number: of its equation.
         symbol: what is printed for it.
         moment: what that is, such as ``Variance(f⁺_ij/⟨f⟩)``, or a sum of several.
         facts: what gives its forces in the radii.
@@ -32,6 +34,7 @@ class Layered:
         meaning: of further symbols in the moment.
     """
 
+    number: Number
     symbol: sympy.Expr
     moment: sympy.Expr
     facts: tuple[Source, ...]
@@ -69,7 +72,7 @@ class Layered:
     @cached_property
     def theorems(self) -> tuple[Theorem, ...]:
         """What the closed form says on each part of the packing."""
-        return statistics.theorems(self._meant, self.form, self.where, self._facts)
+        return statistics.theorems(self._meant, self.where, self._facts)
 
     def exact(self, *premises: int | str) -> dict[str, ClosedForm]:
         """The closed form as users get it, with the equations that it rests on."""
@@ -79,7 +82,7 @@ class Layered:
     @property
     def words(self) -> str:
         """How a line names it."""
-        return "the exact form"
+        return f"Eq. {self.number}"
 
     @property
     def rule(self) -> By:

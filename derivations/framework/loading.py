@@ -5,37 +5,37 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 
 from .catalogue import Number, modules
-from .record import Derivation
+from .record import Derivation, Statement
 
 
-def load(number: Number) -> Derivation:
-    """The derivation of one equation.
+def load(number: Number) -> Statement:
+    """The derivation of one equation, or a row of the calculator.
 
     A module has one, ``DERIVATION``, or several by their numbers, ``DERIVATIONS``.
     """
     module = import_module(f"force_diffusion.derivations.{modules()[number]}")
-    several: dict[Number, Derivation] = getattr(module, "DERIVATIONS", {})
+    several: dict[Number, Statement] = getattr(module, "DERIVATIONS", {})
     return several[number] if several else module.DERIVATION
 
 
-def _pickled(derivation: Derivation) -> tuple[Callable[[Number], Derivation], tuple[Number]]:
+def pickled(statement: Statement) -> tuple[Callable[[Number], Statement], tuple[Number]]:
     """Say how a derivation is had again: by its number, since it is made of functions."""
-    return load, (derivation.number,)
+    return load, (statement.number,)
 
 
-copyreg.pickle(Derivation, _pickled)
+copyreg.pickle(Derivation, pickled)
 
 
-def with_premises(wanted: Iterable[Derivation]) -> list[Derivation]:
+def with_premises(wanted: Iterable[Statement]) -> list[Statement]:
     """The derivations wanted and all that they rest on, premises first."""
-    ordered: dict[Number, Derivation] = {}
+    ordered: dict[Number, Statement] = {}
 
-    def visit(derivation: Derivation) -> None:
-        if derivation.number not in ordered:
-            for premise in derivation.premises:
+    def visit(statement: Statement) -> None:
+        if statement.number not in ordered:
+            for premise in statement.premises:
                 visit(premise)
-            ordered[derivation.number] = derivation
+            ordered[statement.number] = statement
 
-    for derivation in wanted:
-        visit(derivation)
+    for statement in wanted:
+        visit(statement)
     return list(ordered.values())

@@ -25,6 +25,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 from force_diffusion.symbolic.kernel.disproofs import Disproof, other_leading_order
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import (
+    DisprovedError,
     NotAStatementError,
     NotProvedError,
     Theorem,
@@ -176,6 +177,8 @@ class Line:
         meant, where = self._meant(part, candidate), self.domain(part)
         try:
             theorem, *others = self._proofs(part, candidate)
+        except DisprovedError as reason:
+            return refuted(str(reason))
         except (ArithmeticError, RecursionError, TypeError, ValueError) as reason:
             none = isinstance(reason, NotAStatementError) and no_statement(meant, where)
             # what has no value somewhere is mostly without one at a place that no packing shows
@@ -418,7 +421,7 @@ def fixes_it(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
 
 def _fixes_the_symbol(candidate: sympy.Eq, printed: sympy.Eq, where: Where) -> str:
     """The same where a symbol stands beside others on the left, as in ⟨f⟩/f₀ − 1."""
-    known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, sy.d, sy.kappa, sy.N}
+    known = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
     about = printed.lhs.free_symbols - known
     if printed.lhs.has(sy.SiteFunction) or len(about) != 1:
         return ""

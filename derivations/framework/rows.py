@@ -1,23 +1,34 @@
-"""A row of the calculator: a statistic with a label, what it means, and what is claimed of it."""
+"""A row of the calculator: statistics with a label, what they mean, and what is claimed of them."""
 
-from collections.abc import Callable
+import copyreg
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
 
 import sympy
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.kernel import statistics
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted
 from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.symbols import M, Shift, z
 from force_diffusion.symbolic.words import in_words
 
 from ..api.closed_form import ClosedForm
 from .catalogue import Number
 from .grounds import By, closed
+from .loading import load, pickled
 from .proving import Lines
-from .record import Claim, Statement
+from .record import FIRST_ORDER, SECOND_ORDER, Claim, Statement, usual
 
-Forms = dict[str, ClosedForm]
+Forms = Mapping[str, ClosedForm]
 """Closed forms by name; the first is the usual one."""
+
+Decide = Callable[[Forms], Ruling]
+"""Rules on a statement about closed forms."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,13 +42,10 @@ class Row(Statement):
         name: in code and JSON.
         title: in words.
         call: how a user asks for the first of them.
-        forms: gives the closed forms; the quantity of each is a symbol of its own.
+        forms: gives the closed forms; the quantity of each holds a symbol of its own.
         meaning: what they say, in a sentence.
-        symbols: each with its meaning.
-        assumptions: in words.
-        premises: the derivations that it rests on.
-        statements: further statements, each with what decides it from the closed forms.
-        dimension: of the packing.
+        quantities: symbols with their meanings, where these are not the usual ones.
+        claimed: further statements, each with what decides it from the closed forms.
     """
 
     number: Number
@@ -46,22 +54,14 @@ class Row(Statement):
     call: str
     forms: Callable[[], Forms]
     meaning: str
-    symbols: tuple[tuple[sympy.Basic, str], ...]
-    assumptions: tuple[str, ...]
-    premises: tuple[Statement, ...]
-    statements: tuple[tuple[str, Callable[[Forms], Ruling]], ...] = ()
-    dimension: int = 2
+    quantities: tuple[tuple[sympy.Basic, str], ...]
+    claimed: tuple[tuple[str, Decide], ...] = ()
     relation = "="
-    domain = ()
     loads = ()
 
-    @cached_property
-    def _forms(self) -> Forms:
-        return self.forms()
-
-    def exact(self) -> Forms:
+    def exact(self) -> Forms:  # type: ignore[override]
         """The closed forms, by name."""
-        return self._forms
+        return self.forms()
 
     @property
     def remarks(self) -> tuple[str, ...]:
@@ -69,23 +69,66 @@ class Row(Statement):
         return (self.meaning,)
 
     @cached_property
+    def symbols(self) -> tuple[tuple[sympy.Basic, str], ...]:  # type: ignore[override]
+        """Each symbol with its meaning."""
+        values = (piece.expr for form in self.exact_forms.values() for piece in form.pieces)
+        held = set().union(*(one.free_symbols for one in values)) - {*dict(self.quantities)}
+        return (*self.quantities, *usual(*by_name(held)))
+
+    @property
+    def assumptions(self) -> tuple[str, ...]:
+        """What is assumed, in words."""
+        forms = self.exact_forms.values()
+        order = SECOND_ORDER if any(one.meant.has(Shift) for one in forms) else FIRST_ORDER
+        loads = (one.where.loading.words for one in forms if one.where.loading)
+        return (*order, *dict.fromkeys(loads))
+
+    @property
+    def premises(self) -> tuple[Statement, ...]:
+        """The derivations that it rests on."""
+        numbers = (number for form in self.exact_forms.values() for number in form.premises)
+        return tuple(map(load, dict.fromkeys(numbers)))
+
+    @property
+    def dimension(self) -> int:  # type: ignore[override]
+        """The highest dimension of its packings."""
+        return max(int(form.where.dimension) for form in self.exact_forms.values())
+
+    @cached_property
     def printed(self) -> tuple[sympy.Eq, ...]:  # type: ignore[override]
-        """The first formula of each closed form."""
-        return tuple(
-            equation(form.quantity, form.formulas[0].value.to_sympy())
-            for form in self._forms.values()
-        )
+        """The closed forms as equations."""
+        return tuple(form.equation for form in self.exact_forms.values())
+
+    def latex(self, columns: int = 1) -> str:
+        """The closed forms, for one display in text of one column or of two."""
+        first, *others = (form.latex(columns) for form in self.exact_forms.values())
+        if not others:
+            return first
+        body = " \\\\[6pt]\n&".join((first, *others))
+        return f"\\begin{{aligned}}\n&{body}\n\\end{{aligned}}"
+
+    def displays(self, columns: int = 1) -> list[str]:
+        """The same, in as many displays as it takes to fit pages."""
+        return [one for form in self.exact_forms.values() for one in form.displays(columns)]
+
+    def lines(self, room: int) -> list[str]:
+        """The closed forms as lines of plain text."""
+        return [line for form in self.exact_forms.values() for line in form.lines(room)]
+
+    def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
+        """Rule on a candidate for one of the closed forms."""
+        return [*self.exact_forms.values()][part].rule_on(candidate)
 
     @property
     def where(self) -> Where:
         """The domain of the first closed form."""
-        return next(iter(self._forms.values())).where
+        return next(iter(self.exact_forms.values())).where
 
     @property
     def claims(self) -> tuple[Claim, ...]:  # type: ignore[override]
         """Further statements, decided from the closed forms."""
         return tuple(
-            Claim(words, partial(decide, self._forms)) for words, decide in self.statements
+            Claim(words, partial(decide, self.exact_forms)) for words, decide in self.claimed
         )
 
     def steps(self) -> Lines:  # type: ignore[override]
@@ -95,7 +138,7 @@ class Row(Statement):
     @cached_property
     def _steps(self) -> Lines:
         lines = Lines(self.where)
-        for form in self._forms.values():
+        for form in self.exact_forms.values():
             by = _by(form)
             for formula in form.formulas:
                 for part in formula.where:
@@ -109,15 +152,139 @@ class Row(Statement):
         return lines
 
 
+copyreg.pickle(Row, pickled)
+
+
 def _by(form: ClosedForm) -> By:
-    return closed(lambda: form.theorems, *form._facts)
+    return closed(lambda: form.theorems, *form.facts)
 
 
-# what may be claimed
+# what may be claimed of the form of some name
+
+Values = Mapping[sympy.Symbol, sympy.Expr]
+_HALF = sympy.Rational(1, 2)
 
 
-def leads(form: ClosedForm, *terms: sympy.Expr) -> Ruling:
-    """Whether the highest orders at fixed z are these terms."""
-    found = form.leading(len(terms))
-    same = sympy.cancel(sympy.together(found - sympy.Add(*terms))) == 0
-    return proved("the leading orders of the closed form") if same else refuted(f"{found} is true")
+def leads(name: str, *terms: sympy.Expr) -> Decide:
+    """The highest powers of M at fixed z come with these terms."""
+
+    def decide(forms: Forms) -> Ruling:
+        return same(forms[name].leading(len(terms)), sympy.Add(*terms))
+
+    return decide
+
+
+def goes_as(
+    name: str,
+    value: sympy.Expr,
+    *where: sympy.Basic,
+    growing: sympy.Symbol = M,
+    at: Values | None = None,
+) -> Decide:
+    """On a part of the domain, other symbols put in, the highest power has this value."""
+    return lambda forms: same(highest(forms[name].on(*where).xreplace(at or {}), growing), value)
+
+
+def averages_to(name: str, value: sympy.Expr) -> Decide:
+    """That is the mean of the leading order over all heights, 0 < z < 1."""
+
+    def decide(forms: Forms) -> Ruling:
+        return same(sympy.integrate(sympy.expand(forms[name].leading(1)), (z, 0, 1)), value)
+
+    return decide
+
+
+def equals(
+    name: str,
+    value: sympy.Expr | str | tuple[Number, str],
+    *where: sympy.Basic,
+    at: Values | None = None,
+    factor: sympy.Expr = sympy.S.One,
+) -> Decide:
+    """It is an expression, or a form of some row times a factor, on a part of its domain."""
+
+    def decide(forms: Forms) -> Ruling:
+        form = forms[name]
+        function = form.function.put_in(at or {}).part(*where)
+        if isinstance(value, sympy.Expr):
+            return statistics.decide(function, form.where, value)
+        number, other = value if isinstance(value, tuple) else ("", value)
+        there = load(number).exact_forms[other] if number else forms[other]
+        apart = function.weights - there.function.weights.scaled(FIELD.from_sympy(factor))
+        return ruled(apart.on(function.points).is_zero(), f"{text(form.quantity)} is another one")
+
+    return decide
+
+
+def adds_up_to_zero(name: str, index: sympy.Symbol, weight: sympy.Expr = sympy.S.One) -> Decide:
+    """The weighted sum over all layers j, or over all beads i of a layer, vanishes."""
+
+    def decide(forms: Forms) -> Ruling:
+        total = forms[name].function.total(index, weight)
+        return ruled(total.is_zero(), "the sum is not zero")
+
+    return decide
+
+
+def is_free_of(name: str, symbol: sympy.Symbol) -> Decide:
+    """No formula holds a symbol."""
+
+    def decide(forms: Forms) -> Ruling:
+        held = any(piece.expr.has(symbol) for piece in forms[name].pieces)
+        return ruled(not held, f"a formula holds {text(symbol)}")
+
+    return decide
+
+
+def turns_positive(
+    name: str, symbol: sympy.Symbol, threshold: sympy.Expr, *where: sympy.Basic
+) -> Decide:
+    """The leading order is positive above a value of z or φ alone, and negative below it."""
+
+    def decide(forms: Forms) -> Ruling:
+        leading = _leading(forms[name], where)
+        factor = symbol - threshold
+        if threshold.is_number:
+            factor = sympy.minimal_polynomial(threshold, symbol)
+            rising = sympy.diff(factor, symbol).subs(symbol, threshold) > 0
+            if not rising or sympy.Poly(factor, symbol).count_roots(-_HALF, _HALF) != 1:
+                return refuted(f"{text(factor)} does not only rise through zero")
+        return _has_sign(sympy.cancel(leading / factor), 1)
+
+    return decide
+
+
+def has_sign(name: str, expected: int, *where: sympy.Basic, at: Values | None = None) -> Decide:
+    """It is positive (1) or negative (−1) on a part of its domain; indices put in may be zero."""
+
+    def decide(forms: Forms) -> Ruling:
+        value = forms[name].on(*where).xreplace(at or {})
+        return _has_sign(value, expected, *(at or {}))
+
+    return decide
+
+
+def _leading(form: ClosedForm, where: tuple[sympy.Basic, ...]) -> sympy.Expr:
+    return highest(form.on(*where), M) if where else form.leading(1)
+
+
+def highest(value: sympy.Expr, symbol: sympy.Symbol) -> sympy.Expr:
+    """The term with the highest power of a symbol in a rational function."""
+    above, below = (sympy.Poly(part, symbol) for part in sympy.fraction(sympy.cancel(value)))
+    return symbol ** (above.degree() - below.degree()) * above.LC() / below.LC()
+
+
+def _has_sign(value: sympy.Expr, expected: int, *nonnegative: sympy.Symbol) -> Ruling:
+    found = sign(value, nonnegative=nonnegative)
+    return ruled(found == expected, f"{text(value)} has the sign {found or 'of no kind'}")
+
+
+def same(found: sympy.Expr, value: sympy.Expr) -> Ruling:
+    """Rule on a value for what was found."""
+    apart = sympy.cancel(sympy.together(found - value))
+    return ruled(bool(apart == 0), f"{text(found)} is true")
+
+
+def ruled(holds: bool, otherwise: str) -> Ruling:
+    """What a statement is that holds, or is refuted by what is said ``otherwise``."""
+    return proved("from the closed form") if holds else refuted(otherwise)

@@ -10,9 +10,9 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
 
 from .catalogue import Number
 from .proving import Shown
-from .record import Check, Derivation, Outcome
+from .record import Check, Outcome, Statement
 
-Watch = Callable[[Derivation, str], None]
+Watch = Callable[[Statement, str], None]
 """Told which check of which derivation comes next."""
 
 
@@ -27,7 +27,7 @@ def _rarely_collected() -> Iterator[None]:
         gc.set_threshold(*before)
 
 
-def _silent(_derivation: Derivation, _check: str) -> None:
+def _silent(_derivation: Statement, _check: str) -> None:
     """Watch nothing."""
 
 
@@ -37,7 +37,7 @@ def _timed(kind: str, name: str, decide: Callable[[], Ruling]) -> Check:
     return Check(kind, name, ruling.verdict, perf_counter() - start, ruling.note, ruling.assuming)
 
 
-def proofs(derivation: Derivation, watch: Watch = _silent) -> Iterator[Check]:
+def proofs(derivation: Statement, watch: Watch = _silent) -> Iterator[Check]:
     """Rule on each printed equation, on each step that leads to it, then on each further claim.
 
     Last come printed statements that are known not to hold.
@@ -88,7 +88,7 @@ def overall(checks: Iterable[Check]) -> Verdict:
     return Verdict.ASSUMING if Verdict.ASSUMING in proofs else Verdict.PROVED
 
 
-def _open_premises(derivation: Derivation, known: Mapping[Number, Verdict]) -> Iterator[Check]:
+def _open_premises(derivation: Statement, known: Mapping[Number, Verdict]) -> Iterator[Check]:
     """What is derived from an equation is no better than that equation."""
     for premise in derivation.premises:
         verdict = known.get(premise.number, Verdict.PROVED)
@@ -101,7 +101,7 @@ def _open_premises(derivation: Derivation, known: Mapping[Number, Verdict]) -> I
 
 
 def run(
-    derivation: Derivation,
+    derivation: Statement,
     watch: Watch = _silent,
     known: Mapping[Number, Verdict] | None = None,
 ) -> Outcome:
@@ -115,7 +115,7 @@ def run(
     return Outcome(derivation, overall(checks), checks, perf_counter() - start)
 
 
-def run_all(derivations: Iterable[Derivation], watch: Watch = _silent) -> Iterator[Outcome]:
+def run_all(derivations: Iterable[Statement], watch: Watch = _silent) -> Iterator[Outcome]:
     """Run derivations in their order, premises first, each with the verdicts found before."""
     known: dict[Number, Verdict] = {}
     with _rarely_collected():

@@ -15,18 +15,16 @@ from .packings import PAPER, PAPER_STD, PHI, Options, band_of_means, gathered, o
 
 HEIGHT, LAYER = 32, 16
 WINDOWS = (1, 2, 3, 5, 8, 14)
-KNOWN = np.array([count >= 2 for count in WINDOWS] * 2)
-"""Windows, of contacts and then of beads, that the equations are for."""
 
 
 def contacts(count: int) -> float:
-    """Variance of the mean of f⁺/⟨f⟩ over 2 ≤ N ≤ j − 1 neighbours in layer j (Eq. B7)."""
+    """Variance of the mean of f⁺/⟨f⟩ over N neighbours in layer j (Eq. B7)."""
     form = closed_forms.contacts_mean_variance
     return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
 
 
 def beads(count: int) -> float:
-    """The same of the vertical force on a bead over its mean, 2 ≤ N ≤ j − 2 (Eq. B8)."""
+    """The same of the vertical force on a bead over its mean (Eq. B8)."""
     form = closed_forms.beads_mean_variance
     return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
 
@@ -57,9 +55,9 @@ def simulated(o: Options) -> spec.Comparison:
     """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
     ensemble = planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
     (square,) = gathered(ensemble, o.notice, "figure B7", window_means)
-    exact = [form(N) if N >= 2 else np.nan for form in (contacts, beads) for N in WINDOWS]
+    exact = [form(N) for form in (contacts, beads) for N in WINDOWS]
     what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
-    return spec.Comparison(what, band_of_means(square, o.seed, 0.5), np.sqrt(exact), KNOWN)
+    return spec.Comparison(what, band_of_means(square, o.seed, 0.5), np.sqrt(exact))
 
 
 def figure(o: Options) -> spec.Figure:
@@ -87,7 +85,7 @@ def figure(o: Options) -> spec.Figure:
     )  # fmt: skip
     windows = [(of, N) for of in ("contacts", "beads") for N in WINDOWS]
     columns = found.columns("sigma_")
-    exact = {"sigma_exact_first_order": np.where(KNOWN, found.theory.astype(object), "")}
+    exact = {"sigma_exact_first_order": found.theory}
     return spec.Figure(
         spec.Picture([panel], 2.6),
         tables={"figureB7": spec.table("of N", windows) | columns | exact},

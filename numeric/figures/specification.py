@@ -247,19 +247,15 @@ def stacked(parts: Sequence[Table]) -> Table:
 
 @dataclass(frozen=True)
 class Comparison:
-    """What was simulated, with its band, and what ``theory`` says, (L,); ``of``: in words.
-
-    ``rows``: those of which theory speaks.
-    """
+    """What was simulated, with its band, and what ``theory`` says, (L,); ``of``: in words."""
 
     of: str
     band: Band
     theory: Array
-    rows: Any = ...
 
     def deviation(self, theory: Array | None = None) -> float:
         """Largest deviation of this theory or another one, in half-widths: inside is ≤ 1."""
-        return self.band.deviation(self.theory if theory is None else theory, self.rows)
+        return self.band.deviation(self.theory if theory is None else theory)
 
     def verdict(self) -> str:
         """Say whether theory lies inside of the band."""

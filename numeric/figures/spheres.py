@@ -42,12 +42,13 @@ def exact(case: Case) -> Array:
 
 
 def leading(load: str, z: Array) -> Array:
-    """The leading orders over M^(3/2); under a bulk load as that of discs is to Eq. 13."""
-    form = closed_forms.diffusion_in_dimensions
-    surface = np.array([form(3, 1, at, float(PHI), PAPER_STD, 1.0) for at in z])
-    return np.asarray(
-        np.sqrt(surface * (0.15 * (1 + 4 * z) / (1 + 2 * z) if load == "bulk" else 1))
+    """The leading orders over M^(3/2)."""
+    surface, bulk = (
+        closed_forms.surface_diffusion_of_spheres,
+        closed_forms.bulk_diffusion_of_spheres,
     )
+    form = bulk if load == "bulk" else surface
+    return np.sqrt([form(1, at, float(PHI), PAPER_STD, 1.0) for at in z])
 
 
 def over_contacts(change: Array) -> Array:

@@ -9,7 +9,6 @@ layers, simulated with the estimated correlations (a multivariate t).
 """
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -106,14 +105,10 @@ class Band:
     def _plain(self, values: Array) -> Array:
         return np.asarray(np.exp(values) if self.logarithmic else values)
 
-    def deviation(self, curve: Array, rows: Any = ...) -> float:
-        """Give the largest deviation of a curve, in units of the half-width: inside is ≤ 1.
-
-        ``rows``: those that count.
-        """
-        curve = np.asarray(curve)[rows]
-        own = np.log(curve) if self.logarithmic else curve
-        return float((np.abs(own - self.estimate.log[rows]) / self.half[rows]).max())
+    def deviation(self, curve: Array) -> float:
+        """Give the largest deviation of a curve, in units of the half-width: inside is ≤ 1."""
+        own = np.log(curve) if self.logarithmic else np.asarray(curve)
+        return float((np.abs(own - self.estimate.log) / self.half).max())
 
     def verdict(self, deviation: float) -> str:
         """Say whether a curve with this deviation is inside."""

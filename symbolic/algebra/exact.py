@@ -14,7 +14,7 @@ from typing import Any, Self
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from ..symbols import H_M, INDICES, PARAMETERS, M, n_x, n_y, phi
+from ..symbols import H_M, INDICES, PARAMETERS, M, l, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
 
@@ -23,9 +23,8 @@ class NotExactError(ValueError):
     """The expression lies outside the domain in which equality is decided."""
 
 
-class NotAStatementError(NotExactError):
-    """What is written has no value, or no single one, somewhere on its domain."""
-
+LAYER = sympy.Dummy("layer", integer=True)
+"""The layer of a site on a line sum; a generator of its own, never part of an equation."""
 
 SITE = tuple(sympy.Dummy(f"site_{axis}", integer=True) for axis in (1, 2, 3))
 """A site: how many steps along each base vector lead to it from the origin."""
@@ -49,6 +48,16 @@ class Domain:
         self.zero = self.constant(0)
         self.one = self.constant(1)
         self._relations: tuple[Polynomial, ...] | None = None
+
+    def named(self, names: Mapping[sympy.Expr, sympy.Expr]) -> "Domain":
+        """The same field, whose generators have other names; its elements are those of this one."""
+        return Domain(names.get(one, one) for one in self.generators)
+
+    def __reduce__(self) -> str:
+        """The one domain that pickles hold is found by its name."""
+        if self is not FIELD:
+            raise TypeError("elements of another domain than FIELD are not pickled")
+        return "FIELD"
 
     def constant(self, value: int | Fraction | sympy.Rational) -> "RationalFunction":
         """A rational number as an element of the field."""
@@ -92,6 +101,19 @@ class Domain:
         if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Integer):
             return self.from_sympy(expression.base) ** int(expression.exp)
         raise NotExactError(f"{expression} is not a rational function of the symbols")
+
+    def total(self, values: Iterable["RationalFunction"]) -> "RationalFunction":
+        """The sum of elements; what has one denominator is brought to lowest terms once."""
+        found: list[list[Polynomial]] = []  # numerators and denominators
+        for one in values:
+            for part in found:
+                if part[1] == one.denominator:
+                    part[0] = part[0] + one.numerator
+                    break
+            else:
+                found.append([one.numerator, one.denominator])
+        parts = (RationalFunction(self, *part) for part in found)
+        return sum(parts, self.zero)
 
     def vanishes(self, polynomial: Polynomial) -> bool:
         """Decide whether a polynomial is zero where n_x² + n_y² = 1 and φ = n_y² − n_x²."""
@@ -159,6 +181,12 @@ class RationalFunction:
         self.numerator = numerator
         self.denominator = denominator
 
+    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
+        """Polynomials go into pickles as their terms."""
+        parts = (one.to_dict().items() for one in (self.numerator, self.denominator))
+        terms = ({tuple(map(int, x)): (int(c.p), int(c.q)) for x, c in one} for one in parts)
+        return _from_terms, (self.domain, *terms)
+
     def _same(self, numerator: Polynomial, denominator: Polynomial) -> Self:
         return type(self)(self.domain, numerator, denominator)
 
@@ -177,13 +205,6 @@ class RationalFunction:
         return self._same(
             self.numerator * theirs + other.numerator * own, self.denominator * theirs
         )
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, RationalFunction) and (
-            self.numerator == other.numerator and self.denominator == other.denominator
-        )
-
-    __hash__ = None  # type: ignore[assignment]
 
     def __neg__(self) -> Self:
         negative = object.__new__(type(self))  # in lowest terms already
@@ -216,6 +237,12 @@ class RationalFunction:
         for side in (self.numerator, self.denominator):
             _refuse_more_terms(_terms_of_power(side, exponent))
         return self._same(self.numerator**exponent, self.denominator**exponent)
+
+    def named(self, domain: Domain) -> "RationalFunction":
+        """The same element of a domain that is this one with other names."""
+        same = object.__new__(type(self))  # in lowest terms already
+        same.domain, same.numerator, same.denominator = domain, self.numerator, self.denominator
+        return same
 
     def is_zero(self) -> bool:
         """Decide whether this is zero, given n_x² + n_y² = 1."""
@@ -274,11 +301,18 @@ class RationalFunction:
         return int(self.numerator.degrees()[position])
 
     def substitute(self, images: Mapping[sympy.Expr, "RationalFunction"]) -> "RationalFunction":
-        """Replace generators by polynomials (elements with denominator one)."""
-        if any(image.denominator != 1 for image in images.values()):
-            raise NotExactError("only a polynomial can be put in place of a symbol")
+        """Replace generators by elements.
+
+        Raises:
+            NotExactError: a divisor vanishes.
+        """
         if not any(self.holds(symbol) for symbol in images):
             return self
+        if any(image.denominator != 1 for image in images.values()):
+            numerator, divisor = (
+                self._put_in(one, images) for one in (self.numerator, self.denominator)
+            )
+            return numerator / divisor
         full = list(self.domain._gens)
         for symbol, image in images.items():
             full[self.domain.position[symbol]] = image.numerator
@@ -286,6 +320,20 @@ class RationalFunction:
         if denominator == 0:
             raise NotExactError("a divisor vanishes for a value that is put in")
         return self._same(self.numerator.compose(*full), denominator)
+
+    def _put_in(
+        self, polynomial: Polynomial, images: Mapping[sympy.Expr, "RationalFunction"]
+    ) -> "RationalFunction":
+        total = self.domain.zero
+        for exponents, c in polynomial.to_dict().items():
+            term = self.domain.constant(Fraction(int(c.p), int(c.q)))
+            for generator, power in zip(self.domain.generators, exponents, strict=True):
+                if power:
+                    term = term * images.get(generator, self.domain.generator(generator)) ** int(
+                        power
+                    )
+            total = total + term
+        return total
 
     def derivative(self, symbol: sympy.Expr) -> "RationalFunction":
         """The derivative with respect to a generator."""
@@ -345,10 +393,16 @@ class RationalFunction:
         return number, powers
 
 
+def _from_terms(domain: Domain, *parts: Mapping[tuple[int, ...], tuple[int, int]]) -> Any:
+    """A quotient from the terms of numerator and denominator."""
+    terms = ({x: fmpq(*c) for x, c in part.items()} for part in parts)
+    return RationalFunction(domain, *map(domain.context.from_dict, terms))
+
+
 def _reads_negative(factor: sympy.Expr) -> bool:
     """Whether −factor reads better: M − j rather than j − M, 1 − z rather than z − 1."""
-    if M in factor.free_symbols:
-        found = [term.as_coeff_exponent(M) for term in sympy.Add.make_args(factor)]
+    if height := next((one for one in (M, l) if one in factor.free_symbols), None):
+        found = [term.as_coeff_exponent(height) for term in sympy.Add.make_args(factor)]
         highest = max(power for _, power in found)
         top = sympy.Add(*(c for c, power in found if power == highest))
         return bool(top.could_extract_minus_sign())
@@ -397,67 +451,17 @@ def sum_polynomial(
     )
 
 
-def sum_over(
-    f: RationalFunction, symbol: sympy.Expr, low: RationalFunction, high: RationalFunction
-) -> RationalFunction:
-    """Σ f(n) for low ≤ n ≤ high, where f may hold one divisor ±n + …, positive from low to high.
-
-    The sum of its inverse is a difference of harmonic numbers, which end at a number or near M.
-
-    Raises:
-        NotExactError: the sum is of another kind.
-    """
-    place = f.domain.position[symbol]
-    divisors = [(one, e) for one, e in f.denominator.factor()[1] if one.degrees()[place] > 0]
-    if not divisors:
-        return sum_polynomial(f, symbol, low, high)
-    divisor = f.domain.polynomial(divisors[0][0])
-    if divisor.coefficients(M)[-1] == -f.domain.one:  # M − n, not n − M
-        divisor = -divisor
-    rest, slope = divisor.coefficients(symbol) if divisor.degree(symbol) == 1 else (f, f)
-    if len(divisors) > 1 or divisors[0][1] > 1 or slope * slope != f.domain.one:
-        raise NotExactError(f"a sum over {symbol} has more than one divisor, or another one")
-    above = f * divisor
-    residue = above.substitute({symbol: -rest * slope})
-    polynomial = (above - residue) / divisor
-    first, last = (low, high) if slope == f.domain.one else (high, low)
-    ends = [divisor.substitute({symbol: end}) for end in (first, last)]
-    harmonic = _harmonic(ends[1]) - _harmonic(ends[0] - f.domain.one)
-    return sum_polynomial(polynomial, symbol, low, high) + residue * harmonic
-
-
-def _harmonic(last: RationalFunction) -> RationalFunction:
-    """Σ 1/k for 1 ≤ k ≤ last, a number or near M."""
-    field = last.domain
-    found = field.generator(H_M) if last.holds(M) else field.zero
-    offset = (last - field.generator(M) if last.holds(M) else last).numerator
-    if not offset.is_constant() or not -_NEAR <= (number := int(offset.leading_coefficient() if offset != 0 else 0)) <= _NEAR:  # fmt: skip
-        raise NotExactError("a harmonic sum ends neither at a number nor near M")
-    if last.holds(M):
-        steps = [field.generator(M) + field.constant(k) for k in range(min(number, 0), max(number, 0))]
-        inverse = [field.one / (one + field.one) for one in steps]
-        return sum(inverse, found) if number > 0 else found - sum(inverse, field.zero)
-    if number < 0:
-        raise NotExactError("a harmonic sum starts below 1")
-    return field.constant(sum((Fraction(1, k) for k in range(1, number + 1)), Fraction(0)))
-
-
-_NEAR = 8
-
-
 def _ratio(value: int | Fraction | sympy.Rational) -> tuple[int, int]:
     if isinstance(value, sympy.Rational):
         return int(value.p), int(value.q)
     return int(value.numerator), int(value.denominator)
 
 
-CONSTANTS = (
+UNKNOWNS = (
     tuple(sympy.Dummy(f"positive_{place}", positive=True) for place in range(6)),
-    tuple(sympy.Dummy(f"real_{place}", real=True) for place in range(6)),
+    tuple(sympy.Dummy(f"real_{place}", real=True) for place in range(10)),
 )
-"""What stands for symbols of a user's own: positive ones, and any."""
-UNKNOWNS = tuple(sympy.Dummy(f"unknown_{place}", real=True) for place in range(4))
-"""What equations are solved for."""
+"""What stands for unknown numbers while two sides are compared: positive ones, and any."""
 
-FIELD = Domain((*SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS, *CONSTANTS[0], *CONSTANTS[1]))
-"""The field of all the paper's symbols, and of some more."""
+FIELD = Domain((LAYER, *SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS[0], *UNKNOWNS[1]))
+"""The field of all the paper's symbols, and of some unknown numbers, used by linear forms."""

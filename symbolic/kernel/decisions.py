@@ -141,8 +141,3 @@ def all_of(*rulings: Ruling) -> Ruling:
                 return ruling
     notes = dict.fromkeys(ruling.note for ruling in rulings)
     return proved("; ".join(notes), (one for ruling in rulings for one in ruling.assuming))
-
-
-def from_test(outcome: bool, note: str, otherwise: str = "") -> Ruling:
-    """Turn a decided yes or no into a ruling."""
-    return proved(note) if outcome else refuted(otherwise or f"not so: {note}")

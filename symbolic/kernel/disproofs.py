@@ -6,8 +6,7 @@ from dataclasses import InitVar, dataclass
 import sympy
 
 from ..as_printed import equation
-from ..printing.text import text
-from .limits import leading, limit_of, order, read
+from .limits import how_apart, limit_of, order, read
 from .theorem import NotProvedError, Theorem
 from .where import Where
 
@@ -62,10 +61,6 @@ def other_leading_order(theorem: Theorem) -> Refute:
         )
         if order(true - said, limit) < order(said, limit):
             raise NotProvedError("both go the same way")
-        share = (leading(true, limit) / leading(said, limit)).reduced().to_sympy()
-        power = order(true, limit) - order(said, limit)
-        goes = f"grows with the power {power} of what grows" if power else f"goes to {text(share)}"
-        reason = f"left over right {goes}, not to 1: the left-hand side goes as "
-        return Disproof(formula, where, theorem, reason + text(theorem.formula.rhs), _MADE_HERE)
+        return Disproof(formula, where, theorem, how_apart(true, said, limit), _MADE_HERE)
 
     return refute

@@ -85,7 +85,7 @@ def _known(
         known.add(sy.z)
     elif sy.z in known:
         known.add(sy.j)
-    return known - _OF_THE_PLANE if sy.d in own or dimension != 2 else known
+    return known - _OF_THE_PLANE if dimension != 2 else known
 
 
 def _counting(*nodes: sympy.Basic) -> set[sympy.Basic]:

@@ -164,7 +164,7 @@ class Where:
         relations: between whole numbers; all of them hold.
         loading: what is known of loads and forces; None for a statement about geometry alone.
         even: sums of indices that are even, since beads are there: i + j of a bead (i, j).
-        dimension: d of the packing: −1/d < φ < ½; d itself for every one from 2 on.
+        dimension: d of the packing, 2 or 3: −1/d < φ < ½.
         limit: in which the statement holds, and not at finite size; None for most.
     """
 
@@ -172,7 +172,7 @@ class Where:
     relations: tuple[sympy.Basic, ...] = ()
     loading: Loading | None = None
     even: tuple[sympy.Expr, ...] = ()
-    dimension: int | sympy.Symbol = 2
+    dimension: int = 2
     limit: Limit | None = None
     rows: frozenset[Affine] = field(init=False, repr=False)
 
@@ -252,16 +252,6 @@ class Where:
         further = [one for one in more if not domain.implies(one)]
         return domain.also(*further)
 
-    def tightened(self) -> "Where":
-        """The same, with the equations that follow from its inequalities."""
-        tight = (row for row in self.rows if self.nonnegative(affine.times(row, -1)))
-        zero = (sympy.Eq(affine.to_sympy(row), 0, evaluate=False) for row in sorted(tight))
-        return self.also(*(one for one in zero if not self._fixes(one)))
-
-    def _fixes(self, one: sympy.Eq) -> bool:
-        """Whether an equation is one of what ``solved`` puts in."""
-        return bool(sympy.expand(one.lhs.xreplace(self.solved)) == 0)
-
     def put_in(self, image: Mapped, indices: Iterable[sympy.Symbol]) -> "Where":
         """The domain of other indices, in terms of which these are given."""
         relations = tuple(
@@ -281,11 +271,6 @@ class Where:
         relations = tuple(map(lattice.mirrored_relation, self.relations))
         loading = self.loading and self.loading.mirrored()
         return replace(self, relations=relations, loading=loading)
-
-    @property
-    def at_least(self) -> int:
-        """The lowest dimension of its packings."""
-        return 2 if self.dimension == sy.d else int(self.dimension)
 
     # what follows
 
@@ -367,7 +352,7 @@ class Where:
             return base ** (int(expression.exp) % 2) if base else 0
         held = expression.free_symbols & set(sy.INDICES)
         if not held:
-            return sign(expression, dimension=self.at_least)
+            return sign(expression, dimension=self.dimension)
         try:
             value = affine.from_sympy(expression)
         except NotExactError:
@@ -491,6 +476,8 @@ class Where:
 @lru_cache(maxsize=4096)
 def _rows_of(relation: sympy.Basic) -> tuple[Affine, ...]:
     """What is ≥ 0 where a relation between whole numbers holds."""
+    if relation == sympy.true:  # M ≥ 1, of a positive M, when SymPy has evaluated it
+        return ()
     if not isinstance(relation, sympy.Eq | sympy.Le | sympy.Lt | sympy.Ge | sympy.Gt):
         raise NotExactError(f"{relation} is no relation between whole numbers")
     left, right = (affine.from_sympy(sympy.expand(side)) for side in relation.args)

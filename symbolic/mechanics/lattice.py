@@ -3,10 +3,6 @@
 import sympy
 
 from .. import symbols as sy
-from ..symbols import n_x, n_y
-
-N_PLUS = sympy.ImmutableMatrix([n_x, n_y])
-N_MINUS = sympy.ImmutableMatrix([-n_x, n_y])
 
 MIRRORED_SYMBOLS = {
     sy.n_plus: sy.n_minus,
@@ -22,11 +18,6 @@ MIRRORED_FUNCTIONS = {
 }
 
 _HORIZONTAL = (sy.i, sy.k, sy.site_r)
-
-
-def kappa_in(d: sympy.Expr | int) -> sympy.Expr:
-    """κ in d dimensions, the squared length of a reciprocal vector; 1/(1 − φ²) for discs."""
-    return (1 + (d - 2) * sy.phi) / ((1 - sy.phi) * (1 + (d - 1) * sy.phi))
 
 
 def mirror(expression: sympy.Basic) -> sympy.Basic:

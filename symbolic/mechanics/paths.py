@@ -31,6 +31,3 @@ BY_BRANCH = {k: i + 1 + p - n, l: j + 1 + p + n}
 
 IN_CONE = {k: i + p - q, l: j + p + q}
 """The loaded bead (k, l) seen from (i, j), p steps along n⁺ and q along n⁻ below it."""
-
-STEPS_BELOW = {p: ((l - j) + (k - i)) / 2, q: ((l - j) - (k - i)) / 2}
-"""The same the other way round: how many steps along n⁺ and n⁻ lead from (k, l) down to (i, j)."""

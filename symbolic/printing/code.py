@@ -10,7 +10,8 @@ _FUNCTIONS = (*sy.SiteFunction.__subclasses__(), sy.Dot, sy.MatrixTimes)
 _VALUES = (sy.M, sy.z, *sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)
 
 
-def _name(symbol: Symbol) -> str:
+def name_of(symbol: Symbol) -> str:
+    """What a symbol is called in code."""
     return str(getattr(symbol, "in_code", symbol.name))
 
 
@@ -18,7 +19,7 @@ class _SymPySource(StrPrinter):  # type: ignore[misc]
     """SymPy source; ``S(1)/2`` keeps a fraction exact when Python reads it."""
 
     def _print_Symbol(self, expr: Symbol) -> str:
-        return _name(expr)
+        return name_of(expr)
 
     def _print_Rational(self, expr: Rational) -> str:
         return f"S({expr.p})/{expr.q}"
@@ -30,7 +31,7 @@ class _PythonSource(StrPrinter):  # type: ignore[misc]
     printmethod = "_python"
 
     def _print_Symbol(self, expr: Symbol) -> str:
-        return _name(expr)
+        return name_of(expr)
 
     def _print_Function(self, expr: Basic) -> str:
         name = getattr(expr, "in_code", type(expr).__name__)
@@ -72,8 +73,8 @@ def python_source(name: str, doc: str, expr: Basic) -> str:
     """
     expr = rebuilt(expr)
     free = expr.free_symbols
-    values = [_name(symbol) for symbol in dict.fromkeys(_VALUES) if symbol in free]
-    others = sorted(_name(symbol) for symbol in free if symbol not in _VALUES)
+    values = [name_of(symbol) for symbol in dict.fromkeys(_VALUES) if symbol in free]
+    others = sorted(name_of(symbol) for symbol in free if symbol not in _VALUES)
     used = {type(atom) for atom in expr.atoms(*_FUNCTIONS)}
     calls = [kind.in_code for kind in _FUNCTIONS if kind in used]
     body = _PythonSource().doprint(expr)

@@ -8,6 +8,7 @@ that no line is overfull, which the compilation of the document checks.
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import partial
+from itertools import zip_longest
 
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 
@@ -354,11 +355,69 @@ def latex_body(
         found = [[f"&{one[0].replace('&', '', 1)}", *one[1:]] for one in found]
     lines = [line for one in found for line in one]
     left_over = room - max(float(width(line.split("&")[0])) for line in lines) - 22
-    said = pack([(piece, float(width(piece))) for piece in below], left_over, left_over)
-    lines += [rf"&\quad {line}" for line in said]
+    lines += [rf"&\quad {line}" for line in _packed(below, left_over)]
     if len(lines) == 1:
         return re.sub(r"^&| &(?==|\\[a-z]+ )", lambda found: found[0][:-1], lines[0], count=1)
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
+
+
+Case = tuple[Basic, Sequence[str]]
+"""A formula, and in pieces of LaTeX where it holds."""
+
+
+def latex_cases(
+    left: Basic, factor: Basic, rows: Sequence[Case], below: Sequence[str], room: float
+) -> str:
+    """Formulas of one quantity, times a factor, each beside or above where it holds.
+
+    ``below``: pieces of LaTeX for where they hold together.
+    """
+    printer = PaperLatex()
+    scale = "" if factor == 1 else rf" {printer.doprint(factor)} \times"
+    head = f"{printer.doprint(left)} ="
+    alone = width(head + scale) > room / 3
+    left_over = room - 16 - (20 if alone else width(head + scale))
+    body = " \\\\[3pt]\n".join(" \\\\\n".join(lines) for lines in _laid_out(rows, left_over))
+    cases = f"\\begin{{cases}}\n{body}\n\\end{{cases}}"
+    lines = [f"&{head}{scale}", rf"&\quad {cases}"] if alone else [f"{head[:-1]}&={scale} {cases}"]
+    lines += [rf"&\quad {line}" for line in _packed(below, room - 30)]
+    return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
+
+
+def _laid_out(rows: Sequence[Case], room: float) -> list[list[str]]:
+    """The lines of each row; where it holds stands beside it, or below if that is shorter."""
+    places = [_packed(where, 0.4 * room) for _, where in rows]
+    rest = room - 20 - max(width(line) for place in places for line in place)
+    below = [
+        [*_lines(one, room), *(rf"\quad {line}" for line in _packed(where, room - 10))]
+        for one, where in rows
+    ]
+    if rest < 0.4 * room:
+        return below
+    beside = [
+        [f"{line} & {at}" for line, at in zip_longest(_lines(one, rest), place, fillvalue="")]
+        for (one, _), place in zip(rows, places, strict=True)
+    ]
+    return min((beside, below), key=lambda layout: sum(map(len, layout)))
+
+
+def _lines(formula: Basic, room: float) -> list[str]:
+    first, *others = (line.removeprefix("&") for line in latex_lines(formula, room=room - 10))
+    return [first, *(rf"\quad {line}" for line in others)]
+
+
+def _packed(pieces: Iterable[str], room: float) -> list[str]:
+    parts = [part for one in pieces for part in _in_parts(one, room)]
+    pieces = [line for part in parts for line in folded(part, room)]
+    return pack([(piece, float(width(piece))) for piece in pieces], room, room)
+
+
+def _in_parts(piece: str, room: float) -> list[str]:
+    """A chain of relations, before each of its signs but the first where it is too wide."""
+    if width(piece) <= room:
+        return [piece]
+    first, *others = re.split(r" (?=\\leq )", piece)
+    return [" ".join([first, *others[:1]]), *others[1:]]
 
 
 def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> list[str]:

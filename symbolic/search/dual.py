@@ -1,15 +1,9 @@
-"""Dual numbers a + bε with ε² = 0 over fractions, and vectors of two of them.
+"""Dual numbers a + bε with ε² = 0 over fractions, and vectors of two of them."""
 
-The slope b is a number, for deviations of the radii that are drawn, or the weights of all radii.
-"""
-
-from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Union
 
 Number = Fraction | int
-Slope = Union[Number, "Weights"]
 
 _LONGEST = 20_000  # bits of a numerator or denominator; what is longer would take for ever
 
@@ -18,66 +12,12 @@ class TooLargeError(ValueError):
     """A number or a packing is larger than what is computed here."""
 
 
-class NotOfRadiiError(ValueError):
-    """A quantity changes with something else than the radii."""
-
-
-class Weights:
-    """What the deviation of each radius is multiplied by; those left out by zero."""
-
-    __slots__ = ("by_site",)
-
-    def __init__(self, by_site: Mapping[tuple[int, int], Number]) -> None:
-        self.by_site = {site: weight for site, weight in by_site.items() if weight}
-
-    def __add__(self, other: Slope) -> "Weights":
-        if not isinstance(other, Weights):
-            if other:
-                raise NotOfRadiiError("it changes with what is no radius")
-            return self
-        total = dict(self.by_site)
-        for site, weight in other.by_site.items():
-            total[site] = total.get(site, 0) + weight
-        return Weights(total)
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Slope) -> "Weights":
-        return self + -other
-
-    def __rsub__(self, other: Slope) -> "Weights":
-        return -self + other
-
-    def __neg__(self) -> "Weights":
-        return self * -1
-
-    def __mul__(self, factor: Number) -> "Weights":
-        return Weights({site: weight * factor for site, weight in self.by_site.items()})
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, divisor: Fraction) -> "Weights":
-        return self * (1 / divisor)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Weights) and self.by_site == other.by_site
-
-    __hash__ = None  # type: ignore[assignment]
-
-    def __bool__(self) -> bool:
-        return bool(self.by_site)
-
-    def times(self, other: "Weights") -> Number:
-        """Σ of the products of both weights of each radius."""
-        return sum(w * other.by_site[at] for at, w in self.by_site.items() if at in other.by_site)
-
-
 class Dual:
     """a + bε: what a quantity is to first order in the disorder."""
 
     __slots__ = ("slope", "value")
 
-    def __init__(self, value: Number, slope: Slope = 0) -> None:
+    def __init__(self, value: Number, slope: Number = 0) -> None:
         self.value = value
         self.slope = slope
 
@@ -91,7 +31,7 @@ class Dual:
         return Dual(-self.value, -self.slope)
 
     def __mul__(self, other: "Dual") -> "Dual":
-        slope: Slope = self.value * other.slope if other.slope else 0
+        slope: Number = self.value * other.slope if other.slope else 0
         if self.slope:
             slope += self.slope * other.value
         return Dual(_short(self.value * other.value), slope)
@@ -138,9 +78,7 @@ class Dual:
         return f"{self.value} + ({self.slope})ε"
 
 
-def _bits(number: Slope) -> int:
-    if isinstance(number, Weights):
-        return max(map(_bits, number.by_site.values()))
+def _bits(number: Number) -> int:
     return number.numerator.bit_length() + number.denominator.bit_length()
 
 

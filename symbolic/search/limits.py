@@ -35,8 +35,7 @@ _SHARE = Fraction(1, 10**30)  # of what is of a lower order, far less is left at
 _LOW = Fraction(1, 3)
 
 Place = Mapping[sympy.Symbol, Fraction]
-_OTHERS = {sy.sigma: Fraction(3, 7), sy.r: Fraction(7, 3), sy.t: Fraction(21, 55),
-           sy.tau_1: Fraction(31, 15), sy.tau_2: Fraction(541, 225)}  # fmt: skip
+_OTHERS = {sy.sigma: Fraction(3, 7), sy.r: Fraction(7, 3), sy.t: Fraction(21, 55)}
 
 
 def _geometries(candidate: sympy.Expr) -> Iterator[explicit.Values]:
@@ -79,18 +78,17 @@ def _shown(number: Fraction) -> str:
 
 
 def parts_in_the_limit(
-    exact: sympy.Expr, candidate: sympy.Expr, places: tuple[Place, ...], dimension: int = 2
+    exact: sympy.Expr, candidate: sympy.Expr, places: tuple[Place, ...]
 ) -> str | None:
     """Where the candidate has no value, or its share of difference from ``exact`` stays.
 
-    Each place gives the symbols that grow, as multiples of one size; in ``dimension`` d, φ is
-    above −1/d. Nothing is found for what is no rational function.
+    Each place gives the symbols that grow, as multiples of one size. Nothing is found for what is
+    no rational function.
     """
     digits = _size(MOST_DIGITS, exact, candidate)
     if digits is None or not _is_rational(candidate):
         return None
-    geometries = [one for one in _geometries(candidate) if one[sy.phi] * dimension > -1]
-    for (a, geometry), (b, place) in product(enumerate(geometries), enumerate(places)):
+    for (a, geometry), (b, place) in product(enumerate(_geometries(candidate)), enumerate(places)):
         if min(a, b) > 1:
             continue  # every φ at two places, and every place at two φ
         shares = []

@@ -8,17 +8,14 @@ a loading leaves open, loads and forces from above alike, is drawn, so that noth
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache
 
 from .dual import (
     NOWHERE,
     ZERO,
     Dual,
-    Number,
-    Slope,
     TooLargeError,
     Vector,
-    Weights,
 )
 
 Site = tuple[int, int]
@@ -77,29 +74,18 @@ class Geometry:
     Attributes:
         n: (n_x, n_y) of the ordered contacts, rational.
         radius: r.
-        one_by_one: whether slopes are the weights of all radii, instead of radii being drawn.
     """
 
     n: tuple[Fraction, Fraction]
     radius: Fraction
-    one_by_one: bool = False
     _positions: dict[Site, Vector] = field(default_factory=dict, repr=False, compare=False)
     _directions: dict[tuple[Branch, int, int], Vector] = field(
         default_factory=dict, repr=False, compare=False
     )
 
-    @cached_property
-    def by_radius(self) -> "Geometry":
-        """The same, with the weights of all radii as slopes."""
-        return Geometry(self.n, self.radius, one_by_one=True)
-
-    def deviation(self, across: int, layer: int) -> Slope:
-        """δr of a bead."""
-        return Weights({(across, layer): 1}) if self.one_by_one else drawn(across, layer)
-
     def radius_of(self, across: int, layer: int) -> Dual:
         """Radius of a bead."""
-        return Dual(self.radius, self.deviation(across, layer))
+        return Dual(self.radius, drawn(across, layer))
 
     def ordered(self, across: int, layer: int) -> Vector:
         """Position of a bead of the ordered packing: touching ones are 2r apart along n^±."""
@@ -153,14 +139,12 @@ class Given:
         force: force of such a contact.
         load: load on a bead up to this layer; above it the load is what balances the bead.
         surface: the layer above which there is no bead, if there is one.
-        place: the one bead that carries a load, if there is one.
     """
 
     top: int
     force: Callable[[Branch, int, int], Dual]
     load: Callable[[int, int], Vector]
     surface: int | None = None
-    place: Site | None = None
 
 
 def _any_force(branch: Branch, across: int, layer: int) -> Dual:
@@ -227,9 +211,7 @@ def given(
         if name == "point":
             down = Vector(ZERO, Dual(-f_load))
             here = (place[0], place[1])
-            return Given(
-                here[1], lambda *_: ZERO, lambda *at: down if at == here else NOWHERE, place=here
-            )
+            return Given(here[1], lambda *_: ZERO, lambda *at: down if at == here else NOWHERE)
         if name == "entering":
             entry = (place[0] - 1, place[1] - 1)
             return Given(
@@ -254,8 +236,7 @@ def _mirrored(made: Given) -> Given:
         straight = made.load(-across, layer)
         return Vector(-straight.x, straight.y)
 
-    place = made.place and (-made.place[0], made.place[1])
-    return replace(made, force=force, load=load, place=place)
+    return replace(made, force=force, load=load)
 
 
 @dataclass(frozen=True)
@@ -265,13 +246,6 @@ class Packing:
     geometry: Geometry
     given: Given
     _below: dict[Site, tuple[Dual, Dual]] = field(default_factory=dict, repr=False, compare=False)
-    moments: dict[object, Number] = field(default_factory=dict, repr=False, compare=False)
-    """What moments were found to be, by what they are of and the values of its symbols."""
-
-    @cached_property
-    def by_radius(self) -> "Packing":
-        """The same, with the weights of all radii as slopes."""
-        return Packing(self.geometry.by_radius, self.given)
 
     def beads(self) -> int:
         """How many beads have been laid or balanced so far."""
@@ -331,9 +305,9 @@ class Packing:
         """
         self._look_for(across, layer)
         if kind == "DeltaR":
-            return Dual(0, self.geometry.deviation(across, layer))
+            return Dual(0, drawn(across, layer))
         if kind == "SecondDifference":
-            left, here, right = (self.geometry.deviation(across + by, layer) for by in (-2, 0, 2))
+            left, here, right = (drawn(across + by, layer) for by in (-2, 0, 2))
             return Dual(0, 2 * here - left - right)
         if kind == "Position":
             return self.geometry.ordered(across, layer)

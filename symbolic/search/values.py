@@ -12,15 +12,12 @@ import sympy
 
 from .. import symbols as sy
 from ..printing.text import text
-from . import quadratic
 from .dual import (
     NOWHERE,
     ZERO,
     Dual,
-    NotOfRadiiError,
     Number,
     Vector,
-    Weights,
 )
 from .packing import AbsentError, Packing
 
@@ -128,79 +125,7 @@ class Evaluator:
             a, b, c, d = map(self._number, node.args[:4])
             v = self._vector(node.args[4])
             return Vector(a * v.x + b * v.y, c * v.x + d * v.y)
-        if isinstance(node, sy.Moment):
-            return Dual(self._moment(node))
         raise UnreadableError(f"{type(node).__name__} is not evaluated")
-
-    def _moment(self, node: sy.Moment) -> Number:
-        """A moment over radii of variance σ², by the weight of each; the packing keeps it."""
-        at = node, tuple(self.numbers.items())
-        known = self.packing.moments.get(at)
-        if known is None:
-            known = self.packing.moments[at] = self._over_radii(node)
-        return known
-
-    def _over_radii(self, node: sy.Moment) -> Number:
-        if isinstance(node, sy.Shift):
-            return self._shift(node.args[0]) * self._plain(sy.sigma) ** 2
-        each = Evaluator(self.packing.by_radius, self.numbers, self.budget)
-        try:
-            values = [each._number(argument) for argument in node.args]
-        except NotOfRadiiError as reason:
-            raise UnreadableError(f"{_brief(node)} has no value: {reason}") from None
-        if isinstance(node, sy.Mean):
-            return values[0].value
-        first, last = values[0].slope, values[-1].slope
-        if not (isinstance(first, Weights) and isinstance(last, Weights)):
-            if first and last:
-                raise UnreadableError(f"{_brief(node)} changes with what is no radius")
-            return 0
-        self._spend(len(first.by_site))
-        return first.times(last) * self._plain(sy.sigma) ** 2
-
-    def _shift(self, inside: sympy.Expr) -> Number:
-        """The mean at second order of what is linear in forces or displacements, σ = 1."""
-        moved = {one for one in inside.atoms(sy.Dot) if isinstance(one.args[1], sy.DeltaX)}
-        names = {one: sympy.Dummy() for one in (*inside.atoms(*sy.TURNS), *moved)}
-        turned = {
-            sy.n_y + sy.Dot(sy.e_y, sy.TURNS[type(one)](*one.args)): sympy.Dummy()
-            for one in names
-            if one not in moved
-        }
-        vertical = dict(zip(names, turned.values(), strict=False))  # forces come first
-        linear = inside.replace(
-            lambda one: isinstance(one, sympy.Add) and one.func(*one.args) in turned,
-            lambda one: turned[one.func(*one.args)],
-        ).xreplace(names)
-        if linear.has(sy.SiteFunction):
-            raise UnreadableError(f"the mean of {_brief(inside)} at second order")
-        total: Number = 0
-        for one, name in names.items():
-            upright = vertical.get(one, sympy.Dummy())
-            slope = sympy.expand(sympy.diff(linear, name))
-            parts = slope.coeff(upright, 0), slope.coeff(upright, 1)
-            if slope != sympy.expand(parts[0] + parts[1] * upright) or any(
-                part.has(*names.values(), *turned.values()) for part in parts
-            ):
-                raise UnreadableError(f"{_brief(inside)} is not linear")
-            for part, of_push in zip(parts, (False, True), strict=True):
-                if part:
-                    total += self._plain(part) * self._second_order(one, of_push)
-        return total
-
-    def _second_order(self, one: sympy.Expr, vertical: bool) -> Number:
-        geometry, given = self.packing.geometry, self.packing.given
-        n, radius = geometry.n, geometry.radius
-        self._spend(A_BEAD * quadratic.HIGHEST**2)
-        if isinstance(one, sy.Dot):
-            layer = self._index(one.args[1].args[1])
-            x, y = quadratic.displacement(n, radius, given, layer)
-            found = self._vector(one.args[0]).dot(Vector(Dual(x), Dual(y))).value
-            return found
-        branch = 1 if isinstance(one, sy.ForcePlus) else -1
-        across, layer = map(self._index, one.args)
-        self.packing.quantity(type(one).__name__, across, layer)  # it is there
-        return quadratic.forces(n, radius, given, branch, (across, layer), vertical)
 
     def _spend(self, reads: int) -> None:
         self.budget.left -= reads

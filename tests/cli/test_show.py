@@ -1,5 +1,6 @@
 """``show`` and ``list``: true to the derivations."""
 
+import json
 import re
 import subprocess
 import sys
@@ -12,12 +13,12 @@ from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.structure import rebuilt
+from force_diffusion.symbolic.printing.text import text
 
 from force_diffusion.__main__ import main
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = list(modules())
-EXACT = [(number, place) for number in NUMBERS for place in (load(number).exact or dict)()]
 
 
 def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -91,38 +92,28 @@ def test_python_source_is_python(capsys: pytest.CaptureFixture[str], number: int
     compile(shown(capsys, str(number), "--as", "python"), "shown", "exec")
 
 
-@pytest.mark.long(sample=70)
-@pytest.mark.parametrize(("number", "place"), EXACT)
-def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int, place: str) -> None:
-    exact_forms = load(number).exact
-    assert exact_forms is not None
-    form = exact_forms()[place]
-    arguments = [str(number), "--exact", "--at-j", place]
-    source = shown(capsys, *arguments, "--as", "sympy")
-    assert source.count("\n") == 1
-    known = {"M", "N", "i", "j", "k", "l", "q", "t", "phi", "sigma", "r", "S", "Sum", "tau_"}
-    assert set(re.findall(r"[A-Za-z_]+", source)) <= known
-    assert sympy.expand(eval(source, names()) - form.expression) == 0
-
+@pytest.mark.long(sample=8)
+@pytest.mark.parametrize("number", [number for number in NUMBERS if load(number).exact])
+def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int | str) -> None:
+    """SymPy source, Python source, JSON and text are those of the closed forms."""
+    forms = load(number).exact_forms
+    sources = shown(capsys, str(number), "--exact", "--as", "sympy").split("\n\n")
     scope: dict[str, object] = {}
-    exec(shown(capsys, *arguments, "--as", "python"), scope)
-    (function,) = (value for name, value in scope.items() if name != "__builtins__")
-    values: dict[str, int | Fraction] = {"M": 9, "i": 1, "j": 4, "k": 3, "l": 12, "q": 5, "N": 7}
-    values |= {"t": Fraction(5, 3), "tau_1": Fraction(7, 4), "tau_2": Fraction(9, 5)}
-    values |= {"phi": Fraction(7, 25), "sigma": Fraction(1, 3), "r": Fraction(2)}
-    code = function.__code__  # type: ignore[attr-defined]
-    taken = code.co_varnames[: code.co_argcount]
-    found = function(**{name: values[name] for name in taken})  # type: ignore[operator]
-    exact = form.expression.xreplace(
-        {getattr(sy, name): sympy.Rational(values[name]) for name in taken}
-    ).doit()
-    assert isinstance(found, Fraction)
-    assert sympy.Rational(found) == exact
-
-    text = shown(capsys, *arguments)
-    assert form.validity in text
-    for missed in form.missed:
-        assert f"{missed.where}: " in text
+    exec(shown(capsys, str(number), "--exact", "--as", "python"), scope)
+    functions = [value for name, value in scope.items() if name != "__builtins__"]
+    texts = shown(capsys, str(number), "--exact")
+    data = json.loads(shown(capsys, str(number), "--as", "json"))["equations"][0]["exact"]
+    assert list(data) == list(forms)
+    for (name, form), source, function in zip(forms.items(), sources, functions, strict=True):
+        assert form.decide(eval(source, names())).verdict == "proved"
+        assert f"Eq. {number}, {name}: {form}\n" in f"{texts}\n"
+        assert [one["domain"] for one in data[name]] == [one.domain for one in form.pieces]
+        assert [one["text"] for one in data[name]] == [text(one.expr) for one in form.pieces]
+        values = {"M": 9, "i": 1, "j": 3, "k": 2, "l": 6, "p": 2, "N": 3}
+        values |= {"t": Fraction(5, 3), "t_2": Fraction(7, 4), "t_3": Fraction(9, 5)}
+        values |= {"phi": Fraction(7, 25), "sigma": Fraction(1, 3), "r": Fraction(2)}
+        given = {one: values[one] for one in form.symbols}
+        assert float(function(**given)) == pytest.approx(float(form.at(**given)), rel=1e-14)  # type: ignore[operator]
 
 
 def test_a_theorem_is_all_its_equations(capsys: pytest.CaptureFixture[str]) -> None:
@@ -131,8 +122,3 @@ def test_a_theorem_is_all_its_equations(capsys: pytest.CaptureFixture[str]) -> N
     places = [text.index(f"{title}\n") for title in titles]
     assert places == sorted(places)
     assert text.count("A case of theorem T4: mean positions and forces, to second order") == 5
-
-
-def test_interior_is_the_default(capsys: pytest.CaptureFixture[str]) -> None:
-    plain = shown(capsys, "13", "--exact", "--as", "sympy")
-    assert plain == shown(capsys, "13", "--exact", "--as", "sympy", "--at-j", "interior")

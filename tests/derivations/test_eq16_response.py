@@ -8,7 +8,6 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-import sympy
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq16_response as eq16
@@ -18,10 +17,9 @@ from force_diffusion.derivations.export import terminal
 from force_diffusion.derivations.export.document import statement_latex
 from force_diffusion.derivations.export.terminal import statement_text
 from force_diffusion.derivations.framework import runner
-from force_diffusion.derivations.framework.grounds import exhausting, moment
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Line
-from force_diffusion.derivations.framework.record import Check, Piece
+from force_diffusion.derivations.framework.record import Check
 from force_diffusion.derivations.framework.vocabulary import UNIT
 from force_diffusion.derivations.parts import cone
 from force_diffusion.numeric import closed_forms
@@ -29,8 +27,6 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
-from force_diffusion.symbolic.kernel.where import Where
 from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Rational
@@ -39,7 +35,6 @@ from tests.soundness.witnesses.draws import DIRECTIONS, draw
 from tests.soundness.witnesses.squared_weights import weights_below_a_load
 
 ONE = Fraction(1)
-CASES = (eq16.BY_LAYERS, eq16.BY_STEPS)
 cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000)
 
 
@@ -80,58 +75,15 @@ def test_bead_forms_are_sums_of_squared_weights(j: int, p: int, q: int, phi: int
     assert closed_forms.bead_response(*site, Fraction(values[sy.phi]), ONE, ONE) == total
 
 
-FORMS = [
-    *((cone.INSIDE, piece, eq16.RESPONSE, UNIT / 4) for piece in cone.BEAD),
-    *((cone.INSIDE, piece, eq16.ONE_CONTACT, UNIT / 4) for piece in cone.CONTACT),
-    *((cone.LEFT_LEG, piece, eq16.ON_LEG, UNIT / 4) for piece in cone.LEG),
-    *((cone.LEFT_LEG, piece, eq16.LEG_MAGNITUDE, UNIT) for piece in cone.LEG_FORCE),
-]
+STEPS = [step for step in eq16.steps() if step.formula.has(*eq16.MEANING) and step.relation == "="]
 
 
-@pytest.mark.parametrize(
-    ("whole", "piece", "quantity", "unit"), FORMS, ids=lambda one: getattr(one, "where", "")
-)
-def test_a_wrong_closed_form_is_found(
-    whole: Where, piece: Piece, quantity: sympy.Symbol, unit: sympy.Expr
-) -> None:
-    (where,) = cone.domains(whole, [piece])
-    rule = moment(cone.FORCES, eq11.IN_RADII, whole=whole, cases=CASES[whole == cone.INSIDE])
-    line = Line("", equation(quantity, piece.expression * unit), rule, where, eq16.MEANING)
-    assert line.verdict is Verdict.PROVED
+@pytest.mark.parametrize("step", STEPS, ids=lambda step: str(step.number))
+def test_a_wrong_closed_form_is_found(step: Line) -> None:
+    left, right = step.formula.args
     for change in (Rational(1), sy.phi / 10**6, sy.j, sy.phi * sy.l):
-        if change.xreplace(piece.at) == 0:
-            continue
-        wrong = equation(quantity, (piece.expression + change) * unit)
-        assert line.rule_on(0, wrong).verdict is Verdict.REFUTED, change
-
-
-@pytest.mark.parametrize("pieces", [cone.BEAD, cone.CONTACT, cone.LEG, cone.LEG_FORCE])
-def test_a_closed_form_left_out_is_noticed(pieces: tuple[Piece, ...]) -> None:
-    """Without one of the forms the claim that they are all of them is not proved."""
-    whole = cone.INSIDE if pieces in (cone.BEAD, cone.CONTACT) else cone.LEFT_LEG
-    rule = moment(cone.FORCES, eq11.IN_RADII, whole=whole)
-    for left_out in pieces:
-        rest = [piece for piece in pieces if piece != left_out]
-        by = exhausting(whole, cone.domains(whole, rest), rule)
-        with pytest.raises(NotProvedError, match="leave something out"):
-            by.rule(())
-    exhausting(whole, cone.domains(whole, pieces), rule).rule(())
-
-
-def test_closed_forms_hold_at_one_site_each() -> None:
-    """The kernel's domains, and the order in which a number is looked up, say the same."""
-    for j, p, q in np.ndindex(6, 6, 6):
-        at = {sy.i: 0, sy.j: j, sy.p: p + 1, sy.q: q + 1}
-        at |= {sy.k: p - q, sy.l: j + p + q + 2}
-        for pieces in (cone.BEAD, cone.CONTACT):
-            first = next(one for one in pieces if one.at.items() <= at.items())
-            wheres = zip(pieces, cone.domains(cone.INSIDE, pieces), strict=True)
-            assert [one for one, where in wheres if where.holds(at)] == [first]
-        at |= {sy.k: p + 1, sy.l: j + p + 1}
-        for pieces in (cone.LEG, cone.LEG_FORCE):
-            first = next(one for one in pieces if one.at.items() <= at.items())
-            wheres = zip(pieces, cone.domains(cone.LEFT_LEG, pieces), strict=True)
-            assert [one for one, where in wheres if where.holds(at)] == [first]
+        wrong = equation(left, right + change * UNIT)
+        assert step.rule_on(0, wrong).verdict is Verdict.REFUTED, change
 
 
 def test_the_branch_is_that_of_equation_10() -> None:

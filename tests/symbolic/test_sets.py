@@ -71,9 +71,7 @@ def test_a_union_is_the_same_in_disjoint_parts_and_joined(first, second):
 def test_a_projection_leaves_out_one_symbol(given_relations):
     shadow = {(a, c) for a, _, c in expected(given_relations)}
     flat = sets.without(sets.where(*given_relations, *IN_BOX), j)
-    assert points_of(flat) == {
-        (a, b, c) for a, b, c in BOX if (a, c) in shadow
-    }
+    assert points_of(flat) == {(a, b, c) for a, b, c in BOX if (a, c) in shadow}
 
 
 @given(several, forms)
@@ -147,3 +145,14 @@ def _form(row):
 def test_what_is_no_whole_affine_form_is_refused(form):
     with pytest.raises(NotExactError):
         sets.where(Ge(form, 0, evaluate=False))
+
+
+def test_points_far_apart_are_not_joined_to_a_line() -> None:
+    apart = [sets.where(sympy.Eq(i, n, evaluate=False), sympy.Eq(j, 3 * n, evaluate=False))
+             for n in (0, 1)]  # fmt: skip
+    together = [sets.where(sympy.Eq(i, n, evaluate=False), sympy.Eq(j, n, evaluate=False))
+                for n in (0, 1)]  # fmt: skip
+    assert len(sets.parts(sets.joined(apart))) == 2
+    assert len(sets.parts(sets.joined(together))) == 1
+    both = sets.joined(apart)
+    assert all(one.is_subset(both) for one in apart)

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.symbols import M, j
+from force_diffusion.symbolic.symbols import j
 from force_diffusion.symbolic.weights import Weights
 from hypothesis import given
 from hypothesis import strategies as st
@@ -13,9 +13,7 @@ from sympy import Eq
 
 from .test_sets import BOX, HIGH, IN_BOX, LOW, SYMBOLS, expected, forms, points_of, several, value
 
-functions = st.builds(
-    lambda a, b, n: FIELD.from_sympy(a * b**n), forms, forms, st.integers(0, 2)
-)
+functions = st.builds(lambda a, b, n: FIELD.from_sympy(a * b**n), forms, forms, st.integers(0, 2))
 pieces = st.lists(st.tuples(several, functions), max_size=3)
 RANGE = range(LOW, HIGH + 1)
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.symbolic.algebra.exact import NotExactError
 
 import force_diffusion as fd
 
@@ -25,9 +26,13 @@ def test_every_equation(number: Any) -> None:
     assert str(again(found)) == str(found)
     assert again(found).latex() == found.latex()
     assert again(load(number)) is load(number)
-    for case in found.cases:
-        form = found.exact(case)
-        assert (again(form).latex(), again(form).case) == (form.latex(), case)
+    for form in map(found.exact, found.forms):
+        copy = again(form)
+        assert (str(copy), copy.latex()) == (str(form), form.latex())
+        assert copy.decide(form.expr).verdict == "proved"
+        if form.facts:
+            with pytest.raises(NotExactError):
+                _ = copy.theorems
 
 
 def test_proofs_and_steps() -> None:
@@ -40,13 +45,11 @@ def test_proofs_and_steps() -> None:
     assert again(ruling) == ruling
 
 
-@pytest.mark.parametrize("case", [None, "base"])
-def test_a_function_goes_to_other_processes(case: str | None) -> None:
+def test_a_function_goes_to_other_processes() -> None:
     equation = fd.equation(13)
-    function = (equation.exact(case) if case else equation).function()
+    function = equation.function()
     found = again(function)
-    given = {"M": np.array([3, 10]), "phi": 0.1, "sigma": 0.01, "r": 1}
-    given |= {} if case else {"z": 0.5}
+    given = {"M": np.array([3, 10]), "z": 0.5, "phi": 0.1, "sigma": 0.01, "r": 1}
     assert np.array_equal(found(**given), function(**given))
     assert inspect.signature(found) == inspect.signature(function)
     assert inspect.getdoc(found) == inspect.getdoc(function)

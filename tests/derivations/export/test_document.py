@@ -53,7 +53,7 @@ def test_only_packages_of_the_recommended_set() -> None:
 def test_a_page_may_end_within_a_long_step() -> None:
     text = document([run(load(14))])
     assert r"\allowdisplaybreaks" in text
-    assert max(one.count("\\\\\n") for one in text.split(r"\begin{align*}")) > 10
+    assert max(one.count("\\\\\n") for one in text.split(r"\begin{align*}")) > 3
     assert r"\begin{aligned}" not in text
 
 

@@ -32,20 +32,6 @@ def test_what_fixes_no_other_index_says_nothing_of_them() -> None:
     assert where.without(()) == where
 
 
-@pytest.mark.parametrize("where", DOMAINS, ids=str)
-def test_a_tightened_domain_is_the_same(where: Where) -> None:
-    part = where.also(sympy.Eq(j, 3))
-    for at in product(range(SIZE), repeat=3):
-        point = dict(zip((M, j, N), at, strict=True))
-        assert part.tightened().holds(point) == part.holds(point)
-
-
-def test_what_inequalities_fix_is_put_in() -> None:
-    where = Where.of(N >= 2, sympy.Le(N, j - 1)).also(sympy.Eq(j, 3))
-    assert where.solved == {j: 3}
-    assert where.tightened().solved == {j: 3, N: 2}
-
-
 def test_a_domain_is_covered_by_many_parts() -> None:
     whole = Where.of(j >= 0, p >= 0, q >= 0)
     choices = [

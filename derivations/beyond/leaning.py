@@ -1,0 +1,205 @@
+"""Eq. B1: the contact forces under a load in any direction, on the surface or on every bead."""
+
+from functools import cache
+
+import sympy
+from force_diffusion.derivations import eq06_force_balance as eq06
+from force_diffusion.derivations import eq08_propagation as eq08
+from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.vocabulary import (
+    SUPPOSED,
+    By,
+    Derivation,
+    Lines,
+    Where,
+    Within,
+    axioms,
+    below,
+    equation,
+    induct,
+    minus,
+    rewrite,
+    terms,
+    times,
+)
+from force_diffusion.symbolic.as_printed import in_place
+from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
+from force_diffusion.symbolic.mechanics.lattice import mirror
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.symbols import (
+    DeltaNMinus,
+    DeltaNPlus,
+    Dot,
+    ForceMinus,
+    ForcePlus,
+    L_minus,
+    L_plus,
+    M,
+    e_x,
+    e_y,
+    f_load,
+    i,
+    j,
+    m,
+    n,
+    n_minus,
+    n_plus,
+    n_x,
+    n_y,
+    phi,
+    t,
+)
+
+WHERE = Where.of(j >= 0, j < M, loading=SURFACE_TILTED)
+IN_BULK = WHERE.loaded(BULK_TILTED)
+RATIO = {L_minus: t * L_plus}
+"""What L⁻ is."""
+
+
+def _along(own: sympy.Expr, turned: sympy.Expr) -> sympy.Add:
+    """Eq. 11: ``own`` comes along n⁺, and of the other branch's load ``turned``/(1 − φ²) turns."""
+    weight = turned / (1 - phi**2)
+    changes = terms(DeltaNMinus(i + n + 1, j + n - 1), minus(DeltaNMinus(i + n, j + n)))
+    return terms(
+        own,
+        times(own * phi / (1 - phi**2), Dot(n_minus, DeltaNPlus(i, j))),
+        minus(times(weight, Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1)))),
+        minus(times(weight, sympy.Sum(Dot(n_plus, changes), (n, 1, M - j - 1)))),
+    )
+
+
+FORCES = (
+    equation(ForcePlus(i, j), _along(L_plus, L_minus)),
+    equation(ForceMinus(i, j), mirror(_along(L_minus, L_plus))),
+)
+BULK = tuple(
+    equation(force, sympy.Sum(value.xreplace({M: m}), (m, j + 1, M)))
+    for force, value in (one.args for one in FORCES)
+)
+"""The same under a load on every bead: as surface loads of all heights m above the contact."""
+
+PRINTED = (
+    equation(ForcePlus(i, j) / L_plus, _along(sympy.S.One, t)),
+    equation(ForceMinus(i, j) / L_minus, mirror(_along(sympy.S.One, 1 / t))),
+)
+SINE, COSINE = (Symbol(name, rf"\{name}\theta", f"{name} θ", real=True) for name in ("sin", "cos"))
+
+
+def _from_the_surface_down(statements: tuple[sympy.Eq, ...], where: Where) -> tuple[By, ...]:
+    """Each of two statements, by induction for both together, balancing bead after bead."""
+    assert where.loading is not None
+    loads = axioms.loads(where.loading)
+    first, step = below(axioms.balance(), loads), below(axioms.balance(), (SUPPOSED, loads))
+    meant = [equation(*(in_place(side, RATIO) for side in one.args)) for one in statements]
+    return tuple(
+        induct(j, M - 1, first, step, down=True, family=((other, where),))
+        for other in reversed(meant)
+    )
+
+
+@cache
+def steps() -> Lines:
+    """From layer to layer down: what enters along n⁺ is L⁺, what turns into it was L⁻."""
+    lines = Lines(WHERE)
+    above = (i + 1, j + 1)
+    passed = lines.show(
+        "Every bead passes on what it carries (Eq. 8 and its mirror image): f⁺ has what came along "
+        "n⁺, and what turns from n⁻, which is of first order,",
+        equation(
+            ForcePlus(i, j),
+            terms(
+                times(ForcePlus(*above), eq08.straight(*above)),
+                times(ForceMinus(*above), eq10.branched_plus(i, j, 1)),
+            ),
+        ),
+        below(axioms.balance(), axioms.loads(SURFACE_TILTED)),
+        where=WHERE.also(j <= M - 2),
+        after=(eq08.DERIVATION, eq10.DERIVATION),
+    )
+    forces = lines.show(
+        "Layer by layer, down from the surface: the changes along n⁺ cancel but for the last, "
+        "and L⁻ turns into f⁺ at each of M − j − 1 beads, as in Eq. 11. f⁻ is the mirror image, "
+        "with L⁺ and L⁻ exchanged:",
+        sympy.Tuple(*FORCES),
+        _from_the_surface_down(FORCES, WHERE),
+        meaning=RATIO,
+        after=(eq06.DERIVATION, eq11.DERIVATION, passed),
+    )
+    lines.show(
+        "Over the mean forces L⁺ and L⁻ of the two:",
+        sympy.Tuple(*PRINTED),
+        rewrite(forces),
+        meaning=RATIO,
+    )
+    lines.show(
+        "Under the same load on every bead each layer m above the contact adds what it does as "
+        "the surface of a packing of the height m:",
+        sympy.Tuple(*BULK),
+        _from_the_surface_down(BULK, IN_BULK),
+        where=IN_BULK,
+        meaning=RATIO,
+        after=(forces,),
+    )
+    lines.claim(
+        "for t = 1 it is Eq. 11",
+        equation(PRINTED[0].rhs.xreplace({t: sympy.S.One}), eq11.PRINTED.rhs),
+        rewrite(),
+        where=WHERE.loaded(None),
+    )
+    scale = f_load / (2 * n_x * n_y)
+    plus, less = n_x * COSINE - n_y * SINE, n_x * COSINE + n_y * SINE
+    lines.claim(
+        "a load f_load at the angle θ from straight down has L⁺ and L⁻ with the signs of n_x cos θ "
+        "∓ n_y sin θ: the ordered packing is compressive for |tan θ| < n_x/n_y, a load within the "
+        "angle of the contacts",
+        equation(
+            terms(times(scale * plus, n_plus), times(scale * less, n_minus)),
+            f_load * (COSINE * e_y - SINE * e_x),
+        ),
+        rewrite(),
+        where=Where(),
+    )
+    return lines
+
+
+UNDER_SURFACE, UNDER_BULK = (Within(steps, place, "Eq. B1") for place in (1, 3))
+"""``FORCES`` and ``BULK`` as they are proved: what the calculator rests on."""
+
+DERIVATIONS: dict[Number, Derivation] = {
+    "B1": Derivation(
+        number="B1",
+        name="any_direction",
+        title="Contact forces under a surface load in any direction",
+        symbols=(
+            (L_plus, "component of the load on each surface bead, −(L⁺n⁺ + L⁻n⁻), along n⁺"),
+            (L_minus, "its component along n⁻"),
+            (t, "L⁻/L⁺; 1 for a vertical load"),
+            (ForcePlus(i, j), "force of the contact from (i, j) to (i+1, j+1)"),
+            (ForceMinus(i, j), "force of the contact from (i, j) to (i−1, j+1)"),
+            (M, "height of the packing in layers above the base"),
+            (n, "layers between the contact and the bead at which a force turns into it"),
+        ),
+        assumptions=(
+            "first order in δr",
+            *WHERE.in_words(),
+            "L⁺ > 0 in the first part, L⁻ > 0 in the second",
+            "no horizontal boundary is met (W > M)",
+        ),
+        premises=tuple(one.DERIVATION for one in (eq06, eq08, eq10, eq11)),
+        printed=PRINTED,
+        steps=steps,
+        where=WHERE,
+        remarks=(
+            "Only the changes along the other branch carry t: what turns into f⁺ is what came "
+            "along n⁻. As L⁻ is taken away, f⁺ stays near L⁺ and feels the tilt of its own contact "
+            "alone.",
+        ),
+    )
+}
+
+if __name__ == "__main__":
+    from force_diffusion.derivations.commands.alone import run_alone
+
+    raise SystemExit(run_alone(DERIVATIONS))

@@ -1,0 +1,190 @@
+"""Eqs. B10, B17 and B18: mean contact stress under loads in any direction, to second order.
+
+S = Σ f ℓ N⊗N over the two contacts above a bead, all over the values of the ordered packing.
+"""
+
+import sympy
+from force_diffusion.derivations.api.closed_form import ClosedForm
+from force_diffusion.derivations.calculator.loads import leaning
+from force_diffusion.derivations.calculator.statistics import force_moment, mean
+from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.layered import UNIT
+from force_diffusion.derivations.framework.rows import (
+    Forms,
+    Row,
+    adds_up_to_zero,
+    equals,
+    is_free_of,
+    leads,
+    turns_positive,
+)
+from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.symbols import (
+    DeltaX,
+    Dot,
+    L_plus,
+    M,
+    e_x,
+    e_y,
+    i,
+    j,
+    n_x,
+    n_y,
+    phi,
+    r,
+    t,
+    z,
+)
+from sympy import Eq
+
+RATIO = Symbol(
+    "stress_ratio",
+    r"\frac{1+\phi}{1-\phi}\,\frac{\langle S_{xx}\rangle}{\langle S_{yy}\rangle}",
+    "(1 + φ)/(1 − φ) ⟨S_xx⟩/⟨S_yy⟩",
+)
+VERTICAL = Symbol("vertical_moment", r"\frac{\langle S_{yy}\rangle}{S_{yy}^{0}}", "⟨S_yy⟩/S⁰_yy")
+BY_FLUX = Symbol(
+    "moment_over_flux",
+    r"\frac{\sigma_{yy}^{\mathrm{moment}}}{\sigma_{yy}^{\mathrm{flux}}}",
+    "σ_yy(moment)/σ_yy(flux)",
+)
+SHEAR, SHEAR_BY_FLUX, AXES = (
+    {
+        load: Symbol(f"{name}_{load}", rf"{latex}_{{\mathrm{{{load}}}}}", f"{words}_{load}")
+        for load in ("surface", "bulk")
+    }
+    for name, latex, words in (
+        ("shear", r"\left(\frac{\langle S_{xy}\rangle}{S_{xy}^{0}}\right)", "(⟨S_xy⟩/S⁰_xy)"),
+        (
+            "shear_over_flux",
+            r"\left(\frac{\sigma_{xy}^{\mathrm{moment}}}{\sigma_{xy}^{\mathrm{flux}}}\right)",
+            "[σ_xy(moment)/σ_xy(flux)]",
+        ),
+        (
+            "axes",
+            r"\left(2 n_{x}n_{y}\,\frac{1-t}{1+t}\operatorname{cot}2\psi\right)",
+            "[2n_x n_y (1−t)/(1+t) cot 2ψ]",
+        ),
+    )
+)
+LAYERS = {"surface": sympy.S.One, "bulk": M - j}
+"""How many layers of load a contact carries."""
+X, Y = e_x / n_x, e_y / n_y
+"""Along both axes, so that (X·n)² and (Y·n)² are 1 in the ordered packing."""
+RISE = Dot(e_y, DeltaX(i + 1, j + 1) - DeltaX(i, j)) / (2 * r * n_y)
+"""How much more than in the ordered packing a contact leads up, over that."""
+
+
+def _over_ordered(
+    first: sympy.Expr, second: sympy.Expr, load: str, carried: sympy.Expr = 1 + t
+) -> sympy.Expr:
+    """A component of S over its ordered value, to which L⁺ + L⁻ or L⁺ − L⁻ contribute."""
+    return force_moment(i, j, first, second) / (2 * r * L_plus * carried * LAYERS[load])
+
+
+def _mean(observable: sympy.Expr, load: str, shown: sympy.Expr) -> ClosedForm:
+    form = mean(observable, order=2, load=leaning(t, load), relative=False)
+    return form.named(shown)
+
+
+def _forms(load: str) -> Forms:
+    xx, yy = _over_ordered(X, X, load), _over_ordered(Y, Y, load)
+    return {
+        "ratio": _mean(xx - yy, load, RATIO - 1),
+        "vertical": _mean(yy, load, VERTICAL - 1),
+        "flux": _mean(yy - RISE, load, BY_FLUX - 1),
+    }
+
+
+def _shear_forms(load: str) -> Forms:
+    xx, yy = _over_ordered(X, X, load), _over_ordered(Y, Y, load)
+    xy = _over_ordered(X, Y, load, 1 - t)
+    turned = (1 + phi) / 2 * yy - (1 - phi) / 2 * xx - phi * xy
+    return {
+        f"shear_{load}": _mean(xy, load, SHEAR[load] - 1),
+        f"flux_{load}": _mean(xy - RISE, load, SHEAR_BY_FLUX[load] - 1),
+        f"axes_{load}": _mean(turned, load, AXES[load] - phi),
+    }
+
+
+def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -> Row:
+    agree = (
+        (f"one layer below the surface both loads agree: {name}",
+         equals(name, ("B10", name), Eq(j, M - 1)))
+        for name in ("ratio", "vertical", "flux")
+    )  # fmt: skip
+    return Row(
+        number=number,
+        name="stress" if load == "surface" else "stress_bulk",
+        title=f"Mean contact stress under a {load} load, to second order",
+        call="mean((force_moment(i, j, e_x, e_x)/n_x**2 - force_moment(i, j, e_y, e_y)/n_y**2)"
+        f"/(2*r*L_plus*(1 + t){'*(M - j)' if load == 'bulk' else ''}), order=2, "
+        f'load=leaning(t, "{load}"), relative=False)',
+        forms=lambda: _forms(load),
+        meaning="The stress ratio depends on the layer and on the kind of load, not on its "
+        "direction, and on no property of the material alone. The contact moment and the vertical "
+        "momentum through a cut differ at order σ²: the latter is fixed by the load, the former "
+        "weighs each contact's momentum with its height.",
+        quantities=(
+            (RATIO, "of mean contact moments of a layer, over the ratio (1−φ)/(1+φ)"),
+            (VERTICAL, "the vertical one over its value in the ordered packing"),
+            (BY_FLUX, "⟨S_yy⟩ over width and mean height of the layer; over load by width"),
+        ),
+        claimed=(
+            ("the leading order of the ratio", leads("ratio", leading * UNIT)),
+            (
+                "it is larger than in the ordered packing above "
+                f"z = {'2φ/(1 + φ)' if load == 'surface' else 'φ'} and smaller below",
+                turns_positive("ratio", z, turns),
+            ),
+            *((f"the load's direction does not count: {name}", is_free_of(name, t))
+              for name in ("ratio", "vertical", "flux")),
+            ("over all layers, weighted as the ordered stress is, moments and flux agree",
+             adds_up_to_zero("flux", j, LAYERS[load])),
+            *(agree if load == "bulk" else ()),
+        ),
+    )  # fmt: skip
+
+
+DERIVATIONS: dict[Number, Row] = {
+    "B10": _stress(
+        "B10", "surface", 4 * M * (z * (1 + phi) - 2 * phi), 2 * phi / (1 + phi)
+    ),
+    "B17": _stress("B17", "bulk", 4 * M * (z - phi), phi),
+    "B18": Row(
+        number="B18",
+        name="shear_stress",
+        title="Mean shear stress under loads in any direction, to second order",
+        call="mean(force_moment(i, j, e_x, e_y)/(2*r*n_x*n_y*L_plus*(1 - t)), order=2, "
+        "load=leaning(t), relative=False)",
+        forms=lambda: {**_shear_forms("surface"), **_shear_forms("bulk")},
+        meaning="The principal axes turn with the height j, whatever M is, and S_xy differs from "
+        "the horizontal momentum through a cut by as much as S_yy from the vertical one, with the "
+        "opposite sign.",
+        quantities=(
+            *((SHEAR[load], f"mean S_xy over that of the ordered packing, {load} load, t ≠ 1")
+              for load in LAYERS),
+            *((SHEAR_BY_FLUX[load], f"S_xy over area; over the flux, {load} load")
+              for load in LAYERS),
+            *((AXES[load], f"ψ: angle of a principal axis of ⟨S⟩ to the vertical, {load} load")
+              for load in LAYERS),
+        ),
+        claimed=(
+            ("the leading order under a surface load",
+             leads("shear_surface", 2 * M * (1 - 3 * z) * UNIT * (1 - phi))),
+            ("the leading order under a bulk load",
+             leads("shear_bulk", M * (1 - 5 * z) * UNIT * (1 - phi))),
+            *((f"the axes turn as −2j (1 − 3φ), in units of (σ/r)²/[(1−φ²)(1+φ)]: {load} load",
+               leads(f"axes_{load}", -2 * M * z * (1 - 3 * phi) * UNIT * (1 - phi)))
+              for load in LAYERS),
+            *((f"they turn the other way for φ > 1/3: {load} load",
+               turns_positive(f"axes_{load}", phi, sympy.Rational(1, 3)))
+              for load in LAYERS),
+            *((f"the load's direction does not count: {name}_{load}",
+               is_free_of(f"{name}_{load}", t)) for name in ("shear", "axes") for load in LAYERS),
+            *((f"moments and flux differ for σ_xy as for σ_yy, with the opposite sign: {load} load",
+               equals(f"flux_{load}", (number, "flux"), factor=-sympy.S.One))
+              for load, number in zip(LAYERS, ("B10", "B17"), strict=True)),
+        ),
+    ),
+}  # fmt: skip

@@ -1,0 +1,260 @@
+"""Observables of the calculator: what may stand in them, and where all that they name exists."""
+
+from collections.abc import Iterable
+from keyword import iskeyword
+from typing import Any
+
+import sympy
+from force_diffusion.symbolic import sets
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError
+from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.printing.text import text
+
+from .loads import PLANE, Load, ObservableError
+
+DISCS = (sy.ForcePlus, sy.ForceMinus, sy.VerticalPlus, sy.VerticalMinus)
+"""Forces of contacts between discs."""
+
+SPHERES = (sy.ForceAlong, sy.VerticalAlong)
+"""Forces of contacts between spheres."""
+
+_BEADS = (sy.DeltaX, sy.DeltaR)
+_PLANAR = (*DISCS, sy.DeltaNPlus, sy.DeltaNMinus, *_BEADS)
+INDICES = (sy.i, sy.j, sy.k, sy.l, sy.p, sy.q, sy.M, sy.N)
+"""Those that a user may write; others are bound in sums."""
+ACROSS = (sy.i, sy.k, sy.p, sy.q)
+"""Those that may lie across the packing."""
+
+_PARAMETERS = (
+    sy.phi, sy.sigma, sy.r, sy.n_x, sy.n_y, sy.f_load, sy.m_g, sy.z,
+    sy.t, sy.t_2, sy.t_3, sy.L_plus, sy.H_M,
+)  # fmt: skip
+NAMED = {symbol.name: symbol for symbol in (*INDICES, *_PARAMETERS, *sy.VECTORS)}
+"""The symbols of ``force_diffusion.symbols``."""
+
+_PLACE = f"whole numbers and {', '.join(map(text, INDICES))}, times whole numbers, may stand there"
+_WRITTEN = "sums, products, whole powers and quotients of rational numbers and symbols are read"
+
+
+def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
+    """An observable, if it holds only what the calculator knows.
+
+    Raises:
+        ObservableError: it holds something else, is a vector, or should be linear and is not.
+    """
+    if isinstance(observable, str):
+        raise ObservableError(
+            f"{observable!r} is text: write it with the symbols of force_diffusion.symbols"
+        )
+    if isinstance(observable, type):
+        raise ObservableError(f"{observable.__name__} is of no bead: write its place, as (i, j)")
+    try:
+        found = sympy.sympify(observable)
+    except sympy.SympifyError:
+        found = None
+    if not isinstance(found, sympy.Expr):
+        raise ObservableError(f"{observable!r} is no SymPy expression")
+    _check_symbols(found)
+    degree, is_vector = _Check(found, dimension, linear).of(found)
+    if is_vector:
+        raise ObservableError(f"{text(found)} is a vector: take a component, as dot(e_y, …)")
+    if linear and degree > 1:
+        raise ObservableError(
+            f"{text(found)} is not linear in what depends on the radii; mean(…, order=2) takes "
+            "products"
+        )
+    return found
+
+
+def _check_symbols(observable: sympy.Expr) -> None:
+    """Refuse symbols that may be taken for others.
+
+    Raises:
+        ObservableError: with what to do.
+    """
+    own: dict[str, sympy.Symbol] = {}
+    for symbol in by_name(observable.free_symbols):
+        ours = NAMED.get(symbol.name)
+        if ours is not None and symbol not in (ours, sy.site_r):
+            raise ObservableError(
+                f"{symbol.name} is another symbol than {symbol.name} of force_diffusion.symbols: "
+                "import it from there, or give yours another name"
+            )
+        if symbol in (sy.z, sy.m, sy.n):
+            instead = "write j/M" if symbol == sy.z else "take another symbol"
+            raise ObservableError(f"{symbol.name} may not stand in an observable: {instead}")
+        if symbol in FIELD.position or symbol in sy.VECTORS:
+            continue
+        if symbol.name in own:
+            raise ObservableError(f"there are two symbols with the name {symbol.name}")
+        if not symbol.is_commutative or not symbol.name.isidentifier() or iskeyword(symbol.name):
+            raise ObservableError(
+                f"{symbol.name}: a constant has to commute, and its name to be one that Python "
+                "takes for an argument"
+            )
+        own[symbol.name] = symbol
+
+
+class _Check:
+    """Looks at all parts of an observable.
+
+    Args:
+        whole: the observable, for messages.
+        dimension: of the packing.
+        linear: whether it has to be linear.
+    """
+
+    def __init__(self, whole: sympy.Expr, dimension: int, linear: bool) -> None:
+        self._whole, self._dimension, self._linear = whole, dimension, linear
+
+    def of(self, part: sympy.Basic) -> tuple[int, bool]:
+        """The degree of a part in what depends on the radii, and whether it is a vector.
+
+        Raises:
+            ObservableError: it is not read.
+        """
+        if isinstance(part, sympy.Rational) and part.is_finite:
+            return 0, False
+        if isinstance(part, sympy.Symbol):
+            return 0, part in sy.VECTORS
+        if isinstance(part, sy.SiteFunction | sy.ForceAlong):
+            self._quantity(part)
+            return 1, getattr(part, "is_vector", False)
+        if isinstance(part, sympy.Add):
+            parts = [self.of(one) for one in part.args]
+            return max(one for one, _ in parts), any(vector for _, vector in parts)
+        if isinstance(part, sympy.Mul):
+            parts = [self.of(one) for one in part.args]
+            return sum(one for one, _ in parts), any(vector for _, vector in parts)
+        if isinstance(part, sy.Dot):
+            return sum(self.of(one)[0] for one in part.args), False
+        if isinstance(part, sy.MeanOver):
+            return self.of(part.args[0])
+        if isinstance(part, sympy.Pow) and isinstance(part.exp, sympy.Integer):
+            return self._power(part.base, int(part.exp))
+        if isinstance(part, sympy.Float):
+            raise ObservableError(f"{part} is a float: write a fraction, as Rational(1, 2)")
+        if self._linear and part.has(sy.SiteFunction, sy.ForceAlong):
+            raise ObservableError(f"{text(part)} is not linear in what depends on the radii")
+        raise ObservableError(
+            f"{text(part)} is not read: {_WRITTEN}; another constant may be a symbol of your own"
+        )
+
+    def _power(self, base: sympy.Expr, exponent: int) -> tuple[int, bool]:
+        degree, is_vector = self.of(base)
+        if is_vector:
+            raise ObservableError(f"{text(base)} is a vector, which has no powers")
+        if degree and exponent < 0:
+            raise ObservableError(f"{text(self._whole)} divides by what depends on the radii")
+        return degree * exponent, False
+
+    def _quantity(self, quantity: sympy.Expr) -> None:
+        shown = text(quantity)
+        if isinstance(quantity, sy.SiteFunction) and not isinstance(quantity, _PLANAR):
+            raise ObservableError(f"{shown} does not depend on the radii, or is not known")
+        if isinstance(quantity, sy.ForceAlong) != (self._dimension != PLANE):
+            kinds = {True: "a force between spheres: give dimension=3",
+                     False: "a quantity of discs: in three dimensions take f_along"}  # fmt: skip
+            raise ObservableError(f"{shown} is {kinds[isinstance(quantity, sy.ForceAlong)]}")
+        place = quantity.args
+        if isinstance(quantity, sy.ForceAlong):
+            axis, *place = place
+            if axis not in (1, 2, 3):
+                raise ObservableError(f"{shown} is along base vector {axis}: 1, 2 and 3 are there")
+        for one in place:
+            try:
+                factors, _ = sets.row(one)
+            except NotExactError:
+                factors = {sy.n: 0}
+            if not {*factors} <= {*INDICES, sy.site_r, sy.site_s}:
+                raise ObservableError(f"{shown} is at {text(one)}: {_PLACE}")
+
+
+def relations_of(where: Any) -> tuple[sympy.Basic, ...]:
+    """Relations of indices, from one or several of them.
+
+    Raises:
+        ObservableError: something else is among them.
+    """
+    found = (where,) if isinstance(where, sympy.Basic | bool) else where
+    try:
+        several = tuple(sympy.sympify(one, strict=True) for one in found)
+        sets.where(*several)
+    except (TypeError, sympy.SympifyError, NotExactError):
+        raise ObservableError(
+            f"where={where!r}: relations between indices are allowed, such as (j >= 2, j < M)"
+        ) from None
+    return several
+
+
+def domain(observables: Iterable[sympy.Expr], load: Load, *more: sympy.Basic) -> Where:
+    """Where all contacts and beads that are named exist, and further relations hold.
+
+    Raises:
+        ObservableError: that is nowhere.
+    """
+    observables = tuple(observables)
+    quantities: set[sympy.Expr] = set()
+    counts: set[sympy.Expr] = set()
+    for one in observables:
+        quantities |= one.atoms(sy.SiteFunction, *SPHERES)
+        counts |= {average.args[1] for average in one.atoms(sy.MeanOver)}
+    forces = any(isinstance(one, (*DISCS, *SPHERES)) for one in quantities)
+    relations = [sympy.Ge(one, 1, evaluate=False) for one in by_name(counts)]
+    for one in by_name(quantities):
+        layer = layer_of(one)
+        relations.append(sympy.Ge(layer, 0, evaluate=False))
+        if forces:
+            top = load.top if isinstance(one, _BEADS) else load.top - 1
+            relations.append(sympy.Le(layer, top, evaluate=False))
+    if sets.where(*relations, *more).is_empty():
+        raise ObservableError("what is named exists nowhere: a layer is too low or too high")
+    relations = [one for one in dict.fromkeys((*relations, *more)) if one.free_symbols]
+    even = [sympy.Add(*one.args) for one in by_name(quantities) if isinstance(one, sy.SiteFunction)]
+    held = set().union(*(one.free_symbols for one in (*relations, *even, *observables)))
+    if forces:
+        held |= set().union(*(one.free_symbols for one in load.loading.place))
+        even += [sy.k + sy.l] if load.loading.place == (sy.k, sy.l) else []
+    return Where(
+        tuple(symbol for symbol in sy.INDICES if symbol in held),
+        tuple(relations),
+        load.loading if forces else None,
+        tuple(_even(even)),
+        dimension=load.dimension,
+    )
+
+
+def layer_of(quantity: sympy.Expr) -> sympy.Expr:
+    """The layer of a bead, or of the bead below a contact."""
+    return sympy.Add(*quantity.args[1:]) if isinstance(quantity, SPHERES) else quantity.args[1]
+
+
+def _even(sums: Iterable[sympy.Expr]) -> list[sympy.Expr]:
+    """What is even where some sums are, with every index across the packing in at most one sum.
+
+    Raises:
+        ObservableError: they are never all even.
+    """
+    odd = [_odd(one) for one in sums]
+    found: list[frozenset[sympy.Symbol]] = []
+    for symbol in (*ACROSS, *sy.INDICES):
+        first = next((one for one in odd if symbol in one), None)
+        if first is not None:
+            odd, found = (
+                [one ^ first if symbol in one else one for one in those] for those in (odd, found)
+            )
+            found.append(first)
+    if any(odd):
+        raise ObservableError(
+            "no packing has all beads that are named: i + j is even for each bead (i, j)"
+        )
+    return [sympy.Add(*one) for one in found]
+
+
+def _odd(form: sympy.Expr) -> frozenset[sympy.Basic]:
+    """The symbols with odd factors in a sum, and the number 1 if it is odd without them."""
+    factors, constant = sets.row(form)
+    symbols = {symbol for symbol, factor in factors.items() if factor % 2}
+    return frozenset(symbols | ({sympy.S.One} if constant % 2 else set()))

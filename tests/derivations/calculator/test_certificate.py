@@ -1,0 +1,219 @@
+"""Every exact form against exact packings, at as many points as its degree asks for.
+
+On each part of its domain a form is, times its divisors, a polynomial of some degree in its
+indices, and so is what it stands for. Two such polynomials are the same if they are at points at
+which no polynomial of that degree but 0 vanishes. The base vectors are fractions of so many digits
+that two functions of φ with shorter factors are the same if they are there.
+"""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from fractions import Fraction
+from functools import cache, cached_property
+from itertools import chain, combinations_with_replacement
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy
+from flint import fmpq
+from force_diffusion.derivations.framework import catalogue
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic import words
+
+import force_diffusion as fd
+from tests.soundness.witnesses.moments import Packing, Spheres, exact
+
+HIGHEST = 16
+"""Of packings that are looked at."""
+FARTHER = 3
+"""Heights at which no point is to be new before there is held to be none."""
+
+Point = dict[sympy.Symbol, int]
+Grid = np.ndarray[Any, np.dtype[np.int64]]
+"""Points, one a row; columns are symbols."""
+
+
+def direction(u: int, v: int) -> tuple[Fraction, Fraction]:
+    """A rational unit vector."""
+    square = u * u + v * v
+    return Fraction(2 * u * v, square), Fraction(u * u - v * v, square)
+
+
+N_XY = direction(2_199_023_255_579, 1_072_694_270_807)
+PHI = N_XY[1] ** 2 - N_XY[0] ** 2
+RATIOS = Fraction(1_000_003, 999_983), Fraction(1_299_709, 1_000_033)
+"""For t, or for t_2 and t_3."""
+NUMBERS = {
+    sy.phi: PHI, sy.r: 1, sy.sigma: 1, sy.t: RATIOS[0], sy.t_2: RATIOS[0], sy.t_3: RATIOS[1],
+    sy.n_y: N_XY[1], sy.L_plus: 1, sy.f_load: 2 * N_XY[1], sy.m_g: 2 * N_XY[1],
+}  # fmt: skip
+
+
+@pytest.mark.long(sample=4)
+@pytest.mark.parametrize("number", catalogue.modules())
+def test_exact_forms(number: int | str) -> None:
+    equation = fd.equation(number)
+    for name in equation.forms:
+        certify(name, equation.exact(name))
+
+
+def certify(name: str, form: fd.ClosedForm) -> int:
+    """Compare a form with exact packings on each part of its domain, and count the points."""
+    places, count = Places(form), 0
+    true = truth(name, form)
+    for formula in form.formulas:
+        for part in formula.where:
+            points = list(places.telling_apart(part))
+            assert points, f"{name}: no packing is small enough for {words.in_words(part)}"
+            for at in points:
+                stated = form.value({s: sympy.Rational(n) for s, n in {**NUMBERS, **at}.items()})
+                assert exact(stated) == true(at), f"{name} at {at}"
+            count += len(points)
+    return count
+
+
+def truth(name: str, form: fd.ClosedForm) -> Callable[[Point], fmpq]:
+    """What a form stands for, in an exact packing."""
+    loading = form.where.loading.name if form.where.loading else "surface"
+    load = next(kind for kind in ("surface", "bulk", "point") if loading.startswith(kind))
+    order = 2 if form.meant.has(sy.Shift) else 1
+
+    def packing(at: Point) -> Packing | Spheres:
+        numbers: dict[sympy.Symbol, Any] = {sy.i: at.get(sy.j, 0) % 2, **at}
+        height = at[sy.l] if load == "point" else at.get(sy.M, at.get(sy.j, 0) + 1)
+        if form.where.dimension == 3:
+            ratios = RATIOS if "leaning" in loading else (Fraction(1), Fraction(1))
+            return Spheres(height, PHI, load, ratios, numbers)
+        ratio = Fraction(1) if loading in ("surface", "bulk", "point") else RATIOS[0]
+        return Packing(height, N_XY, load, ratio, numbers, order)
+
+    if not form.meant.has(sy.Moment):  # Eq. 15: an average over the layers
+        layers = {"surface": fd.equation(13), "bulk": fd.equation(14)}[name].exact()
+        of_layer = truth("layer", layers)
+
+        def average(at: Point) -> fmpq:
+            every = (of_layer({**at, sy.j: layer}) for layer in range(at[sy.M]))
+            return sum(every, fmpq(0)) / at[sy.M]
+
+        return average
+    return lambda at: packing(at).moment(form.meant)
+
+
+# points that tell polynomials of a degree apart
+
+
+class Places:
+    """The points of a form's domain."""
+
+    def __init__(self, form: fd.ClosedForm) -> None:
+        self._form = form
+        self._symbols = [one for one in sy.INDICES if one in form.symbols.values()]
+
+    @cached_property
+    def _top(self) -> sympy.Symbol:
+        """The height of packings; or the layer of the loaded bead, or of the only one."""
+        return next(one for one in (sy.M, sy.l, sy.j) if one in self._symbols)
+
+    @cached_property
+    def _degree(self) -> int:
+        """Of all formulas in their indices, times their divisors."""
+        places = [self._form.formulas[0].value.domain.position[one] for one in self._symbols]
+        powers = chain.from_iterable(
+            formula.value.numerator.to_dict() for formula in self._form.formulas
+        )
+        return max((sum(int(one[place]) for place in places) for one in powers), default=0)
+
+    @cache  # noqa: B019
+    def _of_height(self, height: int) -> Grid:
+        """Those of packings of a height, not farther out than the degree asks for."""
+        far = height + self._degree + 2
+        ranges = []
+        for symbol in self._symbols:
+            if symbol == self._top:
+                ranges.append(np.array([height]))
+            elif symbol == sy.k and sy.i in self._symbols:
+                ranges.append(np.array([height % 2]))  # only i − k matters
+            else:
+                across = symbol in (sy.i, sy.k, sy.p, sy.q)
+                ranges.append(np.arange(-far if across else 0, far + 1))
+        grid = np.stack(np.meshgrid(*ranges, indexing="ij"), -1).reshape(-1, len(ranges))
+        grid = grid[self._meeting(grid, self._form.where.relations)]
+        for form in self._form.where.even:
+            if form.free_symbols <= {*self._symbols}:
+                grid = grid[self._values(grid, form) % 2 == 0]
+        return grid[np.argsort(abs(grid).sum(axis=1), kind="stable")]
+
+    def _values(self, grid: Grid, form: sympy.Expr) -> Grid:
+        """What a sum of indices is at each point."""
+        terms = sympy.expand(form).as_coefficients_dict()
+        factors = [int(terms.get(one, 0)) for one in self._symbols]
+        return grid @ np.array(factors, dtype=np.int64) + int(terms.get(sympy.S.One, 0))
+
+    def _meeting(self, grid: Grid, relations: Iterable[sympy.Basic]) -> np.ndarray[Any, Any]:
+        """At which points all relations hold."""
+        found = np.ones(len(grid), dtype=bool)
+        for one in relations:
+            if not one.free_symbols <= {*self._symbols}:
+                continue
+            left, right = (self._values(grid, side) for side in one.args)
+            compare = {
+                sympy.Eq: np.equal, sympy.Ge: np.greater_equal, sympy.Gt: np.greater,
+                sympy.Le: np.less_equal, sympy.Lt: np.less,
+            }[one.func]  # fmt: skip
+            found &= compare(left, right)
+        return found
+
+    def telling_apart(self, part: Sequence[sympy.Basic]) -> Iterator[Point]:
+        """Points at which no polynomial of the degree but 0 vanishes on all of a part."""
+        given = {one.lhs for one in words.equations(part)}
+        free = [n for n, one in enumerate(self._symbols) if one not in given]
+        if sy.k in self._symbols and sy.i in self._symbols:
+            free.remove(self._symbols.index(sy.k))
+        basis, last = Basis(len(free), self._degree), HIGHEST
+        for height in range(HIGHEST + 1):
+            grid = self._of_height(height)
+            for point in grid[self._meeting(grid, part)]:
+                if basis.is_full:
+                    return
+                if basis.takes(point[free]):
+                    last = height
+                    yield {s: int(n) for s, n in zip(self._symbols, point, strict=True)}
+            if height >= last + FARTHER:
+                return
+        raise AssertionError(f"packings of more than {HIGHEST} layers are needed")
+
+
+PRIME = 2**31 - 1
+
+
+class Basis:
+    """Values of all monomials up to a degree at points, as rows that don't depend on each other.
+
+    They are calculated modulo a prime: rows that don't depend on each other then never do.
+    """
+
+    def __init__(self, variables: int, degree: int) -> None:
+        several = (combinations_with_replacement(range(variables), n) for n in range(degree + 1))
+        self._monomials = [list(one) for one in chain.from_iterable(several)]
+        self._rows = np.zeros((0, len(self._monomials)), dtype=np.int64)
+        self._pivots: list[int] = []
+
+    @property
+    def is_full(self) -> bool:
+        return len(self._pivots) == len(self._monomials)
+
+    def takes(self, point: Grid) -> bool:
+        """Take a point if the values there don't follow from those at the others."""
+        row = np.ones(len(self._monomials), dtype=np.int64)
+        for place, monomial in enumerate(self._monomials):
+            for variable in monomial:
+                row[place] = row[place] * int(point[variable]) % PRIME
+        for own, pivot in zip(self._rows, self._pivots, strict=True):
+            row = (row - row[pivot] * own) % PRIME
+        if not row.any():
+            return False
+        pivot = int(np.flatnonzero(row)[0])
+        row = row * pow(int(row[pivot]), -1, PRIME) % PRIME
+        self._rows = np.vstack([self._rows, row])
+        self._pivots.append(pivot)
+        return True

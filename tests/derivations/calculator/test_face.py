@@ -1,0 +1,232 @@
+"""What a user types: calls, symbols, and constants of one's own."""
+
+import subprocess
+import sys
+from fractions import Fraction
+
+import pytest
+import sympy
+from force_diffusion.derivations.calculator.observables import INDICES, NAMED
+
+import force_diffusion as fd
+from force_diffusion import symbols
+from force_diffusion.symbols import (
+    M,
+    N,
+    delta_n_plus,
+    delta_r,
+    delta_x,
+    dot,
+    e_x,
+    e_y,
+    f_along,
+    f_load,
+    f_minus,
+    f_plus,
+    i,
+    j,
+    k,
+    l,
+    m_g,
+    n_y,
+    p,
+    p_plus,
+    phi,
+    r,
+    sigma,
+    t,
+    z,
+)  # fmt: skip
+
+_CALLS = """
+import sys
+import force_diffusion as fd
+assert not {"sympy", "numpy", "flint", "islpy"} & {*sys.modules}, sorted(sys.modules)
+from force_diffusion.symbols import M, N, f_minus, f_plus, i, j, k, l, p, t
+found = [
+    fd.variance(f_plus(i, j) - f_minus(i, j), load="surface"),
+    fd.variance(fd.mean_over(f_plus(i, j), N), load="bulk"),
+    fd.covariance(f_plus(i, j), f_plus(i + p, l), load="surface"),
+    fd.variance(fd.response(i, j), load=fd.point(k, l)),
+    fd.mean(f_plus(i, j), order=2, load=fd.leaning(t)),
+]
+print(*(isinstance(one, fd.ClosedForm) and len(one.pieces) for one in found))
+"""
+
+HERE = {"M": 6, "j": 2, "phi": Fraction(1, 3), "sigma": 1, "r": 1}
+
+
+def test_calls_of_a_fresh_process() -> None:
+    command = [sys.executable, "-c", _CALLS]
+    done = subprocess.run(command, check=False, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    counts = [int(one) for one in done.stdout.split()]
+    assert len(counts) == 5
+    assert min(counts) > 1
+
+
+def test_every_symbol_is_documented() -> None:
+    words = symbols.__doc__ or ""
+    for name in symbols.__all__:
+        assert f"``{name}``" in words or f"``{name}(" in words, name
+
+
+def test_symbols_that_others_may_be_taken_for_are_those_of_the_module() -> None:
+    given = {name: getattr(symbols, name) for name in symbols.__all__}
+    assert {name: one for name, one in given.items() if isinstance(one, sympy.Symbol)} == NAMED
+    assert {*INDICES} <= {*NAMED.values()}
+
+
+# constants
+
+
+def test_a_constant_stands_in_the_answer_and_is_asked_for() -> None:
+    a, b = sympy.symbols("a b")
+    form = fd.variance(a * f_plus(i, j) - b * f_minus(i, j))
+    assert all(piece.expr.free_symbols >= {a, b} for piece in form.pieces)
+    three = fd.variance(3 * f_plus(i, j) + f_minus(i, j) / 2).at(**HERE)
+    assert form.at(a=3, b=Fraction(-1, 2), **HERE) == three
+    assert form.at(a=[3, 3], b=Fraction(-1, 2), **HERE).tolist() == [three, three]
+    with pytest.raises(fd.ForceDiffusionError, match=r"a missing: .* takes M, j, phi, sigma, a"):
+        form.at(b=1, **HERE)
+
+
+def test_a_constant_in_source_leading_orders_and_candidates() -> None:
+    a = sympy.Symbol("a", positive=True)
+    form, plain = fd.variance(f_plus(i, j) / a), fd.variance(f_plus(i, j))
+    names: dict[str, object] = {}
+    exec(form.python(), names)
+    assert names["closed_form"](a=2, **HERE) == form.at(a=2, **HERE)  # type: ignore[operator]
+    assert sympy.simplify(form.leading() * a**2 - plain.leading()) == 0
+    first = plain.pieces[0].expr
+    assert form.on(j >= 2, j <= M - 2).equals(first / a**2)
+    mean = fd.mean(f_plus(i, j) / a)
+    assert str(mean.decide(1 / a)).startswith("proved")
+    said = str(mean.decide(2 / a))
+    assert said.startswith("refuted")
+    assert "1/a" in said
+    assert str(mean.decide(sympy.Symbol("a"))).startswith("not a statement: a: not this")
+
+
+def test_ten_constants_and_no_more() -> None:
+    several = sympy.symbols("a:11")
+    ten = fd.mean(sum(several[:10]) * f_plus(i, j))
+    assert ten.at(M=2, j=0, **{f"a{n}": n for n in range(10)}) == 45
+    with pytest.raises(fd.ForceDiffusionError, match="11 constants: up to 10 are allowed"):
+        fd.mean(sum(several) * f_plus(i, j))
+
+
+# units
+
+
+@pytest.mark.parametrize(
+    ("observable", "load", "unit"),
+    [
+        (f_plus(i, j), "surface", f_load / (2 * n_y)),
+        (f_plus(i, j), "bulk", (M - j) * m_g / (2 * n_y)),
+        (p_plus(i, j), "surface", f_load),
+        (p_plus(i, j), "bulk", (M - j) * m_g),
+        (dot(e_y, delta_x(i, j)), "surface", r),
+        (delta_r(i, j), "surface", r),
+        (dot(e_x, delta_n_plus(i, j)), "bulk", sympy.S.One),
+    ],
+)
+def test_the_bare_quantity_is_its_unit_times_the_relative_one(
+    observable: sympy.Expr, load: str, unit: sympy.Expr
+) -> None:
+    bare = fd.variance(observable, load=load, relative=False)
+    relative = fd.variance(observable, load=load)
+    given = {f_load: 2, m_g: 3, r: 5, sigma: 7, phi: sympy.Rational(1, 3)}
+    names = {"f_load": 2, "m_g": 3, "r": 5, "sigma": 7, "phi": Fraction(1, 3), "M": 4}
+    for layer in range(4):
+        square = (unit**2).subs(n_y**2, (1 + phi) / 2).subs({**given, M: 4, j: layer})
+        at = [
+            form.at(j=layer, **{name: names[name] for name in names if name in form.symbols})
+            for form in (bare, relative)
+        ]
+        assert at[0] == square * at[1]
+
+
+def test_the_ordered_forces_are_means() -> None:
+    def only(form: fd.ClosedForm) -> sympy.Expr:
+        (piece,) = form.pieces
+        return piece.expr
+
+    assert only(fd.mean(f_plus(i, j), relative=False)) == f_load / (2 * n_y)
+    assert only(fd.mean(f_plus(i, j), load="bulk", relative=False)) == (M - j) * m_g / (2 * n_y)
+    assert only(fd.mean(fd.response(i, j), load="bulk", relative=False)) == (M - j) * m_g
+    leaning = fd.mean(f_minus(i, j), load=fd.leaning(3, "bulk"), relative=False)
+    assert only(leaning) == 3 * symbols.L_plus * (M - j)
+
+
+def test_a_ratio_may_be_a_number() -> None:
+    form, number = (fd.variance(f_plus(i, j), load=fd.leaning(one)) for one in (t, 2))
+    assert form.at(t=2, **HERE) == number.at(**HERE)
+
+
+def test_spheres() -> None:
+    x, y = i, k
+    form = fd.variance(f_along(1, x, y, j), dimension=3)
+    at = {"i": 0, "k": 0, "phi": 0, "sigma": 1, "r": 1}
+    assert form.at(M=1, j=0, **at) == Fraction(4, 2)
+    with pytest.raises(fd.ForceDiffusionError, match="−1/3 < φ < 1/2 is allowed"):
+        form.at(M=1, j=0, **{**at, "phi": Fraction(-2, 5)})
+
+
+# where it holds
+
+
+@pytest.mark.parametrize(
+    ("observable", "words"),
+    [
+        (f_plus(i, j), "0 ≤ j ≤ M − 1"),
+        (f_plus(i, j) + f_plus(i + 1, j + 1), "0 ≤ j ≤ M − 2"),
+        (f_plus(i, j - 1) - f_minus(i, j + 1), "1 ≤ j ≤ M − 2"),
+        (f_plus(i, j) + delta_r(i + 1, j + 1), "0 ≤ j ≤ M − 1"),
+        (f_plus(i, j) + delta_r(i + 2, j + 2), "0 ≤ j ≤ M − 2"),
+        (f_plus(0, 2), "M ≥ 3"),
+        (dot(e_y, delta_x(i, j)), "j ≥ 0"),
+        (sigma, ""),
+    ],
+)
+def test_domains_in_words(observable: sympy.Expr, words: str) -> None:
+    assert fd.variance(observable).domain == words
+
+
+def test_a_domain_of_ones_own() -> None:
+    whole, part = fd.variance(f_plus(i, j)), fd.variance(f_plus(i, j), where=(j >= 2, j <= M - 2))
+    assert part.domain == "2 ≤ j ≤ M − 2"
+    assert [one.expr for one in part.pieces] == [whole.pieces[0].expr]
+    assert part.at(**HERE) == whole.at(**HERE)
+    assert fd.variance(f_plus(i, j), where=j >= 0).domain == whole.domain
+
+
+def test_layers_are_those_of_the_contact_and_not_of_the_index() -> None:
+    moved = fd.variance(f_plus(i, j + 2))
+    assert moved.domain == "-2 ≤ j ≤ M − 3"
+    assert moved.at(**{**HERE, "j": -2}) == fd.variance(f_plus(i, j)).at(**{**HERE, "j": 0})
+    upper = fd.covariance(f_plus(i, j), f_plus(i + p, l))
+    swapped = {**HERE, "p": 1}
+    assert upper.at(**{**swapped, "j": 3, "l": 2}) == upper.at(
+        **{**swapped, "j": 2, "l": 3, "p": -1}
+    )
+
+
+def test_neighbours() -> None:
+    form = fd.variance(fd.mean_over(f_plus(i, j), N))
+    assert form.domain == "N ≥ 1, 0 ≤ j ≤ M − 1"
+    one, two = (f_plus(i + 2 * n, j) for n in (0, 1))
+    assert form.at(N=2, **HERE) == fd.variance((one + two) / 2).at(**HERE)
+    assert form.at(N=1, **HERE) == fd.variance(fd.mean_over(f_plus(i, j), 1)).at(**HERE)
+
+
+def test_leading_orders_are_at_a_fixed_height() -> None:
+    form = fd.variance(f_plus(i, j))
+    unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
+    assert form.leading(1).equals(2 * M**3 * (1 - z) ** 2 * (1 + 2 * z) * unit)
+
+
+def test_below_a_point_load() -> None:
+    form = fd.mean(fd.response(i, j), load=fd.point(k, l))
+    values = [form.at(i=place, j=2, k=0, l=4) for place in range(-4, 5, 2)]
+    assert values == [0, Fraction(1, 2), 0, Fraction(1, 2), 0]

@@ -1,0 +1,183 @@
+"""Closed forms as they are written: parts of a domain, numbers, Python and LaTeX agree."""
+
+import re
+from collections.abc import Callable, Iterator
+from fractions import Fraction
+from itertools import product
+from typing import Any
+
+import pytest
+import sympy
+from force_diffusion.derivations.api.evaluation import ArgumentError
+
+import force_diffusion as fd
+from force_diffusion.symbols import (
+    M,
+    N,
+    delta_x,
+    dot,
+    e_y,
+    f_along,
+    f_minus,
+    f_plus,
+    i,
+    j,
+    k,
+    l,
+    p,
+    p_plus,
+    phi,
+    r,
+    sigma,
+    t,
+    z,
+)  # fmt: skip
+
+a = sympy.Symbol("a")
+CALLS: dict[str, Callable[[], fd.ClosedForm]] = {
+    **{f"Eq. {number}": lambda number=number: fd.equation(number).exact()
+       for number in (13, 14, 16)},
+    "averages": lambda: fd.equation(15).exact("bulk"),
+    "difference": lambda: fd.variance(f_plus(i, j) - a * f_minus(i, j)),
+    "two layers": lambda: fd.covariance(f_plus(i, j), f_plus(i + p, l)),
+    "layers of a bulk load": lambda: fd.covariance(f_plus(i, j), f_minus(i + 2, l), load="bulk"),
+    "neighbours": lambda: fd.variance(fd.mean_over(f_plus(i, j), N)),
+    "bare": lambda: fd.variance(f_plus(i, j), load=fd.leaning(t, "bulk"), relative=False),
+    "response": lambda: fd.variance(fd.response(i, j), load=fd.point(k, l)),
+    "second order": lambda: fd.mean(p_plus(i, j) * f_plus(i + 1, j + 1), order=2),
+    "heights": lambda: fd.variance(dot(e_y, delta_x(i, j) - delta_x(k, l))),
+    "spheres": lambda: fd.variance(f_along(1, 0, k, j), load="surface leaning", dimension=3),
+    "no layers": lambda: fd.variance(f_plus(0, 2), where=M <= 9),
+}  # fmt: skip
+NUMBERS = {"phi": Fraction(-2, 7), "sigma": Fraction(3, 2), "r": 5, "t": Fraction(4, 3), "a": 7,
+           "t_2": 2, "t_3": Fraction(1, 3), "L_plus": 3, "n_y": Fraction(1, 2)}  # fmt: skip
+
+
+@pytest.fixture(scope="module", params=CALLS)
+def form(request: pytest.FixtureRequest) -> fd.ClosedForm:
+    return CALLS[request.param]()
+
+
+def points(form: fd.ClosedForm) -> Iterator[dict[str, int]]:
+    """All indices of a box around the origin, more of them where there are fewer indices."""
+    names = [name for name, symbol in form.symbols.items() if symbol.is_integer]
+    far = {1: 12, 2: 9, 3: 7, 4: 5}[len(names)]
+    ranges = (range(-far if name in "ikp" else -1, far + 1) for name in names)
+    return (dict(zip(names, values, strict=True)) for values in product(*ranges))
+
+
+def others(form: fd.ClosedForm) -> dict[str, Any]:
+    """Numbers of what is no index."""
+    return {name: NUMBERS[name] for name, one in form.symbols.items() if not one.is_integer}
+
+
+def is_inside(form: fd.ClosedForm, at: dict[str, int]) -> bool:
+    values = {form.symbols[name]: number for name, number in at.items()}
+    relations = [one.subs(values) for one in form.where.relations]
+    even = [one.subs(values) for one in form.where.even]
+    return sympy.false not in relations and not any(
+        one.is_Integer and one % 2 for one in map(sympy.sympify, even)
+    )
+
+
+def test_each_place_of_the_domain_is_in_one_piece(form: fd.ClosedForm) -> None:
+    tests = [
+        [sympy.lambdify([*form.symbols.values()], sympy.And(*part), "math") for part in one.where]
+        for one in form.formulas
+    ]
+    rest, inside = dict.fromkeys(others(form), 0), 0
+    for at in points(form):
+        if is_inside(form, at):
+            values = [{**at, **rest}[name] for name in form.symbols]
+            pieces = [any(holds(*values) for holds in parts) for parts in tests]
+            assert sum(pieces) == 1, (at, [one.domain for one in form.pieces])
+            inside += 1
+    assert inside > 9 or form.symbols.keys() <= {"M", "phi", "sigma", "r"}
+
+
+def test_python_gives_the_same_and_refuses_the_same(form: fd.ClosedForm) -> None:
+    names: dict[str, Any] = {}
+    exec(form.python("function"), names)
+    numbers = others(form)
+    for at in points(form):
+        try:
+            expected = form.at(**at, **numbers)
+        except ArgumentError:
+            with pytest.raises(ValueError, match="outside of"):
+                names["function"](**at, **numbers)
+            continue
+        found = names["function"](**at, **_fractions(numbers))
+        if isinstance(found, float):  # Python divides whole numbers in 1/m, and takes roots
+            assert found == pytest.approx(float(expected), rel=1e-13)
+        else:
+            assert found == expected
+
+
+def _fractions(given: dict[str, Any]) -> dict[str, Fraction]:
+    return {name: Fraction(value) for name, value in given.items()}
+
+
+def test_latex_says_the_same(form: fd.ClosedForm) -> None:
+    formulas = list(_formulas(form.latex()))
+    assert len(formulas) == len(form.pieces)
+    numbers = _fractions(NUMBERS) | {name: Fraction(7, n) for n, name in enumerate("MijklNp", 5)}
+    numbers["H_M"] = Fraction(5, 3)
+    for formula, piece in zip(formulas, form.pieces, strict=True):
+        plain = {one: numbers[getattr(one, "in_code", one.name)] for one in piece.expr.free_symbols}
+        expected = piece.expr.subs({one: sympy.Rational(value) for one, value in plain.items()})
+        assert eval(formula, {"__builtins__": {}}, dict(numbers)) == expected, formula
+
+
+_RELATION = re.compile(r"\\leq|\\geq|=")
+
+
+def _formulas(latex: str) -> Iterator[str]:
+    """The right-hand sides of cases, as Python."""
+    latex = re.sub(r"\\(?:begin|end)\{aligned\}|\\times|\\[bB]igg?[lr]|\\quad", " ", latex)
+    before, _, cases = latex.partition(" = ")[2].partition(r"\begin{cases}")
+    before = before.replace(r"\\", " ").replace("&", " ").strip()
+    several = cases.replace(r"\end{cases}", " ").split(r"\\[3pt]") if cases else [before]
+    for case in several:
+        lines = (line.split("&")[0] for line in case.split(r"\\"))
+        formula = " ".join(line for line in lines if not _RELATION.search(line))
+        yield _python(f"({before}) ({formula})" if cases and before else formula)
+
+
+def _python(latex: str) -> str:
+    """A formula without functions; juxtaposed factors are multiplied."""
+    for old, new in ((r"\sigma_{\delta r}", "sigma"), (r"\phi", "phi"), (r"n_{y}", "n_y"),
+                     (r"L^{+}", "L_plus"), (r"t_{2}", "t_2"), (r"t_{3}", "t_3"), (r"H_{M}", "H_M"),
+                     (r"\quad", ""), (r"\left", ""), (r"\right", ""), ("[", "("), ("]", ")"),
+                     (r"\{", "("), (r"\}", ")")):  # fmt: skip
+        latex = latex.replace(old, new)
+    fraction = re.compile(r"\\frac\{([^{}]*)\}\{([^{}]*)\}")
+    latex = re.sub(r"\^\{(\d+)\}", r"**\1", latex)
+    while fraction.search(latex):
+        latex = fraction.sub(r"((\1)/(\2))", latex)
+    spaced = re.sub(r"(?<=[\w)])\s*(?=\()|(?<=\))\s*(?=\w)|(?<=\w)\s+(?=\w)", "*", latex)
+    # whole numbers are divided as fractions
+    return re.sub(r"(?<![\w*.])(\d+)(?!\w)", r"(\1)", spaced.strip())
+
+
+# sizes
+
+
+@pytest.mark.parametrize("load", ["surface", "bulk"])
+def test_packings_of_any_height(load: str) -> None:
+    """Far up the highest power of M is all that counts, and small heights are not special."""
+    form = fd.variance(f_plus(i, j), load=load)
+    height = 10**30
+    at = {"phi": Fraction(1, 3), "sigma": 1, "r": 1}
+    for share in (Fraction(0), Fraction(1, 4), Fraction(9, 10)):
+        exact = form.at(M=height, j=int(share * height), **at)
+        assert exact.is_Rational
+        numbers = {M: height, z: share, phi: at["phi"], sigma: 1, r: 1}
+        leading = form.leading().subs({one: sympy.Rational(numbers[one]) for one in numbers})
+        if share:  # two orders in M are right
+            assert abs(exact / leading - 1) < sympy.Rational(1000, height**2)
+    assert form.at(M=height, j=height - 1, **at) > 0
+    with pytest.raises(ArgumentError, match="not for"):
+        form.at(M=height, j=height, **at)
+    rounded = form.at(M=height, j=7, phi=0.25, sigma=1e-40, r=1)
+    assert isinstance(rounded, float)
+    assert rounded == float(form.at(M=height, j=7, phi=Fraction(1, 4), sigma=Fraction(1e-40), r=1))

@@ -1,0 +1,454 @@
+"""Moments of exact packings: expressions in means, variances and covariances, read at numbers.
+
+One bead after the other is enlarged in a packing that is nothing but contacts and balances. What a
+force, a direction or a displacement does at orders ε¹ and ε² gives its weights and the shift of its
+mean, as fractions. Of the symbolic part of the package this takes only what the nodes of an
+expression are called.
+"""
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cache, reduce
+from itertools import product
+from operator import add, mul
+from typing import Any
+
+import sympy
+from flint import fmpq
+from force_diffusion.numeric.arithmetic.systems import zeros
+from force_diffusion.numeric.lattice.branch import PerAxis
+from force_diffusion.numeric.lattice.layers import whole
+from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
+from force_diffusion.symbolic import symbols as sy
+
+from tests.numeric.mechanics import taylor
+from tests.soundness.witnesses import dimensions
+
+Direction = tuple[Fraction, Fraction]
+Site = tuple[int, ...]
+"""A bead: (i, j), or three numbers of steps."""
+
+ZERO, ONE = fmpq(0), fmpq(1)
+
+
+class AbsentError(LookupError):
+    """An expression names a bead or a contact that a packing does not have."""
+
+
+@dataclass(frozen=True)
+class Value:
+    """A number of a packing.
+
+    Attributes:
+        ordered: in the ordered packing.
+        weights: how it changes with the radius of each bead, r = 1.
+        shift: of its mean at order σ², σ = 1.
+    """
+
+    ordered: fmpq = ZERO
+    weights: Mapping[Site, fmpq] = field(default_factory=dict)
+    shift: fmpq = ZERO
+
+    def __add__(self, other: "Value") -> "Value":
+        total = dict(self.weights)
+        for site, weight in other.weights.items():
+            total[site] = total.get(site, ZERO) + weight
+        return Value(self.ordered + other.ordered, total, self.shift + other.shift)
+
+    def __mul__(self, other: "Value") -> "Value":
+        shift = self.ordered * other.shift + other.ordered * self.shift + covariance(self, other)
+        first = self.scaled(other.ordered) + other.scaled(self.ordered)
+        return Value(self.ordered * other.ordered, first.weights, shift)
+
+    def scaled(self, factor: fmpq) -> "Value":
+        """The same, times a number."""
+        if not factor:
+            return Value()
+        weights = {site: weight * factor for site, weight in self.weights.items()}
+        return Value(self.ordered * factor, weights, self.shift * factor)
+
+    def at(self, *by: int) -> "Value":
+        """The same of another place."""
+        weights = {tuple(map(add, site, by)): w for site, w in self.weights.items()}
+        return Value(self.ordered, weights, self.shift)
+
+
+def covariance(one: Value, other: Value) -> fmpq:
+    """Σ w w′ over all beads."""
+    few, many = sorted((one.weights, other.weights), key=len)
+    return sum((w * many[site] for site, w in few.items() if site in many), ZERO)
+
+
+class Sums:
+    """Quantities of a packing, added up from packings in which one bead is enlarged."""
+
+    def __init__(self) -> None:
+        self._ordered: dict[Any, Fraction] = {}
+        self._weights: dict[Any, dict[Site, fmpq]] = defaultdict(dict)
+        self._shift: dict[Any, fmpq] = defaultdict(fmpq)
+
+    def add(self, key: Any, bead: Site, coefficients: Iterable[Fraction]) -> None:
+        """What a quantity is with this bead enlarged: its coefficients of ε⁰, ε¹ and ε²."""
+        self._ordered[key], slope, curve = coefficients
+        if slope:
+            self._weights[key][bead] = exact(slope)
+        if curve:
+            self._shift[key] += exact(curve)
+
+    @property
+    def values(self) -> dict[Any, Value]:
+        return {
+            key: Value(exact(ordered), self._weights[key], self._shift[key])
+            for key, ordered in self._ordered.items()
+        }
+
+
+def exact(value: Fraction | int | sympy.Rational) -> fmpq:
+    """A fraction as one of flint's."""
+    return fmpq(int(value.numerator), int(value.denominator))
+
+
+_NAMES = {"+": "Plus", "-": "Minus"}
+
+
+@cache
+def below_many(
+    height: int, n: Direction, load: str, ratio: Fraction
+) -> Mapping[tuple[str, int], Value]:
+    """Quantities by name and layer, of the bead or contact in column 0 (counted from there).
+
+    Under a load −(n⁺ + ratio n⁻) on each bead of the surface, or on each above the base. One bead
+    of each layer in turn is enlarged; by translation its effect on all contacts of a layer is that
+    of all beads on one. The packing is so wide that nothing sees an image of itself.
+    """
+    width = 2 * height + 3
+    loads = {
+        (i, j): ((ratio - 1) * n[0], -(1 + ratio) * n[1])
+        for j in (range(1, height + 1) if load == "bulk" else (height,))
+        for i in range(j % 2, 2 * width, 2)
+    }
+    sums = Sums()
+    for source in range(height + 1):
+        rho = {(source % 2, source): Fraction(1)}
+        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=2)
+        for j in range(height + 1):
+            for i in range(j % 2, 2 * width, 2):
+                bead = (source % 2 - i + width) % (2 * width) - width, source
+                for name, coefficients in _quantities(solved, i, j):
+                    sums.add((name, j), bead, coefficients)
+    return sums.values
+
+
+def _quantities(
+    solved: taylor.TaylorPacking, i: int, j: int
+) -> Iterator[tuple[str, list[Fraction]]]:
+    for axis, coefficients in enumerate(solved.displacement(i, j)):
+        yield f"DeltaX{axis}", coefficients
+    if j < solved.height:
+        for branch, name in _NAMES.items():
+            yield f"Force{name}", solved.force(i, j, branch)
+            for axis, coefficients in enumerate(solved.direction(i, j, branch)):
+                yield f"DeltaN{name}{axis}", coefficients
+
+
+@cache
+def below_one(level: int, n: Direction, order: int) -> Mapping[tuple[str, Site], Value]:
+    """Forces below a load −(n⁺ + n⁻) on bead (0, level), by name and place.
+
+    Many equal loads share one packing, so far apart that none feels the bead that is enlarged below
+    another; below each, it is another bead. At ``order`` 1 shifts of means are left out.
+    """
+    reach = order * level + 2
+    apart = 2 * reach + 2
+    sums = Sums()
+    for source in range(level + 1):
+        offsets = [o for o in range(-reach, reach + 1) if (o + level - source) % 2 == 0]
+        tops = [level % 2 + apart * place for place in range(len(offsets))]
+        width = apart * len(offsets) // 2
+        beads = {
+            ((top + o) % (2 * width), source): Fraction(1)
+            for top, o in zip(tops, offsets, strict=True)
+        }
+        loads = {(top, level): (Fraction(0), -2 * n[1]) for top in tops}
+        solved = taylor.solve(width, level, n=n, rho=beads, loads=loads, order=order)
+        for top, offset in zip(tops, offsets, strict=True):
+            for j in range(level):
+                for i in range(-(level - j), level - j + 1, 2):
+                    for branch, name in _NAMES.items():
+                        place = (top + i) % (2 * width), j, branch
+                        force = [*solved.force(*place), Fraction(0)][:3]
+                        sums.add((f"Force{name}", (i, j)), (offset, source), force)
+    return sums.values
+
+
+Vector = tuple[Value, Value]
+Numbers = Mapping[sympy.Symbol, Any]
+
+
+@dataclass(frozen=True)
+class Packing:
+    """A packing of discs under a load, and what expressions are in it.
+
+    Attributes:
+        height: M, or l of a point load.
+        n: rational (n_x, n_y); r = σ = 1.
+        load: "surface", "bulk" or "point".
+        ratio: t = L⁻/L⁺ of the load; L⁺ = 1 on each bead, so that f_load = m_g = 2n_y for t = 1.
+        at: numbers of indices and of other symbols.
+        order: 2 where shifts of means are asked for.
+    """
+
+    height: int
+    n: Direction
+    load: str
+    ratio: Fraction = Fraction(1)
+    at: Numbers = field(default_factory=dict)
+    order: int = 2
+
+    def symbols(self) -> dict[sympy.Symbol, Any]:
+        """Numbers of the paper's symbols."""
+        n_x, n_y = map(exact, self.n)
+        return {
+            sy.n_x: n_x, sy.n_y: n_y, sy.phi: n_y**2 - n_x**2, sy.r: ONE, sy.sigma: ONE,
+            sy.f_load: 2 * n_y, sy.m_g: 2 * n_y, sy.L_plus: ONE, sy.t: exact(self.ratio),
+            sy.M: self.height, sy.l: self.height, **self.at,
+        }  # fmt: skip
+
+    def moment(self, expression: sympy.Expr) -> fmpq:
+        """The number that an expression in moments is.
+
+        Raises:
+            AbsentError: it names a bead or a contact that is not there.
+        """
+        return _Reading(self, self.symbols()).moment(expression)
+
+    def quantity(self, name: str, i: int, j: int, axis: str = "") -> Value:
+        """A force, a displacement or a direction by the name of its function, or a component."""
+        if (i + j) % 2:
+            raise AbsentError(f"no bead is at ({i}, {j})")
+        if not 0 <= j <= self.height - (name not in ("DeltaX", "DeltaR")):
+            raise AbsentError(f"{name} at ({i}, {j}) is outside of the packing")
+        if name == "DeltaR":
+            return Value(ZERO, {(i, j): ONE})
+        if name.startswith("Force") and self.load == "point":
+            across = self.symbols()[sy.k]
+            found = below_one(self.height, self.n, self.order).get((name, (i - across, j)), Value())
+            return found.at(across, 0)
+        load = "surface" if self.load == "point" else self.load
+        return below_many(self.height, self.n, load, self.ratio)[name + axis, j].at(i, 0)
+
+
+@dataclass(frozen=True)
+class _Reading:
+    packing: Any  # of discs or of spheres
+    symbols: Numbers
+
+    def moment(self, expression: sympy.Basic) -> fmpq:
+        match expression:
+            case sy.Mean():
+                return self._number(expression.args[0]).ordered
+            case sy.Shift():
+                return self._number(expression.args[0]).shift
+            case sy.Variance() | sy.Covariance():
+                return covariance(
+                    self._number(expression.args[0]), self._number(expression.args[-1])
+                )
+            case sympy.Add():
+                return sum(map(self.moment, expression.args), ZERO)
+            case sympy.Mul():
+                return reduce(mul, map(self.moment, expression.args), ONE)
+            case sympy.Pow():
+                return self.moment(expression.base) ** int(expression.exp)
+        return self._number(expression).ordered
+
+    def _number(self, expression: sympy.Basic) -> Value:
+        value = self.value(expression)
+        assert isinstance(value, Value), expression
+        return value
+
+    def value(self, expression: sympy.Basic) -> Value | Vector:
+        """A number, or the Cartesian components of a vector."""
+        match expression:
+            case sympy.Rational():
+                return Value(exact(expression))
+            case sympy.Symbol():
+                return self._symbol(expression)
+            case sympy.Add():
+                return reduce(_sum, map(self.value, expression.args))
+            case sympy.Mul():
+                return reduce(_product, map(self.value, expression.args))
+            case sympy.Pow():
+                return self._power(expression.base, int(expression.exp))
+            case sy.Dot():
+                (a, b), (c, d) = map(self.value, expression.args)  # type: ignore[misc]
+                return a * c + b * d
+            case sy.MeanOver():
+                return self._average(*expression.args)
+            case sy.VerticalPlus() | sy.VerticalMinus():
+                return self._vertical(type(expression).__name__, *expression.args)
+            case sy.ForceAlong():
+                axis, *bead = map(self.index, expression.args)
+                vertical = isinstance(expression, sy.VerticalAlong)
+                return self.packing.along(axis, tuple(bead), vertical=vertical)
+            case sy.SiteFunction():
+                return self._quantity(type(expression).__name__, *expression.args)
+        raise NotImplementedError(f"{expression} is not read here")
+
+    def _symbol(self, symbol: sympy.Symbol) -> Value | Vector:
+        if symbol not in sy.VECTORS:
+            return Value(fmpq(self.symbols[symbol]))
+        n_x, n_y = map(exact, self.packing.n)
+        vectors = {
+            sy.n_plus: (n_x, n_y), sy.n_minus: (-n_x, n_y), sy.e_y: (ZERO, ONE),
+            sy.b_plus: (1 / (2 * n_x), 1 / (2 * n_y)),
+            sy.b_minus: (-1 / (2 * n_x), 1 / (2 * n_y)),
+        }  # fmt: skip
+        x, y = vectors[symbol]
+        return Value(x), Value(y)
+
+    def _power(self, base: sympy.Expr, exponent: int) -> Value:
+        value = self._number(base)
+        if exponent < 0:
+            assert not value.weights, base
+            value, exponent = Value(1 / value.ordered), -exponent
+        return reduce(mul, [value] * exponent)
+
+    def index(self, expression: sympy.Basic) -> int:
+        value = self._number(expression).ordered
+        assert value.q == 1, expression
+        return int(value.p)
+
+    def _quantity(self, name: str, across: sympy.Expr, layer: sympy.Expr) -> Value | Vector:
+        packing = replace(self.packing, at=self.symbols)
+        place = self.index(across), self.index(layer)
+        if name in ("DeltaX", "DeltaNPlus", "DeltaNMinus"):
+            return packing.quantity(name, *place, "0"), packing.quantity(name, *place, "1")
+        return packing.quantity(name, *place)
+
+    def _vertical(self, name: str, *place: sympy.Expr) -> Value:
+        """(n_y + δn_y) f of a contact."""
+        branch = name.removeprefix("Vertical")
+        _, turn = self._quantity(f"DeltaN{branch}", *place)  # type: ignore[misc]
+        force = self._quantity(f"Force{branch}", *place)
+        return (Value(exact(self.packing.n[1])) + turn) * force  # type: ignore[operator]
+
+    def _average(self, expression: sympy.Expr, count: sympy.Expr, *across: sympy.Symbol) -> Value:
+        number, total = self.index(count), Value()
+        for place in range(number):
+            moved = {symbol: self.symbols[symbol] + 2 * place for symbol in across}
+            total = total + _Reading(self.packing, {**self.symbols, **moved})._number(expression)
+        return total.scaled(fmpq(1, number))
+
+
+# packings of spheres
+
+
+@cache
+def spheres(
+    height: int, phi: Fraction, load: str, ratios: tuple[Fraction, Fraction]
+) -> Mapping[tuple[int, int], Value]:
+    """Forces by base vector and layer, of the contact at bead (0, 0, 0) (counted from there).
+
+    Under a load −(n¹ + ratios n² + … n³) on each sphere of the surface, or on each above the base;
+    one sphere of each layer in turn is enlarged.
+    """
+    system, width = taylor.Series(1), 2 * height + 3
+    sums = Sums()
+    with system.active():
+        region = whole(width**2, height, dimension=3)
+        share = zeros(system, width**2)
+        on = [
+            tuple(
+                share + system.number(ratio) if j == height or (load == "bulk" and j) else None
+                for j in range(height + 1)
+            )
+            for ratio in (Fraction(1), *ratios)
+        ]
+        for source in range(height + 1):
+            rho = [zeros(system, width**2) for _ in range(height + 1)]
+            rho[source][0] = system.series([Fraction(0), Fraction(1)])
+            packing = deposit(phi, region, rho, system)
+            forces = sweep_down(packing, region.rows, PerAxis(*on))
+            both = zip(forces.ordered, forces.change, strict=True)
+            for axis, ((_, ordered), (_, change)) in enumerate(both):
+                for upper, place in product(range(1, height + 1), range(width**2)):
+                    force = ordered[upper][place] + change[upper][place]
+                    x, y = divmod(place, width)  # of the upper one; the enlarged one is at (0, 0)
+                    lower = [x, y, upper - x - y]
+                    lower[axis] -= 1
+                    there = (0, 0, source)
+                    bead = tuple(a - b for a, b in zip(there, lower, strict=True))
+                    steps = tuple((one + height + 1) % width - height - 1 for one in bead[:2])
+                    numbers = (Fraction(int(force[k].p), int(force[k].q)) for k in (0, 1))
+                    sums.add(
+                        (axis + 1, upper - 1),
+                        (*steps, source - (upper - 1) - sum(steps)),
+                        (*numbers, Fraction(0)),
+                    )
+    return sums.values
+
+
+@dataclass(frozen=True)
+class Spheres:
+    """A packing of spheres under a load, and what expressions are in it.
+
+    Attributes:
+        height: M, or l of a point load on bead (0, 0, l).
+        phi: of each two base vectors; r = σ = 1.
+        load: "surface", "bulk" or "point".
+        ratios: L²/L¹ and L³/L¹ of the load, L¹ = 1.
+        at: numbers of indices and of other symbols.
+    """
+
+    height: int
+    phi: Fraction
+    load: str
+    ratios: tuple[Fraction, Fraction] = (Fraction(1), Fraction(1))
+    at: Numbers = field(default_factory=dict)
+
+    def symbols(self) -> dict[sympy.Symbol, Any]:
+        """Numbers of the paper's symbols."""
+        second, third = map(exact, self.ratios)
+        return {
+            sy.phi: exact(self.phi), sy.r: ONE, sy.sigma: ONE, sy.t_2: second, sy.t_3: third,
+            sy.M: self.height, sy.l: self.height, **self.at,
+        }  # fmt: skip
+
+    def moment(self, expression: sympy.Expr) -> fmpq:
+        """The number that an expression in moments is.
+
+        Raises:
+            AbsentError: it names a contact that is not there.
+        """
+        return _Reading(self, self.symbols()).moment(expression)
+
+    def along(self, axis: int, bead: Site, *, vertical: bool) -> Value:
+        """A force along a base vector; with a point load over that of the ordered legs."""
+        layer = sum(bead)
+        if not 0 <= layer < self.height:
+            raise AbsentError(f"no contact leads up from {bead}")
+        if self.load != "point":
+            assert not vertical
+            return spheres(self.height, self.phi, self.load, self.ratios)[axis, layer].at(*bead)
+        down = tuple(a - b for a, b in zip((0, 0, self.height), bead, strict=True))
+        weights = dimensions.response_weights(
+            3, self.height, self.phi, down, axis - 1, vertical=vertical
+        )
+        on_leg = min(down) >= 0 and sum(down) == down[axis - 1]
+        return Value(fmpq(int(on_leg)), {at: exact(w) for at, w in weights.items() if w})
+
+
+def _sum(one: Any, other: Any) -> Any:
+    if isinstance(one, tuple):
+        return tuple(map(add, one, other))
+    return one + other
+
+
+def _product(one: Any, other: Any) -> Any:
+    if isinstance(one, tuple):
+        return tuple(part * other for part in one)
+    if isinstance(other, tuple):
+        return tuple(part * one for part in other)
+    return one * other
