@@ -434,7 +434,9 @@ class Reader:
 
     def _power(self, base: sympy.Expr, exponent: sympy.Expr) -> Form:
         if not isinstance(exponent, sympy.Integer) or abs(exponent) > _HIGHEST:
-            raise NotExactError(f"the power {text(exponent)} of {text(base)} is not read")
+            raise NotExactError(
+                f"the power {text(exponent)} of {text(base)} is not read: up to {_HIGHEST} are"
+            )
         if exponent > 0:
             power = self._product([base] * int(exponent))
         elif isinstance(base, FORCES):  # one that others are compared with is one that acts
@@ -454,12 +456,12 @@ class Reader:
         there, back = (self._shifted(indices, sign * 2 * step) for sign in (1, -1))
         wide = replace(self, points=sets.without(sets.at(inner.points, back), step))
         total = wide.number(expression).merged().at(there).on(inner.points).summed(step)
-        return total.merged().times(self.number(1 / count))
+        return total.times(self.number(1 / count))
 
     def _shifted(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
         """Straightened indices, all of which go on by as many columns."""
         old = self.straight
-        further = {index: old.back[index].xreplace({index: index + by}) for index in indices}
+        further = {one: old.back.get(one, one).xreplace({one: one + by}) for one in indices}
         return {
             index: sympy.expand(form.xreplace(dict(old.image))) for index, form in further.items()
         }

@@ -21,7 +21,7 @@ from typing import Self
 import sympy
 
 from . import sets
-from .algebra.exact import FIELD, SITE, SOURCE
+from .algebra.exact import FIELD, SITE, SOURCE, NotExactError
 from .forms import NUMBER, RADII, SHIFT, Form, Known
 from .symbols import DeltaNMinus, DeltaNPlus, DeltaX, ForceMinus, ForcePlus, n, phi, r
 from .weights import Weights
@@ -85,6 +85,8 @@ class Means:
 
     def _first_order(self, kind: type, component: int = 0) -> Form:
         total = Form()
+        if kind not in self.known:
+            raise NotExactError(f"{kind.__name__} is not given by the radii")
         for one in self.known[kind]:
             total = total + one.value[component].on(one.points)
         return total

@@ -287,17 +287,13 @@ def _cuts(interval: Interval, reach: Interval) -> Iterator[int]:
         yield high + 1
 
 
+def least(symbol: sympy.Symbol, points: Set) -> int | None:
+    """The least value of a symbol on a set that is not empty; None where there is none."""
+    return None if points.is_empty() else _bounded(points.min_val(_affine(({symbol: 1}, 0))))
+
+
 def _bounded(value: Any) -> int | None:
     return None if value.is_infty() or value.is_neginfty() else value.to_python()
-
-
-def fixed(points: Set) -> dict[sympy.Symbol, RationalFunction]:
-    """Symbols that the equations of a set fix, by those that they leave free.
-
-    A polynomial in what is left that is zero on all of the set is zero, unless the set is finite in
-    some direction.
-    """
-    return {symbol: polynomial(value) for symbol, value in _fixed(points).items()}
 
 
 def equations(points: Set) -> list[Row]:
@@ -310,8 +306,19 @@ def equations(points: Set) -> list[Row]:
     return found
 
 
-def _fixed(points: Set) -> dict[sympy.Symbol, tuple[dict[sympy.Symbol, sympy.Rational], Any]]:
-    """The same as forms, by elimination."""
+def fixed(
+    points: Set, first: Sequence[sympy.Symbol] = ()
+) -> dict[sympy.Symbol, RationalFunction]:
+    """Symbols that the equations of a set fix, by those that they leave free.
+
+    A polynomial in what is left that is zero on all of the set is zero, unless the set is finite in
+    some direction.
+
+    Args:
+        points: the set.
+        first: which symbols are fixed, rather than others.
+    """
+    rank = _FIXED_FIRST | {symbol: place - len(first) for place, symbol in enumerate(first)}
     forms = [
         ({s: sympy.Rational(n) for s, n in factors.items()}, constant)
         for factors, constant in equations(points)
@@ -321,13 +328,13 @@ def _fixed(points: Set) -> dict[sympy.Symbol, tuple[dict[sympy.Symbol, sympy.Rat
         factors, constant = forms.pop()
         if not factors:
             continue
-        symbol = min(factors, key=_FIXED_FIRST.__getitem__)
+        symbol = min(factors, key=rank.__getitem__)
         scale = -factors.pop(symbol)
         value = {s: n / scale for s, n in factors.items()}, sympy.Rational(constant) / scale
         forms = [_with(form, symbol, value) for form in forms]
         solved = {s: _with(form, symbol, value) for s, form in solved.items()}
         solved[symbol] = value
-    return solved
+    return {symbol: polynomial(value) for symbol, value in solved.items()}
 
 
 def _with(form: Any, symbol: sympy.Symbol, value: Any) -> Any:
@@ -429,13 +436,22 @@ def contains(part: Set, values: Mapping[sympy.Symbol, int]) -> bool:
     )
 
 
-def sample(part: Set) -> dict[sympy.Symbol, int]:
+def sample(points: Set) -> dict[sympy.Symbol, int]:
     """A point of a set that is not empty."""
-    point = part.sample_point()
-    return {
-        symbol: point.get_coordinate_val(_DIM, place).to_python()
-        for symbol, place in _PLACE.items()
-    }
+    return next(samples(points))
+
+
+def samples(points: Set, most: int = 8) -> Iterator[dict[sympy.Symbol, int]]:
+    """Some points of a set."""
+    for _ in range(most):
+        if points.is_empty():
+            return
+        point = points.sample_point()
+        yield {
+            symbol: point.get_coordinate_val(_DIM, place).to_python()
+            for symbol, place in _PLACE.items()
+        }
+        points = points - isl.Set.from_point(point)
 
 
 def joined(pieces: Sequence[Set]) -> Set:

@@ -6,7 +6,7 @@ counts there. Sums and products of forms are sums and products of pieces, cases 
 themselves, and two forms are the same where no piece of their difference is left.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -14,15 +14,17 @@ import sympy
 from numpy.typing import NDArray as Array
 
 from . import sets
-from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_polynomial
+from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_over
 from .sets import Set
+from .symbols import n_x, n_y, phi
 
 Fixed = Mapping[sympy.Symbol, RationalFunction]
 
 Piece = tuple[Set, RationalFunction]
 
 _NUMBERS = {symbol: 0.37 + 0.61803 * number % 1 for number, symbol in enumerate(FIELD.generators)}
-"""Numbers for symbols, no two of them alike."""
+_NUMBERS |= {n_x: 0.6, n_y: 0.8, phi: 0.28}
+"""Numbers for symbols, no two of them alike; those of φ, n_x and n_y belong together."""
 
 _ROUNDING = 1e-12
 """Of a sum of products, relative to the sum of their sizes: thousands of roundings."""
@@ -54,6 +56,10 @@ class Weights:
         if factor.is_zero():
             return Weights()
         return Weights(tuple((points, value * factor) for points, value in self.pieces))
+
+    def mapped(self, change: Callable[[RationalFunction], RationalFunction]) -> "Weights":
+        """The same with its values changed."""
+        return Weights(tuple((points, change(value)) for points, value in self.pieces))
 
     def times(self, other: "Weights") -> "Weights":
         """The product at each point."""
@@ -100,7 +106,7 @@ class Weights:
         pieces = self.pieces
         for symbol in symbols:
             pieces = tuple(
-                (there, sum_polynomial(value, symbol, low, high))
+                (there, sum_over(value, symbol, low, high))
                 for points, value in pieces
                 for there, low, high in sets.ranges(points, symbol)
             )

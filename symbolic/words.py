@@ -1,6 +1,6 @@
 """Relations between whole numbers as a person writes them: "2 ≤ j ≤ M − 2", "j = M − 1"."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import sympy
@@ -102,3 +102,33 @@ def parts(relations: Iterable[sympy.Basic], style: Style = TEXT) -> list[str]:
         rest = high[1:] if len(low) == 1 else high
         found += [f"{shown(symbol)}{style.at_most}{shown(bound)}" for bound in rest]
     return found
+
+
+_SIGNS = {sympy.Eq: "=", sympy.Le: "≤", sympy.Lt: "<", sympy.Ge: "≥", sympy.Gt: ">"}
+_TURNED = {sympy.Ge: sympy.Le, sympy.Gt: sympy.Lt}
+
+
+def chains(relations: Sequence[sympy.Basic]) -> tuple[str, ...]:
+    """Relations in their order, as "0 ≤ j < M" where one begins with what the last ends with."""
+    return tuple(
+        " ".join(_SIGNS[one] if isinstance(one, type) else text(one) for one in chain)
+        for chain in _chains(relations)
+    )
+
+
+def _chains(relations: Sequence[sympy.Basic]) -> Iterator[list[sympy.Basic | type]]:
+    """Relations that go on where the one before ends, as sides and kinds in turn."""
+    chain: list[sympy.Basic | type] = []
+    for one, following in zip(relations, (*relations[1:], None), strict=False):
+        left, right, kind = one.lhs, one.rhs, one.func
+        goes_on = following is not None and following.lhs == left
+        if goes_on and kind in _TURNED and following.func not in _TURNED:
+            left, right, kind = right, left, _TURNED[kind]
+        if chain and chain[-1] == left and kind not in _TURNED:
+            chain += [kind, right]
+            continue
+        if chain:
+            yield chain
+        chain = [left, kind, right]
+    if chain:
+        yield chain

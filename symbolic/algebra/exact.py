@@ -23,8 +23,9 @@ class NotExactError(ValueError):
     """The expression lies outside the domain in which equality is decided."""
 
 
-LAYER = sympy.Dummy("layer", integer=True)
-"""The layer of a site on a line sum; a generator of its own, never part of an equation."""
+class NotAStatementError(NotExactError):
+    """What is written has no value, or no single one, somewhere on its domain."""
+
 
 SITE = tuple(sympy.Dummy(f"site_{axis}", integer=True) for axis in (1, 2, 3))
 """A site: how many steps along each base vector lead to it from the origin."""
@@ -205,6 +206,13 @@ class RationalFunction:
         return self._same(
             self.numerator * theirs + other.numerator * own, self.denominator * theirs
         )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, RationalFunction) and (
+            self.numerator == other.numerator and self.denominator == other.denominator
+        )
+
+    __hash__ = None  # type: ignore[assignment]
 
     def __neg__(self) -> Self:
         negative = object.__new__(type(self))  # in lowest terms already
@@ -451,17 +459,67 @@ def sum_polynomial(
     )
 
 
+def sum_over(
+    f: RationalFunction, symbol: sympy.Expr, low: RationalFunction, high: RationalFunction
+) -> RationalFunction:
+    """Σ f(n) for low ≤ n ≤ high, where f may hold one divisor ±n + …, positive from low to high.
+
+    The sum of its inverse is a difference of harmonic numbers, which end at a number or near M.
+
+    Raises:
+        NotExactError: the sum is of another kind.
+    """
+    place = f.domain.position[symbol]
+    divisors = [(one, e) for one, e in f.denominator.factor()[1] if one.degrees()[place] > 0]
+    if not divisors:
+        return sum_polynomial(f, symbol, low, high)
+    divisor = f.domain.polynomial(divisors[0][0])
+    if divisor.coefficients(M)[-1] == -f.domain.one:  # M − n, not n − M
+        divisor = -divisor
+    rest, slope = divisor.coefficients(symbol) if divisor.degree(symbol) == 1 else (f, f)
+    if len(divisors) > 1 or divisors[0][1] > 1 or slope * slope != f.domain.one:
+        raise NotExactError(f"a sum over {symbol} has more than one divisor, or another one")
+    above = f * divisor
+    residue = above.substitute({symbol: -rest * slope})
+    polynomial = (above - residue) / divisor
+    first, last = (low, high) if slope == f.domain.one else (high, low)
+    ends = [divisor.substitute({symbol: end}) for end in (first, last)]
+    harmonic = _harmonic(ends[1]) - _harmonic(ends[0] - f.domain.one)
+    return sum_polynomial(polynomial, symbol, low, high) + residue * harmonic
+
+
+def _harmonic(last: RationalFunction) -> RationalFunction:
+    """Σ 1/k for 1 ≤ k ≤ last, a number or near M."""
+    field = last.domain
+    found = field.generator(H_M) if last.holds(M) else field.zero
+    offset = (last - field.generator(M) if last.holds(M) else last).numerator
+    if not offset.is_constant() or not -_NEAR <= (number := int(offset.leading_coefficient() if offset != 0 else 0)) <= _NEAR:  # fmt: skip
+        raise NotExactError("a harmonic sum ends neither at a number nor near M")
+    if last.holds(M):
+        steps = [field.generator(M) + field.constant(k) for k in range(min(number, 0), max(number, 0))]
+        inverse = [field.one / (one + field.one) for one in steps]
+        return sum(inverse, found) if number > 0 else found - sum(inverse, field.zero)
+    if number < 0:
+        raise NotExactError("a harmonic sum starts below 1")
+    return field.constant(sum((Fraction(1, k) for k in range(1, number + 1)), Fraction(0)))
+
+
+_NEAR = 8
+
+
 def _ratio(value: int | Fraction | sympy.Rational) -> tuple[int, int]:
     if isinstance(value, sympy.Rational):
         return int(value.p), int(value.q)
     return int(value.numerator), int(value.denominator)
 
 
-UNKNOWNS = (
+CONSTANTS = (
     tuple(sympy.Dummy(f"positive_{place}", positive=True) for place in range(6)),
-    tuple(sympy.Dummy(f"real_{place}", real=True) for place in range(10)),
+    tuple(sympy.Dummy(f"real_{place}", real=True) for place in range(6)),
 )
-"""What stands for unknown numbers while two sides are compared: positive ones, and any."""
+"""What stands for symbols of a user's own: positive ones, and any."""
+UNKNOWNS = tuple(sympy.Dummy(f"unknown_{place}", real=True) for place in range(4))
+"""What equations are solved for."""
 
-FIELD = Domain((LAYER, *SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS[0], *UNKNOWNS[1]))
-"""The field of all the paper's symbols, and of some unknown numbers, used by linear forms."""
+FIELD = Domain((*SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS, *CONSTANTS[0], *CONSTANTS[1]))
+"""The field of all the paper's symbols, and of some more."""
