@@ -24,7 +24,7 @@ TOUCHING = sympy.Tuple(
 )
 """What the ordered packing is: its origin, and each bead touching the two above it."""
 
-PAIRS = Domain.of(j >= 0, j + q >= 0, indices=(p,), beads=[(i + p, j + q)])
+PAIRS = Domain.of(j >= 0, j + q >= 0, beads=[(i, j), (i + p, j + q)])
 D = sympy.Function("D")  # D(p, q) = |x_(i+p, j+q) − x_ij|²
 
 

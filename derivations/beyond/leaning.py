@@ -1,61 +1,26 @@
 """Eq. B1: the contact forces under a load in any direction, on the surface or on every bead."""
 
+# fmt: off
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq06_force_balance as eq06
+from force_diffusion.derivations import eq04_contact_plus as eq04
+from force_diffusion.derivations import eq05_contact_minus as eq05
+from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.vocabulary import (
-    SUPPOSED,
-    By,
-    Derivation,
-    Lines,
-    Where,
-    Within,
-    axioms,
-    below,
-    equation,
-    induct,
-    minus,
-    rewrite,
-    terms,
-    times,
-)
-from force_diffusion.symbolic.as_printed import in_place
-from force_diffusion.symbolic.kernel.where import BULK_TILTED, SURFACE_TILTED
-from force_diffusion.symbolic.mechanics.lattice import mirror
-from force_diffusion.symbolic.notation import Symbol
+    Derivation, Domain, Steps, Symbol, axioms, below, equation, inducted, lattice, minus, rewrite,
+    same, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus,
-    DeltaNPlus,
-    Dot,
-    ForceMinus,
-    ForcePlus,
-    L_minus,
-    L_plus,
-    M,
-    e_x,
-    e_y,
-    f_load,
-    i,
-    j,
-    m,
-    n,
-    n_minus,
-    n_plus,
-    n_x,
-    n_y,
-    phi,
-    t,
-)
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, L_minus, L_plus, M, e_x, e_y, f_load, i, j,
+    m, n, n_minus, n_plus, n_x, n_y, phi, t)
+# fmt: on
 
-WHERE = Where.of(j >= 0, j < M, loading=SURFACE_TILTED)
-IN_BULK = WHERE.loaded(BULK_TILTED)
-RATIO = {L_minus: t * L_plus}
-"""What L⁻ is."""
+ON_SURFACE = eq11.LAYERS.loaded(axioms.SURFACE_TILTED)
+IN_BULK = eq11.LAYERS.loaded(axioms.BULK_TILTED)
 
 
 def _along(own: sympy.Expr, turned: sympy.Expr) -> sympy.Add:
@@ -71,8 +36,8 @@ def _along(own: sympy.Expr, turned: sympy.Expr) -> sympy.Add:
 
 
 FORCES = (
-    equation(ForcePlus(i, j), _along(L_plus, L_minus)),
-    equation(ForceMinus(i, j), mirror(_along(L_minus, L_plus))),
+    equation(ForcePlus(i, j), _along(L_plus, t * L_plus)),
+    equation(ForceMinus(i, j), lattice.mirror(_along(t * L_plus, L_plus))),
 )
 BULK = tuple(
     equation(force, sympy.Sum(value.xreplace({M: m}), (m, j + 1, M)))
@@ -82,29 +47,44 @@ BULK = tuple(
 
 PRINTED = (
     equation(ForcePlus(i, j) / L_plus, _along(sympy.S.One, t)),
-    equation(ForceMinus(i, j) / L_minus, mirror(_along(sympy.S.One, 1 / t))),
+    equation(ForceMinus(i, j) / L_minus, lattice.mirror(_along(sympy.S.One, 1 / t))),
 )
 SINE, COSINE = (Symbol(name, rf"\{name}\theta", f"{name} θ", real=True) for name in ("sin", "cos"))
 
 
-def _from_the_surface_down(statements: tuple[sympy.Eq, ...], where: Where) -> tuple[By, ...]:
-    """Each of two statements, by induction for both together, balancing bead after bead."""
-    assert where.loading is not None
-    loads = axioms.loads(where.loading)
-    first, step = below(axioms.balance(), loads), below(axioms.balance(), (SUPPOSED, loads))
-    meant = [equation(*(in_place(side, RATIO) for side in one.args)) for one in statements]
-    return tuple(
-        induct(j, M - 1, first, step, down=True, family=((other, where),))
-        for other in reversed(meant)
+def _from_the_surface_down(statements: tuple[sympy.Eq, ...], domain: Domain):
+    """Both statements, by induction, balancing bead after bead."""
+    loads = axioms.loads(domain.loading)
+    first = below(loads, eq07.right_angles())
+    return inducted(
+        j,
+        M - 1,
+        first,
+        lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+        [(one, domain) for one in statements],
+        down=True,
     )
 
 
 @cache
-def steps() -> Lines:
+def forces(load: str):
+    """Both forces under a leaning load on the "surface" or in the "bulk"."""
+    statements, domain = (FORCES, ON_SURFACE) if load == "surface" else (BULK, IN_BULK)
+    return _from_the_surface_down(statements, domain)
+
+
+@cache
+def in_radii(load: str):
+    """The forces and, in the radii, the directions of contacts."""
+    return forces(load), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
+
+
+@cache
+def steps() -> Steps:
     """From layer to layer down: what enters along n⁺ is L⁺, what turns into it was L⁻."""
-    lines = Lines(WHERE)
+    steps = Steps("B1", ON_SURFACE, {L_minus: t * L_plus})
     above = (i + 1, j + 1)
-    passed = lines.show(
+    steps.show(
         "Every bead passes on what it carries (Eq. 8 and its mirror image): f⁺ has what came along "
         "n⁺, and what turns from n⁻, which is of first order,",
         equation(
@@ -114,43 +94,37 @@ def steps() -> Lines:
                 times(ForceMinus(*above), eq10.branched_plus(i, j, 1)),
             ),
         ),
-        below(axioms.balance(), axioms.loads(SURFACE_TILTED)),
-        where=WHERE.also(j <= M - 2),
-        after=(eq08.DERIVATION, eq10.DERIVATION),
+        below(axioms.loads(axioms.SURFACE_TILTED), eq07.right_angles()),
+        ON_SURFACE.also(j <= M - 2),
     )
-    forces = lines.show(
+    steps.show(
         "Layer by layer, down from the surface: the changes along n⁺ cancel but for the last, "
         "and L⁻ turns into f⁺ at each of M − j − 1 beads, as in Eq. 11. f⁻ is the mirror image, "
         "with L⁺ and L⁻ exchanged:",
         sympy.Tuple(*FORCES),
-        _from_the_surface_down(FORCES, WHERE),
-        meaning=RATIO,
-        after=(eq06.DERIVATION, eq11.DERIVATION, passed),
+        tuple(map(same, forces("surface"))),
     )
-    lines.show(
+    steps.show(
         "Over the mean forces L⁺ and L⁻ of the two:",
         sympy.Tuple(*PRINTED),
-        rewrite(forces),
-        meaning=RATIO,
+        rewrite(forces("surface")),
     )
-    lines.show(
+    steps.show(
         "Under the same load on every bead each layer m above the contact adds what it does as "
         "the surface of a packing of the height m:",
         sympy.Tuple(*BULK),
-        _from_the_surface_down(BULK, IN_BULK),
-        where=IN_BULK,
-        meaning=RATIO,
-        after=(forces,),
+        tuple(map(same, forces("bulk"))),
+        IN_BULK,
     )
-    lines.claim(
+    steps.claim(
         "for t = 1 it is Eq. 11",
         equation(PRINTED[0].rhs.xreplace({t: sympy.S.One}), eq11.PRINTED.rhs),
         rewrite(),
-        where=WHERE.loaded(None),
+        eq11.LAYERS,
     )
     scale = f_load / (2 * n_x * n_y)
     plus, less = n_x * COSINE - n_y * SINE, n_x * COSINE + n_y * SINE
-    lines.claim(
+    steps.claim(
         "a load f_load at the angle θ from straight down has L⁺ and L⁻ with the signs of n_x cos θ "
         "∓ n_y sin θ: the ordered packing is compressive for |tan θ| < n_x/n_y, a load within the "
         "angle of the contacts",
@@ -159,13 +133,10 @@ def steps() -> Lines:
             f_load * (COSINE * e_y - SINE * e_x),
         ),
         rewrite(),
-        where=Where(),
+        Domain(),
     )
-    return lines
+    return steps
 
-
-UNDER_SURFACE, UNDER_BULK = (Within(steps, place, "Eq. B1") for place in (1, 3))
-"""``FORCES`` and ``BULK`` as they are proved: what the calculator rests on."""
 
 DERIVATIONS: dict[Number, Derivation] = {
     "B1": Derivation(
@@ -183,14 +154,13 @@ DERIVATIONS: dict[Number, Derivation] = {
         ),
         assumptions=(
             "first order in δr",
-            *WHERE.in_words(),
+            *ON_SURFACE.in_words(),
             "L⁺ > 0 in the first part, L⁻ > 0 in the second",
             "no horizontal boundary is met (W > M)",
         ),
-        premises=tuple(one.DERIVATION for one in (eq06, eq08, eq10, eq11)),
         printed=PRINTED,
+        domain=ON_SURFACE,
         steps=steps,
-        where=WHERE,
         remarks=(
             "Only the changes along the other branch carry t: what turns into f⁺ is what came "
             "along n⁻. As L⁻ is taken away, f⁺ stays near L⁺ and feels the tilt of its own contact "
@@ -198,8 +168,3 @@ DERIVATIONS: dict[Number, Derivation] = {
         ),
     )
 }
-
-if __name__ == "__main__":
-    from force_diffusion.derivations.commands.alone import run_alone
-
-    raise SystemExit(run_alone(DERIVATIONS))

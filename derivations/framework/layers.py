@@ -7,8 +7,8 @@ from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms
 from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.kernel.limits import asymptotic, bounded
 from force_diffusion.symbolic.kernel.rules import same
-from force_diffusion.symbolic.kernel.statistics import theorems
 from force_diffusion.symbolic.kernel.theorem import Group
+from force_diffusion.symbolic.piecewise import theorems
 from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma
 from force_diffusion.symbolic.words import in_words
 

@@ -26,10 +26,10 @@ from .catalogue import Number
 Definitions = Mapping[Any, Any]
 """What stands for a symbol of a step's own, or for a function of its arguments."""
 
-_OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.spacing}
+_OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.spacing, sy.L_minus}  # defined by steps
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Step:
     """One or more equations with one reason.
 
@@ -52,6 +52,9 @@ class Step:
     definitions: tuple[Definitions, ...]
     theorems: tuple[Theorem, ...]
     number: int = 0
+
+    def __repr__(self) -> str:
+        return f"<step {self.number} of Eq. {self.equation}: {self.reason}>"
 
     @property
     def equations(self) -> tuple[sympy.Eq, ...]:

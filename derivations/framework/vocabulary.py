@@ -22,6 +22,7 @@ from force_diffusion.symbolic.kernel.rules import (
     order,
     reach,
     rewrite,
+    same,
     solve,
 )
 from force_diffusion.symbolic.kernel.statistics import moment
@@ -65,6 +66,7 @@ __all__ = [
     "reach",
     "relations",
     "rewrite",
+    "same",
     "solve",
     "tensile",
     "terms",

@@ -187,38 +187,38 @@ class Domain:
         *relations: sympy.Basic,
         indices: Iterable[sympy.Symbol] = (),
         loading: Loading | None = None,
-        beads: Iterable[Site] = (),
+        beads: Iterable[Site] | None = None,
         dimension: int = 2,
         limit: Limit | None = None,
     ) -> "Domain":
         """The domain of all indices that the relations, the load and the beads speak of.
 
-        With one index of a bead (i, j), (k, l) or (r, s) the other is one of them.
+        Beads are by default at (i, j), (k, l) and (r, s): with one of two indices the other is one
+        of the domain, and their sum is even.
 
         Raises:
             ValueError: the dimension is neither 2 nor 3.
         """
         if dimension not in (2, 3):
             raise ValueError(f"dimension {dimension}: 2 and 3 are allowed")
-        places = tuple(beads)
         held = {*indices}.union(*(one.free_symbols for one in relations))
-        held |= set().union(*(one.free_symbols for place in places for one in place))
         held |= loading.fixed if loading else set()
-        of_lattice = [bead for bead in LATTICE if dimension == 2 and held & set(bead)]
-        held = held.union(*of_lattice)
+        by_default = (bead for bead in LATTICE if held & {*bead})
+        places = tuple(by_default if beads is None else beads)
+        held |= set().union(*(one.free_symbols for place in places for one in place))
         ordered = tuple(symbol for symbol in sy.INDICES if symbol in held)
-        every = tuple(dict.fromkeys((*of_lattice, *places)))
         kept = tuple(one for one in dict.fromkeys(relations) if one != sympy.true)
-        return cls(ordered, kept, loading, every, dimension, limit)
+        return cls(ordered, kept, loading, tuple(dict.fromkeys(places)), dimension, limit)
 
     def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Domain":
         """The part of it where further relations hold, in further indices."""
+        new = {*indices}.union(*(one.free_symbols for one in relations)) - {*self.indices}
         return Domain.of(
             *self.relations,
             *relations,
-            indices=(*self.indices, *indices),
+            indices=(*self.indices, *new),
             loading=self.loading,
-            beads=self.beads,
+            beads=(*self.beads, *(bead for bead in LATTICE if new & {*bead})),
             dimension=self.dimension,
             limit=self.limit,
         )

@@ -10,6 +10,7 @@ from functools import lru_cache
 
 import sympy
 
+from .. import sets
 from .. import symbols as sy
 from ..algebra.exact import FIELD, SITE, NotExactError, Polynomial, RationalFunction
 from ..algebra.signs import sign
@@ -17,11 +18,11 @@ from ..forms import FORCES, NUMBER, RADII, Form
 from ..notation import by_name
 from ..printing.text import text
 from ..second_order import covariance
-from ..sets import EVERYTHING
+from ..sets import EVERYTHING, Set
 from ..weights import Weights
 from .domain import Domain, Limit
 from .rules import Rule
-from .statistics import ClosedForm, Statistics, worked_out
+from .statistics import Statistics, worked_out
 from .theorem import FalseStatementError, Group, Groups, NotProvedError, Theorem, check_domain, flat, made
 
 _NEVER = 10**9  # no order is as large
@@ -211,14 +212,35 @@ def _at_height(side: sympy.Expr) -> sympy.Expr:
 def _one_function(number: Weights, domain: Domain) -> RationalFunction:
     limit = domain.limit
     assert limit is not None
-    form = ClosedForm(number.on(domain.points), domain.points, domain.straight)
-    for piece in form.pieces:
-        if any(all(_is_late(one, domain) for one in part) for part in piece.where):
-            fixed = {s: FIELD.from_sympy(at) for s, at in _fixed(domain).items()}
-            value = piece.value.substitute(fixed).reduced()
+    back = {s: FIELD.from_sympy(at) for s, at in domain.straight.back.items()}
+    fixed = {s: FIELD.from_sympy(at) for s, at in _fixed(domain).items()}
+    rest = domain.points
+    for whole, value in number.on(domain.points).formulas():
+        rest = rest - whole
+        if _is_reached(whole, domain):
+            value = value.substitute(back).substitute(fixed).reduced()
             _uniform(value, limit)
             return value
+    if _is_reached(rest, domain):
+        return FIELD.zero
     raise NotProvedError(f"it is not one function in all of {limit.words}")
+
+
+def _is_reached(points: Set, domain: Domain) -> bool:
+    """Whether a convex part of a set holds all but the first of what grows."""
+    for part in sets.parts(points):
+        equations, bounds = sets.rows(part)
+        if all(_is_late(_relation(form, sympy.Eq, domain), domain) for form in equations) and all(
+            _is_late(_relation(form, sympy.Ge, domain), domain) for form in bounds
+        ):
+            return True
+    return False
+
+
+def _relation(form: sets.Row, kind: type, domain: Domain) -> sympy.Basic:
+    """What a form of straightened indices says of the indices."""
+    value = sympy.Add(*(n * symbol for symbol, n in form[0].items()), form[1])
+    return kind(value.xreplace(dict(domain.straight.back)), 0, evaluate=False)
 
 
 def _fixed(domain: Domain) -> dict[sympy.Symbol, sympy.Expr]:

@@ -8,15 +8,14 @@ indices, so a moment is a polynomial on each of a few sets of indices: its close
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import sympy
 
-from .. import sets, spheres
+from .. import spheres
 from .. import symbols as sy
-from ..algebra.exact import FIELD, NotAStatementError, NotExactError, RationalFunction
-from ..as_printed import equation
-from ..forms import NUMBER, RADII, SHIFT, Form, Reader, Straightening, Value
+from ..algebra.exact import FIELD, NotAStatementError, NotExactError
+from ..forms import NUMBER, RADII, SHIFT, Form, Reader, Value
 from ..printing.text import text
 from ..second_order import Jet, covariance
 from ..weights import Weights
@@ -125,114 +124,31 @@ def worked_out(expression: sympy.Expr, domain: Domain, groups: tuple[Group, ...]
     return reader.number(expression).on(reader.points)
 
 
-Relations = tuple[sympy.Basic, ...]
+def moment(*groups: Group, on: Domain | None = None) -> Rule:
+    """Both sides are the same on all of the domain, moments worked out.
 
-
-@dataclass(frozen=True)
-class Piece:
-    """A formula of a closed form.
-
-    Attributes:
-        where: where it holds, as relations of indices; those of any of several parts.
-        value: the formula.
+    Args:
+        groups: the theorems that give quantities in the radii.
+        on: a larger domain, on which moments are worked out once for several parts of it.
     """
-
-    where: tuple[Relations, ...]
-    value: RationalFunction
-
-
-@dataclass(frozen=True, eq=False)
-class ClosedForm:
-    """A number that is a function of indices: a formula on each of a few parts of its domain."""
-
-    weights: Weights
-    points: sets.Set
-    straight: Straightening
-
-    @classmethod
-    def of(cls, expression: sympy.Expr, domain: Domain, *groups: Group) -> "ClosedForm":
-        """An expression in moments on a domain.
-
-        Raises:
-            NotExactError: it is not linear in the radii, or not given by them.
-        """
-        form = worked_out(expression, domain, groups)
-        if strange := {*form.parts} - {NUMBER}:
-            raise NotExactError(f"{min(map(str, strange))} belongs to single beads")
-        return cls(form.parts.get(NUMBER, Weights()), domain.points, domain.straight)
-
-    @cached_property
-    def pieces(self) -> tuple[Piece, ...]:
-        """Its formulas, on parts of the domain that cover it and share no point."""
-        found = []
-        left = self.points
-        back = {symbol: FIELD.from_sympy(one) for symbol, one in self.straight.back.items()}
-        for whole, value in self.weights.formulas():
-            left = left - whole
-            found.append(Piece(self._relations(whole), value.substitute(back)))
-        if not left.is_empty():
-            found.append(Piece(self._relations(left), FIELD.zero))
-        return tuple(found)
-
-    def on(self, *relations: sympy.Basic) -> RationalFunction:
-        """Its formula on a part of its domain, where it is one.
-
-        Raises:
-            NotProvedError: it is not.
-        """
-        points = self.points & sets.where(*map(self.straight.relation, relations))
-        pieces = ClosedForm(self.weights.on(points), points, self.straight).pieces
-        if len(pieces) != 1:
-            raise NotProvedError(f"there it is not one formula, but {len(pieces)}")
-        return pieces[0].value
-
-    @cached_property
-    def weights_symbols(self) -> set[sympy.Symbol]:
-        """The indices on which it depends."""
-        held = set().union(*(one.free_symbols for piece in self.pieces
-                             for part in piece.where for one in part))  # fmt: skip
-        return held | {s for s in sy.INDICES if any(piece.value.holds(s) for piece in self.pieces)}
-
-    def _relations(self, whole: sets.Set) -> tuple[Relations, ...]:
-        return tuple(
-            (
-                *(sympy.Eq(self._whole(form), 0, evaluate=False) for form in equations),
-                *(sympy.Ge(self._whole(form), 0, evaluate=False) for form in bounds),
-            )
-            for equations, bounds in sets.conditions(whole, self.points)
-        )
-
-    def _whole(self, form: sets.Row) -> sympy.Expr:
-        """A form in the old indices, without fractions."""
-        value = sympy.Add(*(n * s for s, n in form[0].items()), form[1])
-        value = sympy.expand(value.xreplace(self.straight.back))
-        return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
-
-
-def moment(*groups: Group) -> Rule:
-    """Both sides are the same on all of the domain, moments worked out."""
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         check_domain(formula, domain)
-        sides = meant(formula, domain)
+        whole = domain if on is None else on
+        if whole.loading != domain.loading or whole.beads != domain.beads:
+            raise NotProvedError("the larger domain is another one")
+        if not domain.points.is_subset(whole.points):
+            raise NotProvedError("the domain is no part of the larger one")
+        left, right = meant(formula, domain)
         try:
-            forms = [(worked_out(side, domain, groups),) for side in sides]
+            forms = worked_out(left, whole, groups), worked_out(right, domain, groups)
         except NotAStatementError:
             raise
         except NotExactError as reason:
             raise NotProvedError(str(reason)) from None
-        apart = difference((forms[0], forms[1]), domain)
+        apart = difference(((forms[0],), (forms[1],)), domain)
         if not all(form.is_zero() for form in apart):
             raise refuse(apart, domain, groups)
         return made(formula, domain, "moment", flat(groups))
 
     return rule
-
-
-def theorems(quantity: sympy.Expr, domain: Domain, *groups: Group) -> tuple[Theorem, ...]:
-    """What the closed form of a quantity says: a theorem for each part of a domain."""
-    return tuple(
-        made(equation(quantity, piece.value.to_sympy()), domain.also(*part), "moment", flat(groups))
-        for piece in ClosedForm.of(quantity, domain, *groups).pieces
-        for part in piece.where
-    )

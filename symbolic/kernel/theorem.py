@@ -62,7 +62,7 @@ class Supposition:
         return {self.index, *self.start.free_symbols}
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Theorem:
     """A proved equation.
 
@@ -86,6 +86,10 @@ class Theorem:
     def __post_init__(self, made_by: object) -> None:
         if made_by is not _MADE_HERE:
             raise TypeError("a theorem is made by the rules of the kernel alone")
+
+    def __repr__(self) -> str:
+        left, right = map(text, self.formula.args)
+        return f"<Theorem, by {self.rule}: {left} = {right}>"
 
     @cached_property
     def fixed(self) -> set[sympy.Symbol]:

@@ -1,0 +1,171 @@
+"""A number that is a function of indices, as formulas on parts of a domain, in the fewest words."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+import sympy
+
+from . import sets, words
+from . import symbols as sy
+from .algebra.exact import FIELD, Domain, NotExactError, RationalFunction
+from .as_printed import equation
+from .forms import NUMBER, Straightening
+from .kernel.domain import Domain as Where
+from .kernel.statistics import moment, worked_out
+from .kernel.theorem import Group, NotProvedError, Theorem, names_for
+from .weights import Weights
+
+Relations = tuple[sympy.Basic, ...]
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula, and where it holds.
+
+    Attributes:
+        where: relations of indices; those of any of several parts.
+        value: the formula.
+    """
+
+    where: tuple[Relations, ...]
+    value: RationalFunction
+
+
+@dataclass(frozen=True, eq=False)
+class PiecewiseFunction:
+    """A function of indices.
+
+    Attributes:
+        weights: the number, by straightened indices.
+        points: its domain, straightened.
+        straight: which indices are put in for others.
+        constants: symbols that are not the paper's, and what stands for them in ``weights``.
+    """
+
+    weights: Weights
+    points: sets.Set
+    straight: Straightening
+    constants: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
+
+    def __reduce__(self) -> tuple[type["PiecewiseFunction"], tuple[object, ...]]:
+        """Relations are left out of pickles: SymPy would evaluate them."""
+        return PiecewiseFunction, (self.weights, self.points, self.straight, self.constants)
+
+    @classmethod
+    def of(
+        cls,
+        expression: sympy.Expr,
+        domain: Where,
+        *groups: Group,
+        values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
+    ) -> "PiecewiseFunction":
+        """An expression in moments on a domain.
+
+        Args:
+            expression: in means, variances and covariances.
+            domain: of its indices, with the load.
+            groups: theorems that give quantities in the radii, put in one after the other.
+            values: of parameters, of which the theorems hold whatever they are.
+
+        Raises:
+            NotExactError: what it is of is not linear, or not given by the radii.
+        """
+        own = names_for(expression)
+        form = worked_out(expression.xreplace(own), domain, groups)
+        if {*form.parts} - {NUMBER}:
+            raise NotExactError("it holds what belongs to single beads")
+        weights = form.parts.get(NUMBER, Weights())
+        weights = weights.having({s: FIELD.constant(n) for s, n in (values or {}).items()})
+        return cls(weights, domain.points, domain.straight, own)
+
+    @cached_property
+    def _names(self) -> Domain:
+        """The field, in which constants have their own names."""
+        own = {stand_in: symbol for symbol, stand_in in self.constants.items()}
+        return FIELD.named(own) if own else FIELD
+
+    @cached_property
+    def domain(self) -> Relations:
+        """The fewest relations that say where it holds, beside what is even."""
+        (found,) = self._relations(self.points, sets.EVERYTHING)
+        return found
+
+    @cached_property
+    def formulas(self) -> tuple[Formula, ...]:
+        """Its formulas, on parts of the domain that cover it and share no point."""
+        found = []
+        left = self.points
+        for whole, value in self.weights.formulas():
+            left = left - whole
+            found.append(Formula(self._relations(whole, self.points), self._formula(whole, value)))
+        if not left.is_empty():
+            found.append(Formula(self._relations(left, self.points), FIELD.zero))
+        return tuple(found)
+
+    def part(self, *relations: sympy.Basic) -> "PiecewiseFunction":
+        """The same on a part of its domain."""
+        points = self.points & sets.where(*map(self.straight.relation, relations))
+        return replace(self, weights=self.weights.on(points), points=points)
+
+    def put_in(self, image: Mapping[sympy.Symbol, sympy.Expr]) -> "PiecewiseFunction":
+        """The same with other numbers for symbols that are no indices."""
+        values = {symbol: FIELD.from_sympy(one) for symbol, one in image.items()}
+        return replace(self, weights=self.weights.having(values))
+
+    def on(self, *relations: sympy.Basic) -> RationalFunction:
+        """Its formula on a part of its domain, where it is one.
+
+        Raises:
+            NotProvedError: it is not.
+        """
+        formulas = self.part(*relations).formulas
+        if len(formulas) != 1:
+            raise NotProvedError(f"there it is not one formula, but {len(formulas)}")
+        return formulas[0].value
+
+    def total(self, index: sympy.Symbol, weight: sympy.Expr) -> Weights:
+        """The sum over all values of an index, of which the number is multiplied by a weight."""
+        factor = FIELD.from_sympy(weight.xreplace(self.straight.image))
+        return self.weights.scaled(factor).summed(index)
+
+    @cached_property
+    def indices(self) -> set[sympy.Symbol]:
+        """The indices on which it depends."""
+        held = set().union(
+            *(one.free_symbols for each in self.formulas for part in each.where for one in part)
+        )
+        return held | {s for s in sy.INDICES if any(one.value.holds(s) for one in self.formulas)}
+
+    def _relations(self, whole: sets.Set, context: sets.Set) -> tuple[Relations, ...]:
+        return tuple(
+            (
+                *(sympy.Eq(self._whole(form), 0, evaluate=False) for form in equations),
+                *(sympy.Ge(self._whole(form), 0, evaluate=False) for form in bounds),
+            )
+            for equations, bounds in sets.conditions(whole, context)
+        )
+
+    def _formula(self, whole: sets.Set, value: RationalFunction) -> RationalFunction:
+        """A value in the old indices, without those that the equations of its part give."""
+        value = value.substitute({s: FIELD.from_sympy(x) for s, x in self.straight.back.items()})
+        held = (sympy.Eq(self._whole(form), 0, evaluate=False) for form in sets.equations(whole))
+        given = {one.lhs: FIELD.from_sympy(one.rhs) for one in words.equations(held)}
+        with suppress(NotExactError):  # a divisor vanishes there
+            value = value.substitute(given)
+        return value.reduced().named(self._names)
+
+    def _whole(self, form: sets.Row) -> sympy.Expr:
+        """A form in the old indices, without fractions."""
+        value = sympy.Add(*(n * s for s, n in form[0].items()), form[1])
+        value = sympy.expand(value.xreplace(self.straight.back))
+        return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
+
+
+def theorems(quantity: sympy.Expr, domain: Where, *groups: Group) -> Iterator[Theorem]:
+    """What the closed form of a quantity says: a theorem for each part of its domain."""
+    rule = moment(*groups, on=domain)
+    for formula in PiecewiseFunction.of(quantity, domain, *groups).formulas:
+        for part in formula.where:
+            yield rule(equation(quantity, formula.value.to_sympy()), domain.also(*part))
