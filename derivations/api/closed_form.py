@@ -26,6 +26,7 @@ from force_diffusion.symbolic.printing.lines import (
     column_width,
     latex_body,
     latex_cases,
+    pack,
     text_lines,
 )
 from force_diffusion.symbolic.printing.text import text
@@ -384,12 +385,13 @@ class ClosedForm:
         """The lines that it prints as."""
         lines = [f"{text(self._quantity)}, exact{self._for_domain}"]
         for piece in self.pieces:
-            where = f"  {piece.domain or 'everywhere'}:"
-            first, *others = text_lines(piece.expr, room=room - 4)
-            if not others and len(where) + len(first) < room:
-                lines.append(f"{where} {first}")
+            parts = f"{piece.domain or 'everywhere'}:".replace("; or ", ";\nor ").split("\n")
+            where = pack([(one, len(one) + 1) for one in parts], room - 4, room - 2)
+            formula = text_lines(piece.expr, room=room - 4)
+            if len(where) + len(formula) == 2 and len(where[0] + formula[0]) < room - 3:
+                lines.append(f"  {where[0]} {formula[0]}")
             else:
-                lines += [where, *(f"    {line}" for line in (first, *others))]
+                lines += [f"  {where[0]}", *(f"    {one}" for one in (*where[1:], *formula))]
         return lines
 
     def __str__(self) -> str:

@@ -27,7 +27,7 @@ COMMANDS = {
         "certify",
         "Ask Coq, an independent proof assistant, whether it accepts the printed equations.",
     ),
-    "show": ("equations", "Print equations, or all of a theorem, without deriving them."),
+    "show": ("equations", "Print equations without deriving them."),
     "list": ("equations", "List the equations."),
     "examples": ("examples", "Copy the example scenes into a new folder."),
     "run": ("scenes", "Solve the packing of a scene and answer its question."),

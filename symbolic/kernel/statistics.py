@@ -358,6 +358,8 @@ def decide(form: ClosedForm, where: Where, candidate: sympy.Expr) -> Ruling:
     try:
         for value, part in _parts(candidate):
             domain = where.also(*part)
+            if domain.is_empty:
+                continue
             check(equation(value, value), domain)
             reader = Statistics.on(domain, ())
             read = reader.number(value.xreplace(form.constants))
@@ -384,7 +386,8 @@ def _parts(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
         yield candidate.xreplace(height), ()
         return
     for value, condition in candidate.args:
-        either = condition.args if isinstance(condition, sympy.Or) else (condition,)
+        plain = sympy.to_dnf(condition)
+        either = plain.args if isinstance(plain, sympy.Or) else (plain,)
         for part in either:
             both = part.args if isinstance(part, sympy.And) else (part,)
             yield value.xreplace(height), tuple(one for one in both if one != sympy.true)
