@@ -7,6 +7,7 @@ from .derivations.api.equation import equation as equation
 from .derivations.calculator.loads import leaning as leaning
 from .derivations.calculator.loads import point as point
 from .derivations.calculator.statistics import covariance as covariance
+from .derivations.calculator.statistics import force_moment as force_moment
 from .derivations.calculator.statistics import mean as mean
 from .derivations.calculator.statistics import mean_over as mean_over
 from .derivations.calculator.statistics import response as response
