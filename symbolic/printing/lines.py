@@ -361,6 +361,14 @@ def latex_body(
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
 
 
+def stacked(bodies: Sequence[str]) -> str:
+    """What stands in displays of its own, in one."""
+    if len(bodies) == 1:
+        return bodies[0]
+    body = " \\\\[6pt]\n&".join(bodies)
+    return f"\\begin{{aligned}}\n&{body}\n\\end{{aligned}}"
+
+
 Case = tuple[Basic, Sequence[str]]
 """A formula, and in pieces of LaTeX where it holds."""
 
