@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 81
 LIMITS = {
     "symbolic": 7_574,
     "derivations": 12_497,
-    "numeric": 13_119,
+    "numeric": 13_122,
     "force_diffusion": 73,
     "benchmarks": 900,
     ".ci": 500,

@@ -224,7 +224,7 @@ def raced(scenes: str, *options: str) -> list[tuple[int, str]]:
         )
         for name in scenes
     ]  # fmt: skip
-    told = [one.communicate(timeout=60)[1] for one in runs]
+    told = [one.communicate(timeout=600)[1] for one in runs]
     return [(one.returncode, words) for one, words in zip(runs, told, strict=True)]
 
 
