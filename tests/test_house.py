@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 81
 LIMITS = {
     "symbolic": 7_574,
     "derivations": 12_497,
-    "numeric": 13_122,
+    "numeric": 12_987,
     "force_diffusion": 73,
     "benchmarks": 900,
     ".ci": 500,

@@ -6,10 +6,10 @@ from fractions import Fraction
 import mpmath
 import pytest
 from force_diffusion.derivations.beyond import t8_any_dimension as t8
-from force_diffusion.numeric.mechanics.any_dimension import force_weights, squared, together
 from force_diffusion.symbolic.algebra import explicit
 from force_diffusion.symbolic.symbols import d, phi, r, sigma, tau_1, tau_2
 
+from tests.numeric.mechanics.any_dimension import force_weights, squared, together
 from tests.soundness.witnesses import dimensions
 from tests.soundness.witnesses.comparing import assert_equal, stated
 from tests.soundness.witnesses.draws import SmallPacking

@@ -6,7 +6,6 @@ from itertools import product
 import pytest
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.numeric.mechanics.any_dimension import force_weights, squared, together
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.weights import UndeterminedError
@@ -16,6 +15,7 @@ from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.symbols import M, d, j, l, p, phi, q, r, sigma, tau_1, tau_2
 from sympy import Eq, Integer
 
+from tests.numeric.mechanics.any_dimension import force_weights, squared, together
 from tests.soundness.witnesses import dimensions
 
 CASES = {

@@ -5,7 +5,6 @@ from fractions import Fraction
 
 import pytest
 from force_diffusion.derivations.beyond import t8_any_dimension as t8
-from force_diffusion.numeric.mechanics.any_dimension import force_weights, squared, together
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.any_dimension import (
     BULK,
@@ -18,6 +17,8 @@ from force_diffusion.symbolic.search.any_dimension import RATIOS, contact
 from force_diffusion.symbolic.search.counterexample import counterexample
 from force_diffusion.symbolic.symbols import ForceOfLayer, M, Variance, d, j, phi
 from sympy import Integer
+
+from tests.numeric.mechanics.any_dimension import force_weights, squared, together
 
 WHERE = Where((j, M), (j >= 2, j + 2 <= M), SURFACE, dimension=3)
 
