@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 81
 LIMITS = {
     "symbolic": 7_574,
-    "derivations": 12_497,
+    "derivations": 12_487,
     "numeric": 12_987,
     "force_diffusion": 73,
     "benchmarks": 900,

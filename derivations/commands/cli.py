@@ -54,7 +54,7 @@ _GIVEN: ContextVar[list[str]] = ContextVar("given")
 
 
 def command_line() -> str:
-    """What was typed, as one line for a shell, which anything may hold: other text is spelled out."""
+    """What was typed, as one line for a shell; what no line may hold is spelled out."""
     return printable(shlex.join(["force-diffusion", *_GIVEN.get()])).replace("\n", r"\n")
 
 
