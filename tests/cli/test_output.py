@@ -173,9 +173,14 @@ def killed(calls: int) -> bool:
         os.rename = counted(os.rename)
         for name in ("mkdir", "write_bytes", "unlink", "rmdir"):
             setattr(Path, name, counted(getattr(Path, name)))
-        write("out", {"a": "new", "b": "new"}, overwrite=True)
-        os._exit(0)
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0
+        try:
+            write("out", {"a": "new", "b": "new"}, overwrite=True)
+            os._exit(0)
+        finally:
+            os._exit(1)
+    ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    assert ended in {0, -signal.SIGKILL}
+    return ended != 0
 
 
 def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is() -> None:
@@ -222,9 +227,11 @@ def test_at_the_same_moment_nothing_is_lost(overwrite: bool) -> None:
                     folder = Output(Path(out), NAMES, overwrite)
                     time.sleep(max(moment - time.monotonic(), 0))
                     folder.write({"a": text, "b": text})
+                    os._exit(0)
                 except OutputError:
                     os._exit(2)
-                os._exit(0)
+                finally:
+                    os._exit(1)
             children.append(child)
         ended = [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children]
         assert set(ended) <= {0, 2}
