@@ -36,5 +36,5 @@ from .numeric.scene.sections import Packing as Packing
 from .numeric.scene.sections import PointLoad as PointLoad
 from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
-from .numeric.studies.cost.cost import cost as cost
-from .numeric.studies.cost.table import CostStudy as CostStudy
+from .numeric.studies.cost import cost as cost
+from .numeric.studies.table import CostStudy as CostStudy

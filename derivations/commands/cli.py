@@ -9,7 +9,6 @@ tells them.
 import difflib
 import shlex
 import sys
-from collections.abc import Sequence
 from contextvars import ContextVar
 from importlib import import_module
 from typing import Annotated, Any
@@ -54,14 +53,9 @@ STATUSES = (
 _GIVEN: ContextVar[list[str]] = ContextVar("given")
 
 
-def shell_line(words: Sequence[str]) -> str:
-    """Words as one line for a shell, which anything may hold: other text is spelled out."""
-    return printable(shlex.join(words)).replace("\n", r"\n")
-
-
 def command_line() -> str:
-    """What was typed, as one line for a shell."""
-    return shell_line(["force-diffusion", *_GIVEN.get()])
+    """What was typed, as one line for a shell; what no line may hold is spelled out."""
+    return printable(shlex.join(["force-diffusion", *_GIVEN.get()])).replace("\n", r"\n")
 
 
 def _application(**options: Any) -> typer.Typer:

@@ -52,7 +52,7 @@ def test_sympy_is_not_imported(arguments: list[str]) -> None:
         cwd=ROOT,
         check=True,
         capture_output=True,
-        timeout=60,
+        timeout=600,
     )
 
 
