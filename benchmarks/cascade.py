@@ -31,7 +31,6 @@ SHARES = {
     "moved": "beads moved by more than 0.001 r",
     "new": "contacts that are new",
 }
-Rows = list[dict[str, Any]]
 
 
 def answer(
@@ -94,7 +93,7 @@ def opened(load: str, height: int, seed: int) -> dict[str, Any] | None:
     }  # fmt: skip
 
 
-def summary(rows: Rows) -> Iterator[dict[str, Any]]:
+def summary(rows: list[Any]) -> Iterator[dict[str, Any]]:
     """Give mean and standard error by load and height."""
     for (load, height), group in groupby(rows, lambda row: (row["load"], row["height"])):
         own = list(group)
@@ -105,7 +104,7 @@ def summary(rows: Rows) -> Iterator[dict[str, Any]]:
         yield found
 
 
-def picture(means: Rows) -> spec.Picture:
+def picture(means: list[Any]) -> spec.Picture:
     """Draw one panel a load: shares over M, with bars of two standard errors."""
     panels = []
     for load in LOADS:
@@ -118,8 +117,8 @@ def picture(means: Rows) -> spec.Picture:
                 spec.Line(heights, shares, number, width=0.8),
                 spec.Points(heights, shares, number, words, [2 * bar for bar in bars]),
             ]
-        x_axis, y_axis = spec.Axis("height $M$", ticks=heights), spec.Axis("share", 0, 1)
-        panels.append(spec.Panel(elements, x_axis, y_axis, f"{load} load", "below", columns=2))
+        axes = spec.Axis("height $M$", ticks=heights), spec.Axis("share", 0, 1)
+        panels.append(spec.Panel(elements, *axes, f"{load} load", "below", columns=2))
     return spec.Picture(panels, 2.9, page=True, share="y")
 
 
@@ -131,7 +130,7 @@ def main() -> None:
     parser.add_argument("--packings", type=int, default=16)
     asked = parser.parse_args()
     asked.folder.mkdir()
-    rows: Rows = []
+    rows: list[Any] = []
     for load, height in product(LOADS, asked.heights):
         found = filter(None, (opened(load, height, seed) for seed in count()))
         rows += islice(found, asked.packings)

@@ -33,8 +33,6 @@ import force_diffusion as fd
 GOAL = ceil(50 * log2(10))  # bits of 50 digits
 POSITIONS, LINE_SUMS = "positions", "line sums"
 
-Rows = list[dict[str, Any]]
-
 
 def plain(delta: Any, system: NumberSystem) -> Any:
     """Changes of all contact forces by circles and balance, (M, 2, W): branch, upper bead.
@@ -101,19 +99,18 @@ def largest(balls: Any) -> Any:
 
 def floats() -> Iterator[dict[str, Any]]:
     """Measure errors and times of both forms in float64."""
-    for height in (16, 128):
-        for exponent in (2, 3, 4, 6, 8, 10, 12, 14, 16, 20, 30):
-            delta = uniform(height, 34, 10.0**-exponent)
-            solve = deviations(delta)
-            ways = {"": partial(solve, FLOAT64), "plain_": partial(plain, delta, FLOAT64)}
-            times = in_turn(ways, 5, process_time)
-            row = {"height": height, "relative_std": 10.0**-exponent}
-            true = solve(Balls(512))
-            with flint.ctx.workprec(512):
-                for name, way in ways.items():
-                    away = largest(from_floats(Balls(53), way()) - true) / largest(true)
-                    row |= {f"{name}error": float(away), f"{name}seconds": times[name]}
-            yield row
+    for height, exponent in product((16, 128), (2, 3, 4, 6, 8, 10, 12, 14, 16, 20, 30)):
+        delta = uniform(height, 34, 10.0**-exponent)
+        solve = deviations(delta)
+        ways = {"": partial(solve, FLOAT64), "plain_": partial(plain, delta, FLOAT64)}
+        times = in_turn(ways, 5, process_time)
+        row = {"height": height, "relative_std": 10.0**-exponent}
+        true = solve(Balls(512))
+        with flint.ctx.workprec(512):
+            for name, way in ways.items():
+                away = largest(from_floats(Balls(53), way()) - true) / largest(true)
+                row |= {f"{name}error": float(away), f"{name}seconds": times[name]}
+        yield row
 
 
 def balls() -> Iterator[dict[str, Any]]:
@@ -143,7 +140,7 @@ def bits_lost(solve: Callable[[NumberSystem], Any]) -> float | None:
     return None
 
 
-def picture(rows: Rows, enclosed: Rows) -> spec.Picture:
+def picture(rows: list[Any], enclosed: list[Any]) -> spec.Picture:
     """Draw errors in float64 on the left, lost bits of balls on the right."""
     errors: list[spec.Element] = [spec.Rule("y", 0, ":", name="no digit is left above")]
     for series, dashes, key, form in (

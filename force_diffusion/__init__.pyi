@@ -7,6 +7,7 @@ from .derivations.api.equation import equation as equation
 from .derivations.calculator.loads import leaning as leaning
 from .derivations.calculator.loads import point as point
 from .derivations.calculator.statistics import covariance as covariance
+from .derivations.calculator.statistics import force_moment as force_moment
 from .derivations.calculator.statistics import mean as mean
 from .derivations.calculator.statistics import mean_over as mean_over
 from .derivations.calculator.statistics import response as response
@@ -35,5 +36,5 @@ from .numeric.scene.sections import Packing as Packing
 from .numeric.scene.sections import PointLoad as PointLoad
 from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
-from .numeric.studies.cost.cost import cost as cost
-from .numeric.studies.cost.table import CostStudy as CostStudy
+from .numeric.studies.cost import cost as cost
+from .numeric.studies.table import CostStudy as CostStudy

@@ -307,7 +307,10 @@ def _of_sampling(table: Table, name: str) -> Array | float:
 
 def _over(table: Table, name: str) -> Array | float:
     """The error of σ_f/⟨f⟩ is that of σ_f over ⟨f⟩, since ⟨f⟩ is known far better."""
-    return abs(as_floats(table.numbers["mean"])) if name == RATIO else 1.0
+    if name != RATIO:
+        return 1.0
+    mean = abs(as_floats(table.numbers["mean"]))
+    return np.where(mean > 0, mean, 1.0)  # smaller than any float: so is the error
 
 
 def _ball_string(value: Any, most: int) -> str:

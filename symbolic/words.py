@@ -84,7 +84,7 @@ class Style:
     at_least: str
 
 
-TEXT = Style(text, " = ", " ≤ ", " ≥ ")
+TEXT = Style(lambda one: text(one).replace("-", "−"), " = ", " ≤ ", " ≥ ")
 LATEX = Style(latex, " = ", r" \leq ", r" \geq ")
 PYTHON = Style(python_expression, " == ", " <= ", " >= ")
 

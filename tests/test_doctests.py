@@ -21,7 +21,7 @@ LONG = {
         "derivations.api.derived",
         "derivations.api.equation",
         "numeric.figures.catalogue",
-        "numeric.studies.cost.cost",
+        "numeric.studies.cost",
     )
 }
 

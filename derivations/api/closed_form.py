@@ -26,6 +26,7 @@ from force_diffusion.symbolic.printing.lines import (
     column_width,
     latex_body,
     latex_cases,
+    pack,
     text_lines,
 )
 from force_diffusion.symbolic.printing.text import text
@@ -322,20 +323,31 @@ class ClosedForm:
             below = [*_alternatives(piece.where, "if"), *below]
             line = equation(self._quantity, piece.value.to_sympy())
             return latex_body((line,), room=room, below=below)
+        factor, values = self._over_common
+        rows = [(values[one], _alternatives(one.where)) for one in formulas]
+        return latex_cases(self._quantity, factor, rows, below, room)
+
+    @cached_property
+    def _over_common(self) -> tuple[sympy.Expr, dict[statistics.Piece, sympy.Expr]]:
+        """What its formulas have in common, and what else each of them holds."""
         common = _common([piece.expr for piece in self.pieces])
-        factor = formulas[0].value.domain.from_sympy(common)
-        rows = [((one.value / factor).to_sympy(), _alternatives(one.where)) for one in formulas]
-        return latex_cases(self._quantity, factor.to_sympy(), rows, below, room)
+        factor = self.formulas[0].value.domain.from_sympy(common)
+        return factor.to_sympy(), {one: (one.value / factor).to_sympy() for one in self.formulas}
+
+    def first(self, columns: int = 1) -> str:
+        """LaTeX of its first formula, and where it holds."""
+        return self._shown(self.formulas[:1], columns)
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same in displays that fit a page: several, if one for all formulas would not."""
-        found: list[list[statistics.Piece]] = [[]]
-        for one in self.formulas:
-            if self._shown([*found[-1], one], columns).count(r"\\") <= _HIGH or not found[-1]:
-                found[-1].append(one)
-            else:
-                found.append([one])
-        return [self._shown(some, columns) for some in found]
+        return self._displays(self.formulas, columns)
+
+    def _displays(self, formulas: Sequence[statistics.Piece], columns: int) -> list[str]:
+        whole, half = self._shown(formulas, columns), len(formulas) // 2
+        if whole.count(r"\\") <= _HIGH or not half:
+            return [whole]
+        return [one for part in (formulas[:half], formulas[half:])
+                for one in self._displays(part, columns)]  # fmt: skip
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"
@@ -384,12 +396,13 @@ class ClosedForm:
         """The lines that it prints as."""
         lines = [f"{text(self._quantity)}, exact{self._for_domain}"]
         for piece in self.pieces:
-            where = f"  {piece.domain or 'everywhere'}:"
-            first, *others = text_lines(piece.expr, room=room - 4)
-            if not others and len(where) + len(first) < room:
-                lines.append(f"{where} {first}")
+            parts = f"{piece.domain or 'everywhere'}:".replace("; or ", ";\nor ").split("\n")
+            where = pack([(one, len(one) + 1) for one in parts], room - 4, room - 2)
+            formula = text_lines(piece.expr, room=room - 4)
+            if len(where) + len(formula) == 2 and len(where[0] + formula[0]) < room - 3:
+                lines.append(f"  {where[0]} {formula[0]}")
             else:
-                lines += [where, *(f"    {line}" for line in (first, *others))]
+                lines += [f"  {where[0]}", *(f"    {one}" for one in (*where[1:], *formula))]
         return lines
 
     def __str__(self) -> str:

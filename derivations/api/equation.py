@@ -247,7 +247,9 @@ class Equation:
         >>> fd.equation(13).sympy_code()
         '2*M**3*sigma**2*(1 - z)**2*(2*z + 1)/(r**2*(1 - phi**2)**2)'
         """
-        return "\n".join(sympy_source(_value_side(line)) for line in self._lines)
+        is_row = isinstance(self._derivation, Row)
+        sides = (line.rhs if is_row else _value_side(line) for line in self._lines)
+        return "\n".join(map(sympy_source, sides))
 
     def python_code(self) -> str:
         """Python source of the right-hand side: a function for each, which needs no import.

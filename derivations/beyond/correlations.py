@@ -141,7 +141,7 @@ def _contacts(number: Number, name: str, load: str) -> Row:
     )
 
 
-def _uncorrelated(domains: Iterable[str]) -> Decide:
+def uncorrelated(domains: Iterable[str]) -> Decide:
     """f⁺_ij and the f⁻ of layer l whose diagonals cross p layers above (i, j) are uncorrelated."""
 
     def decide(_: Forms) -> Ruling:
@@ -264,7 +264,7 @@ DERIVATIONS: dict[Number, Row] = {
             ("f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
              "from both, from the base and from the surface, and, if q layers above both, where q "
              "and j differ by four or more",
-             _uncorrelated(("4 − j ≤ p ≤ −4", "4 ≤ p ≤ l − j − 4",
+             uncorrelated(("4 − j ≤ p ≤ −4", "4 ≤ p ≤ l − j − 4",
                             "l − j + 4 ≤ p ≤ M − j − 4 and p ≤ l − 4",
                             "l − j + 4 ≤ p ≤ M − j − 4 and p ≥ l + 4"))),
         ),

@@ -9,7 +9,6 @@ tells them.
 import difflib
 import shlex
 import sys
-from collections.abc import Sequence
 from contextvars import ContextVar
 from importlib import import_module
 from typing import Annotated, Any
@@ -27,7 +26,7 @@ COMMANDS = {
         "certify",
         "Ask Coq, an independent proof assistant, whether it accepts the printed equations.",
     ),
-    "show": ("equations", "Print equations, or all of a theorem, without deriving them."),
+    "show": ("equations", "Print equations without deriving them."),
     "list": ("equations", "List the equations."),
     "examples": ("examples", "Copy the example scenes into a new folder."),
     "run": ("scenes", "Solve the packing of a scene and answer its question."),
@@ -54,14 +53,9 @@ STATUSES = (
 _GIVEN: ContextVar[list[str]] = ContextVar("given")
 
 
-def shell_line(words: Sequence[str]) -> str:
-    """Words as one line for a shell, which anything may hold: other text is spelled out."""
-    return printable(shlex.join(words)).replace("\n", r"\n")
-
-
 def command_line() -> str:
-    """What was typed, as one line for a shell."""
-    return shell_line(["force-diffusion", *_GIVEN.get()])
+    """What was typed, as one line for a shell; what no line may hold is spelled out."""
+    return printable(shlex.join(["force-diffusion", *_GIVEN.get()])).replace("\n", r"\n")
 
 
 def _application(**options: Any) -> typer.Typer:

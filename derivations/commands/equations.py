@@ -107,7 +107,8 @@ def show(
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
-    equations = [*map(fd.equation, wanted_of(numbers))]
+    wanted = wanted_of(numbers)
+    equations = [*map(fd.equation, wanted)]
     if form is Form.JSON:
         print(json.dumps({"equations": [one.data() for one in equations]}, indent=2))
         return

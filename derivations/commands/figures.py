@@ -20,7 +20,7 @@ from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
 
-from .cli import shell_line
+from .cli import command_line
 from .guard import about, say
 from .output import Output, Overwrite, out_option
 from .shared import images, noticing, sourced, warn
@@ -164,17 +164,7 @@ def figures(
         pass
 
     seed = 1 if seed is None else seed
-    given = {
-        "--heights": heights,
-        "--realisations": realisations,
-        "--seed": None if len(scenes) == len(wanted) else seed,
-        "--spacing": spacing,
-        "--relative-std": relative_std,
-    }
-    words = ["force-diffusion", "figures", *wanted]
-    words += [str(one) for pair in given.items() if pair[1] is not None for one in pair]
-    words += [word for model in beside or [] for word in ("--with", model)]
-    command = shell_line([*words, "--out", str(out)])
+    command = command_line()
     stems = [scenes.get(name) or FIGURES[name].file for name in wanted]
     if len(set(stems)) < len(stems):
         raise typer.BadParameter(

@@ -80,12 +80,15 @@ class Output:
             raise OutputError(f"'{path}' is a file or a link. Give a folder that is not there.")
         if not self.overwrite:
             raise OutputError(f"'{path}' is there. Give another folder, or --overwrite.")
-        with os.scandir(path) as entries:
-            own = {one.name for one in entries if one.is_file(follow_symlinks=False)} & self.names
-        others = sorted(set(os.listdir(path)) - own)
+        try:
+            there = list(path.iterdir())
+        except FileNotFoundError:  # another command replaces it just now
+            return
+        own = {one for one in there if one.name in self.names and not one.is_symlink()}
+        others = [one.name for one in there if one not in own or not one.is_file()]
         if others:
             raise OutputError(
-                f"'{path}' holds what this command does not write, such as '{others[0]}'. Give "
+                f"'{path}' holds what this command does not write, such as '{min(others)}'. Give "
                 "another folder."
             )
 
@@ -123,7 +126,7 @@ class Output:
 
     def _rename(self, new: Path) -> bool:
         """Take the place of the folder; say whether one was there."""
-        there = self.path.is_dir()
+        there = self.overwrite and self.path.is_dir()
         if there:
             os.rename(self.path, self._old)
         try:

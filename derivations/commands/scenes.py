@@ -17,7 +17,7 @@ import force_diffusion as fd
 
 from ..export.answers import Format, files_of, names_of
 from ..export.tables import csv_text
-from .cli import command_line, shell_line
+from .cli import command_line
 from .guard import about as named
 from .guard import in_range, say
 from .output import Output, Overwrite, out_option
@@ -181,7 +181,7 @@ def cost(
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
     from force_diffusion.numeric.scene.scene import source_of
 
-    command = shell_line(["force-diffusion", "cost", str(scene), "--out", str(out or "DIR")])
+    command = command_line()
     folder = Output(out, ["cost.json", "cost.csv", *images("cost")], overwrite) if out else None
     with named(scene.name), noticing() as notice:
         read = fd.read_scene(scene)

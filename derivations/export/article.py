@@ -1,12 +1,12 @@
-r"""The article about the theorems beyond the paper, from one source: LaTeX, and a page of the site.
+r"""The article about what is beyond the paper, from one source: LaTeX, and a page of the site.
 
 The source is ``beyond.md`` beside this module, in Markdown. Beside words it holds what only the
-code knows: ``{{…}}`` is a number that ``quoted`` computes, a fence ``{statement} B5`` a printed
-equation, ``{step} B5 some words`` the formula of the one step of its derivation that has these
-words, the fence ``{exact-forms}`` all exact forms, and ``![…](B5)`` figure B5, whose caption is the
-paragraph below, in italics. Dashes below the head of a table say how wide its columns are. Of
-Markdown it has headings, paragraphs, quotations, the numbered list of references, emphasis, code,
-and mathematics between dollars.
+code knows: ``{{…}}`` is a number that ``quoted`` computes, a fence ``{statement} B5`` an equation,
+of closed forms the first formula of all, or of those named behind the label; ``{leading} B2 plus``
+is the leading order of closed forms; the fence ``{exact-forms}`` is all of them, and ``![…](B5)``
+figure B5, whose caption is the paragraph below, in italics. Dashes below the head of a table say
+how wide its columns are. Of Markdown it has headings, paragraphs, quotations, the numbered list of
+references, emphasis, code, and mathematics between dollars.
 """
 
 import re
@@ -18,17 +18,18 @@ from textwrap import indent
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.figures.names import FIGURES
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
-from force_diffusion.symbolic.printing.lines import column_width, latex_body
-from sympy import Basic, Eq
+from force_diffusion.symbolic.printing.lines import column_width, latex_body, stacked
 
-from ..framework.catalogue import modules, number_of
+from ..framework.catalogue import Number, modules, number_of
 from ..framework.loading import load
 from ..framework.record import Outcome, Statement
-from .document import sentence, statement_latex
-from .prose import both, phrase_latex, pieces, prose_latex, prose_markdown, text_latex
+from ..framework.rows import Row
+from .document import sentence
+from .prose import both, prose_latex, prose_markdown, text_latex
 from .quoted import quoted
-from .terminal import relation_of, verdicts_text
+from .terminal import verdicts_text
 
 ARTICLE = "article.tex"
 COLUMNS = 2
@@ -46,7 +47,7 @@ _HEAD = r"""\documentclass[aps,pre,twocolumn,nofootinbib,floatfix]{revtex4-2}
 _HEADINGS = "title", "section", "subsection"
 _QUOTE = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
 _IMAGE = re.compile(r"^!\[([^]]*)\]\((\w+)\)\n\n", re.MULTILINE)
-_MADE = re.compile(r"^(> |)```(\{(?:statement|step|exact-forms)\}.*)\n(?:> |)```$", re.MULTILINE)
+_MADE = re.compile(r"^(> |)```(\{(?:statement|leading|exact-forms)\}.*)\n(?:> |)```$", re.MULTILINE)
 _BEFORE_DISPLAY = re.compile(r"\n\n(?=\\setcounter\{equation\}|\\begin\{equation\*\})")
 _BLOCK = re.compile(
     r"^```(?P<fence>.*)\n(?P<inner>(?:.*\n)*?)```$"
@@ -63,6 +64,7 @@ _INLINE = re.compile(
     rf"`([^`]*)`|(?<!\\)(\$[^$]*\$)|\*\*({_NO_STAR})\*\*|(?<!\\)\*({_NO_STAR})(?<!\\)\*"
 )
 _ESCAPED = re.compile(r"\\([\\`*_$<\[\]])")
+_STATED = re.compile(r"```\{(?:statement|leading)\} (B\d+)")
 _LABEL = re.compile(r"(?<!fig:)\b(B\d+)\b")
 _FIGURES = re.compile(r"\bFigs?\.~(?:(?:, | and )?B\d+)+")
 
@@ -124,9 +126,9 @@ def article_and_figures(
     return {ARTICLE: article(markdown, plates, verdicts(outcomes)), **drawn}
 
 
-def own_equations() -> list[str]:
-    """Give the labels of all equations beyond the paper."""
-    return [label for label in modules() if isinstance(label, str)]
+def own_equations(markdown: str) -> list[str]:
+    """Give the labels of all equations beyond the paper, as they are stated in the source."""
+    return _STATED.findall(markdown)
 
 
 def _filled(markdown: str, **said: str) -> str:
@@ -155,29 +157,38 @@ def page(markdown: str) -> str:
         filled,
     )
     return _MADE.sub(
-        lambda one: indent(_made(one[2], columns=1).strip(), one[1], lambda _: True), filled
+        lambda one: indent(_made(one[2], markdown).strip(), one[1], lambda _: True), filled
     )
 
 
-def _made(info: str, columns: int) -> str:
+def _made(info: str, markdown: str) -> str:
     """What a fence stands for, as Markdown. Raises ``ArticleError`` where that is nothing."""
-    match info.split(maxsplit=2):
-        case ["{exact-forms}"]:
-            return "\n".join(_forms(load(label), columns) for label in own_equations())
-        case ["{statement}", label] if number := number_of(label):
-            derivation = load(number)
-            return f"({label})\n\n" + _shown(derivation.printed, derivation.relation, columns)
-        case ["{step}", label, words] if label in modules():
-            derivation = load(label)
-            found = [one for one in derivation.steps() if words in one.reason]
-            if len(found) == 1:
-                return _shown((found[0].formula,), relation_of(derivation, found[0]), columns)
-            raise ArticleError(f"{len(found)} steps of Eq. {label} say '{words}'; it has to be one")
-    raise ArticleError(f"the article has a fence '{info}', which nothing makes")
+    if info == "{exact-forms}":
+        return "\n".join(_forms(load(label), 1) for label in own_equations(markdown))
+    number, body = _stated(info, 1)
+    return f"({number})\n\n{_display(body)}"
 
 
-def _shown(lines: Sequence[Basic], relation: str, columns: int) -> str:
-    return _display(latex_body(lines, RELATIONS[relation], column_width(columns)))
+def _stated(info: str, columns: int) -> tuple[Number, str]:
+    """The equation that a fence stands for, and its LaTeX.
+
+    Raises ``ArticleError`` where there is none.
+    """
+    kind, word, *names = f"{info} ".split(" ")
+    number = number_of(word)
+    if number is None or kind not in ("{statement}", "{leading}"):
+        raise ArticleError(f"the article has a fence '{info}', which nothing makes")
+    statement, names = load(number), [*filter(None, names)]
+    if not isinstance(statement, Row):
+        return number, statement.latex(columns)
+    forms = statement.exact_forms
+    if unknown := [name for name in names if name not in forms]:
+        raise ArticleError(f"Eq. {number} has no form {unknown[0]}; it has {both([*forms])}")
+    shown = [forms[name] for name in names or forms]
+    if kind == "{statement}":
+        return number, stacked([form.first(columns) for form in shown])
+    lines = [equation(form.quantity, form.leading(1)) for form in shown]
+    return number, latex_body(lines, RELATIONS["∼"], column_width(columns))
 
 
 def _display(latex: str) -> str:
@@ -195,24 +206,9 @@ def _forms(derivation: Statement, columns: int) -> str:
         if symbol not in EVERYWHERE
     ]
     said.append(f"*Symbols:* {'; '.join(named)}.\n\n")
-    exact = derivation.exact() if derivation.exact else {}
-    for name, form in exact.items():
-        line = Eq(form.quantity, form.expression, evaluate=False)
-        said += [f"`{derivation.number} {name}`:\n\n", _placed(line, form.validity, columns)]
-        if form.missed:
-            said.append("but in its place\n\n")
-        said += [
-            _placed(Eq(form.quantity, one.expression, evaluate=False), one.where, columns)
-            for one in form.missed
-        ]
+    for name, form in derivation.exact_forms.items():
+        said += [f"`{derivation.number} {name}`:\n\n", *map(_display, form.displays(columns))]
     return "".join(said)
-
-
-def _placed(line: Eq, where: str, columns: int) -> str:
-    """A formula with where it holds; in words, if that begins so."""
-    symbol = next(pieces(where))[1]
-    told = phrase_latex(f"for {where}" if symbol else where)
-    return _display(latex_body((line,), "=", column_width(columns), told))
 
 
 def article(markdown: str, plates: Mapping[str, Plate], run: str) -> str:
@@ -222,7 +218,8 @@ def article(markdown: str, plates: Mapping[str, Plate], run: str) -> str:
     """
     figures_of(markdown)
     first = 1 + max(number for number in modules() if isinstance(number, int))
-    numbers = {label: first + place for place, label in enumerate(own_equations())}
+    labels = own_equations(markdown)
+    numbers = {label: first + place for place, label in enumerate(labels)}
     naming = f"ours go on from {first}"
     filled = _filled(markdown, run=run, naming=naming)
     body = _BEFORE_DISPLAY.sub("\n", _Writer(plates, numbers).written(filled))
@@ -293,11 +290,13 @@ class _Writer:
         kind, _, more = info.partition(" ")
         if kind == "{table}":
             return _table(_inline(more), inner)
-        if kind == "{statement}" and (number := number_of(more)):
-            shown = statement_latex(load(number), COLUMNS)
-            place = number if isinstance(number, int) else self.numbers[number]
-            return f"\\setcounter{{equation}}{{{place - 1}}}\n{shown}"
-        return self.written(_made(info, COLUMNS))
+        if info == "{exact-forms}":
+            return self.written("\n".join(_forms(load(one), COLUMNS) for one in self.numbers))
+        number, body = _stated(info, COLUMNS)
+        place = number if isinstance(number, int) else self.numbers[number]
+        label = f"\\label{{eq:fd{number}}}"
+        display = f"\\begin{{equation}}{label}\n{body}\n\\end{{equation}}\n"
+        return f"\\setcounter{{equation}}{{{place - 1}}}\n{display}"
 
 
 def _table(caption: str, rows: str) -> str:
@@ -349,7 +348,7 @@ def _referring(words: str) -> str:
 def verdicts(outcomes: Sequence[Outcome]) -> str:
     """What the run that writes the article has derived."""
     found = {one.derivation.number for one in outcomes}
-    left = [label for label in own_equations() if label not in found]
+    left = [label for label in modules() if label not in found]
     refuted = [f"Eq. {one.derivation.number}" for one in outcomes if one.derivation.refuted]
     return (
         f"In the run that wrote this text the program derived {len(found)} equations: "

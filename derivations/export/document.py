@@ -52,7 +52,7 @@ READING = (
     "Coq, an unrelated proof assistant, about the printed equation on exact packings; it is on "
     "record with the hash of what was asked."
 )
-"""What the words of a report mean."""
+"""What the words of the document mean."""
 
 
 def statement_latex(derivation: Statement, columns: int = 1) -> str:

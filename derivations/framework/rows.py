@@ -13,6 +13,7 @@ from force_diffusion.symbolic.kernel import statistics
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted
 from force_diffusion.symbolic.kernel.where import Where
 from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.printing.lines import stacked
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import M, Shift, z
 from force_diffusion.symbolic.words import in_words
@@ -101,11 +102,7 @@ class Row(Statement):
 
     def latex(self, columns: int = 1) -> str:
         """The closed forms, for one display in text of one column or of two."""
-        first, *others = (form.latex(columns) for form in self.exact_forms.values())
-        if not others:
-            return first
-        body = " \\\\[6pt]\n&".join((first, *others))
-        return f"\\begin{{aligned}}\n&{body}\n\\end{{aligned}}"
+        return stacked([form.latex(columns) for form in self.exact_forms.values()])
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same, in as many displays as it takes to fit pages."""

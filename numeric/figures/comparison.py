@@ -22,7 +22,6 @@ from ..planning.plan import Plan
 from ..statistics.bands import Estimate, averaged, log_relative_std, simultaneous
 from ..theory.expected import critical_height
 from . import specification as spec
-from .models.q_model import weight_variance
 from .names import LEAST_REALISATIONS
 from .packings import (
     LEVEL,
@@ -35,6 +34,7 @@ from .packings import (
     moments,
     planned,
 )
+from .q_model import weight_variance
 
 NOTEWORTHY = 0.01
 """Nonlinear corrections from here on are drawn and told of."""

@@ -11,7 +11,7 @@ from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
 from ..mechanics.problem import Solved
 from . import specification as spec
-from .packings import PAPER, PAPER_STD, PHI, Options, band_of_means, gathered, of_ensembles, planned
+from .packings import PAPER, PAPER_STD, PHI, Options, band_of_roots, gathered, of_ensembles, planned
 
 HEIGHT, LAYER = 32, 16
 WINDOWS = (1, 2, 3, 5, 8, 14)
@@ -57,7 +57,7 @@ def simulated(o: Options) -> spec.Comparison:
     (square,) = gathered(ensemble, o.notice, "figure B7", window_means)
     exact = [form(N) for form in (contacts, beads) for N in WINDOWS]
     what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
-    return spec.Comparison(what, band_of_means(square, o.seed, 0.5), np.sqrt(exact))
+    return spec.Comparison(what, band_of_roots(square, o.seed), np.sqrt(exact))
 
 
 def figure(o: Options) -> spec.Figure:

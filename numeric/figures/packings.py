@@ -168,11 +168,11 @@ def by_layer(change: Array) -> Array:
     return np.asarray(change.mean(axis=3).mean(axis=1).T)
 
 
-def band_of_means(values: Array, seed: int, power: float = 1.0) -> Band:
-    """Give the band of means, to some power, of ``values``, (realisations, L)."""
-    mean = values.mean(axis=0)
-    influence = power * (values - mean) / mean
-    return simultaneous(averaged(power * np.log(mean), influence), LEVEL, seed)
+def band_of_roots(squares: Array, seed: int) -> Band:
+    """Give the band of root mean squares, of ``squares``, (realisations, L)."""
+    mean = squares.mean(axis=0)
+    influence = (squares - mean) / mean / 2
+    return simultaneous(averaged(np.log(mean) / 2, influence), LEVEL, seed)
 
 
 def band_of_spread(mean: Array, square: Array, seed: int) -> Band:

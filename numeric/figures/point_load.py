@@ -21,8 +21,8 @@ from ..quantities import response as quantities
 from ..scene.sections import PointLoad
 from ..statistics.bands import averaged, simultaneous
 from . import specification as spec
+from .double_y import Profile, profiles
 from .elements import cone
-from .models.double_y import Profile, profiles
 from .packings import LEVEL, Medium, Options, gathered, of_ensembles, planned
 
 APEX = 24  # the loaded bead is (0, APEX)

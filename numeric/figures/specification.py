@@ -279,21 +279,20 @@ class Comparison:
         name: str = "",
         *,
         unit: float = 1.0,
-        rows: Any = ...,
         bulk: slice = slice(None),
     ) -> list[Element]:
         """Give theory as a line, ``in_parts``, and what was simulated."""
-        lines = in_parts(x, self.theory[rows] / unit, bulk, series)
-        return [*lines, self.points(x, series, name, unit=unit, rows=rows)]
+        lines = in_parts(x, self.theory / unit, bulk, series)
+        return [*lines, self.points(x, series, name, unit=unit)]
 
-    def columns(self, name: str = "", unit: float = 1.0) -> Table:
-        """Give columns of a CSV file, over ``unit``: what was simulated, its band, theory."""
+    def columns(self, name: str = "") -> Table:
+        """Give columns of a CSV file: what was simulated, its band, theory."""
         low, high = self.band.limits
         return {
-            f"{name}simulated": self.band.value / unit,
-            "band_low": low / unit,
-            "band_high": high / unit,
-            f"{name}exact_first_order": self.theory / unit,
+            f"{name}simulated": self.band.value,
+            "band_low": low,
+            "band_high": high,
+            f"{name}exact_first_order": self.theory,
         }
 
 

@@ -1,1 +1,1 @@
-"""Studies: what accuracy and stability cost, and what a contact that opens sets off."""
+"""What accuracy costs: every way to answer a scene, its error beside its time."""

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from itertools import product
 from math import gcd
+from typing import Any
 
 import sympy
 
@@ -182,6 +183,12 @@ class Where:
 
     def __hash__(self) -> int:
         return self._hash
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Relations are taken apart for pickles: out of one SymPy would evaluate them."""
+        relations = tuple((type(one), one.args) for one in self.relations)
+        others = self.loading, self.even, self.dimension, self.limit
+        return _put_together, (self.indices, relations, *others)
 
     @cached_property
     def _hash(self) -> int:
@@ -473,11 +480,16 @@ class Where:
         return ", ".join(self.in_words())
 
 
+def _put_together(
+    indices: tuple[sympy.Symbol, ...], relations: Iterable[tuple[Any, Any]], *others: Any
+) -> Where:
+    """A domain from a pickle."""
+    return Where(indices, tuple(kind(*args, evaluate=False) for kind, args in relations), *others)
+
+
 @lru_cache(maxsize=4096)
 def _rows_of(relation: sympy.Basic) -> tuple[Affine, ...]:
     """What is ≥ 0 where a relation between whole numbers holds."""
-    if relation == sympy.true:  # M ≥ 1, of a positive M, when SymPy has evaluated it
-        return ()
     if not isinstance(relation, sympy.Eq | sympy.Le | sympy.Lt | sympy.Ge | sympy.Gt):
         raise NotExactError(f"{relation} is no relation between whole numbers")
     left, right = (affine.from_sympy(sympy.expand(side)) for side in relation.args)

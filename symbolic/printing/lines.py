@@ -361,6 +361,14 @@ def latex_body(
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
 
 
+def stacked(bodies: Sequence[str]) -> str:
+    """What stands in displays of its own, in one."""
+    if len(bodies) == 1:
+        return bodies[0]
+    body = " \\\\[6pt]\n&".join(bodies)
+    return f"\\begin{{aligned}}\n&{body}\n\\end{{aligned}}"
+
+
 Case = tuple[Basic, Sequence[str]]
 """A formula, and in pieces of LaTeX where it holds."""
 
@@ -379,7 +387,12 @@ def latex_cases(
     left_over = room - 16 - (20 if alone else width(head + scale))
     body = " \\\\[3pt]\n".join(" \\\\\n".join(lines) for lines in _laid_out(rows, left_over))
     cases = f"\\begin{{cases}}\n{body}\n\\end{{cases}}"
-    lines = [f"&{head}{scale}", rf"&\quad {cases}"] if alone else [f"{head[:-1]}&={scale} {cases}"]
+    if not alone:
+        lines = [f"{head[:-1]}&={scale} {cases}"]
+    elif width(head + scale) <= room:
+        lines = [f"&{head}{scale}", rf"&\quad {cases}"]
+    else:
+        lines = [f"&{head}", rf"&\quad{scale}", rf"&\quad {cases}"]
     lines += [rf"&\quad {line}" for line in _packed(below, room - 30)]
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
 

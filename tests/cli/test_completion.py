@@ -42,7 +42,7 @@ def script(shell: str, home: Path) -> str:
     """What ``--show-completion`` prints when a shell of this kind calls it."""
     command = [shutil.which(shell) or shell, "-c", "force-diffusion --show-completion; true"]
     return subprocess.run(
-        command, env=environment(home), capture_output=True, text=True, check=True, timeout=30
+        command, env=environment(home), capture_output=True, text=True, check=True, timeout=600
     ).stdout
 
 
@@ -65,7 +65,7 @@ def typed(shell: str, home: Path, load: str, line: str, until: str) -> str:
             for keys in (f"\x15{line}\t", "\r"):
                 time.sleep(0.5 + turn / 2)
                 os.write(terminal, keys.encode())
-            patience = time.monotonic() + 3
+            patience = time.monotonic() + 3 + 3 * turn
             while until not in shown and time.monotonic() < patience:
                 if select.select([terminal], [], [], 0.2)[0]:
                     shown += re.sub(
@@ -73,7 +73,7 @@ def typed(shell: str, home: Path, load: str, line: str, until: str) -> str:
                         "",
                         os.read(terminal, 4096).decode(errors="replace"),
                     )
-            if until in shown or time.monotonic() > started + 60:
+            if until in shown or time.monotonic() > started + 600:
                 break
     except OSError:  # the shell has ended
         pass
@@ -109,7 +109,7 @@ def test_what_is_offered(line: str, offered: str, tmp_path: Path) -> None:
     done = subprocess.run(
         [PROGRAM],
         env={**environment(tmp_path), **variables, "_FORCE_DIFFUSION_COMPLETE": "complete_bash"},
-        capture_output=True, text=True, check=True, timeout=30,
+        capture_output=True, text=True, check=True, timeout=600,
     )  # fmt: skip
     assert (done.stdout.split(), done.stderr) == (offered.split(), "")
 
@@ -118,7 +118,7 @@ def test_it_is_installed_where_the_shell_reads_it(tmp_path: Path) -> None:
     for _ in range(2):
         subprocess.run(
             ["bash", "-c", "force-diffusion --install-completion; true"],
-            env=environment(tmp_path), capture_output=True, check=True, timeout=30,
+            env=environment(tmp_path), capture_output=True, check=True, timeout=600,
         )  # fmt: skip
     assert (tmp_path / ".bashrc").read_text().count("force-diffusion.sh") == 1
     assert (tmp_path / ".bash_completions" / "force-diffusion.sh").is_file()

@@ -37,7 +37,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
 
 
 def run(*command: str, **options: Any) -> subprocess.CompletedProcess[str]:
-    settings = {"env": ENVIRONMENT, "capture_output": True, "text": True, "timeout": 60}
+    settings = {"env": ENVIRONMENT, "capture_output": True, "text": True, "timeout": 600}
     return subprocess.run(command, check=False, **{**settings, **options})
 
 
@@ -255,7 +255,7 @@ def test_a_real_signal_leaves_nothing_half_written(tmp_path: Path) -> None:
         assert process.stderr is not None
         assert process.stderr.readline() == "running\n"
         process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=20)
+        _, errors = process.communicate(timeout=600)
     assert process.returncode == 130
     assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
     assert not out.exists()

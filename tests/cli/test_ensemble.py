@@ -218,7 +218,7 @@ def test_killed_again_and_again_at_random(
             program(*arguments, store, "--workers", 2), env=ENVIRONMENT, stdout=subprocess.DEVNULL
         ) as run:
             begun = store.stat().st_mtime_ns if store.exists() else 0
-            while run.poll() is None and time.monotonic() < started + 60:
+            while run.poll() is None and time.monotonic() < started + 600:
                 time.sleep(moments.random() / 20)
                 if store.exists() and store.stat().st_mtime_ns != begun:
                     break  # it has begun to write
@@ -248,7 +248,7 @@ def test_a_full_disk_keeps_what_is_written_and_says_how_to_go_on(
         )
         command = [sys.executable, "-c", limit, *arguments]
         return subprocess.run(
-            command, env=ENVIRONMENT, capture_output=True, text=True, timeout=60, check=False
+            command, env=ENVIRONMENT, capture_output=True, text=True, timeout=600, check=False
         )
 
     full = limited(24)
@@ -283,7 +283,7 @@ def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
         assert [run.stderr.readline() for _ in range(2)] == ["loading\n"] * 2
         os.killpg(run.pid, signal.SIGINT)
         try:
-            _, err = run.communicate(timeout=30)
+            _, err = run.communicate(timeout=600)
         finally:
             run.kill()
     assert run.returncode == 130
@@ -304,14 +304,14 @@ def test_an_interrupt_says_how_to_go_on(
         program(*arguments), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True,
         start_new_session=True,
     ) as run:  # fmt: skip
-        patience = time.monotonic() + 60
+        patience = time.monotonic() + 600
         while time.monotonic() < patience and not (
             store.exists() and store.stat().st_size > 30_000
         ):
             time.sleep(0.05)
         os.killpg(run.pid, getattr(signal, how))  # as a terminal does: to the workers too
         try:
-            _, err = run.communicate(timeout=60)
+            _, err = run.communicate(timeout=600)
         finally:
             run.kill()
     assert run.returncode == 130

@@ -47,7 +47,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def _python(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [sys.executable, "-W", "error", *arguments],
-        cwd=folder, env=os.environ, capture_output=True, text=True, check=False, timeout=120,
+        cwd=folder, env=os.environ, capture_output=True, text=True, check=False, timeout=600,
     )  # fmt: skip
 
 

@@ -1,11 +1,10 @@
 """The folder of results: as a whole or not at all, and nothing that others put there is lost."""
 
 import errno
-import json
 import os
+import shutil
 import signal
-import subprocess
-import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -16,7 +15,6 @@ from force_diffusion.derivations.commands.output import Output, OutputError
 import force_diffusion as fd
 from force_diffusion.__main__ import main
 
-ROOT = Path(__file__).parents[2]
 NAMES = ["a", "b"]
 OLD, NEW = {"a": "old", "b": "old"}, {"a": "new"}
 SCENE = """
@@ -67,7 +65,6 @@ IN_THE_WAY: dict[str, Callable[[Path], object]] = {
     "another file": lambda out: (out / "mine").write_text("mine"),
     "a folder": lambda out: (out / "b").mkdir(),
     "a link": lambda out: (out / "b").symlink_to("a"),
-    "a pipe": lambda out: os.mkfifo(out / "b"),
 }
 
 
@@ -176,9 +173,14 @@ def killed(calls: int) -> bool:
         os.rename = counted(os.rename)
         for name in ("mkdir", "write_bytes", "unlink", "rmdir"):
             setattr(Path, name, counted(getattr(Path, name)))
-        write("out", {"a": "new", "b": "new"}, overwrite=True)
-        os._exit(0)
-    return os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) != 0
+        try:
+            write("out", {"a": "new", "b": "new"}, overwrite=True)
+            os._exit(0)
+        finally:
+            os._exit(1)
+    ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+    assert ended in {0, -signal.SIGKILL}
+    return ended != 0
 
 
 def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is() -> None:
@@ -199,7 +201,7 @@ def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is(
             assert found("out") == NEW
         seen.add((*whole, replaced))
         for folder in sorted(Path().iterdir()):
-            subprocess.run(["rm", "-r", folder], check=True)
+            shutil.rmtree(folder)
     assert seen == {("out", False), ("out.old", False), ("out.old", True), (True,)}
     assert found("out") == {"a": "new", "b": "new"}
     assert everything() == ["out", "out/a", "out/b"]
@@ -214,38 +216,31 @@ def test_of_two_at_once_the_second_is_told_and_both_answers_are_there() -> None:
     assert (found("out"), found(other)) == (OLD, NEW)
 
 
-def raced(scenes: str, *options: str) -> list[tuple[int, str]]:
-    """Run scenes at once into one folder; give statuses and messages."""
-    runs = [
-        subprocess.Popen(
-            [sys.executable, "-m", "force_diffusion", "run", f"{name}.toml", *options],
-            env={**os.environ, "PYTHONPATH": str(ROOT)}, text=True,
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-        )
-        for name in scenes
-    ]  # fmt: skip
-    told = [one.communicate(timeout=60)[1] for one in runs]
-    return [(one.returncode, words) for one, words in zip(runs, told, strict=True)]
-
-
-@pytest.mark.long
-@pytest.mark.parametrize("options", [[], ["--overwrite"]])
-def test_runs_at_once_lose_nothing(options: list[str]) -> None:
-    for name in "abc":
-        Path(f"{name}.toml").write_text(SCENE.replace("1e-4", f"1e-4, seed = {ord(name)}"))
-    for turn in range(3):
-        out = f"{turn}/out"
-        ended = raced("abc", "--out", out, *options)
-        assert {status for status, _ in ended} <= {0, 2}
-        assert [status for status, _ in ended].count(0) >= 1
-        assert all(
-            words.startswith(f"force-diffusion: '{out}") for status, words in ended if status
-        )
-        for folder in Path(f"{turn}").iterdir():  # the answer of one run each, whole
-            source = json.loads((folder / "result.json").read_text())["source"]
-            (scene,) = [n for n in "abc" if source["file"] == f"{n}.toml"]
-            assert source["seed"] == ord(scene)
-            assert set(found(folder)) == {"result.json", "contact_forces.csv"}
+@pytest.mark.parametrize("overwrite", [False, True])
+def test_at_the_same_moment_nothing_is_lost(overwrite: bool) -> None:
+    for turn in range(40):
+        out, moment = f"{turn}/out", time.monotonic() + 0.02
+        children = []
+        for text in "123":
+            if not (child := os.fork()):
+                try:
+                    folder = Output(Path(out), NAMES, overwrite)
+                    time.sleep(max(moment - time.monotonic(), 0))
+                    folder.write({"a": text, "b": text})
+                    os._exit(0)
+                except OutputError:
+                    os._exit(2)
+                finally:
+                    os._exit(1)
+            children.append(child)
+        ended = [os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) for child in children]
+        assert set(ended) <= {0, 2}
+        assert 0 in ended
+        whole = [found(folder) for folder in Path(f"{turn}").iterdir()]
+        assert all(set(files) == {"a", "b"} and files["a"] == files["b"] for files in whole)
+        if not overwrite:  # each has its answer, there or beside, but who came too late to begin
+            assert ended.count(0) == 1
+        assert len(found(out)) == 2
 
 
 COMMANDS = [

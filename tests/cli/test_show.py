@@ -6,10 +6,13 @@ import subprocess
 import sys
 from fractions import Fraction
 from pathlib import Path
+from random import Random
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.api.closed_form import ClosedForm
+from force_diffusion.derivations.api.evaluation import ArgumentError
+from force_diffusion.derivations.framework.catalogue import modules, paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.structure import rebuilt
@@ -29,8 +32,8 @@ def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
 
 
 def test_several_are_printed_one_below_the_other(capsys: pytest.CaptureFixture[str]) -> None:
-    both = shown(capsys, "13", "T9", "--as", "latex")
-    each = [shown(capsys, number, "--as", "latex") for number in ("13", "T9")]
+    both = shown(capsys, "13", "B5", "--as", "latex")
+    each = [shown(capsys, number, "--as", "latex") for number in ("13", "B5")]
     assert both == "\n".join(each)
 
 
@@ -49,7 +52,7 @@ def test_sympy_is_not_imported(arguments: list[str]) -> None:
         cwd=ROOT,
         check=True,
         capture_output=True,
-        timeout=60,
+        timeout=600,
     )
 
 
@@ -83,8 +86,9 @@ def test_sympy_source_reads_back(capsys: pytest.CaptureFixture[str], number: int
     equations = load(number).printed
     assert len(lines) == len(equations)
     for line, equation in zip(lines, equations, strict=True):
-        side = equation.lhs if equation.rhs == 0 else equation.rhs
-        assert rebuilt(eval(line, names())) == rebuilt(side)
+        balance = equation.rhs == 0 and number in paper()
+        side = equation.lhs if balance else equation.rhs
+        assert rebuilt(sympy.sympify(eval(line, names()))) == rebuilt(side)
 
 
 @pytest.mark.parametrize("number", NUMBERS)
@@ -104,21 +108,26 @@ def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int | str) -> N
     texts = shown(capsys, str(number), "--exact")
     data = json.loads(shown(capsys, str(number), "--as", "json"))["equations"][0]["exact"]
     assert list(data) == list(forms)
+    random = Random(number)
     for (name, form), source, function in zip(forms.items(), sources, functions, strict=True):
-        assert form.decide(eval(source, names())).verdict == "proved"
+        assert form.decide(sympy.sympify(eval(source, names()))).verdict == "proved"
         assert f"Eq. {number}, {name}: {form}\n" in f"{texts}\n"
         assert [one["domain"] for one in data[name]] == [one.domain for one in form.pieces]
         assert [one["text"] for one in data[name]] == [text(one.expr) for one in form.pieces]
-        values = {"M": 9, "i": 1, "j": 3, "k": 2, "l": 6, "p": 2, "N": 3}
-        values |= {"t": Fraction(5, 3), "t_2": Fraction(7, 4), "t_3": Fraction(9, 5)}
-        values |= {"phi": Fraction(7, 25), "sigma": Fraction(1, 3), "r": Fraction(2)}
-        given = {one: values[one] for one in form.symbols}
-        assert float(function(**given)) == pytest.approx(float(form.at(**given)), rel=1e-14)  # type: ignore[operator]
+        for _ in range(20):
+            values = draw(form, random)
+            found, expected = function(**values), form.at(**values)  # type: ignore[operator]
+            assert float(found) == pytest.approx(float(expected), rel=1e-13)
 
 
-def test_a_theorem_is_all_its_equations(capsys: pytest.CaptureFixture[str]) -> None:
-    text = shown(capsys, "t4")
-    titles = [load(number).title for number in ("B4", "B5", "B6", "B15", "B16")]
-    places = [text.index(f"{title}\n") for title in titles]
-    assert places == sorted(places)
-    assert text.count("A case of theorem T4: mean positions and forces, to second order") == 5
+def draw(form: ClosedForm, random: Random) -> dict[str, int | Fraction]:
+    """Arguments in its domain."""
+    near = {"phi": Fraction(7, 25), "sigma": Fraction(1, 3), "r": Fraction(2)}
+    near |= {"t": Fraction(5, 3), "t_2": Fraction(7, 4), "t_3": Fraction(9, 5)}
+    while True:
+        values = {name: near.get(name, random.randint(-3, 12)) for name in form.symbols}
+        try:
+            form.at(**values)
+        except ArgumentError:
+            continue
+        return values

@@ -15,10 +15,10 @@ from force_diffusion.numeric.arithmetic.systems import (
 )
 from force_diffusion.numeric.lattice.branch import PerAxis
 from force_diffusion.numeric.lattice.layers import whole
-from force_diffusion.numeric.mechanics.any_dimension import force_weights, together
 from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
 import force_diffusion as fd
+from tests.numeric.mechanics.any_dimension import force_weights, together
 from tests.numeric.spheres import columns, drawn, scene
 
 

@@ -89,8 +89,16 @@ def base_vectors(d: int, cosine: Number) -> tuple[Vector, ...]:
     return tuple((*times(mp.sqrt(1 - rise**2), one), rise) for one in corners)
 
 
+class FallsThroughError(ArithmeticError):
+    """A bead is too small to rest on those below it."""
+
+
 def upper_meeting_point(centres: Sequence[Vector], reaches: Sequence[Number]) -> Vector:
-    """The upper of the two points that have these distances from d centres."""
+    """The upper of the two points that have these distances from d centres.
+
+    Raises:
+        FallsThroughError: there is none.
+    """
     first, *others = centres
     edges = [minus(one, first) for one in others]
     d = len(centres)
@@ -104,7 +112,10 @@ def upper_meeting_point(centres: Sequence[Vector], reaches: Sequence[Number]) ->
     ]
     rows = [*edges, across]
     foot = solve(list(zip(*rows, strict=True)), (*along, mp.mpf(0)))
-    height = mp.sqrt((reaches[0] ** 2 - dot(foot, foot)) / dot(across, across))
+    left = reaches[0] ** 2 - dot(foot, foot)
+    if left < 0:
+        raise FallsThroughError
+    height = mp.sqrt(left / dot(across, across))
     upwards = height if across[-1] > 0 else -height
     return plus(plus(first, foot), times(upwards, across))
 

@@ -15,7 +15,7 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Lines
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.as_printed import equation, times
 from force_diffusion.symbolic.kernel import rules
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, proved
 from force_diffusion.symbolic.kernel.theorem import Theorem, made
@@ -179,11 +179,12 @@ def test_exact_forms_are_decided_on_their_own(number: int | str) -> None:
     equation = fd.equation(number)
     for form in map(equation.exact, equation.forms):
         left, right = form.equation.args
-        same = (form.equation, right, equal(right, left), equal(2 * left, 2 * right))
+        same = (form.equation, right, equal(right, left), equal(times(2, left), times(2, right)))
         for one in (*same, (form.equation,), right * sy.phi / sy.phi):
             found = form.decide(one)
             assert found.verdict is Verdict.PROVED, found
-        for wrong in (right * (1 + MILLIONTH), right + MILLIONTH, -right):
+        factors = (1 + MILLIONTH, -1) if right else ()  # zero, times anything, is the same
+        for wrong in (right + MILLIONTH, *(right * one for one in factors)):
             found = form.decide(wrong)
             assert found.verdict is Verdict.REFUTED, found
             assert found.note.startswith("at ")

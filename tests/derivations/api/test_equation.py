@@ -41,7 +41,7 @@ def test_the_package_is_light_until_it_is_used() -> None:
         "heavy = {'sympy', 'numpy', 'flint'}; assert not heavy & set(sys.modules); "
         "fd.equation; assert 'sympy' in sys.modules"
     )
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=60)
+    subprocess.run([sys.executable, "-c", program], check=True, timeout=600)
 
 
 @every_equation
@@ -49,8 +49,8 @@ def test_expr_and_rhs(eq: fd.Equation) -> None:
     lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     sides = list(eq.rhs) if isinstance(eq.rhs, sympy.Tuple) else [eq.rhs]
     assert [line.rhs for line in lines] == sides
-    printed = {7: 2, 8: 2, 15: 2}.get(eq.number, 1)
-    assert len(lines) == (printed if eq in PAPER else len(eq.forms) or 1)
+    printed = {7: 2, 8: 2, 15: 2, "B1": 2}.get(eq.number, 1)
+    assert len(lines) == (len(eq.forms) if eq not in PAPER and eq.forms else printed)
 
 
 @every_equation

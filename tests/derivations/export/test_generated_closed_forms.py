@@ -206,7 +206,10 @@ def test_means_are_those_of_exact_packings(height: int) -> None:
         assert [form(height, layer, phi, ONE, ONE) for layer in range(height)] == list(forces)
 
 
-@pytest.mark.parametrize(("height", "layer", "count"), [(10, 5, 3), (12, 6, 4), (13, 7, 4)])
+@pytest.mark.parametrize(
+    ("height", "layer", "count"),
+    [(10, 5, 3), (12, 6, 4), (3, 2, 1), (4, 0, 2), (5, 1, 6), (4, 3, 3)],
+)
 def test_means_of_neighbours_are_those_of_exact_packings(
     height: int, layer: int, count: int
 ) -> None:
@@ -219,15 +222,16 @@ def test_means_of_neighbours_are_those_of_exact_packings(
     for quantity, form in forms.items():
         true = neighbours.mean_variance(quantity, height, layer, count, n)
         assert form(height, layer, count, phi, ONE, ONE) == true
-        with pytest.raises(ValueError, match="N = 1"):
-            form(height, layer, 1, phi, ONE, ONE)
+        with pytest.raises(ValueError, match="N = 0"):
+            form(height, layer, 0, phi, ONE, ONE)
         with pytest.raises(ValueError, match=r"j = .*allowed"):
-            form(height, count, count, phi, ONE, ONE)
+            form(height, height, count, phi, ONE, ONE)
 
 
-def test_in_two_dimensions_the_leading_order_is_eq_13() -> None:
-    at = (7, Fraction(2, 5)), (Fraction(1, 3), ONE, ONE)
-    flat = closed_forms.surface_diffusion(*at[0], *at[1])
-    assert closed_forms.diffusion_in_dimensions(2, *at[0], *at[1]) == flat
-    with pytest.raises(ValueError, match="d = 1"):
-        closed_forms.diffusion_in_dimensions(1, *at[0], *at[1])
+@pytest.mark.parametrize("load", ["surface", "bulk"])
+def test_the_leading_order_of_spheres_is_that_of_tall_packings(load: str) -> None:
+    phi, height, layer = Fraction(1, 3), 10**9, 4 * 10**8
+    printed = getattr(closed_forms, f"{load}_diffusion_of_spheres")
+    exact = getattr(closed_forms, f"{load}_variance_of_spheres")
+    leading = printed(height, Fraction(layer, height), phi, ONE, ONE)
+    assert abs(exact(height, layer, phi, ONE, ONE) / leading - 1) < Fraction(20, height)

@@ -23,7 +23,6 @@ from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.problem import Solved
-from force_diffusion.numeric.mechanics.small_packing import solve as solve_small
 from force_diffusion.numeric.mechanics.sweep import Forces, sweep_down
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.plan import Plan
@@ -32,6 +31,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.numeric.mechanics import taylor
+from tests.numeric.mechanics.small_packing import solve as solve_small
 from tests.numeric.mechanics.taylor import Series
 from tests.numeric.scenes import answer, basic, planned
 from tests.numeric.strategies import Case, cases, sites

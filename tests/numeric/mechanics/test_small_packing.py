@@ -10,12 +10,12 @@ from force_diffusion.numeric.arithmetic.systems import (
     BigFloat,
     NumberSystem,
 )
-from force_diffusion.numeric.mechanics.small_packing import Solution, solve
 from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.numeric.mechanics import taylor
 from tests.numeric.mechanics.plain_packing import PlainPacking
+from tests.numeric.mechanics.small_packing import Solution, solve
 from tests.numeric.strategies import Case, cases, sites
 
 STRENGTH = Fraction(1, 10**6)  # far below M* of these heights: every packing can be built

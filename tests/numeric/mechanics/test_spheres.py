@@ -23,7 +23,6 @@ from force_diffusion.numeric.arithmetic.systems import (
 )
 from force_diffusion.numeric.lattice.branch import PerAxis
 from force_diffusion.numeric.lattice.layers import Region, whole
-from force_diffusion.numeric.mechanics.any_dimension import force_weights, together
 from force_diffusion.numeric.mechanics.engine import packings
 from force_diffusion.numeric.mechanics.physicality import by_distance, gaps
 from force_diffusion.numeric.mechanics.sweep import (
@@ -35,6 +34,7 @@ from force_diffusion.numeric.mechanics.sweep import (
 )
 
 import force_diffusion as fd
+from tests.numeric.mechanics.any_dimension import force_weights, together
 from tests.numeric.spheres import columns, drawn, scene
 
 STEPS = ((1, 0), (0, 1), (0, 0))  # of (p, q), one layer up along each axis

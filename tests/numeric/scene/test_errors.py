@@ -15,7 +15,7 @@ from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run import read_scene, run
 from force_diffusion.numeric.scene.files import TableError
 from force_diffusion.numeric.scene.sections import Disorder, SceneError
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from tests.numeric.scenes import answer, basic, parse_scene, planned, scene, scenes, toml
@@ -407,6 +407,10 @@ written = st.sampled_from(
 
 
 @given(scenes(), st.lists(st.tuples(numbers, written), min_size=1, max_size=2))
+@example(
+    basic(1, 2, quantity="profile") | {"effects": {"geometry": "ordered"}, "load": {}},
+    [(("load", "magnitude"), "=1e-4999")],  # its mean force is no float
+)
 def test_a_good_scene_with_odd_numbers_gives_an_answer_or_a_message(
     sections: dict[str, dict[str, Any]], made: list[tuple[tuple[str, str], Any]]
 ) -> None:

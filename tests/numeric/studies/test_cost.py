@@ -12,13 +12,13 @@ from force_diffusion.numeric.figures.specification import Points
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.studies import timing
-from force_diffusion.numeric.studies.cost.cost import cost
-from force_diffusion.numeric.studies.cost.cost_plot import lines
-from force_diffusion.numeric.studies.cost.reference import BEYOND
-from force_diffusion.numeric.studies.cost.rows import Way, marked, pareto
-from force_diffusion.numeric.studies.cost.table import CostStudy
-from force_diffusion.numeric.studies.cost.ways import systems
+from force_diffusion.numeric.studies.cost import cost
+from force_diffusion.numeric.studies.cost_plot import lines
 from force_diffusion.numeric.studies.distances import answer, decimal
+from force_diffusion.numeric.studies.reference import BEYOND
+from force_diffusion.numeric.studies.rows import Way, marked, pareto
+from force_diffusion.numeric.studies.table import CostStudy
+from force_diffusion.numeric.studies.ways import systems
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -3,7 +3,6 @@
 from collections.abc import Iterator
 
 from . import (  # noqa: F401 - each adds its own to ATTACKS
-    any_dimension,
     averaging,
     comparing,
     inducing,
@@ -11,7 +10,6 @@ from . import (  # noqa: F401 - each adds its own to ATTACKS
     moving,
     over_layers,
     rewriting,
-    second_order,
     solving,
     splitting,
     statements,

@@ -11,7 +11,9 @@ import mpmath
 from force_diffusion.numeric.arithmetic.systems import zeros
 from force_diffusion.numeric.lattice.branch import PerAxis
 from force_diffusion.numeric.lattice.layers import whole
-from force_diffusion.numeric.mechanics.any_dimension import (
+from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
+
+from tests.numeric.mechanics.any_dimension import (
     Bead,
     force_weights,
     reciprocal,
@@ -19,8 +21,6 @@ from force_diffusion.numeric.mechanics.any_dimension import (
     stepped,
     together,
 )
-from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
-
 from tests.numeric.mechanics.taylor import Series
 
 from .draws import SmallPacking

@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from ..arithmetic.systems import NumberSystem
-from ..disorder.radii import MeasuredRadii
-from ..lattice.branch import Branch
-from ..lattice.layers import column, whole
-from . import engine
-from .loads import LoadSpec
-from .problem import Problem, Route, Solved, axes
-from .work import Work
+from force_diffusion.numeric.arithmetic.systems import NumberSystem
+from force_diffusion.numeric.disorder.radii import MeasuredRadii
+from force_diffusion.numeric.lattice.branch import Branch
+from force_diffusion.numeric.lattice.layers import column, whole
+from force_diffusion.numeric.mechanics import engine
+from force_diffusion.numeric.mechanics.loads import LoadSpec
+from force_diffusion.numeric.mechanics.problem import Problem, Route, Solved, axes
+from force_diffusion.numeric.mechanics.work import Work
 
 Site = tuple[int, int]
 Rational = Fraction | int | str

@@ -18,7 +18,7 @@ q-model" is not what the load on a bead does here: Brownian is the spread of a p
 
 import numpy as np
 
-from ...arithmetic.systems import Array
+from ..arithmetic.systems import Array
 
 
 def weight_variance(depth: int) -> Array:
@@ -40,28 +40,3 @@ def weight_variance(depth: int) -> Array:
         c[1] -= source / 12
         found.append(float(c[0]))
     return np.array(found)
-
-
-def spread(depth: int) -> Array:
-    """Give the mean square distance of a point load's pieces from its axis, in (s/2)².
-
-    Each layer moves them by one step to either side: Brownian, in proportion to depth.
-
-    >>> spread(3).tolist()
-    [0.0, 1.0, 2.0, 3.0]
-    """
-    return np.arange(depth + 1, dtype=float)
-
-
-def simulate(width: int, depth: int, realisations: int, seed: int) -> Array:
-    """Simulate loads under a unit surface load; shape (realisations, depth + 1, width), periodic.
-
-    What a bead carries goes to the two beads below it: of column i at depth D to i and i + 1.
-    """
-    generator = np.random.default_rng(seed)
-    loads = np.ones((realisations, depth + 1, width))
-    for below in range(1, depth + 1):
-        share = generator.random((realisations, width))
-        load = loads[:, below - 1]
-        loads[:, below] = share * load + np.roll((1 - share) * load, 1, axis=1)
-    return loads

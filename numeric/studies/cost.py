@@ -12,14 +12,14 @@ from typing import Any
 
 import flint
 
-from ...arithmetic.systems import FLOAT64, Array, NumberSystem, largest_of
-from ...mechanics.problem import Route
-from ...planning import planner
-from ...planning.plan import Plan, Skipped
-from ...quantities.base import Table, first_order_std
-from ...scene.scene import Scene, refuse
-from ...scene.sections import SceneError
-from ..distances import FAILURES, answer, changes
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, largest_of
+from ..mechanics.problem import Route
+from ..planning import planner
+from ..planning.plan import Plan, Skipped
+from ..quantities.base import Table, first_order_std
+from ..scene.scene import Scene, refuse
+from ..scene.sections import SceneError
+from .distances import FAILURES, answer, changes
 from .of_profile import study_ensemble
 from .reference import BEYOND, certified
 from .rows import Reference, Way, marked

@@ -2,13 +2,13 @@
 
 from fractions import Fraction
 
-from ...accuracy import ToleranceError, enclosed
-from ...arithmetic.systems import Balls
-from ...mechanics.work import Work
-from ...planning import planner
-from ...scene.scene import Scene
-from ...scene.sections import SceneError
-from ..distances import Enclosed, changes
+from ..accuracy import ToleranceError, enclosed
+from ..arithmetic.systems import Balls
+from ..mechanics.work import Work
+from ..planning import planner
+from ..scene.scene import Scene
+from ..scene.sections import SceneError
+from .distances import Enclosed, changes
 from .ways import DIGITS
 
 # The reference's radius has to lie this far below the last digit of the most precise way.

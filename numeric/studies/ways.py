@@ -6,10 +6,10 @@ from collections.abc import Callable, Iterator
 from statistics import median
 from typing import Any, TypeVar
 
-from ...arithmetic.systems import FLOAT64, Balls, BigFloat, NumberSystem
-from ...scene.scene import Scene
-from ..timing import seconds_of
+from ..arithmetic.systems import FLOAT64, Balls, BigFloat, NumberSystem
+from ..scene.scene import Scene
 from .rows import Way
+from .timing import seconds_of
 
 T = TypeVar("T")
 Notice = Callable[[str], None]

@@ -15,19 +15,19 @@ from typing import Any
 
 import numpy as np
 
-from ... import closed_forms
-from ...arithmetic.systems import (
+from .. import closed_forms
+from ..arithmetic.systems import (
     FLOAT64,
     Array,
     Balls,
     NumberSystem,
     array,
 )
-from ...planning import planner
-from ...planning.plan import Plan, Skipped
-from ...quantities.base import Table
-from ...scene.scene import Scene
-from ..distances import Enclosed, answer, exactly
+from ..planning import planner
+from ..planning.plan import Plan, Skipped
+from ..quantities.base import Table
+from ..scene.scene import Scene
+from .distances import Enclosed, answer, exactly
 from .rows import Reference, Way, marked
 from .table import CostStudy
 from .ways import Notice, measured, systems, with_geometry

@@ -5,11 +5,11 @@ from decimal import ROUND_CEILING, Context, Decimal
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from ... import tables
-from ...arithmetic.systems import Array
-from ...figures.library import drawn
-from ...figures.specification import Picture
-from ...planning.plan import Skipped
+from .. import tables
+from ..arithmetic.systems import Array
+from ..figures.library import drawn
+from ..figures.specification import Picture
+from ..planning.plan import Skipped
 from .cost_plot import picture
 from .rows import Reference, Way
 

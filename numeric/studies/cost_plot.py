@@ -9,8 +9,8 @@ from decimal import Decimal
 from itertools import groupby
 from typing import Any
 
-from ...arithmetic.errors import printable
-from ...figures import specification as spec
+from ..arithmetic.errors import printable
+from ..figures import specification as spec
 from .rows import Reference, Way
 
 # Decades of error beyond which the axis is one of √digits.

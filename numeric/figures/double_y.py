@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from ...arithmetic.systems import Array
+from ..arithmetic.systems import Array
 
 SPLITTING_ANGLE = np.radians(20)
 RAYS = 200_000
