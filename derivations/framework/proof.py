@@ -79,15 +79,25 @@ class Step:
         return tuple(sorted(set().union(*(one.assuming for one in self.theorems))))
 
     @cached_property
+    def _sources(self) -> tuple["Step", ...]:
+        return tuple(_sources(self.theorems))
+
+    @property
+    def equations_used(self) -> tuple[Number, ...]:
+        """The other equations that its theorems rest on."""
+        used = (one.equation for one in self._sources)
+        return tuple(dict.fromkeys(number for number in used if number != self.equation))
+
+    @property
+    def steps_used(self) -> tuple[int, ...]:
+        """The numbers of earlier steps that its theorems rest on."""
+        return tuple(sorted({s.number for s in self._sources if s.equation == self.equation} - {0}))
+
+    @property
     def uses(self) -> tuple[str, ...]:
-        """The steps and equations that its theorems rest on, in words."""
-        own, others = set[int](), dict[Number, None]()
-        for source in _sources(self.theorems):
-            if source.equation != self.equation:
-                others[source.equation] = None
-            elif source.number:
-                own.add(source.number)
-        return (*(f"Eq. {one}" for one in others), *(f"step {one}" for one in sorted(own)))
+        """Both, in words."""
+        equations = (f"Eq. {number}" for number in self.equations_used)
+        return (*equations, *(f"step {number}" for number in self.steps_used))
 
     def prove(self, place: int, candidate: sympy.Eq) -> Theorem:
         """What the rule of one of its equations makes of a candidate for that equation.

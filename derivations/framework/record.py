@@ -1,16 +1,24 @@
 """The shape of a derivation: what every ``eqNN_…`` module states, and what proving it found."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from time import perf_counter
+from typing import TYPE_CHECKING
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.theorem import Group, Theorem
+from force_diffusion.symbolic.printing.latex import RELATIONS
+from force_diffusion.symbolic.printing.lines import column_width, latex_body, text_lines
 
 from .catalogue import Number
-from .proof import Refuted, Step, Steps
+from .proof import Step, Steps
+
+if TYPE_CHECKING:
+    from ..api.closed_form import ClosedForm
 
 _MEANINGS = {
     sy.sigma: "standard deviation σ_δr of the radii",
@@ -18,12 +26,16 @@ _MEANINGS = {
     sy.M: "height of the packing",
     sy.z: "relative height j/M",
     sy.phi: "n⁺·n⁻",
+    sy.N: "number of neighbours",
+    sy.t: "L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻)",
+    sy.t_2: "L²/L¹ of the load −Σ_a L^a n^a",
+    sy.t_3: "L³/L¹",
 }
 
 
 def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
-    """Symbols with their usual meaning in words: σ, r, M, z and φ."""
-    return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols)
+    """Symbols with their usual meaning in words, those that have one: σ, r, M, z, φ and others."""
+    return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols if symbol in _MEANINGS)
 
 
 FIRST_ORDER = ("the radii are independent, of zero mean and variance σ²", "first order in δr")
@@ -34,8 +46,100 @@ SECOND_ORDER = (
 """What is assumed of all variances and covariances, and of all mean values."""
 
 
+class Statement:
+    """A derivation of an equation, or a row of the calculator."""
+
+    number: Number
+    name: str
+    title: str
+    symbols: tuple[tuple[sympy.Basic, str], ...]
+    assumptions: tuple[str, ...]
+    printed: tuple[sympy.Eq, ...]
+    remarks: tuple[str, ...]
+    relation: str
+    domain: Domain
+    steps: Callable[[], Steps]
+    exact: Callable[[], Mapping[str, "ClosedForm"]] | None
+    loads: tuple[str, ...] = ()
+    call: str = ""
+    """How the calculator is asked for it; "" where it is no row of that."""
+
+    @cached_property
+    def proof(self) -> Steps:
+        """Its steps and claims, proved.
+
+        Raises:
+            NotProvedError: one of them is not.
+        """
+        with _Stopwatch() as watch:
+            steps = self.steps()
+        self.__dict__["seconds"] = watch.seconds
+        return steps
+
+    @property
+    def seconds(self) -> float:
+        """How long its proof took, without those of the equations that it rests on."""
+        _ = self.proof
+        return float(self.__dict__["seconds"])
+
+    @property
+    def premises(self) -> tuple[Number, ...]:
+        """The equations that it rests on, as its theorems say."""
+        shown = (*self.proof, *self.proof.claims)
+        return tuple(dict.fromkeys(number for step in shown for number in step.equations_used))
+
+    @cached_property
+    def exact_forms(self) -> Mapping[str, "ClosedForm"]:
+        """Closed forms, exact at finite size, by name; the first is the usual one."""
+        return self.exact() if self.exact else {}
+
+    @property
+    def dimension(self) -> int:
+        """The dimension of its packings."""
+        return self.domain.dimension
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """What the kernel proves of it, one theorem for each printed equation."""
+        parts = (self.step_of(part) for part in range(len(self.printed)))
+        return tuple(step.theorems[place] for step, place in parts)
+
+    @property
+    def theorem(self) -> Theorem:
+        """The theorem of a derivation with one printed equation."""
+        (theorem,) = self.theorems
+        return theorem
+
+    def step_of(self, part: int) -> tuple[Step, int]:
+        """The step that shows one of ``printed``, and its place there.
+
+        Raises:
+            LookupError: there is none of its domain and sign.
+        """
+        for step in self.proof:
+            shown = zip(step.equations, step.domains, strict=True)
+            for place, pair in enumerate(shown):
+                if pair == (self.printed[part], self.domain) and step.relation == self.relation:
+                    return step, place
+        raise LookupError(f"no step of Eq. {self.number} shows what is printed, on its domain")
+
+    def latex(self, columns: int = 1) -> str:
+        """What is printed, for one display in text of one column or of two."""
+        return latex_body(self.printed, RELATIONS[self.relation], column_width(columns))
+
+    def displays(self, columns: int = 1) -> list[str]:
+        """The same, in as many displays as it takes to fit pages."""
+        return [self.latex(columns)]
+
+    def lines(self, room: int) -> list[str]:
+        """What is printed, as lines of plain text."""
+        return [
+            line for equation in self.printed for line in text_lines(equation, self.relation, room)
+        ]
+
+
 @dataclass(frozen=True)
-class Derivation:
+class Derivation(Statement):
     """One numbered equation: what is printed, why it holds, and what else is known of it.
 
     ``steps`` is a function so that importing a derivation proves nothing and costs nothing. One
@@ -71,49 +175,26 @@ class Derivation:
     remarks: tuple[str, ...] = ()
     loads: tuple[str, ...] = ()
     relation: str = "="
-    exact: Callable[[], dict[str, object]] | None = None
+    exact: Callable[[], Mapping[str, "ClosedForm"]] | None = None
     ground: Callable[[], Sequence[Group]] = tuple
 
-    @property
-    def words(self) -> str:
-        """How a step that rests on it names it."""
-        return f"Eq. {self.number}"
 
-    def step_of(self, part: int) -> tuple[Step, int]:
-        """The step that shows one of ``printed``, and its place there.
+class _Stopwatch:
+    """Measures a proof, without those that run within it."""
 
-        Raises:
-            LookupError: there is none of its domain and sign.
-        """
-        for step in self.steps():
-            shown = zip(step.equations, step.domains, strict=True)
-            for place, pair in enumerate(shown):
-                if pair == (self.printed[part], self.domain) and step.relation == self.relation:
-                    return step, place
-        raise LookupError(f"no step of {self.words} shows what is printed, on its domain")
+    _running: list["_Stopwatch"] = []
 
-    @property
-    def theorems(self) -> tuple[Theorem, ...]:
-        """What the kernel proves of it, one theorem for each printed equation."""
-        parts = (self.step_of(part) for part in range(len(self.printed)))
-        return tuple(step.theorems[place] for step, place in parts)
+    def __enter__(self) -> "_Stopwatch":
+        self._start, self._within = perf_counter(), 0.0
+        self._running.append(self)
+        return self
 
-    @property
-    def theorem(self) -> Theorem:
-        """The theorem of a derivation with one printed equation."""
-        (theorem,) = self.theorems
-        return theorem
-
-    @property
-    def premises(self) -> tuple[str, ...]:
-        """The equations that it rests on, in words, as its theorems say."""
-        uses = (words for step in self.steps() for words in step.uses)
-        return tuple(dict.fromkeys(words for words in uses if words.startswith("Eq.")))
-
-    @property
-    def refuted(self) -> tuple[Refuted, ...]:
-        """The printed statements that do not hold; ``printed`` are those that do."""
-        return tuple(self.steps().refuted)
+    def __exit__(self, *_: object) -> None:
+        whole = perf_counter() - self._start
+        self.seconds = whole - self._within
+        self._running.pop()
+        if self._running:
+            self._running[-1]._within += whole
 
 
 @dataclass(frozen=True)
@@ -123,7 +204,6 @@ class Check:
     kind: str  # "step", "proof", or "refutation" of a printed statement
     name: str
     verdict: Verdict
-    seconds: float
     note: str = ""
     assuming: tuple[str, ...] = ()
 
@@ -136,3 +216,30 @@ class Check:
     def is_expected(self) -> bool:
         """Whether a printed statement that is known not to hold was refuted."""
         return self.kind == "refutation" and self.verdict is Verdict.REFUTED
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """All that proving one equation found."""
+
+    derivation: Statement
+    verdict: Verdict
+    checks: tuple[Check, ...]
+    seconds: float = 0.0
+
+    @property
+    def refuted(self) -> tuple[Check, ...]:
+        """The printed statements that were refuted as expected; the verdict is on the others."""
+        return tuple(check for check in self.checks if check.is_expected)
+
+    @property
+    def assuming(self) -> tuple[str, ...]:
+        """What its proofs assume and no rule discharges, where it is proved."""
+        if not self.verdict.is_proved:
+            return ()
+        return tuple(dict.fromkeys(words for one in self.checks for words in one.assuming))
+
+    @property
+    def words(self) -> str:
+        """Its verdict, and what it assumes."""
+        return in_words(self.verdict, self.assuming)

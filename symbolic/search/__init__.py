@@ -1,1 +1,0 @@
-"""Counterexamples on explicit small packings; nothing here knows how the kernel decides."""
