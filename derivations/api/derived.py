@@ -20,7 +20,6 @@ from ..export.terminal import (
     verdicts_text,
 )
 from ..framework.catalogue import Number, modules
-from ..framework.loading import load, with_premises
 from ..framework.record import Outcome
 from ..framework.runner import run_all
 from .equation import equation
@@ -111,7 +110,7 @@ def derive(
 
     Args:
         numbers: of the equations, all of them by default.
-        notice: told which check comes next.
+        notice: told which equation comes next.
         finished: given the outcome of each equation as soon as it is known.
 
     Raises:
@@ -123,11 +122,8 @@ def derive(
         raise TypeError(f"derive takes several, in a list: derive([{one!r}])")
     outcomes = []
     tell = notice or (lambda _: None)
-    wanted = [load(equation(one).number) for one in (modules() if numbers is None else numbers)]
-    for outcome in run_all(
-        with_premises(wanted),
-        lambda derivation, check: tell(f"Eq. {derivation.number}: {check}"),
-    ):
+    wanted = [equation(one).number for one in (modules() if numbers is None else numbers)]
+    for outcome in run_all(wanted, lambda statement: tell(f"Eq. {statement.number}")):
         outcomes.append(outcome)
         if finished:
             finished(outcome)

@@ -2,7 +2,6 @@
 
 import inspect
 from collections.abc import Callable, Iterable
-from dataclasses import replace
 from functools import cache, cached_property
 from numbers import Integral
 from typing import Any
@@ -24,16 +23,17 @@ from ..framework.catalogue import (
     modules,
     number_of,
 )
-from ..framework.loading import load, with_premises
-from ..framework.record import Statement
+from ..framework.decide import candidate_for
+from ..framework.loading import load
+from ..framework.record import Derivation, Statement
 from ..framework.rows import Row
-from ..framework.runner import run, run_all
+from ..framework.runner import run_all
 from .arrays import evaluate
 from .closed_form import ClosedForm
 from .deciding import decided
-from .evaluation import ArgumentError, Evaluation
+from .evaluation import ArgumentError, Evaluation, indices_at
 from .numpy_function import numpy_function
-from .proof import Proof, Steps
+from .proof import Proof, StepList
 
 
 class NoSuchFormError(ForceDiffusionError, ValueError):
@@ -141,7 +141,7 @@ class Equation:
         >>> [premise.number for premise in fd.equation(13).premises]
         [11, 12]
         """
-        return tuple(_equation(premise.number) for premise in self._derivation.premises)
+        return tuple(_equation(number) for number in self._derivation.premises)
 
     @property
     def coq(self) -> str:
@@ -401,84 +401,71 @@ class Equation:
 
     # proofs
 
-    def steps(self) -> Steps:
+    def steps(self) -> StepList:
         """The derivation: each step has a ``reason`` in words, a ``formula`` and a ``verdict``.
 
-        ``uses`` names what the formula follows from; ``rule_on`` rules on another in its place.
+        ``uses`` names what the formula follows from, and ``theorem`` is what the kernel made of it.
 
         >>> import force_diffusion as fd
-        >>> step = fd.equation(13).steps()[0]
-        >>> step.reason.startswith("Each Δ holds one radius with the weight 2")
-        True
-        >>> step.formula
-        Eq(squares, 6*(Sum((M - j)**2, (m, 1, j)) + Sum((M - m)**2, (m, j + 1, M))))
-        >>> str(step.verdict), step.uses
-        ('proved', ('Eq. 12',))
+        >>> step = fd.equation(13).steps()[2]
+        >>> step.reason
+        'Added up:'
+        >>> step.formula.rhs
+        2*(M - j)**2*(M + 2*j) - 3*(M - j)**2 + M - j
         """
-        return Steps.of(self._derivation)
+        return StepList.of(self._derivation)
 
-    def prove(self, *, premises: bool = True) -> Proof:
+    def prove(self) -> Proof:
         """Prove it, its steps and its claims, and all that it rests on.
 
-        With ``premises=False`` the equations that it rests on are taken as
-        proved, and the result says so.
-
         >>> import force_diffusion as fd
-        >>> proof = fd.equation(9).prove(premises=False)
+        >>> proof = fd.equation(9).prove()
         >>> str(proof.verdict)
         'proved'
         >>> print(str(proof).splitlines()[0])
-        Eq. 9 is proved. Its premise, Eq. 8: taken as proved, not run.
-        >>> [check.kind for check in proof.checks]
-        ['proof', 'step', 'step', 'step', 'step', 'step']
+        Eq. 9 is proved. It rests on Eq. 8.
         """
-        if premises:
-            return Proof(tuple(run_all(with_premises([self._derivation]))), premises_run=True)
-        return Proof((run(self._derivation),), premises_run=False)
+        return Proof(tuple(run_all([self.number])))
 
-    def decide(self, candidate: Any) -> Ruling:
-        """Rule on a formula of your own, with the procedure that proves the printed equation.
+    def decide(self, candidate: Any, **at: Any) -> Ruling:
+        """Rule on a formula of your own, by the rule that proves the printed equation and others.
 
         The formula is decided with the printed sign: for "∼", whether it is right to leading order.
         ``exact().decide`` decides it with "=", at finite size. Of an equation between
         vectors you may also give one component, with numbers such as ``Dot(e_y, …)`` on both sides.
 
         The verdict is *proved*; *proved, assuming* what ``.assuming`` names; *refuted*, with
-        explicit values; *undecided*; or *not a statement*: it has no value, or no single meaning,
-        somewhere on its domain. ``.note`` says why, and no error is raised.
+        a place where it fails; *undecided*; or *not a statement*: it has no value, or no single
+        meaning, somewhere on its domain. ``.note`` says why, and no error is raised.
 
         >>> import force_diffusion as fd
         >>> eq = fd.equation(13)
         >>> M, z, phi, sigma, r = (eq.symbols[name] for name in ("M", "z", "phi", "sigma", "r"))
         >>> unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
-        >>> print(eq.decide(2 * M**3 * (1 - 3 * z**2 + 2 * z**3) * unit))  # doctest: +ELLIPSIS
-        proved: by the rule: leading order, M → ∞ at fixed z = j/M, 0 < z < 1; lower orders ...
-        >>> print(eq.decide(2 * M**3 * (1 - z) ** 2 * unit))  # doctest: +ELLIPSIS
-        refuted: left over right goes to 2 z + 1, not to 1: the left-hand side goes as 2 M³ ...
-        >>> print(eq.decide(2 * M**3 * unit / (2 * z - 1)))
-        not a statement: the divisor 2 z − 1 is not shown to differ from zero
-        >>> print(fd.equation(7).decide(fd.equation(7).expr).verdict)
-        proved
+        >>> str(eq.decide(2 * M**3 * (1 - 3 * z**2 + 2 * z**3) * unit).verdict)
+        'proved'
+        >>> str(eq.decide(2 * M**3 * (1 - z) ** 2 * unit).verdict)
+        'refuted'
+        >>> print(eq.decide(2 * M**3 * unit / (2 * z - 1)))  # doctest: +ELLIPSIS
+        not a statement: ...
 
         Args:
             candidate: a SymPy ``Eq`` in the symbols of :attr:`symbols`; or an expression for the
                 right-hand side of a line; or, for all lines at once, as many of these as are
                 printed, in a ``Tuple``, tuple or list.
+            at: whole numbers for indices, such as ``M=12, j=4``, where alone it is to hold.
 
         Raises:
-            KernelError: the checker is at fault: it proved what explicit values refute.
+            ArgumentError: ``at`` names something else, or no whole number.
         """
-        return decided(candidate, self._lines, self._rule_on)
-
-    def _rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
-        """Rule as the derivation does; of what is proved in a limit say what that leaves open."""
-        ruling = self._derivation.rule_on(part, candidate)
-        if self.relation != "∼" or not ruling.verdict.is_proved:
-            return ruling
-        limit = self._derivation.domain_of(part).limit
-        assert limit
-        note = f"{ruling.note}, {limit.words}; lower orders are not tested"
-        return replace(ruling, note=f"{note}: exact().decide does that" if self.forms else note)
+        if isinstance(self._derivation, Derivation):
+            derivation, place = self._derivation, indices_at(at)
+            return decided(
+                candidate,
+                self._lines,
+                lambda part, one: candidate_for(derivation, part, one, place),
+            )
+        return self.exact().decide(candidate, **at)
 
     def __repr__(self) -> str:
         return f"<Eq. {self.number}: {self.title}>"

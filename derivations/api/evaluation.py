@@ -186,6 +186,21 @@ def range_of(symbol: sympy.Symbol, dimension: int = 2) -> tuple[str, Callable[[A
     return "a number", lambda _: True
 
 
+def indices_at(at: Mapping[str, Any]) -> dict[sympy.Symbol, sympy.Integer]:
+    """Whole numbers for indices, by symbol.
+
+    Raises:
+        ArgumentError: a name is no index, or a value no whole number.
+    """
+    by_name = {symbol.name: symbol for symbol in sy.INDICES}
+    for name, value in at.items():
+        if name not in by_name:
+            raise ArgumentError(f"{name} is no index: {', '.join(by_name)} are")
+        if isinstance(value, bool) or not isinstance(value, numbers.Integral):
+            raise ArgumentError(f"{name} = {value!r}: a whole number is allowed")
+    return {by_name[name]: sympy.Integer(int(value)) for name, value in at.items()}
+
+
 def told(symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]) -> str:
     """Values in words."""
     return ", ".join(f"{text(symbol)} = {values[symbol]}" for symbol in symbols)

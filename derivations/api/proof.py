@@ -13,11 +13,11 @@ from ..export.terminal import (
     expected_text,
     follows_text,
     heading,
-    relation_of,
+    rests_text,
     steps_text,
     summary_line,
 )
-from ..framework.proving import Shown
+from ..framework.proof import Step
 from ..framework.record import Check, Outcome, Statement
 
 
@@ -34,15 +34,13 @@ class Proof:
 
     Attributes:
         outcomes: all that has been run, premises first; the last is the equation's own.
-        premises_run: whether the premises have been proved too, or are taken as proved.
     """
 
     outcomes: tuple[Outcome, ...]
-    premises_run: bool
 
     @property
     def verdict(self) -> Verdict:
-        """Proved; proved, assuming; refuted or undecided: of the equation, given its premises."""
+        """Proved; proved, assuming; refuted or undecided."""
         return self.outcomes[-1].verdict
 
     @property
@@ -60,12 +58,7 @@ class Proof:
         return f"Eq. {outcome.derivation.number} is {outcome.words}{refuted and f'; {refuted}'}."
 
     def _premises(self) -> str:
-        numbers = [str(one.number) for one in self.outcomes[-1].derivation.premises]
-        if not numbers:
-            return "It rests on no other equation."
-        plural = "s" if len(numbers) > 1 else ""
-        state = "run too" if self.premises_run else "taken as proved, not run"
-        return f"Its premise{plural}, Eq{plural}. {', '.join(numbers)}: {state}."
+        return rests_text(self.outcomes[-1].derivation)
 
     def __str__(self) -> str:
         return "\n".join(
@@ -94,7 +87,7 @@ class Proof:
         )
 
 
-class Steps(tuple[Shown, ...]):
+class StepList(tuple[Step, ...]):
     """The steps of a derivation, which print as a numbered list.
 
     >>> import force_diffusion as fd
@@ -107,25 +100,23 @@ class Steps(tuple[Shown, ...]):
     @classmethod
     def of(cls, derivation: Statement) -> Self:
         """The steps of one derivation."""
-        made = cls(derivation.steps())
-        made._derivation = derivation
-        return made
+        steps = cls(derivation.proof)
+        steps._derivation = derivation
+        return steps
 
     def __reduce__(self) -> tuple[Callable[[Statement], Self], tuple[Statement]]:
         """Derive them anew: no theorem comes out of a pickle."""
         return self.of, (self._derivation,)
 
     def __str__(self) -> str:
-        verdicts = [str(step.ruling) for step in self]
-        return f"{heading(self._derivation)}\n\n{steps_text(self._derivation, verdicts)}"
+        return f"{heading(self._derivation)}\n\n{steps_text(self)}"
 
     __repr__ = __str__
 
     def _repr_markdown_(self) -> str:
         lines = []
-        for place, step in enumerate(self, start=1):
-            relation = RELATIONS[relation_of(self._derivation, step)]
-            lines.append(f"{place}. {step.reason}")
-            lines.append(f"$$\n{latex_body([step.formula], relation)}\n$$")
-            lines.append(follows_text(step, step.ruling.words))
+        for step in self:
+            lines.append(f"{step.number}. {step.reason}")
+            lines.append(f"$$\n{latex_body([step.formula], RELATIONS[step.relation])}\n$$")
+            lines.append(follows_text(step))
         return "\n\n".join(lines)

@@ -4,7 +4,6 @@ import sys
 from collections.abc import Mapping, Sequence
 
 from ..framework.catalogue import Number
-from ..framework.loading import with_premises
 from ..framework.record import Derivation
 from ..framework.runner import run_all
 from .guard import WRONG_USAGE, guarded
@@ -30,7 +29,7 @@ def run_alone(
             return WRONG_USAGE
         lines = PlainLines({one.number for one in own})
         proved = True
-        for outcome in run_all(with_premises(own)):
+        for outcome in run_all([one.number for one in own]):
             lines.finished(outcome)
             proved = proved and outcome.verdict.is_proved
         return 0 if proved else 1

@@ -10,7 +10,6 @@ from force_diffusion.numeric.arithmetic.errors import printable
 from ..export.prose import both
 from ..export.terminal import outcomes_data
 from ..framework.catalogue import Number, modules
-from ..framework.loading import load, with_premises
 from .cli import command_line
 from .output import Output, OutputError
 from .progress import display
@@ -33,7 +32,6 @@ def derive(
     from ..api.derived import derive as derived
     from ..export.document import DOCUMENT, MANIFEST, fragment_name
 
-    wanted = [load(one) for one in numbers]
     folder = paper = None
     if out:
         folder = Output(out, [*map(fragment_name, modules()), DOCUMENT, MANIFEST], overwrite)
@@ -43,8 +41,9 @@ def derive(
         if out and out.absolute() == article.absolute():
             raise OutputError(f"'{article}' is that of --out, too. Give another folder.")
         paper = Output(article, names_of_files(), overwrite)
-    in_full = wanted[0].number if len(wanted) == 1 else None
-    watch = display(len(with_premises(wanted)), in_full, as_json=as_json)
+    in_full = numbers[0] if len(numbers) == 1 else None
+    everything = len(numbers) == len(modules())
+    watch = display(len(numbers) if everything else None, in_full, as_json=as_json)
     with watch.showing():
         found = derived(numbers, notice=watch.checking, finished=watch.finished)
     if paper:

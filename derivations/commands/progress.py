@@ -41,7 +41,7 @@ class Silence:
 
 def _in_full(outcome: Outcome) -> str:
     """All of an equation, below the lines of its premises."""
-    return "\n" * bool(outcome.derivation.premises) + outcome_text(outcome)
+    return "\n" + outcome_text(outcome)
 
 
 class PlainLines(Silence):
@@ -71,13 +71,13 @@ class LiveBar(Silence):
 
     Args:
         console: where it is drawn.
-        total: how many equations there are.
+        total: how many equations there are, if that is known.
         in_full: numbers of the equations of which all is printed.
         lines: whether the console may also have lines of text.
     """
 
     def __init__(
-        self, console: "Console", total: int, in_full: Collection[Number], *, lines: bool
+        self, console: "Console", total: int | None, in_full: Collection[Number], *, lines: bool
     ) -> None:
         from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
         from rich.table import Column
@@ -122,11 +122,11 @@ class LiveBar(Silence):
             self._console.print(words, markup=False, highlight=False, soft_wrap=True)
 
 
-def display(total: int, in_full: Number | None, *, as_json: bool) -> Silence:
+def display(total: int | None, in_full: Number | None, *, as_json: bool) -> Silence:
     """The display that suits where the output goes; with JSON only standard error is free.
 
     Args:
-        total: how many equations there are.
+        total: how many equations there are, if that is known.
         in_full: the number of the one of which all is printed.
         as_json: whether standard output is for JSON.
     """

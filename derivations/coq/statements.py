@@ -12,7 +12,6 @@ from functools import partial
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.mechanics.lattice import mirror, mirrored_relation
-from force_diffusion.symbolic.mechanics.paths import IN_CONE
 from force_diffusion.symbolic.printing.structure import is_vector
 from force_diffusion.symbolic.words import Style, parts
 
@@ -25,6 +24,8 @@ _OF_RHO = "fun rho e => let X := Xs rho in let F := Fs rho in"
 _UNIT = "((sigma / r G) ^ 2 / (1 - phi G ^ 2) ^ 2)"
 _HORIZONTAL = (sy.i, sy.k, sy.site_r)
 _IN_COQ = Style(index, " = ", " <= ", " >= ")
+_IN_CONE = {sy.k: sy.i + sy.p - sy.q, sy.l: sy.j + sy.p + sy.q}
+"""The loaded bead (k, l) seen from (i, j), p steps along n⁺ and q along n⁻ below it."""
 _MIRRORED = (8, 9, 10, 11)  # stated of f⁻, too
 
 
@@ -196,7 +197,7 @@ FRAMES: dict[Number, Frame] = {
         _BELOW_AT_A_DISTANCE,
         _near("pressed_down X F i j", "47"),
         (
-            *(f"({x.in_code} = {index(at)})%Z" for x, at in IN_CONE.items()),
+            *(f"({x.in_code} = {index(at)})%Z" for x, at in _IN_CONE.items()),
             "bead M i j",
             "bead M k l",
         ),

@@ -11,7 +11,7 @@ from ..coq.record import recorded
 from ..framework.catalogue import Number
 from ..framework.record import Outcome, Statement
 from .prose import prose_latex
-from .terminal import follows_text, relation_of, step_verdicts
+from .terminal import follows_text
 
 DOCUMENT, MANIFEST = "equations.tex", "manifest.json"
 
@@ -97,17 +97,15 @@ def _noted(verdict: str, name: str, note: str) -> str:
     return f"{said} {prose_latex(sentence(note))}" if note else said
 
 
-def _steps(derivation: Statement, verdicts: list[str]) -> str:
+def _steps(derivation: Statement) -> str:
     items = []
-    steps = list(derivation.steps())
-    for step, verdict in zip(steps, verdicts, strict=True):
-        told = follows_text(step, verdict[:1].upper() + verdict[1:])
-        follows = f"\\emph{{{prose_latex(sentence(told))}}}"
+    for step in derivation.proof:
+        follows = f"\\emph{{{prose_latex(sentence(follows_text(step)))}}}"
         if derivation.printed == (step.formula,):  # not the same display twice
             reason = prose_latex(step.reason.rstrip(".:"))
             items.append(f"{reason}: Eq.~({derivation.number}). {follows}")
             continue
-        relation = RELATIONS[relation_of(derivation, step)]
+        relation = RELATIONS[step.relation]
         items.append(f"{prose_latex(step.reason)}\n{_shown(step.formula, relation)}{follows}")
     return _list("enumerate", items)
 
@@ -124,7 +122,7 @@ def _refuted(derivation: Statement) -> str:
     return "".join(
         f"\\par {prose_latex(sentence(one.reading))}\n"
         f"{_shown(one.formula, RELATIONS[one.relation])}"
-        for one in derivation.refuted
+        for one in derivation.proof.refuted
     )
 
 
@@ -143,7 +141,7 @@ def section_latex(outcome: Outcome) -> str:
         f"$\\displaystyle {latex(symbol)}$: {prose_latex(words)}"
         for symbol, words in derivation.symbols
     ]
-    rests = ", ".join(f"({premise.number})" for premise in derivation.premises)
+    rests = ", ".join(f"({number})" for number in derivation.premises)
     plural = "s" if len(derivation.premises) > 1 else ""
     claims = [
         _noted(in_words(check.verdict, check.assuming), check.name, check.note)
@@ -161,7 +159,7 @@ def section_latex(outcome: Outcome) -> str:
             _part("Printed as well, and refuted", _refuted(derivation)),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
-            _part("Steps", _steps(derivation, step_verdicts(outcome.checks))),
+            _part("Steps", _steps(derivation)),
             _part("Claims", _list("itemize", claims)),
             _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),
         ]

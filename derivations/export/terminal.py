@@ -11,7 +11,7 @@ from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
-from ..framework.proving import Shown
+from ..framework.proof import Step
 from ..framework.record import Check, Outcome, Statement
 from .prose import both
 
@@ -39,7 +39,7 @@ def printed_text(derivation: Statement, indent: str = "  ") -> str:
 def refuted_text(derivation: Statement) -> list[str]:
     """The printed statements that do not hold, each with how the paper's words are read in it."""
     lines = []
-    for one in derivation.refuted:
+    for one in derivation.proof.refuted:
         lines += ["", _paragraph(f"Printed as well; {one.reading}.", "")]
         lines += ["  " + line for line in text_lines(one.formula, one.relation, TEXT_WIDTH - 2)]
     return lines
@@ -64,7 +64,7 @@ def heading(derivation: Statement) -> str:
 
 def statement_text(derivation: Statement) -> str:
     """What the equation says, in what symbols, under which assumptions."""
-    parts = [heading(derivation), "", printed_text(derivation), *refuted_text(derivation)]
+    parts = [heading(derivation), "", printed_text(derivation)]
     parts += ["", "Symbols"]
     for symbol, meaning in derivation.symbols:
         parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
@@ -72,9 +72,6 @@ def statement_text(derivation: Statement) -> str:
     parts += [_paragraph(words, "  - ", "    ") for words in derivation.assumptions]
     if derivation.call:
         parts += ["", f"The calculator: {derivation.call}"]
-    if derivation.premises:
-        numbers = ", ".join(str(premise.number) for premise in derivation.premises)
-        parts += ["", f"Rests on Eq{'s' * (len(derivation.premises) > 1)}. {numbers}"]
     parts += ["", f"Coq: {recorded(derivation.number)}"]
     if derivation.remarks:
         parts += ["", "Remarks"]
@@ -82,46 +79,44 @@ def statement_text(derivation: Statement) -> str:
     return "\n".join(parts)
 
 
-def relation_of(derivation: Statement, step: Shown) -> str:
-    """The sign between the sides of a step; the printed equation has its own."""
-    printed = all(one in derivation.printed for one in step.equations)
-    return derivation.relation if printed else step.relation
+def rests_text(derivation: Statement) -> str:
+    """The equations that it rests on, in words."""
+    numbers = [str(number) for number in derivation.premises]
+    if not numbers:
+        return "It rests on no other equation."
+    return f"It rests on Eq{'s' * (len(numbers) > 1)}. {', '.join(numbers)}."
 
 
-def follows_text(step: Shown, verdict: str) -> str:
-    """What was decided of a step, and what it follows from."""
+def follows_text(step: Step) -> str:
+    """The verdict on a step, and what it follows from."""
+    verdict = in_words(Verdict.ASSUMING if step.assuming else Verdict.PROVED, step.assuming)
     return f"{verdict}, from {both(step.uses)}" if step.uses else verdict
 
 
-def steps_text(derivation: Statement, verdicts: Sequence[str]) -> str:
+def steps_text(steps: Iterable[Step]) -> str:
     """The steps: the reason, the formula that it gives, the verdict, and what it follows from."""
     parts = []
-    steps = enumerate(zip(derivation.steps(), verdicts, strict=True), start=1)
-    for place, (step, verdict) in steps:
-        parts.append(_paragraph(step.reason, f"{place:3}. ", "     "))
-        lines = text_lines(step.formula, relation_of(derivation, step), TEXT_WIDTH - 7)
+    for step in steps:
+        parts.append(_paragraph(step.reason, f"{step.number:3}. ", "     "))
+        lines = text_lines(step.formula, step.relation, TEXT_WIDTH - 7)
         parts += ["       " + line for line in lines]
-        said = verdict.partition(":")[0] if verdict.startswith(str(Verdict.PROVED)) else verdict
-        parts.append(_paragraph(follows_text(step, said), "     "))
+        parts.append(_paragraph(follows_text(step), "     "))
     return "\n".join(parts)
-
-
-def step_verdicts(checks: Iterable[Check]) -> list[str]:
-    """The verdicts of the steps among the checks, in their order."""
-    return [in_words(one.verdict, one.assuming) for one in checks if one.kind == "step"]
 
 
 def check_text(check: Check) -> str:
     """One check: what was checked, what was found, what that rests on."""
-    head = f"{check.words}: {check.name} ({check.kind}, {check.seconds:.3f} s)"
+    head = f"{check.words}: {check.name} ({check.kind})"
     return _paragraph(head + (f". {check.note}" if check.note else ""), "  - ", "    ")
 
 
 def outcome_text(outcome: Outcome) -> str:
     """A derivation from its title to its verdict."""
     derivation = outcome.derivation
-    steps = steps_text(derivation, step_verdicts(outcome.checks))
-    parts = [statement_text(derivation), "", "Steps", steps, "", "Claims"]
+    if not outcome.verdict.is_proved:
+        return "\n".join([statement_text(derivation), "", *map(check_text, outcome.checks)])
+    parts = [statement_text(derivation), *refuted_text(derivation), "", rests_text(derivation)]
+    parts += ["", "Steps", steps_text(derivation.proof), "", "Claims"]
     parts += [check_text(check) for check in outcome.checks if check.kind != "step"]
     said = [f"Eq. {derivation.number} is {outcome.words}", expected_text(len(outcome.refuted))]
     parts += ["", f"{'; '.join(filter(None, said))} ({outcome.seconds:.2f} s)"]
@@ -152,7 +147,7 @@ def statement_data(derivation: Statement) -> dict[str, Any]:
         "number": derivation.number,
         "name": derivation.name,
         "title": derivation.title,
-        "premises": [premise.number for premise in derivation.premises],
+        "premises": list(derivation.premises),
         "text": "\n".join(derivation.lines(TEXT_WIDTH)),
         "latex": derivation.latex(),
         "exact": {name: form.data() for name, form in derivation.exact_forms.items()},
@@ -177,7 +172,6 @@ def outcomes_data(outcomes: Iterable[Outcome], *, timed: bool = True) -> dict[st
                     "verdict": str(check.verdict),
                     "note": check.note,
                     "assuming": list(check.assuming),
-                    **lasted(check.seconds),
                 }
                 for check in outcome.checks
             ],

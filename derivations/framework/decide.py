@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping, Sequence
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotAStatementError
-from force_diffusion.symbolic.as_printed import equation, in_place
-from force_diffusion.symbolic.kernel import rules
+from force_diffusion.symbolic.as_printed import equation, in_place, nodes
+from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     not_a_statement,
@@ -15,11 +15,19 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.kernel.domain import Domain
+from force_diffusion.symbolic.kernel.limits import asymptotic, negligible
 from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import FalseStatementError, NotProvedError
+from force_diffusion.symbolic.kernel.statistics import moment
+from force_diffusion.symbolic.kernel.theorem import (
+    FalseStatementError,
+    Group,
+    NotProvedError,
+    Theorem,
+)
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
+from .loading import load
 from .record import Derivation
 
 OURS = {symbol.name: symbol for symbol in (*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)}
@@ -79,3 +87,59 @@ def candidate_for(
     if not ruling.verdict.is_proved and (squares := _squares(meant)):
         return decide(squares, domain, attempts)
     return ruling
+
+
+def strange_symbol(formula: sympy.Basic, known: Mapping[str, sympy.Basic]) -> str:
+    """Why a symbol may be taken for another one of the same name; "" where none may be.
+
+    Args:
+        formula: whatever is said.
+        known: symbols by name.
+    """
+    for symbol in by_name(formula.free_symbols):
+        ours = known.get(symbol.name, symbol)
+        if ours != symbol:
+            return f"{symbol.name} is another symbol than the {text(ours)} of the equation"
+    return ""
+
+
+def _further(statement: Derivation, domain: Domain) -> Iterator[Rule]:
+    """Rules that decide more than the step does."""
+    theorems = statement.theorems
+    for theorem in theorems:
+        yield rules.follows(theorem)
+        yield from (_component(theorem, vector) for vector in (sy.e_x, *sy.VECTORS))
+    groups = (*statement.ground(),) or (theorems, *_geometry())
+    match domain.limit.relation if domain.limit else "=":
+        case "∼":
+            yield asymptotic(*groups)
+        case "≈":
+            yield negligible(*groups)
+        case "=":
+            yield moment(*groups)
+            yield rules.rewrite(*groups)
+
+
+def _component(theorem: Theorem, vector: sympy.Expr) -> Rule:
+    return lambda formula, domain: rules.follows(rules.along(theorem, vector))(formula, domain)
+
+
+def _geometry() -> tuple[Group, ...]:
+    """Contact directions, and the positions in which they are, in the radii."""
+    positions, plus, minus = (load(number).theorem for number in (3, 4, 5))
+    return (plus, minus), (positions, axioms.base())
+
+
+def _squares(formula: sympy.Eq) -> sympy.Eq | None:
+    """Both sides squared, where both are roots that are not negative; None for other equations."""
+    sides = []
+    for side in formula.args:
+        square = sympy.S.One
+        for factor in sympy.Mul.make_args(side):
+            base, exponent = factor.as_base_exp()
+            if not (2 * exponent).is_Integer or (exponent.is_Integer and not base.is_positive):
+                return None
+            square = sympy.Mul(square, sympy.Pow(base, 2 * exponent, evaluate=False))
+        sides.append(square)
+    has_root = any(one.is_Pow and one.exp.q == 2 for one in nodes(formula) if one.is_Pow)
+    return equation(*sides) if has_root else None

@@ -1,8 +1,11 @@
 """Loads derivations by their numbers, alone or with all that they rest on."""
 
 import copyreg
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import suppress
 from importlib import import_module
+
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
 
 from .catalogue import Number, modules
 from .record import Derivation, Statement
@@ -26,16 +29,28 @@ def pickled(statement: Statement) -> tuple[Callable[[Number], Statement], tuple[
 copyreg.pickle(Derivation, pickled)
 
 
-def with_premises(wanted: Iterable[Statement]) -> list[Statement]:
-    """The derivations wanted and all that they rest on, premises first."""
-    ordered: dict[Number, Statement] = {}
+def with_premises(
+    wanted: Iterable[Number], watch: Callable[[Statement], None] = lambda _: None
+) -> Iterator[Statement]:
+    """Those wanted and all that they rest on, premises first, each as soon as it is known.
 
-    def visit(statement: Statement) -> None:
-        if statement.number not in ordered:
-            for premise in statement.premises:
-                visit(premise)
-            ordered[statement.number] = statement
+    Proofs say what they rest on: each one is run.
 
-    for statement in wanted:
-        visit(statement)
-    return list(ordered.values())
+    Args:
+        wanted: their numbers.
+        watch: called with each before its proof is run.
+    """
+    seen: set[Number] = set()
+
+    def visit(number: Number) -> Iterator[Statement]:
+        if number not in seen:
+            seen.add(number)
+            statement = load(number)
+            watch(statement)
+            with suppress(NotProvedError):  # whoever runs it says so
+                for premise in statement.premises:
+                    yield from visit(premise)
+            yield statement
+
+    for number in wanted:
+        yield from visit(number)

@@ -1,1 +1,0 @@
-"""Sums of squared weights, in closed form."""
