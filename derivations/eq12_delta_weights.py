@@ -121,6 +121,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     domain=IN_THE_LIMIT,
     steps=steps,
+    deciders=lambda: [negligible(*eq11.in_radii())],
     loads=("surface",),
     relation="≈",
     remarks=(

@@ -112,6 +112,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     domain=IN_THE_LIMIT,
     steps=steps,
+    deciders=lambda: [asymptotic(*eq11.in_radii())],
     loads=("surface",),
     relation="∼",
     remarks=(

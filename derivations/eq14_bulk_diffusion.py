@@ -230,6 +230,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     domain=IN_THE_LIMIT,
     steps=steps,
+    deciders=lambda: [asymptotic(*in_radii())],
     loads=("bulk",),
     relation="∼",
 )

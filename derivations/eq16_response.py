@@ -277,6 +277,7 @@ DERIVATION = Derivation(
     printed=(PRINTED,),
     domain=CONE,
     steps=steps,
+    deciders=lambda: [asymptotic(*in_radii())],
     loads=("single",),
     relation="∼",
     remarks=(

@@ -377,7 +377,7 @@ class Reader:
         for value in values:
             if not isinstance(value, tuple):
                 if value.parts:
-                    raise NotExactError("a number is added to a vector")
+                    raise NotAStatementError("a number is added to a vector")
                 continue
             total = total[0] + value[0], total[1] + value[1]
         return total

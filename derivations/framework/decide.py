@@ -1,10 +1,11 @@
 """Decides what is said of an equation: one function for a step, a candidate and a closed form."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import NotAStatementError
+from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError
+from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.as_printed import equation, in_place, nodes
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.decisions import (
@@ -15,7 +16,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.kernel.domain import Domain
-from force_diffusion.symbolic.kernel.limits import asymptotic, negligible
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import (
@@ -25,12 +25,11 @@ from force_diffusion.symbolic.kernel.theorem import (
     Theorem,
 )
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.printing.text import text
 
 from .loading import load
 from .record import Derivation
 
-OURS = {symbol.name: symbol for symbol in (*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)}
+OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
 
 
 def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Ruling:
@@ -72,8 +71,8 @@ def candidate_for(
         candidate: what is said in its place.
         at: indices, at which alone it is to hold.
     """
-    named = {str(symbol): symbol for symbol, _ in statement.symbols}
-    if reason := strange_symbol(candidate, {**OURS, **named}):
+    named = {symbol for symbol, _ in statement.symbols if isinstance(symbol, sympy.Symbol)}
+    if reason := strange_symbol(candidate, {*OURS, *named, *statement.domain.indices}):
         return not_a_statement(reason)
     step, place = statement.step_of(part)
     domain = step.domains[place]
@@ -82,42 +81,46 @@ def candidate_for(
             return not_a_statement(f"it is one in a limit ({domain.limit.words}), of no one packing")
         domain = domain.also(*(sympy.Eq(s, n, evaluate=False) for s, n in at.items()))
     meant = in_place(candidate, step.definitions[place])
-    attempts = [step.rules[place], *_further(statement, domain)]
+    attempts = [step.rules[place], *_further(statement, meant, domain)]
     ruling = decide(meant, domain, attempts)
-    if not ruling.verdict.is_proved and (squares := _squares(meant)):
+    if not ruling.verdict.is_proved and (squares := _squares(meant, domain)) is not None:
         return decide(squares, domain, attempts)
     return ruling
 
 
-def strange_symbol(formula: sympy.Basic, known: Mapping[str, sympy.Basic]) -> str:
-    """Why a symbol may be taken for another one of the same name; "" where none may be.
-
-    Args:
-        formula: whatever is said.
-        known: symbols by name.
-    """
-    for symbol in by_name(formula.free_symbols):
-        ours = known.get(symbol.name, symbol)
-        if ours != symbol:
-            return f"{symbol.name} is another symbol than the {text(ours)} of the equation"
+def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str:
+    """Why a symbol may be taken for another one of the same name; "" where none may be."""
+    names = {symbol.name for symbol in known}
+    for symbol in by_name(formula.free_symbols - {*known}):
+        if symbol.name in names:
+            return f"{symbol.name} is another symbol than the {symbol.name} of the equation"
     return ""
 
 
-def _further(statement: Derivation, domain: Domain) -> Iterator[Rule]:
+def _further(statement: Derivation, formula: sympy.Eq, domain: Domain) -> Iterator[Rule]:
     """Rules that decide more than the step does."""
+    if domain.limit:
+        yield from statement.deciders()
+        return
     theorems = statement.theorems
+    groups = theorems, *_geometry()
+    if formula.has(sy.Moment):
+        yield moment(*groups)
+        return
     for theorem in theorems:
         yield rules.follows(theorem)
         yield from (_component(theorem, vector) for vector in (sy.e_x, *sy.VECTORS))
-    groups = (*statement.ground(),) or (theorems, *_geometry())
-    match domain.limit.relation if domain.limit else "=":
-        case "∼":
-            yield asymptotic(*groups)
-        case "≈":
-            yield negligible(*groups)
-        case "=":
-            yield moment(*groups)
-            yield rules.rewrite(*groups)
+    if domain.loading == axioms.LOADED:
+        yield _under_a_vertical_load
+    else:
+        yield rules.rewrite(*groups)
+
+
+def _under_a_vertical_load(formula: sympy.Eq, domain: Domain) -> Theorem:
+    """Refute what is to hold under any load on a bead, if it fails under a vertical one."""
+    groups = load(7).theorems, *_geometry()
+    rules.rewrite(*groups)(formula, domain.loaded(axioms.LOADED_VERTICALLY))
+    raise NotProvedError("it holds under a vertical load; whether under any is not decided")
 
 
 def _component(theorem: Theorem, vector: sympy.Expr) -> Rule:
@@ -130,16 +133,41 @@ def _geometry() -> tuple[Group, ...]:
     return (plus, minus), (positions, axioms.base())
 
 
-def _squares(formula: sympy.Eq) -> sympy.Eq | None:
+def _squares(formula: sympy.Eq, domain: Domain) -> sympy.Eq | None:
     """Both sides squared, where both are roots that are not negative; None for other equations."""
+    if not any(isinstance(one, sympy.Pow) and one.exp.is_Rational and one.exp.q == 2
+               for one in nodes(formula)):  # fmt: skip
+        return None
     sides = []
     for side in formula.args:
-        square = sympy.S.One
-        for factor in sympy.Mul.make_args(side):
-            base, exponent = factor.as_base_exp()
-            if not (2 * exponent).is_Integer or (exponent.is_Integer and not base.is_positive):
-                return None
-            square = sympy.Mul(square, sympy.Pow(base, 2 * exponent, evaluate=False))
-        sides.append(square)
-    has_root = any(one.is_Pow and one.exp.q == 2 for one in nodes(formula) if one.is_Pow)
-    return equation(*sides) if has_root else None
+        factors = list(_factors(side))
+        if not all(_is_root(base, exponent, domain) for base, exponent in factors):
+            return None
+        squares = (sympy.Pow(base, 2 * exponent, evaluate=False) for base, exponent in factors)
+        sides.append(sympy.Mul(*squares, evaluate=False))
+    return equation(*sides)
+
+
+def _factors(side: sympy.Expr) -> Iterator[tuple[sympy.Expr, sympy.Expr]]:
+    """Bases and exponents; an absolute value is the root of a square."""
+    for factor in sympy.Mul.make_args(side):
+        base, exponent = factor.as_base_exp()
+        if factor.is_Mul:
+            yield from _factors(factor)
+        elif isinstance(base, sympy.Abs):
+            yield base.args[0] ** 2, exponent / 2
+        else:
+            yield base, exponent
+
+
+def _is_root(base: sympy.Expr, exponent: sympy.Expr, domain: Domain) -> bool:
+    """Whether a power has a rational square, and is not negative on a domain."""
+    if not (2 * exponent).is_Integer:
+        return False
+    if not exponent.is_Integer:
+        return True
+    value = base.xreplace({sy.z: sy.j / sy.M}) if sy.j in domain.indices else base
+    try:
+        return sign(domain.reader().scalar(value), domain.points) == 1
+    except NotExactError:
+        return False

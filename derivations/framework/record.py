@@ -10,7 +10,8 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.kernel.domain import Domain
-from force_diffusion.symbolic.kernel.theorem import Group, Theorem
+from force_diffusion.symbolic.kernel.rules import Rule
+from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import column_width, latex_body, text_lines
 
@@ -160,8 +161,7 @@ class Derivation(Statement):
             in its limit; "≈", what is dropped varies less, by an order, than the force it is about;
             "∝", left over right goes to a positive function of φ alone.
         exact: gives closed forms, exact at finite size, by name; the first is the usual one.
-        ground: theorems that say of the quantities in ``printed`` what they are in the radii, by
-            which anything said of them is decided.
+        deciders: rules that decide what is said of ``printed`` in a limit, beside that of its step.
     """
 
     number: Number
@@ -176,7 +176,7 @@ class Derivation(Statement):
     loads: tuple[str, ...] = ()
     relation: str = "="
     exact: Callable[[], Mapping[str, "ClosedForm"]] | None = None
-    ground: Callable[[], Sequence[Group]] = tuple
+    deciders: Callable[[], Sequence[Rule]] = tuple
 
 
 class _Stopwatch:
