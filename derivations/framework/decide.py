@@ -118,7 +118,8 @@ def _further(statement: Derivation, formula: sympy.Eq, domain: Domain) -> Iterat
 
 def _under_a_vertical_load(formula: sympy.Eq, domain: Domain) -> Theorem:
     """Refute what is to hold under any load on a bead, if it fails under a vertical one."""
-    groups = load(7).theorems, *_geometry()
+    loads = axioms.loads(axioms.LOADED_VERTICALLY)
+    groups = (*load(7).theorems, *loads), *_geometry()
     rules.rewrite(*groups)(formula, domain.loaded(axioms.LOADED_VERTICALLY))
     raise NotProvedError("it holds under a vertical load; whether under any is not decided")
 

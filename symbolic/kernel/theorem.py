@@ -431,7 +431,7 @@ def witness(
                 indices = {
                     one: straight.get(one, one).xreplace(numbers) for one in domain.indices
                 }
-                return indices, {s: numbers[s] for s in sets.SITE}, there.to_sympy()
+                return indices, {s: numbers[s] for s in sets.SITE}, there.reduced().to_sympy()
     return None
 
 
