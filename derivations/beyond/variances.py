@@ -182,7 +182,7 @@ def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
         number=number,
         name="any_dimension" if load == "surface" else "any_dimension_bulk",
         title=f"Variance of the forces in two and three dimensions under a {load} load",
-        call=f'variance(f_along(1, 0, 0, j), load="{load}", dimension=3)',
+        call=f'variance(f_plus(i, j), load="{load}")',
         forms=lambda: {
             "discs": paper.DERIVATION.exact_forms["layer"],
             "spheres": DERIVATIONS[spheres].exact_forms["first"],

@@ -49,8 +49,7 @@ def test_the_call_gives_the_first_form(number: str) -> None:
     names = {name: getattr(symbols, name) for name in symbols.__all__}
     names |= {name: getattr(fd, name) for name in CALLS}
     found = eval(row(number).call, {"__builtins__": {}}, names)
-    name = "spheres" if number in ("B11", "B20") else next(iter(row(number).exact_forms))
-    stated = row(number).exact_forms[name]
+    stated = next(iter(row(number).exact_forms.values()))
     assert found.domain == stated.domain
     assert [piece.expr for piece in found.pieces] == [piece.expr for piece in stated.pieces]
 
