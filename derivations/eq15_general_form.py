@@ -6,7 +6,7 @@ import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations.api.closed_form import ClosedForm
+from force_diffusion.derivations.formulas.closed_form import ClosedForm
 from force_diffusion.derivations.framework.averaging import (
     density,
     expansion,

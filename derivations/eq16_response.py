@@ -9,7 +9,7 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.api.closed_form import ClosedForm
+from force_diffusion.derivations.formulas.closed_form import ClosedForm
 from force_diffusion.derivations.framework.grounds import Beside, facts_of
 from force_diffusion.derivations.framework.record import FIRST_ORDER, usual
 from force_diffusion.derivations.framework.vocabulary import (

@@ -161,7 +161,7 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
         "units of its own mean, the less of the load points along its own.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
         claimed=(
-            ("the leading order, with τₙ = t₂ⁿ + t₃ⁿ in the factor 2τ₁² + τ₂",
+            ("the leading order, with τ_n = t₂ⁿ + t₃ⁿ in the factor 2τ₁² + τ₂",
              leads("first", leading)),
             (f"for t₂ = t₃ = 1 it is Eq. {upright}",
              equals("first", (upright, "first"), at={t_2: sympy.S.One, t_3: sympy.S.One})),

@@ -12,7 +12,7 @@ from force_diffusion.symbolic.kernel.where import Loading, Where, at_fixed_heigh
 from force_diffusion.symbolic.symbols import LargestShare, M, Moment, j, phi, r, sigma
 from force_diffusion.symbolic.words import in_words
 
-from ..api.closed_form import ClosedForm
+from ..formulas.closed_form import ClosedForm
 from .catalogue import Number
 from .grounds import By, Proved, Source, asymptotic, bounded, closed, facts_of
 from .proving import Line, Lines, Meaning

@@ -31,7 +31,7 @@ from force_diffusion.symbolic.printing.lines import column_width, latex_body, te
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.values import WithoutValue
 
-from ..api.closed_form import ClosedForm
+from ..formulas.closed_form import ClosedForm
 from .catalogue import Number
 from .proving import (
     Line,

@@ -9,8 +9,8 @@ from typing import Any
 
 import pytest
 import sympy
-from force_diffusion.derivations.api.closed_form import ClosedForm
 from force_diffusion.derivations.beyond import correlations, variances
+from force_diffusion.derivations.formulas.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.rows import Row
