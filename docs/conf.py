@@ -10,6 +10,11 @@ from typing import Any
 import math_core
 from docutils import nodes
 from force_diffusion.derivations.export import article
+from force_diffusion.derivations.export.prose import prose_markdown
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.rows import Row
+from force_diffusion.symbolic.printing.latex import latex
 
 project = "force-diffusion"
 release = installed(project)
@@ -67,15 +72,40 @@ def _bars(_app: Any, _what: str, _name: str, _of: Any, _options: Any, lines: lis
     lines[:] = [re.sub(r"\|(\w+)\|", r"\\|\1\\|", line) for line in lines]
 
 
-def _article(_app: Any, name: str, source: list[str]) -> None:
-    """Put the article in the place of its page."""
+def _calls() -> str:
+    """Every equation beyond the paper: its call, and the formula that the call gives."""
+    parts = []
+    for label in (one for one in modules() if isinstance(one, str)):
+        row = load(label)
+        parts.append(f"## {label}: {row.title}")
+        if not isinstance(row, Row):
+            parts += [f'```python\nfd.equation("{label}")\n```', f"$$\n{row.latex()}\n$$"]
+            continue
+        (_, form), *others = row.exact_forms.items()
+        parts += [f"```python\n{row.call}\n```", f"$$\n{form.latex()}\n$$"]
+        parts += [
+            f"${latex(symbol)}$: {prose_markdown(meaning)}."
+            for symbol, meaning in row.quantities
+            if form.quantity.has(symbol)
+        ]
+        parts.append(prose_markdown(row.meaning))
+        if others:
+            names = ", ".join(f"`{name}`" for name, _ in others)
+            parts.append(f'Further forms, of `fd.equation("{label}").exact(…)`: {names}.')
+    return "\n\n".join(parts)
+
+
+def _generated(_app: Any, name: str, source: list[str]) -> None:
+    """Put in what pages have from the derivations."""
     if name == "background/beyond":
         source[0] = article.page(article.source())
+    if name == "reference/calls":
+        source[0] = f"{source[0]}\n{_calls()}\n"
 
 
 def setup(app: Any) -> None:
-    """Make MathML of all formulas, and the page of the article."""
-    app.connect("source-read", _article)
+    """Make MathML of all formulas, and the pages that come from the derivations."""
+    app.connect("source-read", _generated)
     app.connect("autodoc-process-docstring", _bars)
     app.add_html_math_renderer(
         "mathml",

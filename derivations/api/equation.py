@@ -15,8 +15,12 @@ from force_diffusion.symbolic.printing.code import python_source, sympy_source
 from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
-from ..export.prose import both, either
 from ..export.terminal import statement_data, statement_text
+from ..formulas.arrays import evaluate
+from ..formulas.closed_form import ClosedForm
+from ..formulas.deciding import decided
+from ..formulas.evaluation import ArgumentError, Evaluation, indices_at
+from ..formulas.lists import both, either
 from ..framework.catalogue import Number as EquationNumber
 from ..framework.catalogue import (
     allowed,
@@ -28,10 +32,6 @@ from ..framework.loading import load
 from ..framework.record import Derivation, Statement
 from ..framework.rows import Row
 from ..framework.runner import run_all
-from .arrays import evaluate
-from .closed_form import ClosedForm
-from .deciding import decided
-from .evaluation import ArgumentError, Evaluation, indices_at
 from .numpy_function import numpy_function
 from .proof import Proof, StepList
 

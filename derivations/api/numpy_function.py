@@ -11,8 +11,8 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
-from .arrays import at_element, shared_shape
-from .evaluation import (
+from ..formulas.arrays import at_element, shared_shape
+from ..formulas.evaluation import (
     TOGETHER,
     ArgumentError,
     Evaluation,

@@ -12,7 +12,7 @@ from force_diffusion.derivations.calculator.statistics import (
     variance,
 )
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.layered import UNIT
+from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
     Decide,
     Forms,

@@ -4,7 +4,7 @@ import sympy
 from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import mean
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.layered import UNIT
+from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
     Row,
     equals,

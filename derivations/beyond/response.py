@@ -1,11 +1,11 @@
 """Eqs. B9, B19, B22 and B23: the response to loads on single beads."""
 
 import sympy
-from force_diffusion.derivations.api.closed_form import ClosedForm
 from force_diffusion.derivations.calculator.loads import point
 from force_diffusion.derivations.calculator.statistics import mean, mean_over, response, variance
+from force_diffusion.derivations.formulas.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.layered import UNIT
+from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
     Forms,
     Row,

@@ -9,7 +9,7 @@ from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import variance
 from force_diffusion.derivations.framework.catalogue import Number
-from force_diffusion.derivations.framework.layered import UNIT
+from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import Row, averages_to, equals, goes_as, leads
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
@@ -161,7 +161,7 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
         "units of its own mean, the less of the load points along its own.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
         claimed=(
-            ("the leading order, with τₙ = t₂ⁿ + t₃ⁿ in the factor 2τ₁² + τ₂",
+            ("the leading order, with τ_n = t₂ⁿ + t₃ⁿ in the factor 2τ₁² + τ₂",
              leads("first", leading)),
             (f"for t₂ = t₃ = 1 it is Eq. {upright}",
              equals("first", (upright, "first"), at={t_2: sympy.S.One, t_3: sympy.S.One})),
@@ -182,7 +182,7 @@ def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
         number=number,
         name="any_dimension" if load == "surface" else "any_dimension_bulk",
         title=f"Variance of the forces in two and three dimensions under a {load} load",
-        call=f'variance(f_along(1, 0, 0, j), load="{load}", dimension=3)',
+        call=f'variance(f_plus(i, j), load="{load}")',
         forms=lambda: {
             "discs": paper.DERIVATION.exact_forms["layer"],
             "spheres": DERIVATIONS[spheres].exact_forms["first"],

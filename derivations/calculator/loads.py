@@ -5,14 +5,6 @@ from dataclasses import dataclass, replace
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq03_extrapolation as eq03
-from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations import eq16_response as eq16
-from force_diffusion.derivations.beyond import leaning as tilted
-from force_diffusion.derivations.framework.grounds import Within
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.statistics import SPHERES
@@ -26,6 +18,15 @@ from force_diffusion.symbolic.kernel.where import (
     Loading,
 )
 from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t, t_2, t_3
+
+from .. import eq03_extrapolation as eq03
+from .. import eq04_contact_plus as eq04
+from .. import eq05_contact_minus as eq05
+from .. import eq11_total_force as eq11
+from .. import eq14_bulk_diffusion as eq14
+from .. import eq16_response as eq16
+from .. import leaning as tilted
+from ..framework.grounds import Within
 
 PLANE = 2
 """The dimension of a packing of discs."""

@@ -10,7 +10,7 @@ from force_diffusion.symbolic.kernel import statistics
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.printing.text import text
 
-from ..api.closed_form import ClosedForm
+from ..formulas.closed_form import ClosedForm
 from .loads import PLANE, Load, ObservableError, geometry, load_of
 from .observables import ACROSS, SPHERES, domain, layer_of, read, relations_of
 

@@ -17,7 +17,7 @@ import typer
 from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT, printable, rule
 from typer.core import TyperGroup
 
-from ..export.prose import either
+from ..formulas.lists import either
 
 # Name: (module, what --help says: the first paragraph of the command's docstring).
 COMMANDS = {

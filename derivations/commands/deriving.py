@@ -7,8 +7,8 @@ from pathlib import Path
 
 from force_diffusion.numeric.arithmetic.errors import printable
 
-from ..export.prose import both
 from ..export.terminal import outcomes_data
+from ..formulas.lists import both
 from ..framework.catalogue import Number, modules
 from .cli import command_line
 from .output import Output, OutputError

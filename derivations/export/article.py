@@ -22,12 +22,13 @@ from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import column_width, latex_body, stacked
 
+from ..formulas.lists import both
 from ..framework.catalogue import Number, modules, number_of
 from ..framework.loading import load
 from ..framework.record import Outcome, Statement
 from ..framework.rows import Row
 from .document import sentence
-from .prose import both, prose_latex, prose_markdown, text_latex
+from .prose import prose_latex, prose_markdown, text_latex
 from .quoted import quoted
 from .terminal import verdicts_text
 

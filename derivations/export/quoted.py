@@ -10,7 +10,7 @@ from force_diffusion.symbolic.as_printed import times
 from force_diffusion.symbolic.printing.latex import latex
 
 from ..framework.catalogue import modules
-from ..framework.layered import UNIT
+from ..framework.layers import UNIT
 from ..framework.loading import load
 
 

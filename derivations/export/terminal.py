@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from textwrap import fill
 from typing import Any
 
@@ -11,9 +11,9 @@ from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
+from ..formulas.lists import both
 from ..framework.proof import Step
 from ..framework.record import Check, Outcome, Statement
-from .prose import both
 
 _PAIR = re.compile(r"\((\S+), (\S+)\)")
 

@@ -20,13 +20,13 @@ _MODULE = re.compile(r"eq(\d\d)_\w+")
 
 _BEYOND = {
     "leaning": ("B1",),
-    "variances": ("B2", "B3", "B11", "B13", "B14", "B20", "B24", "B25"),
-    "means": ("B4", "B5", "B6", "B15", "B16"),
-    "stress": ("B10", "B17", "B18"),
-    "correlations": ("B7", "B8", "B12", "B21"),
-    "response": ("B9", "B19", "B22", "B23"),
+    "beyond.variances": ("B2", "B3", "B11", "B13", "B14", "B20", "B24", "B25"),
+    "beyond.means": ("B4", "B5", "B6", "B15", "B16"),
+    "beyond.stress": ("B10", "B17", "B18"),
+    "beyond.correlations": ("B7", "B8", "B12", "B21"),
+    "beyond.response": ("B9", "B19", "B22", "B23"),
 }
-"""The labels by the modules of ``beyond/``."""
+"""The labels by the modules that have them; the forces of B1 are what the calculator rests on."""
 
 
 @cache
@@ -37,7 +37,7 @@ def modules() -> dict[Number, str]:
         int(found[1]): stem for stem in stems if (found := _MODULE.fullmatch(stem))
     }
     beyond: dict[Number, str] = {
-        label: f"beyond.{module}" for module, labels in _BEYOND.items() for label in labels
+        label: module for module, labels in _BEYOND.items() for label in labels
     }
     return {**printed, **dict(sorted(beyond.items(), key=lambda one: int(str(one[0])[1:])))}
 

@@ -1,25 +1,18 @@
-"""Decides what is said of an equation: one function for a step, a candidate and a closed form."""
+"""Decides what is said in the place of a printed equation."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError
+from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.as_printed import equation, in_place, nodes
 from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    not_a_statement,
-    proved,
-    refuted,
-    undecided,
-)
+from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import (
-    FalseStatementError,
     Group,
     NotProvedError,
     Theorem,
@@ -30,31 +23,6 @@ from .loading import load
 from .record import Derivation
 
 OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
-
-
-def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Ruling:
-    """Rule on a statement: the first rule that proves it, or shows that it is false, decides.
-
-    Args:
-        formula: the statement.
-        domain: where it is to hold.
-        attempts: rules; none of them is trusted to fit the statement.
-    """
-    reasons = []
-    for rule in attempts:
-        try:
-            theorem = rules.proved_by(rule, formula, domain)
-        except NotAStatementError as reason:
-            return not_a_statement(str(reason))
-        except FalseStatementError as reason:
-            return refuted(str(reason))
-        except (NotProvedError, RecursionError) as reason:
-            reasons.append(str(reason) or "it is nested too deeply")
-        else:
-            if theorem.supposed:
-                return undecided("it rests on what is only supposed")
-            return proved(f"by the rule: {theorem.rule}", sorted(theorem.assuming))
-    return undecided(reasons[-1] if reasons else "no rule decides it")
 
 
 def candidate_for(

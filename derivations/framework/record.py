@@ -19,7 +19,7 @@ from .catalogue import Number
 from .proof import Step, Steps
 
 if TYPE_CHECKING:
-    from ..api.closed_form import ClosedForm
+    from ..formulas.closed_form import ClosedForm
 
 _MEANINGS = {
     sy.sigma: "standard deviation σ_δr of the radii",

@@ -18,7 +18,7 @@ from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import M, Shift, z
 from force_diffusion.symbolic.words import in_words
 
-from ..api.closed_form import ClosedForm
+from ..formulas.closed_form import ClosedForm
 from .catalogue import Number
 from .grounds import By, closed
 from .loading import load, pickled

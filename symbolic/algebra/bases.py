@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import sympy
 
-from ..symbols import b_minus, b_plus, e_y, n_minus, n_plus, n_x, n_y, phi
+from ..symbols import b_minus, b_plus, e_y, n_minus, n_plus, n_y, phi
 from .exact import FIELD, RationalFunction
 
 Pair = tuple[RationalFunction, RationalFunction]

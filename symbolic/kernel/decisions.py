@@ -5,9 +5,16 @@ not. What neither settles is undecided; what has no value, or no single meaning,
 domain is not a statement.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+
+import sympy
+
+from ..algebra.exact import NotAStatementError
+from .domain import Domain
+from .rules import Rule, proved_by
+from .theorem import FalseStatementError, NotProvedError
 
 
 class Verdict(StrEnum):
@@ -87,3 +94,28 @@ def all_of(*rulings: Ruling) -> Ruling:
                 return ruling
     notes = dict.fromkeys(ruling.note for ruling in rulings)
     return proved("; ".join(notes), (one for ruling in rulings for one in ruling.assuming))
+
+
+def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Ruling:
+    """Rule on a statement: the first rule that proves it, or shows that it is false, decides.
+
+    Args:
+        formula: the statement.
+        domain: where it is to hold.
+        attempts: rules; none of them is trusted to fit the statement.
+    """
+    reasons = []
+    for rule in attempts:
+        try:
+            theorem = proved_by(rule, formula, domain)
+        except NotAStatementError as reason:
+            return not_a_statement(str(reason))
+        except FalseStatementError as reason:
+            return refuted(str(reason))
+        except (NotProvedError, RecursionError) as reason:
+            reasons.append(str(reason) or "it is nested too deeply")
+        else:
+            if theorem.supposed:
+                return undecided("it rests on what is only supposed")
+            return proved(f"by the rule: {theorem.rule}", sorted(theorem.assuming))
+    return undecided(reasons[-1] if reasons else "no rule decides it")

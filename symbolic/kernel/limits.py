@@ -23,7 +23,16 @@ from ..weights import Weights
 from .domain import Domain, Limit
 from .rules import Rule
 from .statistics import Statistics, worked_out
-from .theorem import FalseStatementError, Group, Groups, NotProvedError, Theorem, check_domain, flat, made
+from .theorem import (
+    FalseStatementError,
+    Group,
+    Groups,
+    NotProvedError,
+    Theorem,
+    check_domain,
+    flat,
+    made,
+)
 
 _NEVER = 10**9  # no order is as large
 _FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}

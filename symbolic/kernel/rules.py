@@ -5,16 +5,16 @@ user says take the same way: ``rule(formula, domain)`` is a theorem, or raises `
 What finds a proof (places, factors, unknowns) is not trusted; that it is one is checked.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from itertools import permutations
 
 import sympy
 
 from .. import symbols as sy
-from ..algebra.exact import FIELD, UNKNOWNS, NotAStatementError, RationalFunction
+from ..algebra.exact import FIELD, UNKNOWNS, RationalFunction
 from ..algebra.signs import never_zero
 from ..as_printed import equation
-from ..forms import FORCES, NUMBER, Form, Image
+from ..forms import NUMBER, Form, Image
 from ..mechanics import lattice
 from ..printing.text import text
 from ..weights import Weights

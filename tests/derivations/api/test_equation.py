@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy
-from force_diffusion.derivations.api.evaluation import ArgumentError
+from force_diffusion.derivations.formulas.evaluation import ArgumentError
 from force_diffusion.derivations.framework.catalogue import modules, paper
 from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy
-from force_diffusion.derivations.api.evaluation import ArgumentError
 from force_diffusion.derivations.calculator.loads import ObservableError
+from force_diffusion.derivations.formulas.evaluation import ArgumentError
 from force_diffusion.symbolic.symbols import Load, Position, m, n
 
 import force_diffusion as fd

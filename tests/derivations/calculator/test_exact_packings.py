@@ -14,8 +14,8 @@ from operator import add
 import pytest
 import sympy
 from flint import fmpq
-from force_diffusion.derivations.api.evaluation import ArgumentError
 from force_diffusion.derivations.calculator.loads import Load
+from force_diffusion.derivations.formulas.evaluation import ArgumentError
 from hypothesis import given, note, settings
 from hypothesis import strategies as st
 

@@ -203,7 +203,7 @@ def test_a_domain_of_ones_own() -> None:
 
 def test_layers_are_those_of_the_contact_and_not_of_the_index() -> None:
     moved = fd.variance(f_plus(i, j + 2))
-    assert moved.domain == "-2 ≤ j ≤ M − 3"
+    assert moved.domain == "−2 ≤ j ≤ M − 3"
     assert moved.at(**{**HERE, "j": -2}) == fd.variance(f_plus(i, j)).at(**{**HERE, "j": 0})
     upper = fd.covariance(f_plus(i, j), f_plus(i + p, l))
     swapped = {**HERE, "p": 1}

@@ -8,7 +8,8 @@ from force_diffusion.derivations.export.document import (
     document,
     statement_latex,
 )
-from force_diffusion.derivations.export.prose import both, prose_latex
+from force_diffusion.derivations.export.prose import prose_latex
+from force_diffusion.derivations.formulas.lists import both
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import run

@@ -5,8 +5,9 @@ from textwrap import indent
 
 import pytest
 from force_diffusion.derivations.export.document import fragment_name, statement_latex
-from force_diffusion.derivations.export.prose import both, prose_latex
+from force_diffusion.derivations.export.prose import prose_latex
 from force_diffusion.derivations.export.terminal import heading, relation_of
+from force_diffusion.derivations.formulas.lists import both
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Refuted, Shown

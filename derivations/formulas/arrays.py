@@ -6,7 +6,6 @@ from typing import Any
 import numpy as np
 import sympy
 
-from ..export.prose import both
 from .evaluation import (
     EXACT,
     ArgumentError,
@@ -14,6 +13,7 @@ from .evaluation import (
     compare_names,
     rounded,
 )
+from .lists import both
 
 
 def evaluate(evaluation: Evaluation, given: Mapping[str, Any]) -> Any:

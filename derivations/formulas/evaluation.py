@@ -15,7 +15,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.code import name_of
 from force_diffusion.symbolic.printing.text import text
 
-from ..export.prose import either
+from .lists import either
 
 Number: TypeAlias = int | float | Fraction | Decimal
 """What is put in: int, Fraction, Decimal and, at run time, SymPy's Rational are exact."""

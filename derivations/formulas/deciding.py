@@ -17,7 +17,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 from force_diffusion.symbolic.printing.text import text
 from sympy.logic.boolalg import BooleanAtom
 
-from ..export.prose import either
+from .lists import either
 
 _HALF = sympy.Rational(1, 2)
 
