@@ -68,7 +68,9 @@ def steps() -> Steps:
     steps.show(
         "The load and the two forces add up to zero.",
         PRINTED,
-        follows(instance(axioms.balance(), {site_r: k, site_s: l}, LOADED), *axioms.loads(axioms.LOADED)),
+        follows(
+            instance(axioms.balance(), {site_r: k, site_s: l}, LOADED), *axioms.loads(axioms.LOADED)
+        ),
     )
     steps.show(
         "In the ordered packing, with the load f_load downwards, both supports carry f_load/2n_y.",

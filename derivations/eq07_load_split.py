@@ -70,7 +70,10 @@ def steps() -> Steps:
     steps.show(
         "Solved by elimination, with the pivots 1 and, at order 0, 1 − φ², and expanded in ν:",
         sympy.Tuple(
-            *(equation(force, times(ORDERED, one)) for force, one in zip(FORCES, forces, strict=True))
+            *(
+                equation(force, times(ORDERED, one))
+                for force, one in zip(FORCES, forces, strict=True)
+            )
         ),
         solve(rows.theorems, FORCES),
     )

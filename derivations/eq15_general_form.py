@@ -85,7 +85,11 @@ def critical_height(load: str) -> sympy.Expr:
 def tensile_fraction(load: str) -> sympy.Expr:
     """Expected fraction of tensile contacts at M ≫ 1 as a function of M/M*."""
     ratio = power(times(HEIGHT, 1 / M), Rational(3, 2))
-    inner = times(ratio, power(2, Rational(-1, 2)), *(power(one, Rational(-1, 2)) for one in PROFILES[load].args))
+    inner = times(
+        ratio,
+        power(2, Rational(-1, 2)),
+        *(power(one, Rational(-1, 2)) for one in PROFILES[load].args),
+    )
     half = times(sympy.S.Half, sympy.erfc(inner, evaluate=False))
     return sympy.Integral(half, (z, 0, 1))
 

@@ -417,9 +417,7 @@ class Reader:
         *entries, vector = arguments
         along = [self._dot(self.vector(axis), self.vector(vector)) for axis in (sy.e_x, sy.e_y)]
         factors = [self.number(entry) for entry in entries]
-        x, y = (
-            factors[row].times(along[0]) + factors[row + 1].times(along[1]) for row in (0, 2)
-        )
+        x, y = (factors[row].times(along[0]) + factors[row + 1].times(along[1]) for row in (0, 2))
         n_x, n_y = map(FIELD.generator, (sy.n_x, sy.n_y))
         return y.scaled(n_y) + x.scaled(n_x), y.scaled(n_y) - x.scaled(n_x)
 

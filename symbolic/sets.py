@@ -306,9 +306,7 @@ def equations(points: Set) -> list[Row]:
     return found
 
 
-def fixed(
-    points: Set, first: Sequence[sympy.Symbol] = ()
-) -> dict[sympy.Symbol, RationalFunction]:
+def fixed(points: Set, first: Sequence[sympy.Symbol] = ()) -> dict[sympy.Symbol, RationalFunction]:
     """Symbols that the equations of a set fix, by those that they leave free.
 
     A polynomial in what is left that is zero on all of the set is zero, unless the set is finite in

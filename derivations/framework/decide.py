@@ -46,7 +46,8 @@ def candidate_for(
     domain = step.domains[place]
     if at:
         if domain.limit:
-            return not_a_statement(f"it is one in a limit ({domain.limit.words}), of no one packing")
+            words = f"it holds in a limit ({domain.limit.words}), not in one packing"
+            return not_a_statement(words)
         domain = domain.also(*(sympy.Eq(s, n, evaluate=False) for s, n in at.items()))
     meant = in_place(candidate, step.definitions[place])
     attempts = [step.rules[place], *_further(statement, meant, domain)]
@@ -93,7 +94,7 @@ def _under_a_vertical_load(formula: sympy.Eq, domain: Domain) -> Theorem:
 
 
 def _component(theorem: Theorem, vector: sympy.Expr) -> Rule:
-    return lambda formula, domain: rules.follows(rules.along(theorem, vector))(formula, domain)
+    return rules.follows(rules.along(theorem, vector))
 
 
 def _geometry() -> tuple[Group, ...]:

@@ -80,9 +80,7 @@ def claim_edges(
     )
 
 
-def claim_shares(
-    steps: Steps, ratio: sympy.Expr, layers: Domain, groups: Sequence[Group]
-) -> None:
+def claim_shares(steps: Steps, ratio: sympy.Expr, layers: Domain, groups: Sequence[Group]) -> None:
     """Claim that no radius dominates the variance of a ratio, inside and at the edges."""
     domains = [
         layers.in_the_limit(at_fixed_height("O")),

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -182,7 +182,7 @@ class Derivation(Statement):
 class _Stopwatch:
     """Measures a proof, without those that run within it."""
 
-    _running: list["_Stopwatch"] = []
+    _running: ClassVar[list["_Stopwatch"]] = []
 
     def __enter__(self) -> "_Stopwatch":
         self._start, self._within = perf_counter(), 0.0

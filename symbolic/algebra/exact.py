@@ -493,10 +493,12 @@ def _harmonic(last: RationalFunction) -> RationalFunction:
     field = last.domain
     found = field.generator(H_M) if last.holds(M) else field.zero
     offset = (last - field.generator(M) if last.holds(M) else last).numerator
-    if not offset.is_constant() or not -_NEAR <= (number := int(offset.leading_coefficient() if offset != 0 else 0)) <= _NEAR:  # fmt: skip
+    if not offset.is_constant() or abs(offset.leading_coefficient()) > _NEAR:
         raise NotExactError("a harmonic sum ends neither at a number nor near M")
+    number = int(offset.leading_coefficient())
     if last.holds(M):
-        steps = [field.generator(M) + field.constant(k) for k in range(min(number, 0), max(number, 0))]
+        between = range(min(number, 0), max(number, 0))
+        steps = [field.generator(M) + field.constant(k) for k in between]
         inverse = [field.one / (one + field.one) for one in steps]
         return sum(inverse, found) if number > 0 else found - sum(inverse, field.zero)
     if number < 0:
@@ -521,5 +523,7 @@ CONSTANTS = (
 UNKNOWNS = tuple(sympy.Dummy(f"unknown_{place}", real=True) for place in range(4))
 """What equations are solved for."""
 
-FIELD = Domain((*SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS, *CONSTANTS[0], *CONSTANTS[1]))
+FIELD = Domain(
+    (*SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS, *CONSTANTS[0], *CONSTANTS[1])
+)
 """The field of all the paper's symbols, and of some more."""

@@ -52,9 +52,8 @@ def contact(branch: int) -> Theorem:
     moved = sy.DeltaX(i, j) - sy.DeltaX(*support)
     radii = sy.DeltaR(i, j) + sy.DeltaR(*support)
     separation = [sy.Dot(e, apart) + sy.epsilon * sy.Dot(e, moved) for e in (sy.e_x, sy.e_y)]
-    return _axiom(
-        separation[0] ** 2 + separation[1] ** 2, (2 * r + sy.epsilon * radii) ** 2, Domain.of(j >= 1)
-    )
+    squared = separation[0] ** 2 + separation[1] ** 2
+    return _axiom(squared, (2 * r + sy.epsilon * radii) ** 2, Domain.of(j >= 1))
 
 
 @cache

@@ -120,9 +120,14 @@ def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit = limit_of(formula, domain, "∼")
         of = dropping.domain.limit
-        if of is None or of.relation != "≈" or (of.growing, of.positive) != (
-            limit.growing,
-            limit.positive,
+        if (
+            of is None
+            or of.relation != "≈"
+            or (of.growing, of.positive)
+            != (
+                limit.growing,
+                limit.positive,
+            )
         ):
             raise NotProvedError("what is dropped is so in another limit")
         if limit.orders != 1 or dropping.domain.loading != domain.loading:
@@ -137,7 +142,8 @@ def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
             raise NotProvedError("it is not the variance of what something was dropped from")
         kept, relations = sy.Variance(right), (*domain.relations, *dropping.domain.relations)
         for one in exact:
-            if one.domain.limit or not (domain.loading and domain.loading.implies(one.domain.loading)):
+            known = domain.loading and domain.loading.implies(one.domain.loading)
+            if one.domain.limit or not known:
                 raise NotProvedError("what is kept is known in a limit, or under another load")
             kept = kept.xreplace({one.formula.lhs: one.formula.rhs})
             relations = (*relations, *one.domain.relations)
@@ -227,9 +233,9 @@ def _one_function(number: Weights, domain: Domain) -> RationalFunction:
     for whole, value in number.on(domain.points).formulas():
         rest = rest - whole
         if _is_reached(whole, domain):
-            value = value.substitute(back).substitute(fixed).reduced()
-            _uniform(value, limit)
-            return value
+            there = value.substitute(back).substitute(fixed).reduced()
+            _uniform(there, limit)
+            return there
     if _is_reached(rest, domain):
         return FIELD.zero
     raise NotProvedError(f"it is not one function in all of {limit.words}")

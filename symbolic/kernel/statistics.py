@@ -7,7 +7,7 @@ indices, so a moment is a polynomial on each of a few sets of indices: its close
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
 import sympy
@@ -66,7 +66,7 @@ class Statistics(Reader):
         groups: the theorems that give quantities in the radii, to be put in one after the other.
     """
 
-    domain: Domain = Domain()
+    domain: Domain = field(default_factory=Domain)
     groups: tuple[Group, ...] = ()
 
     @classmethod

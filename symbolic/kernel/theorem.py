@@ -179,8 +179,9 @@ def isolated(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]
     if len(about) != 1 or formula.rhs.has(about[0]):
         raise NotProvedError(f"{text(formula.lhs)} is not one quantity, times what is known")
     others = [one for one in factors if one != about[0]]
-    divisors = [one for one in others if isinstance(one, sympy.Pow) and isinstance(one.base, FORCES)]
-    for factor in (one for one in others if one not in divisors):
+    for factor in others:
+        if isinstance(factor, sympy.Pow) and isinstance(factor.base, FORCES):
+            continue
         if not never_zero(domain.reader().scalar(factor), domain.points, domain.dimension):
             raise NotProvedError(f"{text(factor)} is not shown to vanish nowhere")
     inverse = sympy.Mul(*others, evaluate=False)
@@ -271,9 +272,7 @@ def with_indices(formula: sympy.Eq, image: Image) -> sympy.Eq:
     return equation(*(side.xreplace(dict(image)) for side in formula.args))
 
 
-def _what_it_says(
-    theorem: Theorem, later: Mapping[type, tuple[Known, ...]]
-) -> tuple[type, Known]:
+def _what_it_says(theorem: Theorem, later: Mapping[type, tuple[Known, ...]]) -> tuple[type, Known]:
     """What a theorem says of a quantity, by the coordinates of the quantity's bead."""
     domain = theorem.domain
     if domain.limit is not None or domain.dimension != 2:
@@ -428,9 +427,7 @@ def witness(
             there = value.substitute(held)
             if not there.is_zero():
                 straight = domain.straight.image
-                indices = {
-                    one: straight.get(one, one).xreplace(numbers) for one in domain.indices
-                }
+                indices = {one: straight.get(one, one).xreplace(numbers) for one in domain.indices}
                 return indices, {s: numbers[s] for s in sets.SITE}, there.reduced().to_sympy()
     return None
 
