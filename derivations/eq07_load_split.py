@@ -8,8 +8,8 @@ from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, along, axioms, equation, follows, lattice, minus, mirror_of, solve,
-    terms, times)
+    Derivation, Domain, Steps, Theorem, along, axioms, equation, follows, lattice, minus,
+    mirror_of, solve, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, f_load, k, l, n_minus, n_plus,
     n_y, phi)
@@ -45,7 +45,7 @@ def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 
 
 @cache
-def right_angles():
+def right_angles() -> tuple[Theorem, ...]:
     """What is used of Eqs. 4 and 5: n⁺·δn⁺ = 0 and n⁻·δn⁻ = 0."""
     return eq04.steps()[-1].theorem, eq05.steps()[-1].theorem
 

@@ -10,8 +10,8 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, below, equation, induct, lattice, minus, mirror, mirror_of,
-    rewrite, terms, times)
+    Derivation, Domain, Groups, Steps, axioms, below, equation, induct, lattice, minus, mirror,
+    mirror_of, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForcePlus, M, f_load, i, j, k, l, n, n_minus, n_plus, n_y, phi)
 # fmt: on
@@ -58,7 +58,7 @@ def branched_load(count: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
 
 
 @cache
-def in_radii():
+def in_radii() -> Groups:
     """The forces and, in the radii, the directions of contacts: both branches."""
     force = DERIVATION.theorem
     return (force, mirror(force)), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)

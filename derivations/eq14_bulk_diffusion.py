@@ -11,9 +11,9 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Limit, Steps, Symbol, asymptotic, at_fixed_height, axioms,
-    below, certificate, differentiate, equation, formula, induct, minus, mirror, moment, negligible,
-    of_what_is_kept, power, rewrite, terms, times, usual)
+    FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic, at_fixed_height,
+    axioms, below, certificate, differentiate, equation, formula, induct, minus, mirror, moment,
+    negligible, of_what_is_kept, power, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
 # fmt: on
@@ -72,7 +72,7 @@ def averaged_force() -> sympy.Expr:
 
 
 @cache
-def in_radii():
+def in_radii() -> Groups:
     """The forces and, in the radii, the directions of contacts: both branches."""
     force = force_steps()[1].theorem
     return (force, mirror(force)), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)

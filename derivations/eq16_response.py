@@ -11,8 +11,8 @@ from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, axioms, below, equation, formula,
-    inducted, lattice, minus, mirror, moment, rewrite, terms, times, usual)
+    FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, below,
+    equation, formula, inducted, lattice, minus, mirror, moment, rewrite, terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.symbols import (
     Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
@@ -97,7 +97,7 @@ DEEP = INSIDE.also(j >= 3, p + q >= 3)
 
 
 @cache
-def forces():
+def forces() -> tuple[Theorem, ...]:
     """The force of every contact below the load."""
     loads = axioms.loads(axioms.POINT)
     plus = inducted(
@@ -113,7 +113,7 @@ def forces():
 
 
 @cache
-def in_radii():
+def in_radii() -> Groups:
     """The forces and, in the radii, the directions of contacts."""
     return forces(), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
 

@@ -12,8 +12,8 @@ from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, Symbol, axioms, below, equation, inducted, lattice, minus, rewrite,
-    same, terms, times)
+    Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, below, equation, inducted, lattice,
+    minus, rewrite, same, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, L_minus, L_plus, M, e_x, e_y, f_load, i, j,
     m, n, n_minus, n_plus, n_x, n_y, phi, t)
@@ -52,7 +52,7 @@ PRINTED = (
 SINE, COSINE = (Symbol(name, rf"\{name}\theta", f"{name} θ", real=True) for name in ("sin", "cos"))
 
 
-def _from_the_surface_down(statements: tuple[sympy.Eq, ...], domain: Domain):
+def _from_the_surface_down(statements: tuple[sympy.Eq, ...], domain: Domain) -> tuple[Theorem, ...]:
     """Both statements, by induction, balancing bead after bead."""
     loads = axioms.loads(domain.loading)
     first = below(loads, eq07.right_angles())
@@ -67,14 +67,14 @@ def _from_the_surface_down(statements: tuple[sympy.Eq, ...], domain: Domain):
 
 
 @cache
-def forces(load: str):
+def forces(load: str) -> tuple[Theorem, ...]:
     """Both forces under a leaning load on the "surface" or in the "bulk"."""
     statements, domain = (FORCES, ON_SURFACE) if load == "surface" else (BULK, IN_BULK)
     return _from_the_surface_down(statements, domain)
 
 
 @cache
-def in_radii(load: str):
+def in_radii(load: str) -> Groups:
     """The forces and, in the radii, the directions of contacts."""
     return forces(load), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
 

@@ -12,7 +12,7 @@ is i′ steps along n⁻ and j − i′ along n⁺ from the origin, and no condi
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Self
+from typing import Self, TypeAlias
 
 import sympy
 
@@ -25,7 +25,7 @@ from .printing.text import text
 from .sets import Set
 from .weights import Weights
 
-Factor = sympy.Expr | str
+Factor: TypeAlias = sympy.Expr | str
 """The force of a contact by its place, or the name of a quantity with a weight for each site."""
 
 Key = tuple[tuple[Factor, int], ...]
@@ -333,7 +333,7 @@ class Reader:
         elif not left.is_empty():
             rest = (part.on(left) for part in self._unknown(quantity, site))
             found = tuple(map(Form.__add__, found, rest))
-        return found if quantity.is_vector else found[0]
+        return (found[0], found[1]) if quantity.is_vector else found[0]
 
     def _unknown(
         self, quantity: sy.SiteFunction, site: tuple[sympy.Expr, sympy.Expr]
@@ -362,7 +362,7 @@ class Reader:
         site = tuple(sympy.expand(one.xreplace(self.straight.image)) for one in place)
         return self.known[type(quantity)][int(axis) - 1].at(site)[1][0]
 
-    def _vertical(self, kind: type, quantity: sy.SiteFunction) -> Form:
+    def _vertical(self, kind: type[sy.SiteFunction], quantity: sy.SiteFunction) -> Form:
         """Force times vertical component of the contact's direction, n_y + e_y·δn."""
         force, turn = VERTICAL[kind]
         inside = replace(self, linear=False)

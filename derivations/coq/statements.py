@@ -211,8 +211,8 @@ def _ranges(derivation: Derivation, *, mirrored: bool) -> tuple[sympy.Basic, ...
 
     Of an asymptotic one nothing: it is stated of every contact, with a bound.
     """
-    where = derivation.where
-    relations = where.relations if where and where.limit is None else ()
+    domain = derivation.domain
+    relations = domain.relations if domain.limit is None else ()
     return tuple(map(mirrored_relation, relations)) if mirrored else relations
 
 

@@ -349,8 +349,8 @@ def _referring(words: str) -> str:
 def verdicts(outcomes: Sequence[Outcome]) -> str:
     """What the run that writes the article has derived."""
     found = {one.derivation.number for one in outcomes}
-    left = [label for label in modules() if label not in found]
-    refuted = [f"Eq. {one.derivation.number}" for one in outcomes if one.derivation.refuted]
+    left = [str(label) for label in modules() if label not in found]
+    refuted = [f"Eq. {one.derivation.number}" for one in outcomes if one.refuted]
     return (
         f"In the run that wrote this text the program derived {len(found)} equations: "
         f"{verdicts_text(outcomes)}."

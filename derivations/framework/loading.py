@@ -26,7 +26,7 @@ def pickled(statement: Statement) -> tuple[Callable[[Number], Statement], tuple[
     return load, (statement.number,)
 
 
-copyreg.pickle(Derivation, pickled)
+copyreg.pickle(Derivation, pickled)  # type: ignore[arg-type]
 
 
 def with_premises(

@@ -26,19 +26,25 @@ from force_diffusion.symbolic.kernel.rules import (
     solve,
 )
 from force_diffusion.symbolic.kernel.statistics import moment
+from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
 
 from .proof import Steps
 from .record import FIRST_ORDER, Derivation, usual
 
+Groups = tuple[Group, ...]
+"""Theorems to be put in one after the other; those of a group at once."""
+
 __all__ = [
     "FIRST_ORDER",
     "Derivation",
     "Domain",
+    "Groups",
     "Limit",
     "Steps",
     "Symbol",
+    "Theorem",
     "along",
     "asymptotic",
     "at_fixed_height",

@@ -416,7 +416,7 @@ def _reads_negative(factor: sympy.Expr) -> bool:
         return bool(top.could_extract_minus_sign())
     signs = [term.could_extract_minus_sign() for term in sympy.Add.make_args(factor)]
     if 2 * sum(signs) != len(signs):
-        return 2 * sum(signs) > len(signs)
+        return bool(2 * sum(signs) > len(signs))
     constant = factor.as_coeff_Add()[0]
     return bool(constant.is_negative or (constant == 0 and factor.could_extract_minus_sign()))
 

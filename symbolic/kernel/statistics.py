@@ -107,7 +107,7 @@ class Statistics(Reader):
         plain, loading = Reader(self.points, self.straight, linear=linear), self.domain.loading
         if self.domain.dimension == _PLANE:
             reader = knowing(plain, self.domain, self.groups, kind)
-        elif linear and loading in SPHERES.values():
+        elif linear and loading and loading in SPHERES.values():
             reader = replace(plain, known=spheres.known(loading.name))
         else:
             raise NotExactError("that is not known in three dimensions")

@@ -373,7 +373,7 @@ def names_for(*expressions: sympy.Basic) -> dict[sympy.Symbol, sympy.Symbol]:
     """
     ours = {*FIELD.position, *sy.VECTORS}
     foreign = set().union(*(one.free_symbols for one in expressions)) - ours
-    found = {}
+    found: dict[sympy.Symbol, sympy.Symbol] = {}
     for symbols, names in zip(
         (
             [one for one in by_name(foreign) if one.is_positive],
