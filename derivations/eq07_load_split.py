@@ -11,7 +11,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, Theorem, along, axioms, equation, follows, lattice, minus,
     mirror_of, solve, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, f_load, k, l, n_minus, n_plus,
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, k, l, n_minus, n_plus,
     n_y, phi)
 # fmt: on
 

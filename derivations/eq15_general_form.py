@@ -152,8 +152,8 @@ def steps() -> Steps:
             eq11.LAYERS.loaded(LOADING[load]),
         )
         steps.show(
-            "The probability of a tensile contact is ½ erfc(1/√(2v)) for a Gaussian force of mean 1 "
-            "and variance v. The forces are Gaussian, to first order, for normal radii, and in the "
+            "The probability of a tensile contact is ½ erfc(1/√(2v)) for a Gaussian force of mean "
+            "1 and variance v. The forces are Gaussian, to first order, for normal radii, and in the "
             "limit for all radii of finite variance: no radius dominates, by Eqs. 13 and 14, which "
             "is what Lindeberg's theorem needs. Averaged over the layers as M → ∞ at fixed M/M*, "
             f"the expected fraction under a {load} load is",

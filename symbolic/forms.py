@@ -12,7 +12,7 @@ is i′ steps along n⁻ and j − i′ along n⁺ from the origin, and no condi
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Self, TypeAlias
+from typing import Any, Self, TypeAlias
 
 import sympy
 
@@ -224,7 +224,7 @@ class Reader:
 
     points: Set
     straight: Straightening = Straightening()
-    known: Mapping[type, tuple[Known, ...]] = field(default_factory=dict)
+    known: Mapping[type, Any] = field(default_factory=dict)
     kind: type[Form] = Form
     linear: bool = False
     summed: frozenset[sympy.Symbol] = frozenset()

@@ -322,7 +322,7 @@ def read(formula: sympy.Eq, domain: Domain, groups: Groups = ()) -> Sides:
 
 def knowing(reader: Reader, domain: Domain, groups: Groups, kind: type[Form] = Form) -> Reader:
     """A reader on a domain that puts theorems in, one group after the other."""
-    facts = known(tuple(groups), domain.loading, kind)
+    facts = known(tuple(groups), domain.loading, kind)  # type: ignore[arg-type]
     for theorem in flat(groups):
         here = _under(theorem, domain.loading)
         for symbol in _named(here) & {*domain.indices}:
@@ -428,7 +428,7 @@ def witness(
             if not there.is_zero():
                 straight = domain.straight.image
                 indices = {one: straight.get(one, one).xreplace(numbers) for one in domain.indices}
-                return indices, {s: numbers[s] for s in sets.SITE}, there.reduced().to_sympy()
+                return indices, {s: numbers[s] for s in SITE}, there.reduced().to_sympy()
     return None
 
 
