@@ -153,10 +153,10 @@ def steps() -> Steps:
         )
         steps.show(
             "The probability of a tensile contact is ½ erfc(1/√(2v)) for a Gaussian force of mean "
-            "1 and variance v. The forces are Gaussian, to first order, for normal radii, and in the "
-            "limit for all radii of finite variance: no radius dominates, by Eqs. 13 and 14, which "
-            "is what Lindeberg's theorem needs. Averaged over the layers as M → ∞ at fixed M/M*, "
-            f"the expected fraction under a {load} load is",
+            "1 and variance v. The forces are Gaussian, to first order, for normal radii, and in "
+            "the limit for all radii of finite variance: no radius dominates, by Eqs. 13 and 14, "
+            "which is what Lindeberg's theorem needs. Averaged over the layers as M → ∞ at fixed "
+            f"M/M*, the expected fraction under a {load} load is",
             equation(FRACTION, tensile_fraction(load)),
             tensile(OF_LAYER[load].theorem, ones.theorem, *IN_RADII[load]()),
             heights(load).in_the_limit(AT_FIXED_RATIO),
