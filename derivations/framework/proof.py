@@ -80,7 +80,7 @@ class Step:
 
     @cached_property
     def _sources(self) -> tuple["Step", ...]:
-        return tuple(_sources(self.theorems))
+        return tuple(_sources(premise for one in self.theorems for premise in one.premises))
 
     @property
     def equations_used(self) -> tuple[Number, ...]:
@@ -113,9 +113,14 @@ _STEP_OF: dict[Theorem, Step] = {}
 """The step that shows a theorem."""
 
 
+def equations_of(theorems: Iterable[Theorem]) -> tuple[Number, ...]:
+    """The equations that show theorems, or what these rest on."""
+    return tuple(dict.fromkeys(step.equation for step in _sources(theorems)))
+
+
 def _sources(theorems: Iterable[Theorem]) -> Iterator[Step]:
-    """The steps that show what theorems rest on, the nearest on each way."""
-    left, seen = [one for theorem in theorems for one in theorem.premises], set[Theorem]()
+    """The steps that show theorems, or what these rest on: the nearest on each way."""
+    left, seen = list(theorems), set[Theorem]()
     while left:
         theorem = left.pop(0)
         if theorem in seen:
