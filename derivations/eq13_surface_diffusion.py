@@ -115,6 +115,9 @@ DERIVATION = Derivation(
     deciders=lambda: [asymptotic(*eq11.in_radii())],
     loads=("surface",),
     relation="∼",
+    exact=lambda: {
+        "layer": layers.closed_form(RELATIVE_VARIANCE, MEANING, eq11.LOADED, eq11.in_radii)
+    },
     remarks=(
         "The limit is taken at fixed z. A fixed number of layers below the surface the "
         "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "

@@ -233,6 +233,7 @@ DERIVATION = Derivation(
     deciders=lambda: [asymptotic(*in_radii())],
     loads=("bulk",),
     relation="∼",
+    exact=lambda: {"layer": layers.closed_form(RELATIVE_VARIANCE, MEANING, LOADED, in_radii)},
 )
 
 if __name__ == "__main__":

@@ -215,6 +215,10 @@ DERIVATION = Derivation(
     steps=steps,
     loads=("surface", "bulk"),
     relation="∝",
+    exact=lambda: {
+        load: layers.closed_form(MEAN_SQUARE, meaning(load), heights(load), IN_RADII[load])
+        for load in LOADS
+    },
     remarks=(
         "The paper writes M* = O[(σ/r)^(−2/3)] in the text; it is checked here as ∝, with the "
         "definition given, and the prefactor is found: (1−φ²)^(2/3) for a surface load, 5^(1/3) "

@@ -9,6 +9,7 @@ from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, below,
@@ -280,6 +281,10 @@ DERIVATION = Derivation(
     deciders=lambda: [asymptotic(*in_radii())],
     loads=("single",),
     relation="∼",
+    exact=lambda: {
+        name: layers.closed_form(symbol, MEANING, ALL_BELOW, in_radii)
+        for name, symbol in (("bead", RESPONSE), ("contact", ONE_CONTACT), ("force", LEG_MAGNITUDE))
+    },
     remarks=(
         "The paper's p is the vertical component of the force at a contact f^±_ij. For one contact "
         "the printed form does not hold: its variance is (3/2) s (σ/r)²/(1−φ²)² with the layer "

@@ -89,7 +89,7 @@ class PiecewiseFunction:
     @cached_property
     def domain(self) -> Relations:
         """The fewest relations that say where it holds, beside what is even."""
-        (found,) = self._relations(self.points, sets.EVERYTHING)
+        (found,) = self.relations(self.points, sets.EVERYTHING)
         return found
 
     @cached_property
@@ -99,9 +99,9 @@ class PiecewiseFunction:
         left = self.points
         for whole, value in self.weights.formulas():
             left = left - whole
-            found.append(Formula(self._relations(whole, self.points), self._formula(whole, value)))
+            found.append(Formula(self.relations(whole), self._formula(whole, value)))
         if not left.is_empty():
-            found.append(Formula(self._relations(left, self.points), FIELD.zero))
+            found.append(Formula(self.relations(left), FIELD.zero))
         return tuple(found)
 
     def part(self, *relations: sympy.Basic) -> "PiecewiseFunction":
@@ -113,6 +113,11 @@ class PiecewiseFunction:
         """The same with other numbers for symbols that are no indices."""
         values = {symbol: FIELD.from_sympy(one) for symbol, one in image.items()}
         return replace(self, weights=self.weights.having(values))
+
+    def over(self, divisor: sympy.Expr) -> "PiecewiseFunction":
+        """The same over a number that is no function of indices."""
+        own = divisor.xreplace(dict(self.constants))
+        return replace(self, weights=self.weights.scaled(FIELD.one / FIELD.from_sympy(own)))
 
     def on(self, *relations: sympy.Basic) -> RationalFunction:
         """Its formula on a part of its domain, where it is one.
@@ -138,7 +143,9 @@ class PiecewiseFunction:
         )
         return held | {s for s in sy.INDICES if any(one.value.holds(s) for one in self.formulas)}
 
-    def _relations(self, whole: sets.Set, context: sets.Set) -> tuple[Relations, ...]:
+    def relations(self, whole: sets.Set, context: sets.Set | None = None) -> tuple[Relations, ...]:
+        """Relations of indices, those of any of several parts, of a set within the domain."""
+        context = self.points if context is None else context
         return tuple(
             (
                 *(sympy.Eq(self._whole(form), 0, evaluate=False) for form in equations),

@@ -17,12 +17,12 @@ from force_diffusion.derivations.framework.rows import (
     Decide,
     Forms,
     Row,
+    are_same,
     equals,
     goes_as,
     highest,
     leads,
     ruled,
-    same,
 )
 from force_diffusion.symbolic.as_written import relations
 from force_diffusion.symbolic.kernel.decisions import Ruling
@@ -95,7 +95,7 @@ def _contacts(number: Number, name: str, load: str) -> Row:
         name=name,
         title=f"Mean over N neighbouring contacts of one branch under a {load} load",
         call=f"variance(mean_over(f_plus(i, j), N), {said})",
-        forms=lambda: {
+        exact=lambda: {
             "mean": variance(mean_over(ForcePlus(i, j), N), load=load).named(FORCE_MEAN),
             "apart": covariance(ForcePlus(i, j), ForcePlus(i + 2 * p, j), load=load).named(APART),
         },
@@ -163,7 +163,7 @@ def _correlation(name: str, load: str, squared: Rational) -> Decide:
         lower = PAPER[load].PRINTED.rhs.doit()
         upper = lower.xreplace({z: z_upper})
         found = sympy.cancel(both**2 / (lower * upper)).subs(z, 0).subs(z_upper, 1)
-        return same(found, squared)
+        return are_same(found, squared)
 
     return decide
 
@@ -175,7 +175,7 @@ def _share_of_a_diagonal(name: str, load: str, share: Rational) -> Decide:
         both = sympy.expand(highest(forms[name].on(*_INSIDE).xreplace(AT_HEIGHTS), M))
         whole = 2 * sympy.integrate(sympy.integrate(both, (z, 0, z_upper)), (z_upper, 0, 1))
         lower = sympy.expand(PAPER[load].PRINTED.rhs.doit())
-        return same(whole / sympy.integrate(lower, (z, 0, 1)), share)
+        return are_same(whole / sympy.integrate(lower, (z, 0, 1)), share)
 
     return decide
 
@@ -187,7 +187,7 @@ DERIVATIONS: dict[Number, Row] = {
         name="neighbouring_beads",
         title="Mean vertical force over N neighbouring beads",
         call="variance(mean_over(response(i, j), N))",
-        forms=lambda: {
+        exact=lambda: {
             "mean": variance(mean_over(response(i, j), N)).named(BEAD_MEAN),
             "bead": variance(response(i, j)).named(BEAD),
         },
@@ -232,7 +232,7 @@ DERIVATIONS: dict[Number, Row] = {
         name="layers",
         title="Covariance of contact forces of different layers",
         call="covariance(f_plus(i, j), f_plus(i + l - j, l), where=[j <= l])",
-        forms=lambda: {
+        exact=lambda: {
             name: covariance(
                 ForcePlus(i, j), ForcePlus(i + l - j, l), load=load, where=(j <= l,)
             ).named(symbol)

@@ -66,7 +66,7 @@ def _upright(
         name=f"mean_{load}",
         title=f"Mean contact force under a {load} load, to second order",
         call=f'mean(f_plus(i, j), order=2, load="{load}")',
-        forms=lambda: {"force": mean(ForcePlus(i, j), order=2, load=load).named(symbol - 1)},
+        exact=lambda: {"force": mean(ForcePlus(i, j), order=2, load=load).named(symbol - 1)},
         meaning="Mean forces rise high up in the packing and fall further down, by shares of order "
         "M(σ/r)², whatever the law of the radii; their fluctuation is of order M³(σ/r)².",
         quantities=((symbol, "mean of f⁺, and of f⁻, over its value in the ordered packing"),),
@@ -98,7 +98,7 @@ def _leaning(number: Number, load: str, upright: Number, own: sympy.Expr, other:
         name=f"mean_{load}_direction",
         title=f"Mean contact force under a {load} load in any direction, to second order",
         call=f'mean(f_plus(i, j), order=2, load=leaning(t, "{load}"))',
-        forms=lambda: {
+        exact=lambda: {
             "plus": mean(ForcePlus(i, j), order=2, load=under).named(PLUS - 1),
             "minus": mean(ForceMinus(i, j), order=2, load=under).named(MINUS - 1),
         },
@@ -127,7 +127,7 @@ DERIVATIONS: dict[Number, Row] = {
         name="settling",
         title="Mean displacement of the beads",
         call="mean(dot(e_y, delta_x(i, j)), order=2, relative=False)",
-        forms=lambda: {
+        exact=lambda: {
             "height": mean(Dot(e_y, DeltaX(i, j)), order=2, relative=False).named(HEIGHT)
         },
         meaning="A contact that tilts, whichever way, carries its upper bead less far up: the pile "

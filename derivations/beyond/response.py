@@ -123,7 +123,7 @@ DERIVATIONS: dict[Number, Row] = {
         name="mean_response",
         title="Mean response to a point load, to second order",
         call="mean(f_plus(i, j), order=2, load=point(k, l))",
-        forms=lambda: {
+        exact=lambda: {
             "contact": mean(ForcePlus(i, j), order=2, load=point(k, l)).named(CONTACT),
             "bead": mean(response(i, j), order=2, load=point(k, l)).named(PUSH),
         },
@@ -170,7 +170,7 @@ DERIVATIONS: dict[Number, Row] = {
         title="Response to a point load in three dimensions",
         call='variance(p_along(1, -q, -p, l), load="point", dimension=3, '
         "where=[p >= 1, q >= 1, p + q <= l])",
-        forms=_of_spheres,
+        exact=_of_spheres,
         meaning="Fluctuations fill the three legs and three faces of a cone. Inside of it no force "
         "is of first order: not on average, but in every packing. For discs the two legs enclose "
         "one face, and this face is all of the inside.",
@@ -213,7 +213,7 @@ DERIVATIONS: dict[Number, Row] = {
         title="Response averaged over N loads, over N beads, and over both",
         call="variance(mean_over(response(i, j), N, k), load=point(k, l), "
         "where=[N >= 2, l - j + k - i >= 2, l - j - k + i >= 2*N])",
-        forms=_of_bead,
+        exact=_of_bead,
         meaning="Averaging over loads reduces the noise by a third at most, since one bead hears "
         "all of them through the same radii; averaging over beads reduces σ(p) as 1/N.",
         quantities=(
@@ -245,7 +245,7 @@ DERIVATIONS: dict[Number, Row] = {
         title="Response averaged over N loads, each with a bead of its own",
         call="variance(mean_over(response(i, j), N, i, k), load=point(k, l), "
         "where=[N >= 2, l - j + k - i >= 2, l - j - k + i >= 2])",
-        forms=lambda: {
+        exact=lambda: {
             "pairs": variance(
                 mean_over(response(i, j), N, i, k), load=point(k, l), where=_BELOW_ONE
             ).named(OVER_PAIRS)

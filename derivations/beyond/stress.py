@@ -120,7 +120,7 @@ def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -
         call="mean((force_moment(i, j, e_x, e_x)/n_x**2 - force_moment(i, j, e_y, e_y)/n_y**2)"
         f"/(2*r*L_plus*(1 + t){'*(M - j)' if load == 'bulk' else ''}), order=2, "
         f'load=leaning(t, "{load}"), relative=False)',
-        forms=lambda: _forms(load),
+        exact=lambda: _forms(load),
         meaning="The stress ratio depends on the layer and on the kind of load, not on its "
         "direction, and on no property of the material alone. The contact moment and the vertical "
         "momentum through a cut differ at order σ²: the latter is fixed by the load, the former "
@@ -157,7 +157,7 @@ DERIVATIONS: dict[Number, Row] = {
         title="Mean shear stress under loads in any direction, to second order",
         call="mean(force_moment(i, j, e_x, e_y)/(2*r*n_x*n_y*L_plus*(1 - t)), order=2, "
         "load=leaning(t), relative=False)",
-        forms=lambda: {**_shear_forms("surface"), **_shear_forms("bulk")},
+        exact=lambda: {**_shear_forms("surface"), **_shear_forms("bulk")},
         meaning="The principal axes turn with the height j, whatever M is, and S_xy differs from "
         "the horizontal momentum through a cut by as much as S_yy from the vertical one, with the "
         "opposite sign.",

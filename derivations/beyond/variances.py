@@ -70,7 +70,7 @@ def _of_discs(number: Number, load: str) -> Row:
         name=f"{load}_direction",
         title=f"Variance of the forces under a {load} load in any direction",
         call=f'variance(f_plus(i, j), load=leaning(t, "{load}"))',
-        forms=lambda: {
+        exact=lambda: {
             "plus": variance(ForcePlus(i, j), load=under).named(PLUS),
             "minus": variance(ForceMinus(i, j), load=under).named(MINUS),
         },
@@ -81,7 +81,7 @@ def _of_discs(number: Number, load: str) -> Row:
         claimed=(
             (
                 "to the two highest orders it is t² times that of a vertical load",
-                leads("plus", leading, t**2 * paper.next_order() * UNIT),
+                leads("plus", leading, t**2 * paper.NEXT_ORDER * UNIT),
             ),
             (
                 f"for t = 1 it is Eq. {paper.DERIVATION.number}",
@@ -113,7 +113,7 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
         name=f"spheres_{load}",
         title=f"Variance of the forces in three dimensions under a {load} load",
         call=f'variance(f_along(1, 0, 0, j), load="{load}", dimension=3)',
-        forms=lambda: {
+        exact=lambda: {
             "first": variance(ForceAlong(1, 0, 0, j), load=load, dimension=3).named(FIRST)
         },
         meaning="The profile over the height is that of discs; at finite M line sums along all "
@@ -152,7 +152,7 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
         name=f"leaning_{load}",
         title=f"Variance of the forces in three dimensions, {load} load in any direction",
         call=f'variance(f_along(1, 0, 0, j), load="{load} leaning", dimension=3)',
-        forms=lambda: {
+        exact=lambda: {
             "first": variance(
                 ForceAlong(1, 0, 0, j), load=f"{load} leaning", dimension=3
             ).named(FIRST)
@@ -183,7 +183,7 @@ def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
         name="any_dimension" if load == "surface" else "any_dimension_bulk",
         title=f"Variance of the forces in two and three dimensions under a {load} load",
         call=f'variance(f_plus(i, j), load="{load}")',
-        forms=lambda: {
+        exact=lambda: {
             "discs": paper.DERIVATION.exact_forms["layer"],
             "spheres": DERIVATIONS[spheres].exact_forms["first"],
         },

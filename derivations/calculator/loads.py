@@ -2,21 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, partial
 
 import sympy
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.symbolic.kernel import axioms, rules
+from force_diffusion.symbolic.kernel import axioms
+from force_diffusion.symbolic.kernel.domain import Loading
 from force_diffusion.symbolic.kernel.statistics import SPHERES
-from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import (
-    BULK,
-    BULK_TILTED,
-    POINT,
-    SURFACE,
-    SURFACE_TILTED,
-    Loading,
-)
+from force_diffusion.symbolic.kernel.theorem import Group
 from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t, t_2, t_3
 
 from .. import eq03_extrapolation as eq03
@@ -26,7 +19,6 @@ from .. import eq11_total_force as eq11
 from .. import eq14_bulk_diffusion as eq14
 from .. import eq16_response as eq16
 from .. import leaning as tilted
-from ..framework.grounds import Within
 
 PLANE = 2
 """The dimension of a packing of discs."""
@@ -36,9 +28,28 @@ class ObservableError(ForceDiffusionError, ValueError):
     """An observable or a load that the calculator does not know; the message says what it does."""
 
 
+@cache
+def in_radii(load: str = "") -> tuple[Group, ...]:
+    """What forces under a load are in the radii, with contact directions and positions."""
+    positions = (eq03.DERIVATION.theorem, axioms.base())
+    match load.split():
+        case ["surface"]:
+            groups = eq11.in_radii()
+        case ["bulk"]:
+            groups = eq14.in_radii()
+        case ["point"]:
+            groups = eq16.in_radii()
+        case ["leaning", below]:
+            _ = tilted.DERIVATIONS["B1"].proof  # whose steps show these theorems
+            groups = tilted.in_radii(below)
+        case _:
+            groups = ((eq04.DERIVATION.theorem, eq05.DERIVATION.theorem),)
+    return (*groups, positions)
+
+
 @dataclass(frozen=True)
 class Load:
-    """A load, the forces in the ordered packing, and the theorems about those in a disordered one.
+    """A load, and the forces in the ordered packing.
 
     Attributes:
         name: in words.
@@ -47,8 +58,8 @@ class Load:
         ordered: the ordered forces of a contact of layer j along n⁺ and along n⁻ (in three
             dimensions along n¹, n² and n³), or what forces are compared with where some are zero.
         unit: what a vertical force on a bead is compared with.
-        theorems: both forces in the radii.
-        equations: where these are proved.
+        groups: theorems that give forces in the radii, to be put in one group after the other; of
+            spheres none.
         values: numbers for symbols of the load.
         dimension: of the packing.
     """
@@ -58,64 +69,30 @@ class Load:
     top: sympy.Symbol
     ordered: tuple[sympy.Expr, ...]
     unit: sympy.Expr
-    theorems: Callable[[], tuple[Theorem, ...]]
-    equations: tuple[int | str, ...]
+    groups: Callable[[], tuple[Group, ...]]
     values: tuple[tuple[sympy.Symbol, sympy.Expr], ...] = ()
     dimension: int = PLANE
 
 
-@cache
-def geometry() -> tuple[Theorem, ...]:
-    """Positions and contact directions in the radii."""
-    equations = (eq03, eq04, eq05)
-    return (axioms.base(), *(one for eq in equations for one in eq.DERIVATION.theorems))
+def _vertical(name: str, key: str, loading: Loading, top: sympy.Symbol, unit: sympy.Expr) -> Load:
+    return Load(name, loading, top, (unit / (2 * n_y),) * 2, unit, partial(in_radii, key))
 
 
-def _with_mirror_images(theorems: Callable[[], tuple[Theorem, ...]]) -> tuple[Theorem, ...]:
-    return (*theorems(), *map(rules.mirror, theorems()))
-
-
-SURFACE_LOAD = Load(
-    "a surface load",
-    SURFACE,
-    M,
-    (f_load / (2 * n_y),) * 2,
-    f_load,
-    cache(lambda: _with_mirror_images(lambda: eq11.DERIVATION.theorems)),
-    (11,),
-)
-BULK_LOAD = Load(
-    "a bulk load",
-    BULK,
-    M,
-    ((M - j) * m_g / (2 * n_y),) * 2,
-    (M - j) * m_g,
-    cache(lambda: _with_mirror_images(lambda: eq14.FORCE.theorems)),
-    (14,),
-)
-_POINT_LOAD = Load(
-    "a load on one bead",
-    POINT,
-    l,
-    (f_load / (2 * n_y),) * 2,
-    f_load,
-    cache(lambda: eq16.FORCES.theorems),
-    (7, 9, 10),
-)
-
-
-def _leaning(load: str, loading: Loading, layers: sympy.Expr, forces: Within) -> Load:
+def _leaning(load: str, loading: Loading, layers: sympy.Expr) -> Load:
     both = layers * L_plus, layers * t * L_plus
-    name = f"a leaning {load} load"
-    theorems = cache(lambda: forces.theorems)
-    return Load(name, loading, M, both, sum(both) * n_y, theorems, ("B1",))
+    groups = partial(in_radii, f"leaning {load}")
+    return Load(f"a leaning {load} load", loading, M, both, sum(both) * n_y, groups)
 
 
-_LEANING = {
-    "surface": _leaning("surface", SURFACE_TILTED, sympy.S.One, tilted.UNDER_SURFACE),
-    "bulk": _leaning("bulk", BULK_TILTED, M - j, tilted.UNDER_BULK),
+_POINT_LOAD = _vertical("a load on one bead", "point", axioms.POINT, l, f_load)
+_BY_NAME = {
+    "surface": _vertical("a surface load", "surface", axioms.SURFACE, M, f_load),
+    "bulk": _vertical("a bulk load", "bulk", axioms.BULK, M, (M - j) * m_g),
 }
-_BY_NAME = {"surface": SURFACE_LOAD, "bulk": BULK_LOAD}
+_LEANING = {
+    "surface": _leaning("surface", axioms.SURFACE_TILTED, sympy.S.One),
+    "bulk": _leaning("bulk", axioms.BULK_TILTED, M - j),
+}
 
 
 def _spheres(name: str, factor: sympy.Expr, leaning: bool, top: sympy.Symbol = M) -> Load:
@@ -123,7 +100,7 @@ def _spheres(name: str, factor: sympy.Expr, leaning: bool, top: sympy.Symbol = M
     ratios = (sympy.S.One, t_2, t_3) if leaning else (sympy.S.One,) * 3
     ordered = tuple(factor * ratio for ratio in ratios)
     load = "a load on one bead" if top == l else f"a {name} load"
-    return Load(load, SPHERES[name], top, ordered, sympy.Add(*ordered), tuple, (), dimension=3)
+    return Load(load, SPHERES[name], top, ordered, sympy.Add(*ordered), tuple, dimension=3)
 
 
 _IN_THREE = {

@@ -8,7 +8,7 @@ import sympy
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError
-from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
@@ -189,72 +189,47 @@ def relations_of(where: Any) -> tuple[sympy.Basic, ...]:
     return several
 
 
-def domain(observables: Iterable[sympy.Expr], load: Load, *more: sympy.Basic) -> Where:
+def domain(observables: Iterable[sympy.Expr], load: Load, *more: sympy.Basic) -> Domain:
     """Where all contacts and beads that are named exist, and further relations hold.
 
     Raises:
         ObservableError: that is nowhere.
     """
     observables = tuple(observables)
-    quantities: set[sympy.Expr] = set()
-    counts: set[sympy.Expr] = set()
-    for one in observables:
-        quantities |= one.atoms(sy.SiteFunction, *SPHERES)
-        counts |= {average.args[1] for average in one.atoms(sy.MeanOver)}
-    forces = any(isinstance(one, (*DISCS, *SPHERES)) for one in quantities)
-    relations = [sympy.Ge(one, 1, evaluate=False) for one in by_name(counts)]
-    for one in by_name(quantities):
+    quantities = by_name(
+        set().union(*(one.atoms(sy.SiteFunction, *SPHERES) for one in observables))
+    )
+    averages = set().union(*(one.atoms(sy.MeanOver) for one in observables))
+    under_load = any(isinstance(one, (*DISCS, *SPHERES)) for one in quantities)
+    relations = [sympy.Ge(one, 1, evaluate=False) for one in by_name({a.args[1] for a in averages})]
+    for one in quantities:
         layer = layer_of(one)
         relations.append(sympy.Ge(layer, 0, evaluate=False))
-        if forces:
+        if under_load:
             top = load.top if isinstance(one, _BEADS) else load.top - 1
             relations.append(sympy.Le(layer, top, evaluate=False))
-    if sets.where(*relations, *more).is_empty():
+    relations += more
+    if sets.where(*relations).is_empty():
         raise ObservableError("what is named exists nowhere: a layer is too low or too high")
-    relations = [one for one in dict.fromkeys((*relations, *more)) if one.free_symbols]
-    even = [sympy.Add(*one.args) for one in by_name(quantities) if isinstance(one, sy.SiteFunction)]
-    held = set().union(*(one.free_symbols for one in (*relations, *even, *observables)))
-    if forces:
-        held |= set().union(*(one.free_symbols for one in load.loading.place))
-        even += [sy.k + sy.l] if load.loading.place == (sy.k, sy.l) else []
-    return Where(
-        tuple(symbol for symbol in sy.INDICES if symbol in held),
-        tuple(relations),
-        load.loading if forces else None,
-        tuple(_even(even)),
+    beads = [one.args for one in quantities if isinstance(one, sy.SiteFunction)]
+    if under_load and load.loading.place == (sy.k, sy.l):
+        beads.append(load.loading.place)
+    found = Domain.of(
+        *(one for one in relations if one.free_symbols),
+        indices=set().union(*(one.free_symbols for one in observables)),
+        loading=load.loading if under_load else None,
+        beads=beads,
         dimension=load.dimension,
     )
+    try:
+        _ = found.straight
+    except NotExactError:
+        raise ObservableError(
+            "no packing has all beads that are named: i + j is even for each bead (i, j)"
+        ) from None
+    return found
 
 
 def layer_of(quantity: sympy.Expr) -> sympy.Expr:
     """The layer of a bead, or of the bead below a contact."""
     return sympy.Add(*quantity.args[1:]) if isinstance(quantity, SPHERES) else quantity.args[1]
-
-
-def _even(sums: Iterable[sympy.Expr]) -> list[sympy.Expr]:
-    """What is even where some sums are, with every index across the packing in at most one sum.
-
-    Raises:
-        ObservableError: they are never all even.
-    """
-    odd = [_odd(one) for one in sums]
-    found: list[frozenset[sympy.Symbol]] = []
-    for symbol in (*ACROSS, *sy.INDICES):
-        first = next((one for one in odd if symbol in one), None)
-        if first is not None:
-            odd, found = (
-                [one ^ first if symbol in one else one for one in those] for those in (odd, found)
-            )
-            found.append(first)
-    if any(odd):
-        raise ObservableError(
-            "no packing has all beads that are named: i + j is even for each bead (i, j)"
-        )
-    return [sympy.Add(*one) for one in found]
-
-
-def _odd(form: sympy.Expr) -> frozenset[sympy.Basic]:
-    """The symbols with odd factors in a sum, and the number 1 if it is odd without them."""
-    factors, constant = sets.row(form)
-    symbols = {symbol for symbol, factor in factors.items() if factor % 2}
-    return frozenset(symbols | ({sympy.S.One} if constant % 2 else set()))

@@ -1,17 +1,18 @@
 """Mean, variance and covariance of what is linear in the radii, as exact closed forms."""
 
 from collections.abc import Iterable
+from functools import partial
 
 import sympy
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.kernel import statistics
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
+from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
 from ..formulas.closed_form import ClosedForm
-from .loads import PLANE, Load, ObservableError, geometry, load_of
+from .loads import PLANE, Load, ObservableError, in_radii, load_of
 from .observables import ACROSS, SPHERES, domain, layer_of, read, relations_of
 
 
@@ -160,65 +161,64 @@ def _closed(
     dimension: int,
     where: sympy.Basic | Iterable[sympy.Basic],
 ) -> ClosedForm:
-    under = load_of(load, dimension)
-    linear = kind is not sy.Shift
+    under, linear = load_of(load, dimension), kind is not sy.Shift
     statistic = kind(*(read(one, under.dimension, linear=linear) for one in observables))
-    return closed_form(statistic, statistic, under, *relations_of(where), relative=relative)
-
-
-def closed_form(
-    quantity: sympy.Expr,
-    statistic: sympy.Expr,
-    load: Load,
-    *where: sympy.Basic,
-    relative: bool = True,
-) -> ClosedForm:
-    """The closed form of an expression in moments.
-
-    Args:
-        quantity: what is shown for it.
-        statistic: means, variances and covariances of observables, and what is made of them.
-        load: of the packing.
-        where: relations of indices, to which its domain is restricted.
-        relative: as for ``variance``.
-
-    Raises:
-        ObservableError: as for ``variance``.
-    """
-    observables = [one for moment in statistic.atoms(sy.Moment) for one in moment.args]
-    on = domain(observables, load, *where)
-    scales = {}
-    if relative:
-        for one in observables:
-            scales |= _scales(one, load)
-    meant = statistic.xreplace(scales).xreplace(dict(load.values))
-    facts: tuple[Theorem, ...] = ()
-    equations: tuple[int | str, ...] = ()
-    if load.dimension == PLANE:
-        facts, equations = geometry(), (3, 4, 5)
-        if on.loading:
-            facts, equations = (*facts, *load.theorems()), (*equations, *load.equations)
+    on = domain(statistic.args, under, *relations_of(where))
+    scales = _scales(statistic, under) if relative else {}
+    groups = under.groups
+    if under.dimension == PLANE and not on.loading:
+        groups = partial(in_radii, "")
+    meant, divisor = _without_divisors(statistic.xreplace(scales))
+    divisor = divisor.xreplace(dict(under.values))
+    if divisor == 0:
+        raise ObservableError(f"{text(statistic)} divides by 0 under this load")
+    form = ClosedForm(statistic, meant, on, groups, divisor=divisor, values=dict(under.values))
     try:
-        form = statistics.ClosedForm.of(meant, on, facts, load.values)
+        _ = form.function
     except (NotExactError, NotProvedError) as reason:
         raise ObservableError(f"{text(statistic)}: {reason}") from None
-    return ClosedForm(quantity, form, on, equations, meant, facts)
+    return form
 
 
-def _scales(observable: sympy.Expr, load: Load) -> dict[sympy.Expr, sympy.Expr]:
+def _without_divisors(moment: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+    """A moment without divisors that hold constants and may be zero, such as 1 − t; and these.
+
+    The moment over the divisor is what was given.
+    """
+    whole, observables = sympy.S.One, []
+    for observable in moment.args:
+        divisors = {
+            one.base
+            for one in observable.atoms(sympy.Pow)
+            if one.exp.is_Integer and one.exp < 0 and _may_vanish(one.base)
+        }
+        divisor = sympy.Mul(*by_name(divisors))
+        each = sympy.Add.make_args(observable)
+        observables.append(sympy.Add(*(one * divisor for one in each)))
+        whole *= divisor
+    power = 2 if isinstance(moment, sy.Variance) else 1
+    return moment.func(*observables), whole**power
+
+
+def _may_vanish(divisor: sympy.Expr) -> bool:
+    constants = divisor.free_symbols - {*sy.INDICES, sy.phi}
+    return not divisor.is_positive and bool(constants) and constants == divisor.free_symbols
+
+
+def _scales(statistic: sympy.Expr, load: Load) -> dict[sympy.Expr, sympy.Expr]:
     """Every quantity over what it is compared with."""
     scales = {}
-    for one in observable.atoms(sy.SiteFunction, *SPHERES):
-        at = {sy.j: layer_of(one)}
-        if isinstance(one, sy.VerticalPlus | sy.VerticalMinus | sy.VerticalAlong):
-            unit = load.unit.xreplace(at)
-        elif isinstance(one, sy.ForceAlong):
-            unit = load.ordered[int(one.args[0]) - 1].xreplace(at)
-        elif isinstance(one, sy.ForcePlus | sy.ForceMinus):
-            unit = load.ordered[0 if isinstance(one, sy.ForcePlus) else 1].xreplace(at)
-        elif isinstance(one, sy.DeltaX | sy.DeltaR):
-            unit = sy.r
-        else:
-            continue
-        scales[one] = one / unit
+    for one in statistic.atoms(sy.SiteFunction, *SPHERES):
+        match one:
+            case sy.VerticalPlus() | sy.VerticalMinus() | sy.VerticalAlong():
+                unit = load.unit
+            case sy.ForceAlong():
+                unit = load.ordered[int(one.args[0]) - 1]
+            case sy.ForcePlus() | sy.ForceMinus():
+                unit = load.ordered[isinstance(one, sy.ForceMinus)]
+            case sy.DeltaX() | sy.DeltaR():
+                unit = sy.r
+            case _:
+                continue
+        scales[one] = one / unit.xreplace({sy.j: layer_of(one)})
     return scales

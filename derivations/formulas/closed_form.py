@@ -1,9 +1,8 @@
 """A closed form as a Python user holds it: formulas with domains, numbers, LaTeX, decisions."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import chain
 from numbers import Integral
 from typing import Any
 
@@ -12,13 +11,26 @@ import sympy
 from flint import fmpq
 from force_diffusion.symbolic import sets, words
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
+from force_diffusion.symbolic.algebra.exact import (
+    FIELD,
+    NotAStatementError,
+    NotExactError,
+    RationalFunction,
+)
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel import statistics
-from force_diffusion.symbolic.kernel.decisions import Ruling, undecided
-from force_diffusion.symbolic.kernel.language import unreadable, usual_form
-from force_diffusion.symbolic.kernel.theorem import Theorem
-from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    all_of,
+    decide,
+    not_a_statement,
+    undecided,
+)
+from force_diffusion.symbolic.kernel.domain import Domain
+from force_diffusion.symbolic.kernel.rules import rewrite
+from force_diffusion.symbolic.kernel.statistics import moment
+from force_diffusion.symbolic.kernel.theorem import Group, flat
+from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.piecewise import Formula, PiecewiseFunction, Relations
 from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import (
@@ -31,10 +43,14 @@ from force_diffusion.symbolic.printing.lines import (
 )
 from force_diffusion.symbolic.printing.text import text
 
+from ..framework.catalogue import Number as EquationNumber
+from ..framework.decide import strange_symbol
+from ..framework.proof import equations_of
 from .arrays import evaluate
 from .deciding import decided
 from .evaluation import ArgumentError, Number, in_order, read_arguments, rounded, told
 
+_GEOMETRY = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing}
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
 _HIGH = 30  # lines of a display that fits a page of usual classes
@@ -68,53 +84,75 @@ class ClosedForm:
     def __init__(
         self,
         quantity: sympy.Expr,
-        form: statistics.ClosedForm,
-        where: Where,
-        premises: tuple[int | str, ...],
-        meant: sympy.Expr | None = None,
-        facts: tuple[Theorem, ...] = (),
+        statistic: sympy.Expr,
+        domain: Domain,
+        groups: Callable[[], Sequence[Group]],
+        *,
+        divisor: sympy.Expr = sympy.S.One,
+        values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
+        function: PiecewiseFunction | None = None,
     ) -> None:
-        self._quantity, self._form, self._where = quantity, form, where
-        self._premises, self._meant, self._facts = premises, meant, facts
+        self._quantity, self._statistic, self._on = quantity, statistic, domain
+        self._groups, self._divisor, self._values = groups, divisor, values or {}
+        if function:
+            self.__dict__["function"] = function
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """No theorem comes out of a pickle: the groups of theorems are had again."""
+        parts = self._quantity, self._statistic, self._on, self._groups
+        return _again, (parts, self._divisor, self._values, self.function)
+
+    def named(self, quantity: sympy.Expr) -> "ClosedForm":
+        """The same, shown as a symbol."""
+        return ClosedForm(
+            quantity, self._statistic, self._on, self._groups,
+            divisor=self._divisor, values=self._values, function=self.function,
+        )  # fmt: skip
 
     @property
-    def meant(self) -> sympy.Expr:
-        """What the quantity stands for, in moments of quantities of a packing."""
-        return self._quantity if self._meant is None else self._meant
+    def quantity(self) -> sympy.Expr:
+        """What it is the value of, as shown."""
+        return self._quantity
 
     @property
-    def where(self) -> Where:
+    def statistic(self) -> sympy.Expr:
+        """What the quantity stands for, times :attr:`divisor`, in moments."""
+        return self._statistic
+
+    @property
+    def divisor(self) -> sympy.Expr:
+        """What of constants the statistic is divided by and may vanish, such as 1 − t; or 1."""
+        return self._divisor
+
+    @property
+    def kernel_domain(self) -> Domain:
         """Its domain, with the load, as the kernel has it."""
-        return self._where
+        return self._on
 
     @property
-    def formulas(self) -> tuple[statistics.Piece, ...]:
-        """Its formulas as the kernel has them."""
-        return self._form.pieces
-
-    @property
-    def facts(self) -> tuple[Theorem, ...]:
-        """The theorems that are put in."""
-        return self._facts
-
-    @property
-    def function(self) -> statistics.ClosedForm:
-        """It as the kernel has it."""
-        return self._form
+    def groups(self) -> tuple[Group, ...]:
+        """The theorems that give what it is of in the radii, put in one group after the other."""
+        return tuple(self._groups())
 
     @cached_property
-    def theorems(self) -> tuple[Theorem, ...]:
-        """What it says on each part of its domain."""
-        return statistics.theorems(self.meant, self._where, self._facts)
+    def function(self) -> PiecewiseFunction:
+        """Its value as a function of indices.
 
-    def __reduce__(self) -> tuple[type["ClosedForm"], tuple[Any, ...]]:
-        """No theorem comes out of a pickle."""
-        parts = self._quantity, self._form, self._where, self._premises, self._meant
-        return ClosedForm, parts
+        Raises:
+            NotExactError: what it is of is not linear, or not given by the radii.
+        """
+        whole = PiecewiseFunction.of(self._statistic, self._on, *self.groups, values=self._values)
+        return whole.over(self._divisor) if self._divisor != 1 else whole
 
-    def named(self, symbol: sympy.Expr) -> "ClosedForm":
-        """The same, shown as a symbol."""
-        return ClosedForm(symbol, self._form, self._where, self._premises, self.meant, self._facts)
+    @property
+    def formulas(self) -> tuple[Formula, ...]:
+        """Its formulas as the kernel has them."""
+        return self.function.formulas
+
+    @property
+    def premises(self) -> tuple[EquationNumber, ...]:
+        """The equations that it rests on, as the theorems say."""
+        return equations_of(flat(self.groups))
 
     def on(self, *relations: sympy.Basic) -> sympy.Expr:
         """Its formula on a part of its domain, where it is one.
@@ -122,17 +160,7 @@ class ClosedForm:
         Raises:
             NotProvedError: it is not.
         """
-        return self._form.on(*relations).to_sympy()
-
-    @property
-    def quantity(self) -> sympy.Expr:
-        """What it is the value of."""
-        return self._quantity
-
-    @property
-    def premises(self) -> tuple[int | str, ...]:
-        """The equations that it rests on."""
-        return self._premises
+        return self.function.on(*relations).to_sympy()
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -145,7 +173,7 @@ class ClosedForm:
         """
         return tuple(
             Piece("; or ".join(map(words.in_words, one.where)), one.value.to_sympy())
-            for one in self._form.pieces
+            for one in self.formulas
         )
 
     @cached_property
@@ -162,7 +190,7 @@ class ClosedForm:
         return sympy.Piecewise(
             *(
                 (shown.expr, sympy.Or(*(sympy.And(*part) for part in piece.where)))
-                for shown, piece in zip(self.pieces, self._form.pieces, strict=True)
+                for shown, piece in zip(self.pieces, self.formulas, strict=True)
             ),
             evaluate=False,
         )
@@ -186,8 +214,22 @@ class ClosedForm:
     def _conditions_of_indices(self) -> tuple[list[sympy.Basic], list[sympy.Expr]]:
         """The relations of its domain that its value depends on, and what is even there."""
         indices = self._needed & {*sy.INDICES}
-        relations = [one for one in self._form.domain if one.free_symbols <= indices]
-        return relations, [one for one in self._where.even if one.free_symbols <= indices]
+        relations = [one for one in self.function.domain if one.free_symbols <= indices]
+        return relations, [one for one in self.even if one.free_symbols <= indices]
+
+    @cached_property
+    def even(self) -> list[sympy.Expr]:
+        """Sums of indices that are even wherever beads are, each symbol solved for in one sum."""
+        back = self._on.straight.back
+        odd = {
+            symbol: {one for one, n in (2 * half).as_coefficients_dict().items() if n % 2}
+            for symbol, half in back.items()
+        }
+        for symbol in back:
+            for other in back:
+                if other != symbol and symbol in odd[other]:
+                    odd[other] = odd[other] ^ odd[symbol]
+        return [sympy.Add(*odd[symbol]) for symbol in sorted(back, key=sy.INDICES.index)]
 
     @property
     def _for_domain(self) -> str:
@@ -199,8 +241,7 @@ class ClosedForm:
     def _needed(self) -> set[sympy.Symbol]:
         """The symbols on which its value, and whether it has one, depend."""
         held = set().union(*(piece.expr.free_symbols for piece in self.pieces))
-        for relations in (self._form.domain, *chain(*(one.where for one in self.formulas))):
-            held = held.union(*(one.free_symbols for one in relations))
+        held |= self.function.indices.union(*(one.free_symbols for one in self.function.domain))
         cosine = {sy.phi} if held & {sy.n_x, sy.n_y} else set()
         height = {sy.M} if sy.H_M in held else set()
         return held - {sy.n_x, sy.n_y, sy.H_M} | cosine | height
@@ -256,8 +297,8 @@ class ClosedForm:
         raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
 
     def _holds(self, whole: Mapping[sympy.Symbol, int]) -> bool:
-        relations = [one for one in self._form.domain if one.free_symbols <= {*whole}]
-        even = [sets.row(one) for one in self._where.even if one.free_symbols <= {*whole}]
+        relations = [one for one in self.function.domain if one.free_symbols <= {*whole}]
+        even = [sets.row(one) for one in self.even if one.free_symbols <= {*whole}]
         return all(_is_met(sets.condition(one), whole) for one in relations) and all(
             _total(form, whole) % 2 == 0 for form in even
         )
@@ -267,7 +308,7 @@ class ClosedForm:
         """Values, and the conditions of the parts on which they hold."""
         return [
             (piece.value, [[sets.condition(one) for one in part] for part in piece.where])
-            for piece in self._form.pieces
+            for piece in self.formulas
         ]
 
     def profile(self, **values: Number) -> Any:
@@ -300,7 +341,7 @@ class ClosedForm:
         Raises:
             ArgumentError: its packings have no height M, or no layer j is meant.
         """
-        piece = next((one for one in self._form.pieces if any(map(_is_inside, one.where))), None)
+        piece = next((one for one in self.formulas if any(map(_is_inside, one.where))), None)
         if piece is None or not {sy.M, sy.j} <= self._needed:
             raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
         height, z = FIELD.generator(sy.M), FIELD.generator(sy.z)
@@ -315,7 +356,7 @@ class ClosedForm:
         """
         return self._shown(self.formulas, columns)
 
-    def _shown(self, formulas: Sequence[statistics.Piece], columns: int) -> str:
+    def _shown(self, formulas: Sequence[Formula], columns: int) -> str:
         """LaTeX of some of its formulas."""
         room, below = column_width(columns), _with_commas(self._domain(words.LATEX), "for")
         if len(formulas) == 1:
@@ -328,7 +369,7 @@ class ClosedForm:
         return latex_cases(self._quantity, factor, rows, below, room)
 
     @cached_property
-    def _over_common(self) -> tuple[sympy.Expr, dict[statistics.Piece, sympy.Expr]]:
+    def _over_common(self) -> tuple[sympy.Expr, dict[Formula, sympy.Expr]]:
         """What its formulas have in common, and what else each of them holds."""
         common = _common([piece.expr for piece in self.pieces])
         factor = self.formulas[0].value.domain.from_sympy(common)
@@ -342,7 +383,7 @@ class ClosedForm:
         """The same in displays that fit a page: several, if one for all formulas would not."""
         return self._displays(self.formulas, columns)
 
-    def _displays(self, formulas: Sequence[statistics.Piece], columns: int) -> list[str]:
+    def _displays(self, formulas: Sequence[Formula], columns: int) -> list[str]:
         whole, half = self._shown(formulas, columns), len(formulas) // 2
         if whole.count(r"\\") <= _HIGH or not half:
             return [whole]
@@ -382,7 +423,7 @@ class ClosedForm:
         ):
             if any(piece.expr.has(symbol) for piece in self.pieces):
                 lines.append(f"    {symbol.in_code} = {source}")
-        for shown, piece in zip(self.pieces, self._form.pieces, strict=True):
+        for shown, piece in zip(self.pieces, self.formulas, strict=True):
             either = [" and ".join(words.parts(part, words.PYTHON)) for part in piece.where]
             value = f"return {python_expression(shown.expr)}"
             lines += (
@@ -415,32 +456,89 @@ class ClosedForm:
 
     # a candidate
 
-    def decide(self, candidate: Any) -> Ruling:
+    def decide(self, candidate: Any, **at: int) -> Ruling:
         """Rule on a formula of your own: is it this statistic, on all of the domain?
 
         The verdict is *proved*; *refuted*, with a point at which it differs; *undecided*; or *not a
-        statement*. ``.note`` says why, and no error is raised.
+        statement*. ``.note`` says why.
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j, M
         >>> form = fd.mean(f_plus(i, j))
         >>> print(form.decide(M / M))
-        proved: the same on all of the domain
-        """
-        return decided(candidate, (self.equation,), lambda _, one: self.rule_on(one))
+        proved: by the rule: moment
 
-    def rule_on(self, candidate: sympy.Eq) -> Ruling:
-        """Rule on an equation, whose left-hand side has to be the quantity."""
-        candidate = usual_form(candidate, (self.equation,))
-        if candidate.lhs not in (self._quantity, self.meant):
+        Args:
+            candidate: an expression, a ``Piecewise``, or an ``Eq`` with the quantity on the left.
+            at: whole numbers for indices, such as M=12: it is to hold there alone.
+
+        Raises:
+            ArgumentError: an index is none that it depends on, or no whole number.
+        """
+        at_place = []
+        for name, value in at.items():
+            symbol = self.symbols.get(name)
+            if symbol not in sy.INDICES or not isinstance(value, Integral):
+                raise ArgumentError(f"{name}={value!r}: whole numbers for its indices are allowed")
+            at_place.append(sympy.Eq(symbol, int(value), evaluate=False))
+        return decided(candidate, (self.equation,), lambda _, one: self._rule_on(one, at_place))
+
+    def _rule_on(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Ruling:
+        if candidate.lhs not in (self._quantity, self._statistic):
             return undecided(f"it is not about {text(self._quantity)}")
-        value = sympy.piecewise_fold(candidate.rhs)
-        formulas = [one for one, _ in value.args] if value.is_Piecewise else [value]
-        for one in formulas:
-            known = {*self._where.indices, *self._needed}
-            if refusal := unreadable(equation(sympy.S.One, one), (self.equation,), known):
-                return refusal
-        return statistics.decide(self._form, self._where, value)
+        known = {*self._on.indices, *self._statistic.free_symbols, *self._needed, sy.z, *_GEOMETRY}
+        for symbol in by_name(candidate.rhs.free_symbols - known):
+            return not_a_statement(
+                strange_symbol(symbol, known)
+                or f"{text(symbol)} is no symbol of {text(self._quantity)}"
+            )
+        try:
+            return all_of(*self._rulings(candidate.rhs, at_place))
+        except NotAStatementError as reason:
+            return not_a_statement(str(reason))
+        except NotExactError as reason:
+            return undecided(str(reason))
+
+    def _rulings(self, candidate: sympy.Expr, at_place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
+        """What is found of each part of a candidate; its parts have to cover the domain."""
+        domain, function = self._on.also(*at_place), self.function.part(*at_place)
+        rest = function.points
+        for value, relations in _alternatives_of(candidate):
+            here = rest & function.part(*relations).points
+            rest = rest - here
+            for part in function.relations(here):
+                yield from self._rulings_on(value, domain.also(*part))
+        if function.points.is_empty():
+            raise NotAStatementError(f"{text(self._quantity)} is for {self.domain}")
+        if not rest.is_empty():
+            words_of = "; or ".join(map(words.in_words, function.relations(rest)))
+            raise NotAStatementError(f"it has no value for {words_of}")
+
+    def _rulings_on(self, value: sympy.Expr, domain: Domain) -> Iterator[Ruling]:
+        if not self._values:
+            by = moment(*self.groups, on=self._on)
+            yield decide(equation(self._statistic, self._divisor * value), domain, [by])
+            return
+        for formula in self.formulas:  # numbers are put in: theorems hold whatever they are
+            for part in formula.where:
+                here = domain.also(*part)
+                if not here.points.is_empty():
+                    yield decide(equation(formula.value.to_sympy(), value), here, [rewrite()])
+
+
+def _again(parts: tuple[Any, ...], divisor: Any, values: Any, function: Any) -> ClosedForm:
+    return ClosedForm(*parts, divisor=divisor, values=values, function=function)
+
+
+def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
+    """The formulas of a function that is given in pieces, with relations; the first that fits."""
+    folded = sympy.piecewise_fold(candidate) if candidate.has(sympy.Piecewise) else candidate
+    if not isinstance(folded, sympy.Piecewise):
+        yield folded, ()
+        return
+    for value, condition in folded.args:
+        for part in sympy.Or.make_args(sympy.to_dnf(condition)):
+            yield value, tuple(one for one in sympy.And.make_args(part) if one != sympy.true)
 
 
 class _Numbers:
@@ -458,13 +556,13 @@ class _Numbers:
         """The value for single numbers."""
         form = self._form
         values, exact = read_arguments(
-            self.about, form._needed, given, form.where.dimension, in_packing=False
+            self.about, form._needed, given, form.kernel_domain.dimension, in_packing=False
         )
         value = self._form.value(values, exact=exact)
         return value if exact else rounded(value)
 
 
-def _alternatives(parts: Iterable[statistics.Relations], before: str = "") -> list[str]:
+def _alternatives(parts: Iterable[Relations], before: str = "") -> list[str]:
     """Where a formula holds, as pieces of LaTeX."""
     first, *others = (words.parts(one, words.LATEX) for one in parts)
     return [

@@ -1,6 +1,7 @@
 """What is said of a variance at every layer of a packing beside its printed leading order."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import sympy
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
@@ -14,8 +15,23 @@ from force_diffusion.symbolic.words import in_words
 
 from .proof import Definitions, Steps
 
+if TYPE_CHECKING:
+    from ..formulas.closed_form import ClosedForm
+
 UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 """What variances of forces over their mean squared are numbers and powers of M times."""
+
+
+def closed_form(
+    symbol: sympy.Symbol,
+    definitions: Definitions,
+    domain: Domain,
+    groups: Callable[[], Sequence[Group]],
+) -> "ClosedForm":
+    """The closed form of what a symbol stands for; it is worked out when it is asked for."""
+    from ..formulas.closed_form import ClosedForm
+
+    return ClosedForm(symbol, definitions[symbol], domain, groups)
 
 
 def show_closed_form(

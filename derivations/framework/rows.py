@@ -3,16 +3,19 @@
 import copyreg
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import cached_property, partial
+from functools import cached_property
 
 import sympy
+from force_diffusion.symbolic import sets
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel import statistics
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted
-from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.kernel.domain import Domain
+from force_diffusion.symbolic.kernel.rules import same
+from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.piecewise import PiecewiseFunction, theorems
 from force_diffusion.symbolic.printing.lines import stacked
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import M, Shift, z
@@ -20,10 +23,9 @@ from force_diffusion.symbolic.words import in_words
 
 from ..formulas.closed_form import ClosedForm
 from .catalogue import Number
-from .grounds import By, closed
 from .loading import load, pickled
-from .proving import Lines
-from .record import FIRST_ORDER, SECOND_ORDER, Claim, Statement, usual
+from .proof import Steps
+from .record import FIRST_ORDER, SECOND_ORDER, Statement, usual
 
 Forms = Mapping[str, ClosedForm]
 """Closed forms by name; the first is the usual one."""
@@ -32,7 +34,7 @@ Decide = Callable[[Forms], Ruling]
 """Rules on a statement about closed forms."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Row(Statement):
     """One or more statistics that the calculator gives, under a label.
 
@@ -43,7 +45,7 @@ class Row(Statement):
         name: in code and JSON.
         title: in words.
         call: how a user asks for the first of them.
-        forms: gives the closed forms; the quantity of each holds a symbol of its own.
+        exact: gives the closed forms by name; the quantity of each holds a symbol of its own.
         meaning: what they say, in a sentence.
         quantities: symbols with their meanings, where these are not the usual ones.
         claimed: further statements, each with what decides it from the closed forms.
@@ -53,19 +55,15 @@ class Row(Statement):
     name: str
     title: str
     call: str
-    forms: Callable[[], Forms]
+    exact: Callable[[], Forms]
     meaning: str
     quantities: tuple[tuple[sympy.Basic, str], ...]
     claimed: tuple[tuple[str, Decide], ...] = ()
     relation = "="
     loads = ()
 
-    def exact(self) -> Forms:  # type: ignore[override]
-        """The closed forms, by name."""
-        return self.forms()
-
     @property
-    def remarks(self) -> tuple[str, ...]:
+    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
         """What the forms say."""
         return (self.meaning,)
 
@@ -77,23 +75,22 @@ class Row(Statement):
         return (*self.quantities, *usual(*by_name(held)))
 
     @property
-    def assumptions(self) -> tuple[str, ...]:
+    def assumptions(self) -> tuple[str, ...]:  # type: ignore[override]
         """What is assumed, in words."""
         forms = self.exact_forms.values()
-        order = SECOND_ORDER if any(one.meant.has(Shift) for one in forms) else FIRST_ORDER
-        loads = (one.where.loading.words for one in forms if one.where.loading)
+        order = SECOND_ORDER if any(one.statistic.has(Shift) for one in forms) else FIRST_ORDER
+        loads = (one.kernel_domain.loading.words for one in forms if one.kernel_domain.loading)
         return (*order, *dict.fromkeys(loads))
 
     @property
-    def premises(self) -> tuple[Statement, ...]:
-        """The derivations that it rests on."""
-        numbers = (number for form in self.exact_forms.values() for number in form.premises)
-        return tuple(map(load, dict.fromkeys(numbers)))
+    def domain(self) -> Domain:  # type: ignore[override]
+        """The domain of the first closed form."""
+        return next(iter(self.exact_forms.values())).kernel_domain
 
     @property
-    def dimension(self) -> int:  # type: ignore[override]
+    def dimension(self) -> int:
         """The highest dimension of its packings."""
-        return max(int(form.where.dimension) for form in self.exact_forms.values())
+        return max(form.kernel_domain.dimension for form in self.exact_forms.values())
 
     @cached_property
     def printed(self) -> tuple[sympy.Eq, ...]:  # type: ignore[override]
@@ -112,48 +109,35 @@ class Row(Statement):
         """The closed forms as lines of plain text."""
         return [line for form in self.exact_forms.values() for line in form.lines(room)]
 
-    def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
-        """Rule on a candidate for one of the closed forms."""
-        return [*self.exact_forms.values()][part].rule_on(candidate)
-
-    @property
-    def where(self) -> Where:
-        """The domain of the first closed form."""
-        return next(iter(self.exact_forms.values())).where
-
-    @property
-    def claims(self) -> tuple[Claim, ...]:  # type: ignore[override]
-        """Further statements, decided from the closed forms."""
-        return tuple(
-            Claim(words, partial(decide, self.exact_forms)) for words, decide in self.claimed
-        )
-
-    def steps(self) -> Lines:  # type: ignore[override]
-        """A line for each formula and part of its domain."""
-        return self._steps
-
     @cached_property
-    def _steps(self) -> Lines:
-        lines = Lines(self.where)
+    def claims(self) -> tuple[tuple[str, Ruling], ...]:
+        """Further statements, and what is found of them."""
+        return tuple((words, decide(self.exact_forms)) for words, decide in self.claimed)
+
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """What the kernel proves of it, one theorem for each formula and part of its domain."""
+        return tuple(step.theorem for step in self.proof)
+
+    def steps(self) -> Steps:  # type: ignore[override]
+        """A step for each formula and part of its domain."""
+        steps = Steps(self.number, self.domain)
         for form in self.exact_forms.values():
-            by = _by(form)
-            for formula in form.formulas:
-                for part in formula.where:
-                    lines.show(
-                        f"For {in_words(part) or form.domain}:",
-                        equation(form.quantity, formula.value.to_sympy()),
-                        by,
-                        where=form.where.also(*part),
-                        meaning={form.quantity: form.meant},
-                    )
-        return lines
+            whole = form.kernel_domain
+            for theorem in theorems(form.statistic, whole, *form.groups):
+                part = theorem.domain.relations[len(whole.relations) :]
+                shown = form.quantity if form.divisor == 1 else form.divisor * form.quantity
+                steps.show(
+                    f"For {in_words(part) or form.domain}:",
+                    equation(shown, theorem.formula.rhs),
+                    same(theorem),
+                    theorem.domain,
+                    {shown: form.statistic},
+                )
+        return steps
 
 
 copyreg.pickle(Row, pickled)
-
-
-def _by(form: ClosedForm) -> By:
-    return closed(lambda: form.theorems, *form.facts)
 
 
 # what may be claimed of the form of some name
@@ -166,7 +150,7 @@ def leads(name: str, *terms: sympy.Expr) -> Decide:
     """The highest powers of M at fixed z come with these terms."""
 
     def decide(forms: Forms) -> Ruling:
-        return same(forms[name].leading(len(terms)), sympy.Add(*terms))
+        return are_same(forms[name].leading(len(terms)), sympy.Add(*terms))
 
     return decide
 
@@ -179,14 +163,16 @@ def goes_as(
     at: Values | None = None,
 ) -> Decide:
     """On a part of the domain, other symbols put in, the highest power has this value."""
-    return lambda forms: same(highest(forms[name].on(*where).xreplace(at or {}), growing), value)
+    return lambda forms: are_same(
+        highest(forms[name].on(*where).xreplace(at or {}), growing), value
+    )
 
 
 def averages_to(name: str, value: sympy.Expr) -> Decide:
     """That is the mean of the leading order over all heights, 0 < z < 1."""
 
     def decide(forms: Forms) -> Ruling:
-        return same(sympy.integrate(sympy.expand(forms[name].leading(1)), (z, 0, 1)), value)
+        return are_same(sympy.integrate(sympy.expand(forms[name].leading(1)), (z, 0, 1)), value)
 
     return decide
 
@@ -204,10 +190,12 @@ def equals(
         form = forms[name]
         function = form.function.put_in(at or {}).part(*where)
         if isinstance(value, sympy.Expr):
-            return statistics.decide(function, form.where, value)
-        number, other = value if isinstance(value, tuple) else ("", value)
-        there = load(number).exact_forms[other] if number else forms[other]
-        apart = function.weights - there.function.weights.scaled(FIELD.from_sympy(factor))
+            other = PiecewiseFunction.of(value, form.kernel_domain.also(*where))
+        elif isinstance(value, tuple):
+            other = load(value[0]).exact_forms[value[1]].function
+        else:
+            other = forms[value].function
+        apart = function.weights - other.weights.scaled(FIELD.from_sympy(factor))
         return ruled(apart.on(function.points).is_zero(), f"{text(form.quantity)} is another one")
 
     return decide
@@ -256,7 +244,7 @@ def has_sign(name: str, expected: int, *where: sympy.Basic, at: Values | None = 
 
     def decide(forms: Forms) -> Ruling:
         value = forms[name].on(*where).xreplace(at or {})
-        return _has_sign(value, expected, *(at or {}))
+        return _has_sign(value, expected, sets.where(*(symbol >= 0 for symbol in at or ())))
 
     return decide
 
@@ -271,12 +259,12 @@ def highest(value: sympy.Expr, symbol: sympy.Symbol) -> sympy.Expr:
     return symbol ** (above.degree() - below.degree()) * above.LC() / below.LC()
 
 
-def _has_sign(value: sympy.Expr, expected: int, *nonnegative: sympy.Symbol) -> Ruling:
-    found = sign(value, nonnegative=nonnegative)
+def _has_sign(value: sympy.Expr, expected: int, points: sets.Set = sets.EVERYTHING) -> Ruling:
+    found = sign(FIELD.from_sympy(value), points)
     return ruled(found == expected, f"{text(value)} has the sign {found or 'of no kind'}")
 
 
-def same(found: sympy.Expr, value: sympy.Expr) -> Ruling:
+def are_same(found: sympy.Expr, value: sympy.Expr) -> Ruling:
     """Rule on a value for what was found."""
     apart = sympy.cancel(sympy.together(found - value))
     return ruled(bool(apart == 0), f"{text(found)} is true")
