@@ -20,7 +20,7 @@ from .weights import Weights
 Relations = tuple[sympy.Basic, ...]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Formula:
     """A formula, and where it holds.
 
