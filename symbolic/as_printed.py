@@ -62,6 +62,8 @@ def bits(tree: sympy.Basic) -> int:
             length = sum(int(part).bit_length() for part in (node.p, node.q))
         elif isinstance(node, sympy.Pow) and isinstance(node.exp, sympy.Rational):
             length = parts[0] * max(1, -(-abs(int(node.exp.p)) // int(node.exp.q)))
+        elif isinstance(node, sympy.Piecewise):  # each alternative is read by itself
+            length = max(parts)
         else:
             length = 8 + sum(parts)
         found[id(node)] = length

@@ -59,24 +59,27 @@ class PiecewiseFunction:
         expression: sympy.Expr,
         domain: Where,
         *groups: Group,
+        divisor: sympy.Expr = sympy.S.One,
         values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
     ) -> "PiecewiseFunction":
-        """An expression in moments on a domain.
+        """An expression in moments on a domain, over a number that depends on no index.
 
         Args:
             expression: in means, variances and covariances.
             domain: of its indices, with the load.
             groups: theorems that give quantities in the radii, put in one after the other.
+            divisor: that number.
             values: of parameters, of which the theorems hold whatever they are.
 
         Raises:
             NotExactError: what it is of is not linear, or not given by the radii.
         """
-        own = names_for(expression)
+        own = names_for(expression, divisor)
         form = worked_out(expression.xreplace(own), domain, groups)
         if {*form.parts} - {NUMBER}:
             raise NotExactError("it holds what belongs to single beads")
-        weights = form.parts.get(NUMBER, Weights())
+        inverse = FIELD.one / FIELD.from_sympy(divisor.xreplace(own))
+        weights = form.parts.get(NUMBER, Weights()).scaled(inverse)
         weights = weights.having({s: FIELD.constant(n) for s, n in (values or {}).items()})
         return cls(weights, domain.points, domain.straight, own)
 
@@ -113,11 +116,6 @@ class PiecewiseFunction:
         """The same with other numbers for symbols that are no indices."""
         values = {symbol: FIELD.from_sympy(one) for symbol, one in image.items()}
         return replace(self, weights=self.weights.having(values))
-
-    def over(self, divisor: sympy.Expr) -> "PiecewiseFunction":
-        """The same over a number that is no function of indices."""
-        own = divisor.xreplace(dict(self.constants))
-        return replace(self, weights=self.weights.scaled(FIELD.one / FIELD.from_sympy(own)))
 
     def on(self, *relations: sympy.Basic) -> RationalFunction:
         """Its formula on a part of its domain, where it is one.

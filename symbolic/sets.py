@@ -180,6 +180,11 @@ def _row(constraint: Any) -> Row:
     return factors, constraint.get_constant_val().to_python()
 
 
+def depends_on(points: Set, symbol: sympy.Symbol) -> bool:
+    """Whether conditions on a symbol say what is in a set."""
+    return bool(points.involves_dims(_DIM, DIMENSIONS.index(symbol), 1))
+
+
 Interval = tuple[int | None, int | None]
 """The least and the largest value of a form; None where there is none."""
 

@@ -50,7 +50,7 @@ from .arrays import evaluate
 from .deciding import decided
 from .evaluation import ArgumentError, Number, in_order, read_arguments, rounded, told
 
-_GEOMETRY = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing}
+_ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
 _HIGH = 30  # lines of a display that fits a page of usual classes
@@ -141,8 +141,9 @@ class ClosedForm:
         Raises:
             NotExactError: what it is of is not linear, or not given by the radii.
         """
-        whole = PiecewiseFunction.of(self._statistic, self._on, *self.groups, values=self._values)
-        return whole.over(self._divisor) if self._divisor != 1 else whole
+        return PiecewiseFunction.of(
+            self._statistic, self._on, *self.groups, divisor=self._divisor, values=self._values
+        )
 
     @property
     def formulas(self) -> tuple[Formula, ...]:
@@ -486,7 +487,9 @@ class ClosedForm:
     def _rule_on(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Ruling:
         if candidate.lhs not in (self._quantity, self._statistic):
             return undecided(f"it is not about {text(self._quantity)}")
-        known = {*self._on.indices, *self._statistic.free_symbols, *self._needed, sy.z, *_GEOMETRY}
+        known = {*self._on.indices, *self._statistic.free_symbols, *self._needed, *_ALWAYS_KNOWN}
+        if {sy.j, sy.M} <= known:
+            known.add(sy.z)
         for symbol in by_name(candidate.rhs.free_symbols - known):
             return not_a_statement(
                 strange_symbol(symbol, known)

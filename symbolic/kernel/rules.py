@@ -73,7 +73,7 @@ def rewrite(*groups: Group) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         apart = difference(read(formula, domain, groups), domain)
         if not all(form.is_zero() for form in apart):
-            raise refuse(apart, domain, groups)
+            raise refuse(apart, domain, groups, formula)
         return made(formula, domain, "rewrite", flat(groups))
 
     return rule

@@ -394,8 +394,10 @@ def difference(sides: Sides, domain: Domain) -> tuple[Form, ...]:
     return tuple((a - b).on(domain.points).merged() for a, b in zip(left, right, strict=True))
 
 
-def refuse(apart: Sequence[Form], domain: Domain, groups: Groups = ()) -> NotProvedError:
-    """Why two sides that differ are not equal: that they differ somewhere, or may do so.
+def refuse(
+    apart: Sequence[Form], domain: Domain, groups: Groups = (), formula: sympy.Basic = sympy.S.Zero
+) -> NotProvedError:
+    """Why two sides of a formula that differ are not equal: that they do somewhere, or may.
 
     Radii are independent. What holds nothing else, but for the force of one contact that acts, is
     false where a weight differs.
@@ -408,7 +410,8 @@ def refuse(apart: Sequence[Form], domain: Domain, groups: Groups = ()) -> NotPro
             for key, weights in form.parts.items():
                 for points, value in weights.pieces:
                     if where := witness(points, value, domain):
-                        return FalseStatementError(_at_odds(key, where))
+                        own = {there: one for one, there in names_for(formula).items()}
+                        return FalseStatementError(_at_odds(key, where, own))
     return NotProvedError("the normal forms of both sides differ")
 
 
@@ -424,17 +427,24 @@ def witness(
         for at in sets.samples(part):
             numbers = {one: sympy.Integer(number) for one, number in at.items()}
             held = {s: FIELD.constant(number) for s, number in numbers.items() if value.holds(s)}
+            straight = domain.straight.image
+            if value.holds(sy.H_M):
+                height = straight.get(sy.M, sy.M).xreplace(numbers)
+                held[sy.H_M] = FIELD.constant(sympy.harmonic(height))
             there = value.substitute(held)
             if not there.is_zero():
-                straight = domain.straight.image
-                indices = {one: straight.get(one, one).xreplace(numbers) for one in domain.indices}
+                indices = {
+                    one: straight.get(one, one).xreplace(numbers)
+                    for one in domain.indices
+                    if value.holds(one) or sets.depends_on(part, one)
+                }
                 return indices, {s: numbers[s] for s in SITE}, there.reduced().to_sympy()
     return None
 
 
-def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr]) -> str:
-    """How two sides differ at a point, in words."""
-    indices, site, value = where
+def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> str:
+    """How two sides differ at a point, in words, with a user's own symbols."""
+    indices, site, value = where[0], where[1], where[2].xreplace(dict(own))
     at = ", ".join(f"{text(symbol)} = {number}" for symbol, number in indices.items())
     if any(name == RADII[0][0] for name, _ in key):
         first, second, *_ = site.values()

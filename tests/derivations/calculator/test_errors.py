@@ -135,7 +135,7 @@ def test_discs_and_spheres() -> None:
     for axis in (0, 4, i):
         with pytest.raises(ObservableError, match="1, 2 and 3 are there"):
             fd.variance(f_along(axis, i, j, k), dimension=3)
-    with pytest.raises(ObservableError, match="second order are not known in three dimensions"):
+    with pytest.raises(ObservableError, match="that is not known in three dimensions"):
         fd.mean(f_along(1, i, j, k), order=2, dimension=3)
 
 
@@ -146,7 +146,7 @@ def test_orders(order: Any) -> None:
 
 
 def test_second_order() -> None:
-    with pytest.raises(ObservableError, match="the power 5 of f⁺_ij is not read: 1 to 4 are"):
+    with pytest.raises(ObservableError, match="the power 5 of f⁺_ij is not read: up to 4 are"):
         fd.mean(FORCE**5, order=2)
     with pytest.raises(ObservableError, match="divides by what depends on the radii"):
         fd.mean(1 / FORCE, order=2)
@@ -234,7 +234,13 @@ def test_where_no_bead_is() -> None:
 
 
 def test_division_by_zero() -> None:
-    form = fd.mean(FORCE / (M - 2 * j))
-    assert form.at(M=5, j=2) == 1
+    with pytest.raises(ObservableError, match="the divisor M − 2 j may be zero"):
+        fd.mean(FORCE / (M - 2 * j))
+    assert fd.mean(FORCE / (M - 2 * j), where=2 * j <= M - 1).at(M=5, j=2) == 1
+    a = own("a")
+    form = fd.mean(FORCE / (a - 1))
+    assert form.at(M=5, j=2, a=3) == sympy.Rational(1, 2)
     with pytest.raises(ArgumentError, match="it has no value there: it divides by 0"):
-        form.at(M=4, j=2)
+        form.at(M=5, j=2, a=1)
+    with pytest.raises(ObservableError, match="divides by 0 under this load"):
+        fd.mean(FORCE / (1 - t), load=fd.leaning(1))
