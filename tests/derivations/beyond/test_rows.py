@@ -71,8 +71,9 @@ def changed(form: ClosedForm, everywhere: bool) -> ClosedForm:
     more = FIELD.from_sympy(t * (M * l) ** 6 * sigma**2 / r**2)
     wrong = function.weights.scaled(FIELD.constant(-3)) + Weights(((whole, more),))
     return ClosedForm(
-        form.quantity, replace(function, weights=wrong), form.where, form.premises, form.meant
-    )
+        form.quantity, form.statistic, form.kernel_domain, lambda: form.groups,
+        divisor=form.divisor, function=replace(function, weights=wrong),
+    )  # fmt: skip
 
 
 def refutations(decide: Any, forms: dict[str, ClosedForm]) -> Iterator[bool]:

@@ -74,20 +74,20 @@ def certify(name: str, form: fd.ClosedForm) -> int:
 
 def truth(name: str, form: fd.ClosedForm) -> Callable[[Point], fmpq]:
     """What a form stands for, in an exact packing."""
-    loading = form.where.loading.name if form.where.loading else "surface"
+    loading = form.kernel_domain.loading.name if form.kernel_domain.loading else "surface"
     load = next(kind for kind in ("surface", "bulk", "point") if loading.startswith(kind))
-    order = 2 if form.meant.has(sy.Shift) else 1
+    order = 2 if form.statistic.has(sy.Shift) else 1
 
     def packing(at: Point) -> Packing | Spheres:
         numbers: dict[sympy.Symbol, Any] = {sy.i: at.get(sy.j, 0) % 2, **at}
         height = at[sy.l] if load == "point" else at.get(sy.M, at.get(sy.j, 0) + 1)
-        if form.where.dimension == 3:
+        if form.kernel_domain.dimension == 3:
             ratios = RATIOS if "leaning" in loading else (Fraction(1), Fraction(1))
             return Spheres(height, PHI, load, ratios, numbers)
         ratio = Fraction(1) if loading in ("surface", "bulk", "point") else RATIOS[0]
         return Packing(height, N_XY, load, ratio, numbers, order)
 
-    if not form.meant.has(sy.Moment):  # Eq. 15: an average over the layers
+    if form.statistic.has(sympy.Sum):  # Eq. 15: an average over the layers
         layers = {"surface": fd.equation(13), "bulk": fd.equation(14)}[name].exact()
         of_layer = truth("layer", layers)
 
@@ -96,7 +96,8 @@ def truth(name: str, form: fd.ClosedForm) -> Callable[[Point], fmpq]:
             return sum(every, fmpq(0)) / at[sy.M]
 
         return average
-    return lambda at: packing(at).moment(form.meant)
+    divisor = exact(form.divisor.xreplace({s: sympy.Rational(n) for s, n in NUMBERS.items()}))
+    return lambda at: packing(at).moment(form.statistic) / divisor
 
 
 # points that tell polynomials of a degree apart
@@ -137,8 +138,8 @@ class Places:
                 across = symbol in (sy.i, sy.k, sy.p, sy.q)
                 ranges.append(np.arange(-far if across else 0, far + 1))
         grid = np.stack(np.meshgrid(*ranges, indexing="ij"), -1).reshape(-1, len(ranges))
-        grid = grid[self._meeting(grid, self._form.where.relations)]
-        for form in self._form.where.even:
+        grid = grid[self._meeting(grid, self._form.kernel_domain.relations)]
+        for form in self._form.even:
             if form.free_symbols <= {*self._symbols}:
                 grid = grid[self._values(grid, form) % 2 == 0]
         return grid[np.argsort(abs(grid).sum(axis=1), kind="stable")]

@@ -73,9 +73,10 @@ def others(form: fd.ClosedForm) -> dict[str, Any]:
 
 def is_inside(form: fd.ClosedForm, at: dict[str, int]) -> bool:
     values = {form.symbols[name]: number for name, number in at.items()}
-    relations = [one.subs(values) for one in form.where.relations]
-    even = [one.subs(values) for one in form.where.even]
-    return sympy.false not in relations and not any(
+    relations = [one.subs(values) for one in form.kernel_domain.relations]
+    even = [one.subs(values) for one in form.even]
+    relations += [values[one] >= 1 for one in values if one.is_positive]
+    return not {sympy.false, False} & {*relations} and not any(
         one.is_Integer and one % 2 for one in map(sympy.sympify, even)
     )
 
