@@ -121,7 +121,7 @@ class Statistics(Reader):
 def worked_out(expression: sympy.Expr, domain: Domain, groups: tuple[Group, ...]) -> Form:
     """An expression in moments as a form, on a domain at finite size."""
     reader = Statistics.on(domain, groups)
-    return reader.number(expression).on(reader.points)
+    return reader.number(expression).on(reader.points).merged()
 
 
 def moment(*groups: Group, on: Domain | None = None) -> Rule:
