@@ -165,10 +165,27 @@ def _form(expression: sympy.Expr, facts: Facts, where: Where) -> Form:
         reader = Statistics.on(finite, flat(facts))
         form = reader.in_radii(_at_height(expression, where))
         free = {sy.i, sy.k, sy.site_r} & {*where.indices}
-        held = set().union(*(one.free_symbols for one in where.relations))
-        return form.at(dict.fromkeys(free - held, sympy.S.Zero)).merged()
+        free -= set().union(*(one.free_symbols for one in where.relations))
+        _check_along_layers(expression, free)
+        return form.at(dict.fromkeys(free, sympy.S.Zero)).merged()
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None
+
+
+def _check_along_layers(expression: sympy.Expr, free: set[sympy.Symbol]) -> None:
+    """That only the sites hold a place across the packing, and all move with it.
+
+    Raises:
+        NotProvedError: some don't.
+    """
+    sites = expression.atoms(sy.SiteFunction)
+    across = [sympy.expand(one.args[0]).as_coefficients_dict() for one in sites]
+    moving = {tuple((s, one[s]) for s in by_name(free) if one[s] != 0) for one in across}
+    bare = expression.xreplace({one: sympy.Dummy() for one in sites})
+    together = len(moving) <= 1 and all(len(one) <= 1 for one in moving)
+    if bare.free_symbols & free or not together:
+        found = by_name(expression.free_symbols & free)
+        raise NotProvedError(f"{text(found[0])} neither grows nor is fixed")
 
 
 def _difference(formula: sympy.Eq, facts: Facts, where: Where) -> Weights:
