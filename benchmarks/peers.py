@@ -1,7 +1,7 @@
 """What the sweeps are compared with: the same problem solved by other means.
 
-``force_balance`` writes Eq. 6 of a whole packing as one linear system, for sparse and dense
-solvers. All of it serves the benchmarks only.
+``force_balance`` writes Eq. 6 of a whole packing as one linear system, for sparse solvers. All of
+it serves the benchmarks only.
 """
 
 from collections.abc import Callable, Sequence
@@ -41,11 +41,11 @@ class Problem:
         """All beads."""
         return whole(self.width, self.height)
 
-    def radii(self, system: NumberSystem = FLOAT64, realisations: int = 1) -> Sequence[Array]:
+    def radii(self, system: NumberSystem = FLOAT64) -> Sequence[Array]:
         """δr/r, layer by layer; the same numbers in every system."""
         source = DrawnRadii("uniform", self.relative_std, SEED, self.width)
         with system.active():
-            return rows_of(source, self.region.rows, range(realisations), system)
+            return rows_of(source, self.region.rows, range(1), system)
 
     def loads(self, system: NumberSystem = FLOAT64) -> Loads:
         """The surface load."""
@@ -53,11 +53,9 @@ class Problem:
         with system.active():
             return spec.on(self.region.rows, spec.strength(self.n_x, system), system)
 
-    def solver(
-        self, system: NumberSystem = FLOAT64, realisations: int = 1
-    ) -> Callable[[], tuple[SolvedPacking, Forces]]:
+    def solver(self, system: NumberSystem = FLOAT64) -> Callable[[], tuple[SolvedPacking, Forces]]:
         """Give a function that solves it from the radii, by NumPy."""
-        region, rho, loads = self.region, self.radii(system, realisations), self.loads(system)
+        region, rho, loads = self.region, self.radii(system), self.loads(system)
         phi = cosine(self.n_x)
 
         def solve() -> tuple[SolvedPacking, Forces]:
@@ -68,15 +66,15 @@ class Problem:
         return solve
 
     def compiled(
-        self, realisations: int = 1, *, again: bool = False, carried: bool = False
+        self, *, again: bool = False, carried: bool = False
     ) -> Callable[[], tuple[SolvedPacking, Forces]]:
         """Give a function that solves it by compiled loops; ``again``: in memory that stays."""
         from force_diffusion.numeric.mechanics.passes import Deposition, Descent
         from force_diffusion.numeric.mechanics.sweeps import tell
 
         region, phi = self.region, cosine(self.n_x)
-        rho = np.zeros((realisations, 1 + carried, region.beads))
-        rho[:, 0] = np.concatenate(self.radii(realisations=realisations), axis=-1)
+        rho = np.zeros((1, 1 + carried, region.beads))
+        rho[:, 0] = np.concatenate(self.radii(), axis=-1)
         loads = self.loads(CARRYING if carried else FLOAT64)
 
         def parts() -> tuple[Deposition, Descent]:
@@ -124,8 +122,8 @@ def directions(solved: SolvedPacking, n: tuple[Any, Any]) -> Directions:
     ]
 
 
-def force_balance(N: Directions, one: Any = 1.0) -> Balance:
-    """Assemble the linear system of a surface load; ``one`` in the arithmetic of ``N``."""
+def force_balance(N: Directions) -> Balance:
+    """Assemble the linear system of a surface load."""
     height, width = len(N), len(N[0][0])
     q = np.arange(width)
     rows, columns, values = [], [], []
@@ -142,7 +140,7 @@ def force_balance(N: Directions, one: Any = 1.0) -> Balance:
                 columns.append(own + contact)
                 values.append(-force)
     right = np.zeros(2 * width * height, dtype=N[0][0].dtype)
-    right[1 : 2 * width : 2] = one
+    right[1 : 2 * width : 2] = 1
     return Balance(np.concatenate(rows), np.concatenate(columns), np.concatenate(values), right)
 
 

@@ -60,7 +60,7 @@ def _is_mathematics(word: str) -> bool:
     """Whether a word is a symbol or a formula rather than English."""
     if re.fullmatch(r"[b-zB-HJ-Z]", word.strip("()[]")):
         return True
-    if re.fullmatch(r"[BT]\d+", word):  # the name of an equation or of a theorem
+    if re.fullmatch(r"B\d+", word):  # the label of an equation
         return False
     if _ARGUMENT.match(word):
         return True

@@ -359,10 +359,12 @@ class ClosedForm:
 
     def _shown(self, formulas: Sequence[Formula], columns: int) -> str:
         """LaTeX of some of its formulas."""
-        room, below = column_width(columns), _with_commas(self._domain(words.LATEX), "for")
+        room, domain = column_width(columns), self._domain(words.LATEX)
+        below = _with_commas(domain, "for")
         if len(formulas) == 1:
             (piece,) = formulas
-            below = [*_alternatives(piece.where, "if"), *below]
+            if alternatives := _alternatives(piece.where, "if"):
+                below = [*alternatives, *_with_commas(domain, " for")]
             line = equation(self._quantity, piece.value.to_sympy())
             return latex_body((line,), room=room, below=below)
         factor, values = self._over_common

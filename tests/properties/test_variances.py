@@ -6,12 +6,12 @@ from functools import lru_cache
 
 import pytest
 import sympy
-from force_diffusion.symbolic.symbols import M, f_load, i, j, sigma, z
+from force_diffusion.symbolic.symbols import M, f_load, j, sigma, z
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.properties.drawn import cosines, exactly, lengths, packings, solved
+from tests.properties.drawn import cosines, exactly, lengths
 from tests.properties.one_radius import (
     QUOTIENT_ROUNDING,
     left_out,
@@ -20,7 +20,7 @@ from tests.properties.one_radius import (
     one_larger_each,
     variance,
 )
-from tests.properties.orders import ROUNDING, STRENGTHS, falls, holds_to_first_order, printed
+from tests.properties.orders import ROUNDING, STRENGTHS, falls, printed
 from tests.properties.packing import Number, Packing, mp
 from tests.properties.reading import Plane
 
@@ -93,36 +93,13 @@ def test_eq_12_leaves_out_one_order_of_the_height(line: Line) -> None:
         leaves_out_order_two(equation, line)
 
 
-@pytest.mark.parametrize("number", [13, 14])
-@given(data=st.data())
-def test_each_radius_has_the_weight_that_the_exact_form_is_made_of(
-    number: int, data: st.DataObject
-) -> None:
-    """The step that says "every radius once, with its weight", for 2 ≤ j ≤ M − 2."""
-    drawn = data.draw(packings(LOADS[number], height=4))
-    (step,) = (one for one in fd.equation(number).steps() if "every radius once" in one.reason)
-    packing = solved(drawn, mp.mpf(0)).packing
-    means = [one for one in step.formula.free_symbols if one.name == "mean_force"]
-    holds_to_first_order(
-        step.formula,
-        drawn,
-        (
-            {i: a, j: b}
-            | {one: mean_force(packing, LOADS[number], exactly(drawn.weight), b) for one in means}
-            for a, b in drawn.contacts()
-            if 2 <= b <= drawn.height - 2
-        ),
-    )
-
-
 # Eqs. 13 and 14: variances
 
 
 def exact_form(number: int, height: int, layer: int) -> sympy.Expr:
     """The exact variance of a layer, as the package has it."""
-    edges = {0: "base", height - 1: "surface"} | ({1: "base+1"} if height > 2 else {})
-    form = fd.equation(number).exact(edges.get(layer, "interior"))
-    return form.missed.get(f"M = {height}, j = {layer}", form.rhs)
+    form = fd.equation(number).exact().expr
+    return next(value for value, where in form.args if where.xreplace({M: height, j: layer}))
 
 
 @pytest.mark.parametrize("number", [13, 14])
@@ -133,8 +110,8 @@ def test_the_exact_variance_is_the_sum_of_squared_weights(
 ) -> None:
     """In every layer and of both contacts.
 
-    Times M − j the sum is, in the interior, a polynomial in M and j of degree four at most, as the
-    weights are such of lower degree; its 15 values at 4 ≤ M ≤ 8, 2 ≤ j ≤ M − 2 determine it.
+    Times M − j the sum is, for 2 ≤ j ≤ M − 2, a polynomial in M and j of degree four at most, as
+    the weights are such of lower degree; its 15 values at 4 ≤ M ≤ 8, 2 ≤ j ≤ M − 2 determine it.
     """
     for layer in range(height):
         for name in ("ForcePlus", "ForceMinus"):
@@ -171,7 +148,7 @@ def is_the_leading_order(number: int) -> Callable[[sympy.Eq, Deep], None]:
         for scale in HEIGHTS:
             top = scale * height.denominator
             at = {M: top, j: int(height * top), z: exactly(height), sigma: exactly(sd)}
-            exact = plane.read(fd.equation(number).exact("interior").rhs, at)
+            exact = plane.read(fd.equation(number).exact().pieces[0].expr, at)
             left, right = (
                 plane.read(side, {**at, printed(number)[0].lhs: exact}) for side in equation.args
             )

@@ -15,7 +15,7 @@ from tests.soundness.attacks.every import succeeded
 RULES = {
     "statement", "rewrite", "follows", "along", "order", "solve", "below", "cases", "instance",
     "in_terms_of", "mirror", "suppose", "induct", "reach", "walk", "inverse", "differentiate",
-    "moment", "mean_below", "asymptotic", "bounded", "negligible", "heaviest", "slope", "total",
+    "moment", "asymptotic", "bounded", "negligible", "heaviest", "slope", "total",
     "expansion", "proportional", "unit_height", "restated", "integral", "mean_of_roots", "tensile",
     "density", "disproof",
 }  # fmt: skip

@@ -8,8 +8,6 @@ import gc
 from collections.abc import Iterator
 from functools import _lru_cache_wrapper, cached_property
 
-import sympy
-from force_diffusion.derivations.framework.exactly import in_whole_numbers
 from force_diffusion.derivations.framework.record import Derivation, KernelError
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
@@ -26,13 +24,11 @@ class FaultError(AssertionError):
 def source_of(derivation: Derivation, part: int) -> Source:
     """One of the printed equations, as other statements are made from it."""
     printed, where = derivation.printed[part], derivation.domain_of(part)
-    cases = derivation.exact() if derivation.exact else {}
     forms = (
-        Form(name, case.expression, any(isinstance(one, sympy.Eq) for one in case.domain))
-        for name, case in cases.items()
-        if case.quantity == printed.lhs
-        # at finite size, forms of other layers may be the same there, or not
-        and (where.limit or all(where.implies(in_whole_numbers(one)) for one in case.domain))
+        Form(f"{name}, {piece.domain}", piece.expr, place > 0)
+        for name, form in derivation.exact_forms.items()
+        if form.quantity == printed.lhs and where.limit
+        for place, piece in enumerate(form.pieces)
     )
     return Source(printed, derivation.relation, tuple(forms), where, derivation.dimension)
 

@@ -11,7 +11,6 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import affine
 from force_diffusion.symbolic.kernel.where import Where
-from force_diffusion.symbolic.mechanics.lattice import kappa_in
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.search.counterexample import counterexample
@@ -182,11 +181,6 @@ def _radii_for_delta(radii: Radii) -> Change:
     return lambda side: side.replace(sy.SecondDifference, radii)
 
 
-def _kappa(source: Source) -> sympy.Expr:
-    d = sy.d if sy.d in source.free else sympy.Integer(source.dimension)
-    return kappa_in(d)
-
-
 def definition(source: Source) -> Made:
     """True: what a symbol stands for is put in."""
     printed = source.printed
@@ -197,8 +191,6 @@ def definition(source: Source) -> Made:
         yield "Δ by radii", source.both(_radii_for_delta(_second_difference))
     if sy.f_load in source.free:
         yield "⟨f⟩ = f_load/2n_y put in", source.both(times(sy.f_load, over(2 * sy.n_y)))
-    if printed.has(sy.kappa):
-        yield "κ by its definition", source.both(put_in({sy.kappa: _kappa(source)}))
 
 
 def wrong_definition(source: Source) -> Made:
@@ -214,9 +206,6 @@ def wrong_definition(source: Source) -> Made:
         yield "Δ, two beads further", source.both(_radii_for_delta(_further))
     if sy.f_load in source.free:
         yield "⟨f⟩ = f_load/2n_x on one side", source.right(times(sy.n_y, over(sy.n_x)))
-    if printed.has(sy.kappa):
-        for image in (1 / _ONE_LESS**2, (1 + sy.phi) / (1 - sy.phi)):
-            yield "κ is something else", source.both(put_in({sy.kappa: image}))
     yield "s is not 4rn_y", source.right(times(sy.spacing, over(4 * sy.r * sy.n_y)))
     yield "s is not 2rn_x", source.right(times(sy.spacing, over(2 * sy.r * sy.n_x)))
 

@@ -89,17 +89,16 @@ for tried, most, bound, where, false, refused in (
      "does not hold all of"),
     ("weights that fall with the distance", LargestWeight(
         Sum(DeltaR(i - j + n, n) / (j - n), (n, 0, j - 1))), 1 / M, AT_ORDER,
-     "that of the bead below is 1", "divided by what depends on the layer"),
+     "that of the bead below is 1", "n stands in a denominator"),
     ("a share where two lines may be one",
      LargestShare(_line(i - j) - _line(i + 2 * q - j) + DeltaR(i - j + M, M)), 1 / M,
-     OTHER.in_the_limit(at_fixed_height("O")), "it is 1 for q = 0", "are one"),
+     OTHER.in_the_limit(at_fixed_height("O")), "it is 1 for q = 0",
+     "it is not one function in all of"),
     ("a weight over a layer", LargestWeight(along(1 / m)), 1 / M, AT_ORDER, "it is 1 at m = 1",
-     "a divisor vanishes"),
+     "m stands in a denominator"),
     ("a strength", LargestWeight(epsilon * HERE), 1, AT_ORDER, "it is no number",
-     "depends on the radii is not known"),
+     "neither grows nor is fixed"),
     ("a force", LargestWeight(ForcePlus(i, j)), 1, AT_ORDER, "it grows", "not given by the radii"),
-    ("two beads that may be one", LargestWeight(HERE - DeltaR(i + 2 * q, j)), 1,
-     OTHER.in_the_limit(at_fixed_height("O")), "it is 0 for q = 0", "may be one"),
 ):  # fmt: skip
 
     @attack("bounded", tried, false, refused)
@@ -122,10 +121,11 @@ for tried, left, right, where, false, refused in (
     ("half of it", F, 1 + LINE / 2, DROPPING, "a quarter of the variance is dropped",
      "what is dropped varies as the power 1"),
     ("all of it", F, 1, DROPPING, "all of the variance is dropped", "as the power 1"),
-    ("another mean", F, 2 + LINE, DROPPING, "the means are 1 and 2", "the means differ"),
+    ("another mean", F, 2 + LINE, DROPPING, "the means are 1 and 2",
+     "the means of both sides differ"),
     ("no force", 1 + LINE, 1 + LINE, DROPPING, "it says nothing", "not about one contact force"),
     ("a force that both sides hold", F, F + HERE, DROPPING, "f = f says nothing",
-     "not about one contact force"),
+     "of one order everywhere"),
     ("a large part that both sides hold", F + M * LINE, 1 + M * LINE, DROPPING,
      "all of the force is dropped", "as the power 1"),
     ("two forces", F, ForcePlus(i + 2, j) / f_load, DROPPING, "of which is it?",
@@ -135,9 +135,9 @@ for tried, left, right, where, false, refused in (
     ("another force, which is unknown", ForceMinus(i, j), f_load, DROPPING, "it fluctuates",
      "not given by the radii"),
     ("a force times a radius", F * HERE, HERE, DROPPING, "of which order is it?",
-     "product of two lattice"),
+     "a product of two quantities"),
     ("forces summed over", Sum(ForcePlus(i - j + m, m), (m, 2, j)), f_load * (j - 1), DROPPING,
-     "of which is it?", "not about one contact force"),
+     "of which is it?", "of one order everywhere"),
     ("a factor that vanishes at z = ½", F * (2 * j - M), (2 * j - M) * (1 + LINE), DROPPING,
      "it says nothing there", "of one order everywhere"),
     ("a factor that z makes vanish", F * (2 * z - 1), (2 * z - 1) * (1 + LINE), DROPPING,
@@ -173,7 +173,8 @@ for tried, left, right, where, false, refused in (
     ("nothing of nothing", HERE - HERE, 0, BY_WEIGHT, "there is none", "of the order of"),
     ("one that is not the largest everywhere", (2 * j - M) * HERE + DeltaR(i + 2, j),
      (2 * j - M) * HERE, BY_WEIGHT, "at z = ½ the other is", "of the order of"),
-    ("another mean", 1 + M * HERE, M * HERE, BY_WEIGHT, "1 is dropped", "the means differ"),
+    ("another mean", 1 + M * HERE, M * HERE, BY_WEIGHT, "1 is dropped",
+     "the means of both sides differ"),
     ("a weight of the order on the right alone", M * HERE, M * NEAR, BY_WEIGHT, "it is added",
      "of the order of"),
     ("one that is larger at φ = 0", M * HERE + STEEP * DeltaR(i + 2, j), M * HERE, BY_WEIGHT,
@@ -221,7 +222,7 @@ for tried, left, right, where, false, refused in (
     ("a part that is large at φ = 0", M + STEEP, M, HEIGHTS.in_the_limit(at_fixed_height("∼")),
      "it is M² there", "not shown to hold everywhere"),
     ("z in a fixed layer", M * z + 1, 2 * M * z, Where.of(Eq(j, M - 1), M >= 3).in_the_limit(
-     in_a_layer("∼")), "z M is M − 1 there", "of order 1"),
+     in_a_layer("∼")), "z M is M − 1 there", "left over right goes to 1/2"),
 ):  # fmt: skip
 
     @attack("asymptotic", tried, false, refused)

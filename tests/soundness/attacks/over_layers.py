@@ -7,7 +7,7 @@ from typing import Any
 
 import sympy
 from force_diffusion.symbolic.as_printed import equation, power, terms, times
-from force_diffusion.symbolic.kernel import averages, moments, rules
+from force_diffusion.symbolic.kernel import averages, rules, statistics
 from force_diffusion.symbolic.kernel.axioms import FORCE, GAUSSIAN_BELOW, GAUSSIAN_FORCES, SQUARE
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, made
 from force_diffusion.symbolic.kernel.where import (
@@ -63,7 +63,7 @@ def over_layers(term: Expr) -> Expr:
 
 def layer(weight: Expr, where: Where = LAYERS) -> Theorem:
     """That the variance of a radius times a weight is what it is."""
-    return told(moments.moment(), Variance(weight * HERE), weight**2 * VARIANCE, where)
+    return told(statistics.moment(), Variance(weight * HERE), weight**2 * VARIANCE, where)
 
 
 @cache
@@ -87,7 +87,7 @@ def _leading() -> Theorem:
 
 
 def _covariance(weight: Expr) -> Theorem:
-    return told(moments.moment(), Covariance(HERE, weight * HERE), weight * VARIANCE, LAYERS)
+    return told(statistics.moment(), Covariance(HERE, weight * HERE), weight * VARIANCE, LAYERS)
 
 
 HARMONIC = over_layers(Covariance(AT_M, AT_M / (M - m)))
@@ -462,12 +462,12 @@ RATIO = M / UnitHeight(FORCE_VARIANCE)
 
 @cache
 def _forces(mean: int = 1) -> Theorem:
-    return told(moments.moment(), Variance(mean + j * HERE), j**2 * VARIANCE, LAYERS)
+    return told(statistics.moment(), Variance(mean + j * HERE), j**2 * VARIANCE, LAYERS)
 
 
 @cache
 def _ones(mean: int = 1) -> Theorem:
-    return told(moments.moment(), Mean(mean + j * HERE), mean, LAYERS)
+    return told(statistics.moment(), Mean(mean + j * HERE), mean, LAYERS)
 
 
 @cache

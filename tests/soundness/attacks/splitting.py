@@ -1,16 +1,15 @@
-"""Attacks on moments and leading orders told case by case, and on disproofs."""
+"""Attacks on moments and leading orders, and on disproofs."""
 
 from collections.abc import Callable
 from dataclasses import replace
 
 import sympy
 from force_diffusion.symbolic.as_printed import equation
-from force_diffusion.symbolic.kernel import limits, moments, rules
+from force_diffusion.symbolic.kernel import limits, rules, statistics
 from force_diffusion.symbolic.kernel.disproofs import Disproof, other_leading_order
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Supposition, Theorem
 from force_diffusion.symbolic.kernel.where import (
     POINT,
-    SURFACE,
     Limit,
     Where,
     inside_cone,
@@ -19,7 +18,6 @@ from force_diffusion.symbolic.symbols import (
     Covariance,
     DeltaR,
     ForcePlus,
-    M,
     Mean,
     Variance,
     b_minus,
@@ -35,42 +33,29 @@ from force_diffusion.symbolic.symbols import (
 )
 from sympy import Eq
 
-from .attack import BEADS, HERE, ON_SURFACE, attack, told
+from .attack import BEADS, HERE, attack, only_supposed, told
 
 SQUARE = sigma**2
 TWO_LAYERS = Where.of(j >= 0, l >= 0, Eq(k, i))
 BOTH = HERE + DeltaR(k, l)
-APART = ((l >= j + 1,), (l <= j - 1,))
-"""All but the layers where both beads are one."""
 
 
-def in_cases(
-    left: sympy.Expr, right: sympy.Expr | int, where: Where, *parts: tuple[sympy.Basic, ...]
-) -> Theorem:
-    """What is proved of moments, case by case."""
-    return told(moments.moment(cases=parts), left, right, where)
-
-
-for tried, left, right, where, parts, false, refused in (
-    ("a case left out", Variance(BOTH), 2 * SQUARE, TWO_LAYERS, APART, "it is 4σ² for l = j",
-     "leave something"),
-    ("no case", Variance(BOTH), 0, TWO_LAYERS, (), "it is 2σ² at least", "leave something"),
-    ("a case that is not so", Variance(BOTH), 2 * SQUARE, TWO_LAYERS, (*APART, (Eq(l, j),)),
-     "it is 4σ² for l = j", "both sides differ"),
-    ("a case with one layer", Variance(BOTH), 2 * SQUARE, TWO_LAYERS.also(Eq(j, 2)),
-     ((l >= 3,), (l <= 1,), (Eq(l, 2),)), "it is 4σ² for l = 2", "both sides differ"),
-    ("a mean by cases", Mean(j + HERE), 2, BEADS, ((Eq(j, 2),), (j >= 3,), (j <= 1,)),
-     "it is j", "both sides differ"),
-    ("a covariance by cases", Covariance(HERE, DeltaR(k, l)), 0, TWO_LAYERS,
-     (*APART, (Eq(l, j),)), "it is σ² for l = j", "both sides differ"),
-    ("another side than a number", Variance(HERE), SQUARE + DeltaR(i, j), BEADS, ((),),
-     "radii differ", "both sides differ"),
-    ("too many moments", sum(Variance(n * HERE) for n in range(1, 12)), 0, BEADS, ((),),
-     "they are positive", "not"),
-    ("a vector, along n⁺", Mean(2 + HERE) * n_plus, 2 * n_plus + b_plus, BEADS, ((),),
-     "they differ along n⁺", "no vector"),
-    ("a vector, along n⁻", Mean(2 + HERE) * n_plus, 2 * n_plus + b_minus, BEADS, ((),),
-     "they differ along n⁻", "no vector"),
+for tried, left, right, where, false, refused in (
+    ("layers that may be one", Variance(BOTH), 2 * SQUARE, TWO_LAYERS, "it is 4σ² for l = j",
+     "l = 0 the true value less this one is 2 σ_δr²"),
+    ("layers that may be one, at one height", Variance(BOTH), 2 * SQUARE, TWO_LAYERS.also(Eq(j, 2)),
+     "it is 4σ² for l = 2", "at i = 2, j = 2, k = 2, l = 2"),
+    ("a mean of one layer", Mean(j + HERE), 2, BEADS, "it is j", "at j = 0 the true value"),
+    ("a covariance of layers that may be one", Covariance(HERE, DeltaR(k, l)), 0, TWO_LAYERS,
+     "it is σ² for l = j", "the true value less this one is σ_δr²"),
+    ("another side than a number", Variance(HERE), SQUARE + DeltaR(i, j), BEADS, "radii differ",
+     "different weights of single beads"),
+    ("many moments", sum(Variance(n * HERE) for n in range(1, 12)), 0, BEADS, "they are positive",
+     "the true value less this one is 506 σ_δr²"),
+    ("a vector, along n⁺", Mean(2 + HERE) * n_plus, 2 * n_plus + b_plus, BEADS,
+     "they differ along n⁺", "is a vector"),
+    ("a vector, along n⁻", Mean(2 + HERE) * n_plus, 2 * n_plus + b_minus, BEADS,
+     "they differ along n⁻", "is a vector"),
 ):  # fmt: skip
 
     @attack("moment", tried, false, refused)
@@ -78,49 +63,31 @@ for tried, left, right, where, parts, false, refused in (
         left: sympy.Expr = left,
         right: sympy.Expr | int = right,
         where: Where = where,
-        parts: tuple[tuple[sympy.Basic, ...], ...] = parts,
     ) -> object:
-        return in_cases(left, right, where, *parts)
-
-
-@attack("moment", "a whole under another load", "f⁺ is anything", "a part of the whole")
-def _() -> object:
-    top = Where.of(Eq(j, M), j >= 0)
-    rule = moments.moment(ON_SURFACE, whole=top.loaded(SURFACE))
-    return told(rule, Mean(2 + ForcePlus(i, j)), 2, top)
-
-
-@attack("moment", "a whole of other layers", "f⁺ is none of them", "a part of the whole")
-def _() -> object:
-    whole = Where.of(Eq(j, M), j >= 0, loading=SURFACE)
-    below = Where.of(j >= 0, j <= M, loading=SURFACE)
-    return told(moments.moment(ON_SURFACE, whole=whole), Mean(2 + ForcePlus(i, j)), 2, below)
+        return told(statistics.moment(), left, right, where)
 
 
 @attack("moment", "of what is supposed, elsewhere", "f⁺ is anything", "does not hold there")
 def _() -> object:
     supposed = rules.suppose(equation(ForcePlus(i, j), j), BEADS, Supposition(j), 0)
-    mean = told(moments.moment(supposed), Mean(ForcePlus(i, j)), j)
+    mean = told(statistics.moment(supposed), Mean(ForcePlus(i, j)), j)
     return rules.instance(mean, {j: j + 2}, BEADS)
 
 
-# leading orders on late parts, and with indices that equations give
+# leading orders with indices that equations give
 
 CONE = Where.of(Eq(k, i + p - q), Eq(l, j + p + q), j >= 0, p >= 1, q >= 1, loading=POINT)
 AT_CONE = CONE.in_the_limit(inside_cone("∼"))
 
-for tried, left, right, where, late, false, refused in (
-    ("a part that is not late", Variance(DeltaR(i + 2 * p, j) + DeltaR(i + 2 * q, j)), 4 * SQUARE,
-     AT_CONE, (Eq(p, q),), "it is 2σ² beside it", "does not hold all of"),
-    ("a part below the domain", j + 1, j + 2 * l, AT_CONE, (j <= 5,), "l grows",
+for tried, left, right, where, false, refused in (
+    ("an index that an equation gives", l + j, j + p, AT_CONE, "q grows",
+     "left over right goes to"),
+    ("an equation between what grows", l, 2 * p, AT_CONE.also(Eq(p, q)), "j grows",
      "does not hold all of"),
-    ("an index that an equation gives", l + j, j + p, AT_CONE, (), "q grows", "of order 1"),
-    ("an equation between what grows", l, 2 * p, AT_CONE.also(Eq(p, q)), (), "j grows",
+    ("an equation that stops what grows", l + j, l + 1, AT_CONE.also(Eq(j, 1)), "j grows",
      "does not hold all of"),
-    ("an equation that stops what grows", l + j, l + 1, AT_CONE.also(Eq(j, 1)), (), "j grows",
-     "does not hold all of"),
-    ("a place across", k - i, i, AT_CONE, (), "i may be anything", "neither grows nor is fixed"),
-    ("a side of the packing", k - i + l, l, AT_CONE.also(k >= i), (), "q may be less than p",
+    ("a place across", k - i, i, AT_CONE, "i may be anything", "neither grows nor is fixed"),
+    ("a side of the packing", k - i + l, l, AT_CONE.also(k >= i), "q may be less than p",
      "does not hold all of"),
 ):  # fmt: skip
 
@@ -129,9 +96,8 @@ for tried, left, right, where, late, false, refused in (
         left: sympy.Expr = left,
         right: sympy.Expr = right,
         where: Where = where,
-        late: tuple[sympy.Basic, ...] = late,
     ) -> object:
-        return told(limits.asymptotic(late=late), left, right, where)
+        return told(limits.asymptotic(), left, right, where)
 
 
 # disproofs
@@ -159,7 +125,6 @@ for tried, right, left, where, false, refused in (
     ("a statement at finite size", l + 3, l + 3, CONE, "it is true", "not one in a limit"),
     ("another limit", l, l + 3, CONE.in_the_limit(
      Limit("∼", "l → ∞ at fixed p and q", (j,), (j,))), "it is true there", "does not hold all"),
-    ("zero", l - l, l + 3, AT_CONE, "it is no statement", "division by zero"),
     ("what is no statement", 1 / (j - p), l + 3, AT_CONE, "it has no value at j = p",
      "not shown to differ"),
     ("an index that is left", l + i, l + 3, AT_CONE, "true at each i", "neither grows nor is"),
@@ -172,9 +137,7 @@ for tried, right, left, where, false, refused in (
 
 @attack("disproof", "by what is supposed", "it may be false", "only supposed")
 def _() -> object:
-    supposed = rules.suppose(equation(ForcePlus(k, l), 5 * l), CONE, Supposition(j), 0)
-    theorem = told(limits.asymptotic(supposed), ForcePlus(k, l), 5 * l, AT_CONE)
-    return disproved(theorem, l, ForcePlus(k, l))
+    return disproved(only_supposed(l + 3, 5 * l, AT_CONE), l)
 
 
 @attack("disproof", "by a theorem at finite size", "l ∼ l + 3", "about another")

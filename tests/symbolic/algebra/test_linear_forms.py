@@ -10,11 +10,6 @@ from force_diffusion.symbolic.algebra.affine import Region
 from force_diffusion.symbolic.algebra.exact import LAYER, NotExactError, RationalFunction
 from force_diffusion.symbolic.algebra.linear_forms import LinearForm
 from force_diffusion.symbolic.algebra.reading import Reader, UnsafeBoundsError, UnsafeDivisorError
-from force_diffusion.symbolic.algebra.weights import (
-    UndeterminedError,
-    sum_of_products,
-    take_apart,
-)
 from force_diffusion.symbolic.kernel.decisions import GEOMETRIES
 from hypothesis import given
 from hypothesis import strategies as st
@@ -66,30 +61,6 @@ def test_the_difference_of_equal_sums_is_zero(one: sympy.Expr, other: sympy.Expr
     assert (left - Reader(None).scalar(one)).is_zero()
 
 
-def test_a_site_that_may_lie_on_a_run_is_not_guessed() -> None:
-    """At j = 2 the single site lies on the run, at j > 2 it does not."""
-    expression = sympy.Sum(sy.DeltaR(sy.i - sy.j + sy.m, sy.m), (sy.m, 0, sy.j)) + sy.DeltaR(
-        sy.i + sy.j - 4, 0
-    )
-    form = Reader(None).scalar(expression)
-    with pytest.raises(UndeterminedError, match="lies on the line"):
-        take_apart(form, Region({sy.j: 2}))
-    apart = take_apart(form, Region({sy.j: 3})).sum_of_squares()
-    assert evaluate(apart, {sy.j: 5}) == 7
-    on_it = Reader(None).scalar(expression.xreplace({sy.j: sympy.Integer(2)}))
-    assert evaluate(take_apart(on_it, Region({})).sum_of_squares(), {}) == 6
-
-
-def test_parallel_lines_that_may_be_one_are_not_guessed() -> None:
-    lines = [
-        sympy.Sum(sy.DeltaR(start + sy.m, sy.m), (sy.m, 0, sy.j))
-        for start in (sy.i - sy.j, sy.i + sy.j - 4)
-    ]
-    form = Reader(None).scalar(lines[0] + lines[1])
-    with pytest.raises(UndeterminedError):
-        take_apart(form, Region({sy.j: 2}))
-
-
 @pytest.mark.parametrize(
     "divisor", [sy.j - 20, sy.M - sy.j - 3, sy.phi, 1 - 16 * sy.phi**2, 3 * sy.phi - 1]
 )
@@ -97,49 +68,6 @@ def test_what_is_divided_by_what_may_vanish_is_not_read(divisor: sympy.Expr) -> 
     quotient = sy.DeltaR(sy.i, sy.j) / divisor
     with pytest.raises(UnsafeDivisorError):
         Reader(REGION).scalar(quotient)
-
-
-@pytest.mark.long
-@given(expressions, points())
-def test_sum_of_squares(expression: sympy.Expr, point: Point) -> None:
-    form = Reader(None).scalar(expression)
-    try:
-        closed = take_apart(form, REGION).sum_of_squares()
-    except UndeterminedError:
-        return  # the region leaves an order open, which is said and never guessed
-    weights = explicit.weights(expression, {**VALUES, **point})
-    assert evaluate(closed, point) == sum((w**2 for w in weights.values()), Fraction(0))
-
-
-@pytest.mark.long
-@given(expressions, expressions, points(), st.booleans())
-def test_sum_of_products(
-    one: sympy.Expr, other: sympy.Expr, point: Point, is_variance: bool
-) -> None:
-    forms = [Reader(None).scalar(one)]
-    forms.append(forms[0] if is_variance else Reader(None).scalar(other))
-    try:
-        closed = sum_of_products(*forms, REGION)
-    except UndeterminedError:
-        return
-    left, right = (
-        explicit.weights(side, {**VALUES, **point}) for side in (one, one if is_variance else other)
-    )
-    total = sum((w * right.get(site, 0) for site, w in left.items()), Fraction(0))
-    assert evaluate(closed, point) == total
-
-
-@pytest.mark.parametrize("slope", [1, -1])
-def test_runs_that_share_some_layers_are_summed_over_these(slope: int) -> None:
-    """Layers 1 … j and 2 … M of one line, with weights 1 and the layer."""
-    lines = [
-        sympy.Sum(weight * sy.DeltaR(sy.i + slope * sy.m, sy.m), (sy.m, low, high))
-        for weight, low, high in ((sympy.Integer(1), 1, sy.j), (sy.m, 2, sy.M))
-    ]
-    found = sum_of_products(*map(Reader(None).scalar, lines), Region({sy.j: 3, sy.M: sy.j + 2}))
-    assert evaluate(found, {sy.j: 5, sy.M: 8}) == 2 + 3 + 4 + 5
-    with pytest.raises(UndeterminedError):  # which of the two ends first is open
-        sum_of_products(*map(Reader(None).scalar, lines), Region({sy.j: 2, sy.M: 2}))
 
 
 @pytest.mark.long

@@ -7,7 +7,7 @@ import pytest
 import sympy
 from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.as_printed import equation, power
-from force_diffusion.symbolic.kernel import averages, moments, rules
+from force_diffusion.symbolic.kernel import averages, rules, statistics
 from force_diffusion.symbolic.kernel.surds import surd
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.kernel.where import Where, at_large_height
@@ -24,7 +24,7 @@ HERE, AT = DeltaR(i, j), DeltaR(m, m)
 def of_layers(*parts: tuple[sympy.Expr, Where]) -> list[Theorem]:
     """Variances of a radius times a weight, layer by layer."""
     return [
-        moments.moment()(equation(Variance(one * HERE), one**2 * sigma**2), where)
+        statistics.moment()(equation(Variance(one * HERE), one**2 * sigma**2), where)
         for one, where in parts
     ]
 
@@ -67,7 +67,7 @@ def test_layers_may_be_given_in_any_order_and_overlap() -> None:
 
 
 def test_a_harmonic_sum_is_kept_whatever_the_way_it_is_written_in() -> None:
-    theorem = moments.moment()(
+    theorem = statistics.moment()(
         equation(Covariance(HERE, HERE / (M - j)), sigma**2 / (M - j)), LAYERS
     )
     left = Sum(Covariance(AT, AT / (M - m)), (m, 0, M - 1))

@@ -5,6 +5,8 @@ import re
 import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
 from force_diffusion.symbolic.printing.code import python_source, sympy_source
@@ -230,16 +232,18 @@ def test_a_broken_fraction_shows_no_stand_in() -> None:
 @pytest.mark.parametrize("number", list(modules()))
 def test_lines_put_together_are_the_formula(number: int | str, room: float) -> None:
     """Nothing is lost or doubled, and a line that was broken fits."""
-    one = fd.equation(number)
-    for formula in (one, *map(one.exact, one.cases)):
-        for line in formula._lines:
-            whole = " ".join(f"{latex(line.lhs)} = {latex(line.rhs)}".split())
-            lines = folded(whole, room)
-            joined = " ".join(lines).replace(r" \times ", " ")
-            joined = joined.replace(r"\biggl", r"\left").replace(r"\biggr", r"\right")
-            assert joined in (whole, split_fraction(whole, room))
-            assert all(width(part) <= room for part in lines[:-1])
-            assert all(part.count(r"\left") == part.count(r"\right") for part in lines)
+    derivation = load(number)
+    formulas = [] if isinstance(derivation, Row) else [*derivation.printed]
+    for form in derivation.exact_forms.values():
+        formulas += [equation(form.quantity, piece.expr) for piece in form.pieces]
+    for line in formulas:
+        whole = " ".join(f"{latex(line.lhs)} = {latex(line.rhs)}".split())
+        lines = folded(whole, room)
+        joined = " ".join(lines).replace(r" \times ", " ")
+        joined = joined.replace(r"\biggl", r"\left").replace(r"\biggr", r"\right")
+        assert joined in (whole, split_fraction(whole, room))
+        assert all(width(part) <= room for part in lines[:-1])
+        assert all(part.count(r"\left") == part.count(r"\right") for part in lines)
 
 
 def test_only_one_or_two_columns() -> None:

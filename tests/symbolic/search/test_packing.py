@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 from force_diffusion.symbolic.search.counterexample import WORLDS
-from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, TooLargeError, Vector, Weights
+from force_diffusion.symbolic.search.dual import NOWHERE, ZERO, Dual, TooLargeError, Vector
 from force_diffusion.symbolic.search.packing import (
     HIGHEST,
     AbsentError,
@@ -187,13 +187,6 @@ def test_another_solver_finds_the_same() -> None:
             found = made.quantity(kind, across, layer)
             assert found == Vector(*(Dual(0, c[1]) for c in turned))
             assert made.force(branch, across, layer) == Dual(*solved.force(across, layer, branch))
-
-
-def test_weights_of_radii_are_kept_apart_from_drawn_radii() -> None:
-    drawn_ones = packing("surface", Geometry((Fraction(3, 5), Fraction(4, 5)), Fraction(1)))
-    for made in (drawn_ones, drawn_ones.by_radius, drawn_ones):
-        slopes = [made.quantity("DeltaX", 0, 2).x.slope, made.force("+", 0, 2).slope]
-        assert {isinstance(one, Weights) for one in slopes} == {made is not drawn_ones}
 
 
 def test_what_is_not_there_is_said() -> None:
