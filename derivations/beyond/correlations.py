@@ -1,47 +1,24 @@
 """Eqs. B7, B8, B12 and B21: correlations of contact forces, and means over neighbours."""
 
+# fmt: off
 from collections.abc import Iterable
 
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations.calculator.statistics import (
-    covariance,
-    mean_over,
-    response,
-    variance,
-)
+    covariance, mean_over, response, variance)
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Decide,
-    Forms,
-    Row,
-    are_same,
-    equals,
-    goes_as,
-    highest,
-    leads,
-    ruled,
-)
+    Decide, Forms, Row, are_same, equals, goes_as, highest, leads, ruled)
 from force_diffusion.symbolic.as_written import relations
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
-    ForceMinus,
-    ForcePlus,
-    M,
-    N,
-    i,
-    j,
-    l,
-    p,
-    phi,
-    r,
-    sigma,
-    z,
-)
+    ForceMinus, ForcePlus, M, N, i, j, l, p, phi, r, sigma, z)
 from sympy import Eq, Rational
+# fmt: on
 
 FORCE_MEAN = Symbol(
     "mean_of_N_variance",

@@ -1,36 +1,18 @@
 """Eqs. B4, B5, B6, B15 and B16: means of positions and forces, to second order in the radii."""
 
+# fmt: off
 import sympy
 from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import mean
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Row,
-    equals,
-    goes_as,
-    has_sign,
-    leads,
-    turns_positive,
-)
+    Row, equals, goes_as, has_sign, leads, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
-    DeltaX,
-    Dot,
-    ForceMinus,
-    ForcePlus,
-    M,
-    e_y,
-    i,
-    j,
-    n_y,
-    phi,
-    r,
-    sigma,
-    t,
-    z,
-)
+    DeltaX, Dot, ForceMinus, ForcePlus, M, e_y, i, j, n_y, phi, r, sigma, t, z)
 from sympy import Eq, Rational
+# fmt: on
 
 HEIGHT = Symbol("mean_delta_y", r"\langle\delta y_{ij}\rangle", "⟨δy_ij⟩")
 FORCE = Symbol(

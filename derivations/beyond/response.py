@@ -1,5 +1,6 @@
 """Eqs. B9, B19, B22 and B23: the response to loads on single beads."""
 
+# fmt: off
 import sympy
 from force_diffusion.derivations.calculator.loads import point
 from force_diffusion.derivations.calculator.statistics import mean, mean_over, response, variance
@@ -7,31 +8,12 @@ from force_diffusion.derivations.formulas.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Forms,
-    Row,
-    adds_up_to_zero,
-    equals,
-    goes_as,
-    turns_positive,
-)
+    Forms, Row, adds_up_to_zero, equals, goes_as, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
-    ForceAlong,
-    ForcePlus,
-    N,
-    VerticalAlong,
-    i,
-    j,
-    k,
-    l,
-    p,
-    phi,
-    q,
-    r,
-    sigma,
-    z,
-)
+    ForceAlong, ForcePlus, N, VerticalAlong, i, j, k, l, p, phi, q, r, sigma, z)
 from sympy import Ge, Le, Rational, sqrt
+# fmt: on
 
 _FORCE_LOAD = r"(f^{\mathrm{load}})^{2}"
 CONTACT = Symbol(

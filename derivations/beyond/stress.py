@@ -3,6 +3,7 @@
 S = Σ f ℓ N⊗N over the two contacts above a bead, all over the values of the ordered packing.
 """
 
+# fmt: off
 import sympy
 from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import force_moment, mean
@@ -10,32 +11,12 @@ from force_diffusion.derivations.formulas.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Forms,
-    Row,
-    adds_up_to_zero,
-    equals,
-    is_free_of,
-    leads,
-    turns_positive,
-)
+    Forms, Row, adds_up_to_zero, equals, is_free_of, leads, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
-    DeltaX,
-    Dot,
-    L_plus,
-    M,
-    e_x,
-    e_y,
-    i,
-    j,
-    n_x,
-    n_y,
-    phi,
-    r,
-    t,
-    z,
-)
+    DeltaX, Dot, L_plus, M, e_x, e_y, i, j, n_x, n_y, phi, r, t, z)
 from sympy import Eq
+# fmt: on
 
 RATIO = Symbol(
     "stress_ratio",

@@ -3,6 +3,7 @@
 Eqs. B2, B3, B11, B13, B14, B20, B24 and B25.
 """
 
+# fmt: off
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq14_bulk_diffusion as eq14
@@ -13,21 +14,9 @@ from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import Row, averages_to, equals, goes_as, leads
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
-    ForceAlong,
-    ForceMinus,
-    ForcePlus,
-    M,
-    i,
-    j,
-    phi,
-    r,
-    sigma,
-    t,
-    t_2,
-    t_3,
-    z,
-)
+    ForceAlong, ForceMinus, ForcePlus, M, i, j, phi, r, sigma, t, t_2, t_3, z)
 from sympy import Eq, Rational
+# fmt: on
 
 PLUS, MINUS, FIRST = (
     Symbol(

@@ -276,7 +276,7 @@ class ClosedForm:
         Raises:
             ArgumentError: a name is unknown or missing, or a value is outside of the domain.
         """
-        return evaluate(_Numbers(self), values)
+        return evaluate(_Numbers(self), values)  # type: ignore[arg-type]
 
     def value(
         self, values: Mapping[sympy.Symbol, sympy.Rational], *, exact: bool = True
@@ -478,7 +478,7 @@ class ClosedForm:
         Raises:
             ArgumentError: an index is none that it depends on, or no whole number.
         """
-        at_place = []
+        at_place: list[sympy.Basic] = []
         for name, value in at.items():
             symbol = self.symbols.get(name)
             if symbol not in sy.INDICES or not isinstance(value, Integral):

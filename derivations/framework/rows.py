@@ -12,10 +12,10 @@ from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted
 from force_diffusion.symbolic.kernel.domain import Domain
-from force_diffusion.symbolic.kernel.rules import same
+from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.piecewise import PiecewiseFunction, theorems
+from force_diffusion.symbolic.piecewise import PiecewiseFunction
 from force_diffusion.symbolic.printing.lines import stacked
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import M, Shift, z
@@ -119,25 +119,25 @@ class Row(Statement):
         """What the kernel proves of it, one theorem for each formula and part of its domain."""
         return tuple(step.theorem for step in self.proof)
 
-    def steps(self) -> Steps:  # type: ignore[override]
+    def steps(self) -> Steps:
         """A step for each formula and part of its domain."""
         steps = Steps(self.number, self.domain)
         for form in self.exact_forms.values():
-            whole = form.kernel_domain
-            for theorem in theorems(form.statistic, whole, *form.groups):
-                part = theorem.domain.relations[len(whole.relations) :]
-                shown = form.quantity if form.divisor == 1 else form.divisor * form.quantity
-                steps.show(
-                    f"For {in_words(part) or form.domain}:",
-                    equation(shown, theorem.formula.rhs),
-                    same(theorem),
-                    theorem.domain,
-                    {shown: form.statistic},
-                )
+            by = moment(*form.groups, on=form.kernel_domain)
+            shown = form.quantity if form.divisor == 1 else form.divisor * form.quantity
+            for formula in form.formulas:
+                for part in formula.where:
+                    steps.show(
+                        f"For {in_words(part) or form.domain}:",
+                        equation(shown, form.divisor * formula.value.to_sympy()),
+                        by,
+                        form.kernel_domain.also(*part),
+                        {shown: form.statistic},
+                    )
         return steps
 
 
-copyreg.pickle(Row, pickled)
+copyreg.pickle(Row, pickled)  # type: ignore[arg-type]
 
 
 # what may be claimed of the form of some name

@@ -131,7 +131,7 @@ class Places:
         ranges = []
         for symbol in self._symbols:
             if symbol == self._top:
-                ranges.append(np.array([height]))
+                ranges.append(np.array([height] if height or not symbol.is_positive else []))
             elif symbol == sy.k and sy.i in self._symbols:
                 ranges.append(np.array([height % 2]))  # only i − k matters
             else:
