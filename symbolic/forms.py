@@ -292,9 +292,9 @@ class Reader:
         """
         x, y = (sympy.expand(one.xreplace(self.straight.image)) for one in (across, layer))
         beside = sympy.expand((y - x) / 2)
-        if not _is_whole(beside):
+        if not is_whole(beside):
             beside = sympy.expand(beside.xreplace(self._fixed))
-        if not _is_whole(beside) or not _is_whole(y):
+        if not is_whole(beside) or not is_whole(y):
             raise NotAStatementError(f"no bead is shown to be at ({text(across)}, {text(layer)})")
         above = sets.where(sympy.Ge(y, 0, evaluate=False))
         if not self.points.is_subset(above):
@@ -318,6 +318,8 @@ class Reader:
 
     def _quantity(self, quantity: sy.SiteFunction) -> Value:
         kind, site = type(quantity), self.site(*quantity.args)
+        if getattr(sy, kind.__name__, None) is not kind:
+            raise NotExactError(f"{text(quantity)} is no quantity of a packing")
         if kind in VERTICAL:
             return self._vertical(kind, quantity)
         left, found = self.points, None
@@ -338,8 +340,14 @@ class Reader:
     def _unknown(
         self, quantity: sy.SiteFunction, site: tuple[sympy.Expr, sympy.Expr]
     ) -> tuple[Form, ...]:
-        """A quantity as it stands."""
+        """A quantity as it stands.
+
+        Raises:
+            NotExactError: it stands in a sum, or is needed to second order.
+        """
         kind = type(quantity)
+        if self.kind is not Form and kind is not sy.DeltaR:
+            raise NotExactError(f"{text(quantity)} is not given by the radii")
         if kind in FORCES:
             place = kind(*(sympy.expand(one.xreplace(self._fixed)) for one in site))
             if self.summed & place.free_symbols:
@@ -418,6 +426,8 @@ class Reader:
         *entries, vector = arguments
         along = [self._dot(self.vector(axis), self.vector(vector)) for axis in (sy.e_x, sy.e_y)]
         factors = [self.number(entry) for entry in entries]
+        for place, factor in enumerate(factors):
+            self._refuse_squares(factor, along[place % 2])
         x, y = (factors[row].times(along[0]) + factors[row + 1].times(along[1]) for row in (0, 2))
         n_x, n_y = map(FIELD.generator, (sy.n_x, sy.n_y))
         return y.scaled(n_y) + x.scaled(n_x), y.scaled(n_y) - x.scaled(n_x)
@@ -440,6 +450,8 @@ class Reader:
             power = self._product([base] * int(exponent))
         elif isinstance(base, FORCES):  # one that others are compared with is one that acts
             (power,) = self._unknown(base, self.site(*base.args))
+            if not self._acts(self.number(base)):
+                raise NotExactError(f"{text(base)}, by which is divided, may be zero")
             (((key, weights),)) = power.parts.items()
             power = self.kind({((key[0][0], int(exponent)),): weights})
         else:
@@ -448,13 +460,35 @@ class Reader:
             raise NotExactError("a power of a vector")
         return power
 
+    def _acts(self, force: Form) -> bool:
+        """Whether a force is at order 0 a number that is not zero, times another one or itself."""
+        ordered = [
+            weights.on(self.points).formulas()
+            for key, weights in force.parts.items()
+            if not any(isinstance(factor, str) for factor, _ in key)
+        ]
+        if len(ordered) != 1 or len(ordered[0]) != 1:
+            return False
+        ((where, value),) = ordered[0]
+        return bool(self.points.is_subset(where)) and never_zero(value, self.points)
+
     def _average(self, expression: sympy.Expr, count: sympy.Expr, *indices: sympy.Symbol) -> Form:
         """Over neighbours two columns apart."""
         step = sy.m if expression.has(sy.MeanOver) else sy.n
+        if step in (expression.free_symbols | count.free_symbols) or not self._is_free(step):
+            raise NotExactError(f"a mean over neighbours is not read beside the index {text(step)}")
+        if not {*indices} <= {*sy.INDICES} or not self.points.is_subset(
+            sets.where(sympy.Ge(count, 1, evaluate=False))
+        ):
+            raise NotAStatementError(f"a mean over {text(count)} neighbours has no value")
         inner = self.within(step >= 0, sympy.Le(step, count - 1, evaluate=False))
         there, back = (self._shifted(indices, sign * 2 * step) for sign in (1, -1))
         wide = replace(self, points=sets.without(sets.at(inner.points, back), step))
         total = wide.number(expression).merged().at(there).on(inner.points).summed(step)
+        if any(
+            step in f.free_symbols for key in total.parts for f, _ in key if not isinstance(f, str)
+        ):
+            raise NotExactError(f"{text(expression)} stands in a mean, and is not known")
         return total.times(self.number(1 / count))
 
     def _shifted(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
@@ -488,7 +522,8 @@ class Reader:
         return bool(sets.without(self.points, index).is_subset(self.points))
 
 
-def _is_whole(form: sympy.Expr) -> bool:
+def is_whole(form: sympy.Expr) -> bool:
+    """Whether a form in indices has whole factors."""
     try:
         sets.row(form)
     except NotExactError:

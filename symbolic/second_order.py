@@ -34,6 +34,7 @@ _BEAD = SOURCE[:2]
 _PHI, _R, _TWO = FIELD.generator(phi), FIELD.generator(r), FIELD.constant(2)
 _SQUARE = FIELD.one - _PHI**2
 _ABOVE = sets.where(n >= 1)
+_BEADS = sets.where(sympy.Add(*_BEAD) >= 0)
 
 
 def covariance(one: Form, other: Form, dimension: int = 2) -> Weights:
@@ -56,17 +57,20 @@ class Means:
 
     Attributes:
         known: contact directions, displacements and forces by the coordinates of their bead.
+        top: the layer above which there are no forces; None without a load.
     """
 
     known: Mapping[type, tuple[Known, ...]]
+    top: sympy.Expr | None = None
 
     def jets(self) -> dict[type, tuple[Known, ...]]:
         """The same quantities, with the shifts of their means."""
         shifts = {
             DeltaNPlus: (self.along[PLUS], self.beside[PLUS]),
             DeltaNMinus: (self.beside[MINUS], self.along[MINUS]),
-            DeltaX: tuple(self._line_sum(branch) for branch in (PLUS, MINUS)),
         }
+        if DeltaX in self.known:
+            shifts[DeltaX] = tuple(self._line_sum(branch) for branch in (PLUS, MINUS))
         if ForcePlus in self.known:
             shifts |= {kind: (self._force(branch),) for branch, kind in enumerate(_FORCE)}
         return {
@@ -81,14 +85,24 @@ class Means:
                 for one in self.known[kind]
             )
             for kind in shifts
+            if kind in self.known
         }
 
     def _first_order(self, kind: type, component: int = 0) -> Form:
-        total = Form()
-        if kind not in self.known:
-            raise NotExactError(f"{kind.__name__} is not given by the radii")
-        for one in self.known[kind]:
-            total = total + one.value[component].on(one.points)
+        """What is known of all contacts, up to those below the surface.
+
+        Raises:
+            NotExactError: of some nothing is known.
+        """
+        total, left = Form(), _BEADS
+        if kind in _FORCE and self.top is not None:
+            left = left & sets.where(sympy.Le(sympy.Add(*_BEAD), self.top - 1, evaluate=False))
+        counted = sets.NOTHING
+        for one in self.known.get(kind, ()):
+            total = total + one.value[component].on(one.points - counted)
+            counted, left = counted | one.points, left - one.points
+        if not left.is_empty():
+            raise NotExactError(f"{kind.__name__} is not given by the radii for every bead")
         return total
 
     @cached_property

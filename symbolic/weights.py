@@ -16,7 +16,7 @@ from numpy.typing import NDArray as Array
 from . import sets
 from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_over
 from .sets import Set
-from .symbols import n_x, n_y, phi
+from .symbols import H_M, M, n_x, n_y, phi
 
 Fixed = Mapping[sympy.Symbol, RationalFunction]
 
@@ -86,6 +86,8 @@ class Weights:
         Raises:
             NotExactError: these are not affine.
         """
+        if M in image and any(value.holds(H_M) for _, value in self.pieces):
+            raise NotExactError("H_M is that of the height M alone")
         numbers = {symbol: sets.polynomial(sets.row(one)) for symbol, one in image.items()}
         return Weights(
             tuple(

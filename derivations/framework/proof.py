@@ -19,14 +19,17 @@ from force_diffusion.symbolic.kernel.theorem import (
     NotProvedError,
     Theorem,
 )
-from force_diffusion.symbolic.printing.text import text
+from sympy.core.function import UndefinedFunction
 
 from .catalogue import Number
 
 Definitions = Mapping[Any, Any]
 """What stands for a symbol of a step's own, or for a function of its arguments."""
 
-_OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS} - {sy.spacing, sy.L_minus}  # defined by steps
+_DEFINED = {sy.spacing, sy.L_minus}
+"""Symbols of the paper that steps define."""
+_OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, sy.H_M} - _DEFINED
+_NAMES = {symbol.name for symbol in _OURS}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -238,8 +241,8 @@ class Steps(list[Step]):
         domains: tuple[Domain, ...] = _for_each(where, count)
         defined = tuple({**self._definitions, **one} for one in _for_each(definitions, count))
         for symbol in (symbol for one in defined for symbol in one):
-            if symbol in _OURS:
-                raise NotProvedError(f"{text(symbol)} has a meaning of its own")
+            if not _may_be_defined(symbol):
+                raise NotProvedError(f"{symbol} has a meaning of its own")
         theorems = tuple(
             proved_by(by, in_place(one, meant), there)
             for one, by, there, meant in zip(equations, rules, domains, defined, strict=True)
@@ -251,6 +254,16 @@ class Steps(list[Step]):
         for theorem in theorems:
             _STEP_OF.setdefault(theorem, step)
         return step
+
+
+def _may_be_defined(what: Any) -> bool:
+    """Whether a step may say what something stands for: it is, or holds, a new symbol."""
+    if isinstance(what, UndefinedFunction):
+        return True
+    if isinstance(what, type) or what.has(sympy.Function):
+        return False
+    symbols = what.free_symbols
+    return any(one in _DEFINED or one.name not in _NAMES for one in symbols)
 
 
 def _for_each(given: Any, count: int) -> tuple[Any, ...]:

@@ -11,13 +11,23 @@ import sympy
 from .. import symbols as sy
 from ..algebra.exact import FIELD, NotExactError, RationalFunction
 from ..algebra.signs import sign
+from ..as_printed import equation
 from ..printing.text import text
 from ..sets import EVERYTHING
 from .axioms import GAUSSIAN_FORCES
 from .domain import AT_FIXED_RATIO, Domain, at_fixed_height, at_large_height
 from .limits import in_the_limit, leading, limit_of, order
 from .rules import Rule
-from .theorem import FalseStatementError, Group, Groups, NotProvedError, Theorem, flat, made
+from .theorem import (
+    FalseStatementError,
+    Group,
+    Groups,
+    NotProvedError,
+    Theorem,
+    flat,
+    made,
+    with_indices,
+)
 
 Powers = list[tuple[RationalFunction, sympy.Rational]]
 """Positive functions with their exponents."""
@@ -31,6 +41,8 @@ def power_law(*groups: Group) -> Rule:
         if relation not in ("=", "∝"):
             raise NotProvedError("it is not in a limit, or not with the sign = or ∝")
         limit = limit_of(formula, domain, relation)
+        if limit != at_large_height(relation):
+            raise NotProvedError("only what is fixed as M grows is read")
 
         def read(node: sympy.Expr) -> RationalFunction:
             return leading(in_the_limit(node, domain, groups), limit)
@@ -118,11 +130,17 @@ def tensile(variance: Theorem, mean: Theorem, *groups: Group) -> Rule:
         force = variance.formula.lhs.args[0]
         if variance.formula.lhs != sy.Variance(force) or mean.formula.args != (sy.Mean(force), 1):
             raise NotProvedError("they are not the variance and the mean of one force, 1")
-        each = sy.Tensile(force.xreplace({sy.i: sy.m, sy.j: sy.m}))
+        if mean.domain.limit is not None:
+            raise NotProvedError("the mean is known in a limit")
+        limit_of(mean.formula, mean.domain.in_the_limit(at_fixed_height("=")), "=")
+        there = with_indices(equation(force, sympy.S.Zero), {sy.i: sy.m, sy.j: sy.m})
+        each = sy.Tensile(there.lhs)
         if formula.lhs != sympy.Sum(each, (sy.m, 0, sy.M - 1)) / sy.M:
             raise NotProvedError("it is not about the mean over all layers of P(f < 0)")
         below = list(_powers(_argument(formula.rhs), domain, groups, _read))
         v = FIELD.from_sympy(variance.formula.rhs) * FIELD.constant(2)
+        if any(v.holds(one) for one in sy.INDICES if one != sy.M):
+            raise NotProvedError("the variance is not said in terms of z and M")
         twice = [(base, 2 * power) for base, power in below]
         if not (_whole_power([*twice, (v, sympy.S.One)]) - FIELD.one).is_zero():
             raise NotProvedError("the argument of erfc is not 1/√(2v)")

@@ -45,9 +45,17 @@ class Loading:
         return set().union(*(one.free_symbols for one in self.place))
 
     def implies(self, other: "Loading | None") -> bool:
-        """Whether all that is known by another one is known by this."""
-        return other is None or (
-            {*other.given} <= {*self.given} and {*other.everywhere} <= {*self.everywhere}
+        """Whether all that is known by another one is known by this, at the same place.
+
+        Of what another one says nothing in equations, as in three dimensions, nothing is implied.
+        """
+        if other is None or self == other:
+            return True
+        return bool(
+            (other.given or other.everywhere)
+            and other.fixed <= self.fixed
+            and {*other.given} <= {*self.given}
+            and {*other.everywhere} <= {*self.everywhere}
         )
 
     def is_like(self, other: "Loading") -> bool:
@@ -181,6 +189,14 @@ class Domain:
     dimension: int = 2
     limit: Limit | None = None
 
+    def __post_init__(self) -> None:
+        if self.dimension not in (2, 3):
+            raise ValueError(f"dimension {self.dimension}: 2 and 3 are allowed")
+        held = set().union(*(one.free_symbols for one in self.relations))
+        held |= set().union(*(one.free_symbols for bead in self.beads for one in bead))
+        if not held <= {*self.indices} or not {*self.indices} <= {*sy.INDICES}:
+            raise ValueError("a domain is one of the paper's indices, all of which it names")
+
     @classmethod
     def of(
         cls,
@@ -199,8 +215,6 @@ class Domain:
         Raises:
             ValueError: the dimension is neither 2 nor 3.
         """
-        if dimension not in (2, 3):
-            raise ValueError(f"dimension {dimension}: 2 and 3 are allowed")
         held = {*indices}.union(*(one.free_symbols for one in relations))
         held |= loading.fixed if loading else set()
         by_default = (bead for bead in LATTICE if held & {*bead})
@@ -235,9 +249,13 @@ class Domain:
         """The domain of other indices, in terms of which these are given."""
         held = {*self.indices} - {*image}
         held |= set().union(*(image[s].free_symbols for s in self.indices if s in image))
+        positive = (image[s] for s in self.indices if s in image and s.is_positive)
         return Domain(
             tuple(symbol for symbol in sy.INDICES if symbol in held),
-            tuple(_at(one, image) for one in self.relations),
+            (
+                *(_at(one, image) for one in self.relations),
+                *(sympy.Ge(one, 1, evaluate=False) for one in positive if not one.is_positive),
+            ),
             self.loading and self.loading.put_in(image),
             tuple((a.xreplace(image), b.xreplace(image)) for a, b in self.beads),
             self.dimension,

@@ -168,7 +168,9 @@ def bounded(*groups: Group) -> Rule:
         whole = _variance(form, domain) * in_the_limit(bound, domain)
         if not _vanishes_nowhere(leading(whole, limit), limit):
             raise NotProvedError("what is compared with is not shown to vanish nowhere")
-        orders = [_order_at_sites(value, limit) for _, value in form.parts[RADII].pieces]
+        orders = [
+            _order_at_sites(value, limit) for _, value in form.parts.get(RADII, Weights()).pieces
+        ]
         if any(2 * one > order(whole, limit) for one in orders):
             raise NotProvedError("a radius has more, or that is not excluded")
         return made(formula, domain, "largest share", flat(groups))
@@ -186,7 +188,11 @@ def _order_at_sites(weight: RationalFunction, limit: Limit) -> int:
 
 
 def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
-    """The weights of the radii; the place across the packing is put at 0."""
+    """The weights of the radii; the place across the packing, which does not matter, is put at 0.
+
+    Raises:
+        NotProvedError: they are not given, or that place does matter.
+    """
     finite = domain.in_the_limit(None)
     held = set().union(*(one.free_symbols for one in domain.relations))
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
@@ -195,6 +201,11 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
         form = Statistics.on(finite, groups).in_radii(_at_height(expression))
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None
+    if free:  # a step to the right, of the bead and of all sites
+        step = {s: s - 1 if s in finite.straight.back else s + 2 for s in free}
+        step |= {SITE[0]: SITE[0] + 1, SITE[1]: SITE[1] - 1}
+        if len(free) > 1 or not (form.at(step) - form).is_zero():
+            raise NotProvedError("the place across the packing matters")
     return form.at(dict.fromkeys(free, sympy.S.Zero)).merged()
 
 
@@ -350,8 +361,8 @@ def order(value: RationalFunction, limit: Limit) -> int:
     """The power with which a function grows at most; less than any for zero."""
     if value.is_zero():
         return -_NEVER
-    growing = (*limit.growing, sy.H_M)
-    return max(_degrees(value.numerator, growing)) - max(_degrees(value.denominator, growing))
+    above = _degrees(value.numerator, (*limit.growing, sy.H_M))
+    return max(above) - max(_degrees(value.denominator, limit.growing))
 
 
 def leading(value: RationalFunction, limit: Limit) -> RationalFunction:
@@ -366,7 +377,7 @@ def _uniform(value: RationalFunction, limit: Limit) -> None:
         NotProvedError: it holds what neither grows nor is fixed, or a divisor mixes what grows with
             what is fixed, or goes as what may vanish.
     """
-    known = {*_FIXED, *limit.growing, *SITE, sy.H_M}
+    known = {*_FIXED, *limit.growing, *SITE} | ({sy.H_M} if sy.M in limit.growing else set())
     strange = by_name(one for one in FIELD.generators if value.holds(one) and one not in known)
     if strange:
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")

@@ -51,6 +51,8 @@ _ACROSS = {across for across, _ in LATTICE}
 def proved_by(rule: Rule, formula: sympy.Eq, domain: Domain) -> Theorem:
     """What a rule proves, if it is just this statement on just this domain."""
     theorem = rule(formula, domain)
+    if type(theorem) is not Theorem:
+        raise NotProvedError("the rule made no theorem")
     if theorem.formula != formula or theorem.domain != domain:
         raise NotProvedError("the rule proved another statement")
     return theorem
@@ -126,8 +128,8 @@ def order(theorem: Theorem, power: int) -> Rule:
         return found[power] if power < len(found) else FIELD.zero
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
-        if theorem.domain != domain:
-            raise NotProvedError("the domains differ")
+        if theorem.domain != domain or power < 0:
+            raise NotProvedError("the domains differ, or there is no such power")
         new, old = (difference(read(one, domain), domain) for one in (formula, theorem.formula))
         wanted = [form.mapped(lambda weights: weights.mapped(coefficient)) for form in old]
         if len(new) != len(wanted) or not all(
@@ -167,6 +169,10 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
             for row in system
         ]
         determinant = _determinant(matrix)
+        for key, weights in determinant.parts.items():
+            located = any(isinstance(factor, str) for factor, _ in key)
+            if key != NUMBER and not located and not weights.on(domain.points).is_zero():
+                raise NotProvedError("the determinant holds a force, which may have any value")
         pivot = determinant.parts.get(NUMBER, Weights()).on(domain.points).formulas()
         if len(pivot) != 1 or not domain.points.is_subset(pivot[0][0]) or not never_zero(
             pivot[0][1], domain.points, domain.dimension
@@ -331,13 +337,18 @@ def induct(
     return rule
 
 
-def suppose(formula: sympy.Eq, domain: Domain, supposition: Supposition, before: int) -> Theorem:
-    """What is supposed of the value ``before`` the one considered of an index.
+def suppose(formula: sympy.Eq, domain: Domain, supposition: Supposition) -> Theorem:
+    """What is supposed of a statement, of the value before the one considered of an index.
 
     It holds for every value of the other indices; the supposition ends in an induction alone.
+
+    Raises:
+        NotProvedError: the statement is none of that induction.
     """
+    if (formula, domain) not in supposition.members:
+        raise NotProvedError("it is not what the induction is about")
     check_domain(formula, domain)
-    image = {supposition.index: supposition.index - before}
+    image = {supposition.index: supposition.index - supposition.before}
     shifted = with_indices(equation(*isolated(formula, domain)), image)
     return made(shifted, domain.put_in(image), "supposition", supposed=(supposition,))
 
@@ -354,13 +365,13 @@ def inducted(
 ) -> tuple[Theorem, ...]:
     """All of a family of statements, by ``induct``."""
     first = sympy.sympify(start)
-    supposition = Supposition(over, first)
+    supposition = Supposition(over, first, -1 if down else 1, tuple(members))
     supposed = []
     for claim, domain in members:
         ends = (over, first) if down else (first, over)
         if over not in domain.indices or not domain.implies(sympy.Le(*ends, evaluate=False)):
             raise NotProvedError(f"the domain goes beyond {text(over)} = {text(first)}")
-        supposed.append(suppose(claim, domain, supposition, -1 if down else 1))
+        supposed.append(suppose(claim, domain, supposition))
     if mirrored:
         supposed += [mirror(theorem) for theorem in supposed]
     premises = []
@@ -392,7 +403,8 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
         about, value = isolated(formula, domain)
         if about.func not in (sy.Position, sy.DeltaX) or about.args != (sy.i, sy.j):
             raise NotProvedError(f"{text(about)} is no quantity of bead (i, j)")
-        if not {*domain.indices} <= {sy.i, sy.j} or not domain.implies(sy.j >= 0):
+        others = not {*domain.indices} <= {sy.i, sy.j} or domain.dimension != 2
+        if others or not domain.implies(sy.j >= 0):
             raise NotProvedError("the domain is not that of beads (i, j)")
         read(formula, domain)
 
@@ -407,6 +419,8 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
         gained = {about.func(sy.i + side, sy.j + 1) - about for side in (1, -1)}
         if origin.formula.lhs != about.func(0, 0) or {one.formula.lhs for one in up} != gained:
             raise NotProvedError("the steps do not reach every bead")
+        if any(one.formula.rhs.has(about.func) for one in (origin, *up)):
+            raise NotProvedError("what is gained is said in terms of other beads")
         for one, where in ((origin, Domain()), *((one, beads) for one in up)):
             here = moved(one, {}, where)
             apart = difference(read(said(here.formula), where), where)

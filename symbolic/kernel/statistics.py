@@ -135,7 +135,8 @@ def moment(*groups: Group, on: Domain | None = None) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         check_domain(formula, domain)
         whole = domain if on is None else on
-        if whole.loading != domain.loading or whole.beads != domain.beads:
+        about = [(one.loading, one.beads, one.dimension, one.limit) for one in (whole, domain)]
+        if about[0] != about[1]:
             raise NotProvedError("the larger domain is another one")
         if not domain.points.is_subset(whole.points):
             raise NotProvedError("the domain is no part of the larger one")

@@ -9,6 +9,7 @@ when both of its sides are the same dual number, as weights on sites: the one no
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import InitVar, dataclass, replace
 from functools import cached_property, lru_cache
+from typing import NoReturn
 
 import sympy
 
@@ -27,7 +28,7 @@ from ..algebra.exact import (
 )
 from ..algebra.signs import never_zero
 from ..as_printed import equation
-from ..forms import FORCES, NUMBER, RADII, Form, Image, Key, Known, Reader
+from ..forms import FORCES, NUMBER, RADII, Form, Image, Key, Known, Reader, is_whole
 from ..notation import by_name
 from ..printing.text import text
 from ..second_order import Means
@@ -47,7 +48,7 @@ class FalseStatementError(NotProvedError):
 
 @dataclass(frozen=True, eq=False)
 class Supposition:
-    """That a statement holds for one value of an index, until an induction ends it.
+    """That statements hold for the value ``before`` that of an index, until an induction ends it.
 
     Nor is anything put in for the symbols of the value from which that induction starts: steps are
     counted from there.
@@ -55,6 +56,8 @@ class Supposition:
 
     index: sympy.Symbol
     start: sympy.Expr
+    before: int
+    members: tuple[tuple[sympy.Eq, Domain], ...]
 
     @property
     def fixed(self) -> set[sympy.Symbol]:
@@ -90,6 +93,9 @@ class Theorem:
     def __repr__(self) -> str:
         left, right = map(text, self.formula.args)
         return f"<Theorem, by {self.rule}: {left} = {right}>"
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("a theorem is neither copied nor pickled")
 
     @cached_property
     def fixed(self) -> set[sympy.Symbol]:
@@ -180,9 +186,15 @@ def isolated(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]
         raise NotProvedError(f"{text(formula.lhs)} is not one quantity, times what is known")
     others = [one for one in factors if one != about[0]]
     for factor in others:
-        if isinstance(factor, sympy.Pow) and isinstance(factor.base, FORCES):
+        if (
+            isinstance(factor, sympy.Pow)
+            and isinstance(factor.base, FORCES)
+            and factor.exp.is_negative
+        ):
             continue
-        if not never_zero(domain.reader().scalar(factor), domain.points, domain.dimension):
+        if factor.has(sy.SiteFunction) or not never_zero(
+            domain.reader().scalar(factor), domain.points, domain.dimension
+        ):
             raise NotProvedError(f"{text(factor)} is not shown to vanish nowhere")
     inverse = sympy.Mul(*others, evaluate=False)
     value = formula.rhs if inverse == 1 else sympy.Mul(formula.rhs, 1 / inverse, evaluate=False)
@@ -210,7 +222,7 @@ def known(
     if not groups:
         return {}
     if kind is not Form:
-        return Means(known(groups, loading)).jets()
+        return Means(known(groups, loading), loading.place[-1] if loading else None).jets()
     later = known(groups[1:], loading)
     found: dict[type, tuple[Known, ...]] = {}
     for theorem in flat(groups[:1]):
@@ -243,6 +255,9 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
     Raises:
         NotProvedError: it does not hold there.
     """
+    for symbol, at in image.items():
+        if symbol not in sy.INDICES or not is_whole(at):
+            raise NotProvedError(f"{text(symbol)} = {text(at)} is no whole number for an index")
     there = theorem.domain.put_in(image)
     known_here = there.loading is None or (domain.loading and domain.loading.implies(there.loading))
     same = known_here and (there.dimension, there.limit) == (domain.dimension, domain.limit)
@@ -266,6 +281,8 @@ def with_indices(formula: sympy.Eq, image: Image) -> sympy.Eq:
         NotProvedError: an index would have two meanings.
     """
     summed = {limit[0] for one in formula.atoms(sympy.Sum) for limit in one.limits}
+    if sy.M in image and formula.has(sy.H_M):
+        raise NotProvedError(f"{text(sy.H_M)} is that of the height {text(sy.M)} alone")
     put_in = {*image}.union(*(one.free_symbols for one in image.values()))
     if both := by_name(summed & put_in):
         raise NotProvedError(f"{text(both[0])} would have two meanings")
@@ -339,8 +356,9 @@ def _named(theorem: Theorem) -> set[sympy.Symbol]:
 
 
 def meant(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
-    """Both sides, in the symbols of the exact field; with a layer j and a height M, z is j/M."""
+    """Both sides, in the symbols of the exact field; s is 4rn_x, and with j and M, z is j/M."""
     image: dict[sympy.Symbol, sympy.Expr] = dict(names_for(formula))
+    image[sy.spacing] = 4 * sy.r * sy.n_x
     if {sy.j, sy.M} <= {*domain.indices}:
         image[sy.z] = sy.j / sy.M
     left, right = (side.xreplace(image) for side in formula.args)

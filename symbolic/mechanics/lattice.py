@@ -15,6 +15,8 @@ MIRRORED_FUNCTIONS = {
     sy.DeltaNMinus: sy.DeltaNPlus,
     sy.ForcePlus: sy.ForceMinus,
     sy.ForceMinus: sy.ForcePlus,
+    sy.VerticalPlus: sy.VerticalMinus,
+    sy.VerticalMinus: sy.VerticalPlus,
 }
 
 _HORIZONTAL = (sy.i, sy.k, sy.site_r)
