@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import sympy
+from flint import fmpq
 from numpy.typing import NDArray as Array
 
 from . import sets
@@ -214,10 +215,18 @@ def _values(polynomial: Polynomial, places: Array[np.float64]) -> Numbers:
         for powers, factor in polynomial.to_dict().items():
             held = [number for number, power in enumerate(powers) if power]
             exponents = [int(powers[number]) for number in held]
-            term = float(factor.p) / float(factor.q) * np.prod(places[:, held] ** exponents, axis=1)
+            term = _float(factor) * np.prod(places[:, held] ** exponents, axis=1)
             total += term
             size += abs(term)
     return total, _ROUNDING * size
+
+
+def _float(number: fmpq) -> float:
+    """The nearest float; infinite beyond their range."""
+    try:
+        return float(number.p) / float(number.q)
+    except OverflowError:
+        return float("inf")
 
 
 def _agree(one: RationalFunction, other: RationalFunction, held: Fixed) -> bool:
