@@ -1,1 +1,0 @@
-"""Attacks on the kernel: what must not become a theorem, tried by its own rules."""
