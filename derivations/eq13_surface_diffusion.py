@@ -76,8 +76,8 @@ def steps() -> Steps:
         MEANING,
     )
     how = "Eqs. 4 and 5 put into Eq. 11, every radius has one weight; each sum telescopes"
-    layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, eq11.LOADED, groups)
-    layers.show_next(steps, PRINTED, NEXT_ORDER, MEANING, eq11.LOADED, groups)
+    exact = layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, eq11.LOADED, groups)
+    layers.show_next(steps, PRINTED, NEXT_ORDER, MEANING, eq11.LOADED, exact)
     steps.show(
         "The profile ceases to broaden at the base, where its slope vanishes.",
         equation(sympy.Derivative(formula("(1 − z)²(2z + 1)"), z), -6 * z * (1 - z)),
@@ -87,7 +87,7 @@ def steps() -> Steps:
     steps.claim(
         "the printed form is the leading order of the exact variance",
         PRINTED,
-        asymptotic(*groups),
+        layers.leading_order(exact),
         IN_THE_LIMIT,
         MEANING,
     )
@@ -95,7 +95,7 @@ def steps() -> Steps:
         sympy.S.Zero: PRINTED.rhs.xreplace({z: sympy.S.Zero}),
         M - 1: 2 * M * (1 + phi**2) * layers.UNIT,
     }
-    layers.claim_edges(steps, RELATIVE_VARIANCE, edges, MEANING, eq11.LOADED, groups)
+    layers.claim_edges(steps, RELATIVE_VARIANCE, edges, MEANING, eq11.LOADED, exact)
     layers.claim_shares(steps, eq11.PRINTED.lhs, eq11.LOADED, groups)
     return steps
 

@@ -113,7 +113,8 @@ def force_steps() -> Steps:
         {MEAN_FORCE: sympy.Sum(m_g / (2 * n_y), (l, j + 1, M))},
     )
     steps.show(
-        "In units of this mean, f⁺_ij is the average of Eq. 11 over the heights l = j+1, …, M.",
+        "In units of this mean, f⁺_ij is the average of what Eq. 11 says over the heights "
+        "l = j+1, …, M: by balancing bead after bead, from the surface down.",
         equation(RATIO, averaged_force()),
         induct(
             j,
@@ -167,8 +168,8 @@ def steps() -> Steps:
         MEANING,
     )
     how = "every radius has one weight; each sum telescopes"
-    layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, LOADED, groups)
-    layers.show_next(steps, PRINTED, NEXT_ORDER, MEANING, LOADED, groups)
+    exact = layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, LOADED, groups)
+    layers.show_next(steps, PRINTED, NEXT_ORDER, MEANING, LOADED, exact)
     steps.show(
         "The profile rises up to z = 1/6 and falls from there on. Without the normalisation it "
         "would be stationary at the base.",
@@ -191,7 +192,7 @@ def steps() -> Steps:
         sympy.S.Zero: PRINTED.rhs.xreplace({z: sympy.S.Zero}),
         M - 1: 2 * M * (1 + phi**2) * layers.UNIT,
     }
-    layers.claim_edges(steps, RELATIVE_VARIANCE, edges, MEANING, LOADED, groups)
+    layers.claim_edges(steps, RELATIVE_VARIANCE, edges, MEANING, LOADED, exact)
     layers.claim_shares(steps, RATIO, LOADED, groups)
     steps.claim(
         "at fixed z the printed form has one maximum, at z = 1/6: it falls short of that by "

@@ -13,7 +13,8 @@ from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, below,
-    equation, formula, inducted, lattice, minus, mirror, moment, rewrite, terms, times, usual)
+    equation, formula, inducted, lattice, leading_order_of, minus, mirror, moment, rewrite, same,
+    terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.symbols import (
     Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
@@ -126,14 +127,13 @@ def steps() -> Steps:
     by = moment(*groups)
     steps.show(
         "Let (i, j) lie p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): inside "
-        "of the cone for p, q ≥ 1. One path with one branch leads to f⁺_ij, along n⁻ and then n⁺, "
-        "and one to f⁻_ij, along n⁺ and then n⁻ (Eq. 10). The branch is of first order, and "
-        "f_load/2n_y enters it (Eq. 7).",
-        sympy.Tuple(
-            equation(ForcePlus(i, j) / ORDERED, UPPER_RIGHT),
-            equation(ForceMinus(i, j) / ORDERED, UPPER_LEFT),
-        ),
-        rewrite(forces()),
+        "of the cone for p, q ≥ 1. The forces along n⁺, by balancing bead after bead from the load "
+        "down: on the left leg the split of the load (as in Eq. 7), carried down (as in Eq. 9); "
+        "inside of the cone what branches off the other leg, along n⁻ and then n⁺ (as in Eq. 10), "
+        "which is of first order; and none elsewhere. Those along n⁻ are the mirror image.",
+        sympy.Tuple(*(statement for statement, _ in FAMILY)),
+        [same(theorem) for theorem in forces()[: len(FAMILY)]],
+        [domain for _, domain in FAMILY],
     )
     steps.show(
         "They turn in the layers j + p and j + q; the two add up to l + j wherever the bead is.",
@@ -147,7 +147,7 @@ def steps() -> Steps:
         by,
         INSIDE.also(j + p >= 2),
     )
-    steps.show(
+    exact = steps.show(
         "It depends on the horizontal position: what the paper says of the force at one contact "
         "is refuted. What does not is the vertical force p that the "
         "bead gets from both contacts together: their second differences lie on two diagonals, and "
@@ -156,7 +156,7 @@ def steps() -> Steps:
         by,
         DEEP,
     )
-    steps.show("To leading order:", PRINTED, asymptotic(*groups), CONE)
+    steps.show("To leading order:", PRINTED, leading_order_of(exact.theorem), CONE)
     steps.show(
         "On the left leg of the cone f⁺_ij is the split of the load (Eq. 7), carried down by "
         "Eq. 9. With the contact's own tilt its vertical component over f_load is",

@@ -1,14 +1,16 @@
 """What is said of a variance at every layer of a packing beside its printed leading order."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import sympy
+from force_diffusion.symbolic.algebra.exact import NotAStatementError
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
 from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height, in_a_layer
-from force_diffusion.symbolic.kernel.limits import asymptotic, bounded
-from force_diffusion.symbolic.kernel.rules import same
-from force_diffusion.symbolic.kernel.theorem import Group
+from force_diffusion.symbolic.kernel.limits import bounded, leading_order_of
+from force_diffusion.symbolic.kernel.rules import Rule, same
+from force_diffusion.symbolic.kernel.theorem import Group, NotProvedError, Theorem
 from force_diffusion.symbolic.piecewise import theorems
 from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma
 from force_diffusion.symbolic.words import in_words
@@ -41,9 +43,10 @@ def show_closed_form(
     definitions: Definitions,
     layers: Domain,
     groups: Sequence[Group],
-) -> None:
+) -> tuple[Theorem, ...]:
     """Show the formula of each part of a packing; ``how`` they come about."""
-    for theorem in theorems(in_place(symbol, definitions), layers, *groups):
+    exact = tuple(theorems(in_place(symbol, definitions), layers, *groups))
+    for theorem in exact:
         part = theorem.domain.relations[len(layers.relations) :]
         steps.show(
             f"Exact for {in_words(part) or 'every height'}: {how}.",
@@ -52,6 +55,19 @@ def show_closed_form(
             theorem.domain,
             definitions,
         )
+    return exact
+
+
+def leading_order(exact: Iterable[Theorem]) -> Rule:
+    """That of the closed form which holds where a limit is taken."""
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        for theorem in exact:
+            with suppress(NotProvedError, NotAStatementError):
+                return leading_order_of(theorem)(formula, domain)
+        raise NotProvedError("it is the leading order of no closed form")
+
+    return rule
 
 
 def show_next(
@@ -60,13 +76,13 @@ def show_next(
     following: sympy.Expr,
     definitions: Definitions,
     layers: Domain,
-    groups: Sequence[Group],
+    exact: Sequence[Theorem],
 ) -> None:
     """Show what comes after the printed leading order, in units of ``UNIT``."""
     steps.show(
         "The next order in M at fixed z:",
         equation(terms(printed.lhs, minus(printed.rhs)), times(UNIT, following)),
-        asymptotic(*groups),
+        leading_order(exact),
         layers.in_the_limit(at_fixed_height("∼")),
         definitions,
     )
@@ -84,13 +100,13 @@ def claim_edges(
     edges: Mapping[sympy.Expr, sympy.Expr],
     definitions: Definitions,
     layers: Domain,
-    groups: Sequence[Group],
+    exact: Sequence[Theorem],
 ) -> None:
     """Claim what the closed form goes as in layers next to base and surface."""
     steps.claim(
         "leading orders of the exact forms at the base and below the surface",
         sympy.Tuple(*(equation(symbol, value) for value in edges.values())),
-        asymptotic(*groups),
+        leading_order(exact),
         [at_layer(layers, layer, "∼") for layer in edges],
         definitions,
     )

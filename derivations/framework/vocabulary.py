@@ -8,7 +8,13 @@ from force_diffusion.symbolic.as_written import formula, relations
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_height
-from force_diffusion.symbolic.kernel.limits import asymptotic, bounded, negligible, of_what_is_kept
+from force_diffusion.symbolic.kernel.limits import (
+    asymptotic,
+    bounded,
+    leading_order_of,
+    negligible,
+    of_what_is_kept,
+)
 from force_diffusion.symbolic.kernel.rules import (
     along,
     below,
@@ -60,6 +66,7 @@ __all__ = [
     "inducted",
     "instance",
     "lattice",
+    "leading_order_of",
     "minus",
     "mirror",
     "mirror_of",

@@ -5,7 +5,7 @@ an index with φ, so its orders hold uniformly while the ratios and φ stay with
 their ranges; of what has such a divisor nothing is said. Harmonic numbers H_M are at most M.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import lru_cache
 
 import sympy
@@ -120,15 +120,8 @@ def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit = limit_of(formula, domain, "∼")
         of = dropping.domain.limit
-        if (
-            of is None
-            or of.relation != "≈"
-            or (of.growing, of.positive)
-            != (
-                limit.growing,
-                limit.positive,
-            )
-        ):
+        same = of and (of.growing, of.positive) == (limit.growing, limit.positive)
+        if of is None or of.relation != "≈" or not same:
             raise NotProvedError("what is dropped is so in another limit")
         if limit.orders != 1 or dropping.domain.loading != domain.loading:
             raise NotProvedError("what is dropped is so of other packings, or for one order alone")
@@ -140,20 +133,54 @@ def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
         beside = (whole - left, left - left.coeff(force) * force)
         if not all(sympy.expand(one).is_number for one in beside):
             raise NotProvedError("it is not the variance of what something was dropped from")
-        kept, relations = sy.Variance(right), (*domain.relations, *dropping.domain.relations)
-        for one in exact:
-            known = domain.loading and domain.loading.implies(one.domain.loading)
-            if one.domain.limit or not known:
-                raise NotProvedError("what is kept is known in a limit, or under another load")
-            kept = kept.xreplace({one.formula.lhs: one.formula.rhs})
-            relations = (*relations, *one.domain.relations)
-        if kept.has(sy.Moment):
-            raise NotProvedError("the variance of what is kept is not known")
-        finite = Domain.of(*relations, indices=domain.indices, limit=limit)
-        asymptotic()(sympy.Eq(kept, formula.rhs, evaluate=False), finite)
+        _check_leading_order(sy.Variance(right), formula.rhs, domain, exact, dropping)
         return made(formula, domain, "leading order of what is kept", (dropping, *exact))
 
     return rule
+
+
+def leading_order_of(*exact: Theorem) -> Rule:
+    """The leading order of what theorems say at finite size."""
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        limit_of(formula, domain, "∼")
+        _check_leading_order(formula.lhs, formula.rhs, domain, exact)
+        return made(formula, domain, "leading order", exact)
+
+    return rule
+
+
+def _check_leading_order(
+    quantity: sympy.Expr,
+    value: sympy.Expr,
+    domain: Domain,
+    exact: Iterable[Theorem],
+    *beside: Theorem,
+) -> None:
+    """That a quantity goes as a value, by what theorems say of all its moments at finite size.
+
+    The domain has to hold all but the first of what grows where these theorems, and those
+    ``beside``, hold.
+
+    Raises:
+        NotProvedError: it is not shown to do so.
+    """
+    relations = domain.relations
+    for theorem in exact:
+        known = theorem.domain.loading is None or (
+            domain.loading is not None and domain.loading.implies(theorem.domain.loading)
+        )
+        if theorem.domain.limit or not known or theorem.domain.dimension != domain.dimension:
+            raise NotProvedError("what is exact is so in a limit, or of other packings")
+        quantity = quantity.xreplace({theorem.formula.lhs: theorem.formula.rhs})
+    for theorem in (*exact, *beside):
+        relations = (*relations, *theorem.domain.relations)
+    if quantity.has(sy.Moment):
+        raise NotProvedError("it holds a moment that is not known")
+    finite = Domain.of(
+        *relations, indices=domain.indices, dimension=domain.dimension, limit=domain.limit
+    )
+    asymptotic()(sympy.Eq(quantity, value, evaluate=False), finite)
 
 
 def bounded(*groups: Group) -> Rule:
