@@ -223,7 +223,6 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
     finite = domain.in_the_limit(None)
     held = set().union(*(one.free_symbols for one in domain.relations))
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
-    _check_along_layers(expression, free)
     try:
         form = Statistics.on(finite, groups).in_radii(_at_height(expression))
     except NotExactError as reason:
@@ -234,21 +233,6 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
         if len(free) > 1 or not (form.at(step) - form).is_zero():
             raise NotProvedError("the place across the packing matters")
     return form.at(dict.fromkeys(free, sympy.S.Zero)).merged()
-
-
-def _check_along_layers(expression: sympy.Expr, free: set[sympy.Symbol]) -> None:
-    """That only sites hold a place across the packing, and all of them move along with it.
-
-    Raises:
-        NotProvedError: some do not.
-    """
-    sites = expression.atoms(sy.SiteFunction)
-    across = [sympy.expand(one.args[0]).as_coefficients_dict() for one in sites]
-    moving = {tuple((s, one[s]) for s in by_name(free) if one[s] != 0) for one in across}
-    bare = expression.xreplace({one: sympy.Dummy() for one in sites})
-    if bare.free_symbols & free or len(moving) > 1 or any(len(one) > 1 for one in moving):
-        (symbol, *_) = by_name(expression.free_symbols & free)
-        raise NotProvedError(f"{text(symbol)} neither grows nor is fixed")
 
 
 def _variance(form: Form, domain: Domain) -> RationalFunction:
