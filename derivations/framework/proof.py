@@ -11,6 +11,7 @@ from typing import Any
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule, proved_by
@@ -243,10 +244,14 @@ class Steps(list[Step]):
         for symbol in (symbol for one in defined for symbol in one):
             if not _may_be_defined(symbol):
                 raise NotProvedError(f"{symbol} has a meaning of its own")
-        theorems = tuple(
-            proved_by(by, in_place(one, meant), there)
-            for one, by, there, meant in zip(equations, rules, domains, defined, strict=True)
-        )
+        try:
+            theorems = tuple(
+                proved_by(by, in_place(one, meant), there)
+                for one, by, there, meant in zip(equations, rules, domains, defined, strict=True)
+            )
+        except (NotProvedError, NotExactError) as why:
+            name = f"step {number}," if number else "the claim"
+            raise NotProvedError(f"{name} '{reason}': {why}") from why
         for theorem in theorems:
             if type(theorem) is not Theorem or theorem.supposed:
                 raise NotProvedError(f"it rests on what is only supposed: {reason}")

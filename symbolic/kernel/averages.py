@@ -43,6 +43,9 @@ def power_law(*groups: Group) -> Rule:
         limit = limit_of(formula, domain, relation)
         if limit != at_large_height(relation):
             raise NotProvedError("only what is fixed as M grows is read")
+        if formula.rhs.as_coeff_Mul()[0].is_negative:
+            rule(equation(formula.lhs, -formula.rhs), domain)
+            raise FalseStatementError("left over right is negative")
 
         def read(node: sympy.Expr) -> RationalFunction:
             return leading(in_the_limit(node, domain, groups), limit)

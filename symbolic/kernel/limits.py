@@ -224,7 +224,7 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
     held = set().union(*(one.free_symbols for one in domain.relations))
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
     try:
-        form = Statistics.on(finite, groups).in_radii(_at_height(expression))
+        form = Statistics.on(finite, groups).in_radii(_at_height(expression, domain))
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None
     if free:  # a step to the right, of the bead and of all sites
@@ -249,7 +249,7 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
         NotProvedError: it is not one, or holds what neither grows nor is fixed.
     """
     try:
-        number = worked_out(_at_height(side), domain.in_the_limit(None), tuple(groups))
+        number = worked_out(_at_height(side, domain), domain.in_the_limit(None), tuple(groups))
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None
     if {*number.parts} - {NUMBER}:
@@ -257,9 +257,9 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
     return _one_function(number.parts.get(NUMBER, Weights()), domain)
 
 
-def _at_height(side: sympy.Expr) -> sympy.Expr:
-    """A side with z = j/M."""
-    return side.xreplace({sy.z: sy.j / sy.M})
+def _at_height(side: sympy.Expr, domain: Domain) -> sympy.Expr:
+    """A side with z = j/M, where layers are spoken of."""
+    return side.xreplace({sy.z: sy.j / sy.M}) if sy.j in domain.indices else side
 
 
 def _one_function(number: Weights, domain: Domain) -> RationalFunction:

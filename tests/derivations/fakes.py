@@ -1,102 +1,79 @@
 """Tiny derivations with a known fate, for tests of all that surrounds a derivation."""
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import sympy
-from force_diffusion.derivations.framework.proving import Lines
-from force_diffusion.derivations.framework.record import Claim, Derivation
+from force_diffusion.derivations.framework.proof import Steps
+from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.symbolic.as_printed import equation, terms
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
-from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.kernel.domain import Domain
+from force_diffusion.symbolic.kernel.rules import Rule, rewrite
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, made
 from force_diffusion.symbolic.symbols import DeltaR, SecondDifference, i, j
 
-TRUE = equation(SecondDifference(i, j), terms(DeltaR(i, j), DeltaR(i - 1, j)))
-SAME = equation(DeltaR(i, j), DeltaR(i, j))
-
-
-def decide(_: int, candidate: sympy.Eq) -> Ruling:
-    """Only the same terms will do, in any order."""
-    same = candidate.lhs == TRUE.lhs and sympy.expand(candidate.rhs - TRUE.rhs) == 0
-    return Ruling(Verdict.PROVED if same else Verdict.REFUTED, "terms compared")
-
+BEADS = Domain.of(j >= 0)
+PRINTED = equation(SecondDifference(i, j), SecondDifference(i, j).doit())
+TWICE = equation(terms(DeltaR(i, j), DeltaR(i, j)), 2 * DeltaR(i, j))
 
 GUESS = "a lucky guess"
 
 
-def always(verdict: Verdict) -> Ruling:
-    return Ruling(verdict, "said so", (GUESS,) if verdict is Verdict.ASSUMING else ())
+def guessed(formula: sympy.Eq, domain: Domain) -> Theorem:
+    """Prove anything, on an assumption."""
+    return made(formula, domain, "guess", assuming=(GUESS,))
 
 
-@dataclass(frozen=True)
-class Step:
-    """A line whose fate is said."""
-
-    reason: str
-    formula: sympy.Eq
-    fate: Callable[[int, sympy.Eq], Ruling]
-    uses: tuple[str, ...] = ()
-    relation: str = "="
-
-    @property
-    def equations(self) -> tuple[sympy.Eq, ...]:
-        return (self.formula,)
-
-    def rule_on(self, part: int, candidate: sympy.Eq) -> Ruling:
-        return self.fate(part, candidate)
-
-    @property
-    def ruling(self) -> Ruling:
-        return self.rule_on(0, self.formula)
-
-    @property
-    def verdict(self) -> Verdict:
-        return self.ruling.verdict
+def baffled(formula: sympy.Eq, domain: Domain) -> Theorem:
+    """Prove nothing."""
+    raise NotProvedError("nobody knows")
 
 
-def lines(*steps: Step) -> Lines:
-    made = Lines(Where())
-    made.extend(steps)  # type: ignore[arg-type]
-    return made
+def premise() -> Steps:
+    steps = Steps(1, BEADS)
+    steps.show("Subtract two radii:", PRINTED, rewrite())
+    steps.show("Two and two are n⁺ apart.", TWICE, rewrite())
+    steps.claim("a claim", TWICE, rewrite())
+    return steps
 
 
-@dataclass(frozen=True)
-class Fake(Derivation):
-    """A derivation whose printed equation has a procedure of its own."""
-
-    decide: Callable[[int, sympy.Eq], Ruling] = decide
-
-    def rule_on(self, part: int, candidate: sympy.Eq, where: Where | None = None) -> Ruling:
-        return self.decide(part, candidate)
-
-    @property
-    def assumed(self) -> list[str]:
-        return []
+def conclusion() -> Steps:
+    steps = Steps(2, BEADS)
+    steps.show("Again:", PRINTED, rewrite(PREMISE.theorem))
+    return steps
 
 
-PREMISE = Fake(
+PREMISE = Derivation(
     number=1,
     name="premise",
     title="A premise, with δr_(i−1,j) in its title",
     symbols=((DeltaR(i, j), "deviation of a radius, 100 % made up & simple"),),
     assumptions=("j ≥ 1",),
-    premises=(),
-    printed=(TRUE,),
-    steps=lambda: lines(
-        Step("Add the two radii.", TRUE, decide, ("an assumption",)),
-        Step("They are n⁺ apart.", SAME, lambda _, one: always(Verdict.PROVED), ("step 1",)),
-    ),
-    claims=(Claim("a claim", lambda: always(Verdict.PROVED)),),
+    printed=(PRINTED,),
+    domain=BEADS,
+    steps=premise,
     remarks=("A remark about n⁺·δn⁺ = 0.",),
 )
 
-CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", premises=(PREMISE,))
+CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", steps=conclusion)
 
 
-def with_claim(verdict: Verdict) -> Derivation:
-    return replace(CONCLUSION, claims=(Claim("doubtful", lambda: always(verdict)),))
+def with_claim(rule: Rule) -> Derivation:
+    """The conclusion with a claim that a rule is to prove."""
+
+    def steps() -> Steps:
+        found = conclusion()
+        found.claim("doubtful", TWICE, rule)
+        return found
+
+    return replace(CONCLUSION, steps=steps)
 
 
-def with_step(verdict: Verdict) -> Derivation:
-    doubtful = Step("So it is.", SAME, lambda *_: always(verdict), ("step 1",))
-    return replace(CONCLUSION, steps=lambda: lines(*CONCLUSION.steps(), doubtful))
+def with_step(rule: Rule) -> Derivation:
+    """The conclusion with a step that a rule is to prove."""
+
+    def steps() -> Steps:
+        found = conclusion()
+        found.show("So it is.", TWICE, rule)
+        return found
+
+    return replace(CONCLUSION, steps=steps)
