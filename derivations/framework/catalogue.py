@@ -7,6 +7,7 @@ Nothing here imports SymPy.
 """
 
 import re
+from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 from typing import TypeAlias
@@ -40,6 +41,12 @@ def modules() -> dict[Number, str]:
         label: module for module, labels in _BEYOND.items() for label in labels
     }
     return {**printed, **dict(sorted(beyond.items(), key=lambda one: int(str(one[0])[1:])))}
+
+
+def in_order(numbers: Iterable[Number]) -> tuple[Number, ...]:
+    """Numbers in the order of the paper, each of them once."""
+    wanted = {*numbers}
+    return tuple(number for number in modules() if number in wanted)
 
 
 def number_of(word: str) -> Number | None:

@@ -22,7 +22,7 @@ from force_diffusion.symbolic.kernel.theorem import (
 )
 from sympy.core.function import UndefinedFunction
 
-from .catalogue import Number
+from .catalogue import Number, in_order
 
 Definitions = Mapping[Any, Any]
 """What stands for a symbol of a step's own, or for a function of its arguments."""
@@ -89,8 +89,7 @@ class Step:
     @property
     def equations_used(self) -> tuple[Number, ...]:
         """The other equations that its theorems rest on."""
-        used = (one.equation for one in self._sources)
-        return tuple(dict.fromkeys(number for number in used if number != self.equation))
+        return in_order({step.equation for step in self._sources} - {self.equation})
 
     @property
     def steps_used(self) -> tuple[int, ...]:
@@ -119,7 +118,7 @@ _STEP_OF: dict[Theorem, Step] = {}
 
 def equations_of(theorems: Iterable[Theorem]) -> tuple[Number, ...]:
     """The equations that show theorems, or what these rest on."""
-    return tuple(dict.fromkeys(step.equation for step in _sources(theorems)))
+    return in_order(step.equation for step in _sources(theorems))
 
 
 def _sources(theorems: Iterable[Theorem]) -> Iterator[Step]:

@@ -15,7 +15,7 @@ from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import column_width, latex_body, text_lines
 
-from .catalogue import Number
+from .catalogue import Number, in_order
 from .proof import Step, Steps
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ class Statement:
     def premises(self) -> tuple[Number, ...]:
         """The equations that it rests on, as its theorems say."""
         shown = (*self.proof, *self.proof.claims)
-        return tuple(dict.fromkeys(number for step in shown for number in step.equations_used))
+        return in_order(number for step in shown for number in step.equations_used)
 
     @cached_property
     def exact_forms(self) -> Mapping[str, "ClosedForm"]:
