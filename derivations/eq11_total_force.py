@@ -11,9 +11,10 @@ from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Groups, Steps, axioms, below, equation, induct, lattice, minus, mirror,
-    mirror_of, rewrite, terms, times)
+    mirror_of, moment, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaNPlus, Dot, ForcePlus, M, f_load, i, j, k, l, n, n_minus, n_plus, n_y, phi)
+    M, DeltaNMinus, DeltaNPlus, Dot, ForcePlus, Variance, f_load, i, j, k, l, n, n_minus, n_plus,
+    n_y, phi, r, sigma)
 # fmt: on
 
 LAYERS = Domain.of(j >= 0, j < M)
@@ -138,6 +139,15 @@ def steps() -> Steps:
         ),
         rewrite(),
         one_load.also(indices=(k, l)),
+    )
+    steps.claim(
+        "what turns a force is of order √j: the component of δn⁻ along n⁺, for j ≥ 1",
+        equation(
+            Variance(Dot(n_plus, DeltaNMinus(i, j))),
+            times(terms(4 * j, phi**2), sigma**2, 1 / (2 * r**2)),
+        ),
+        moment(eq05.DERIVATION.theorem),
+        Domain.of(j >= 1),
     )
     steps.claim(
         "at j = M − 1 the sum is empty and Eq. 7 is left",

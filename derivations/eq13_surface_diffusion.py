@@ -36,6 +36,7 @@ TOTAL = formula("2(M − j)²(M + 2j) − 3(M − j)² + (M − j)")
 """The same in closed form."""
 NEXT_ORDER = formula("−(3/2) M²(1 − z)(1 + 3z)")
 """The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
+PROFILE = formula("(1 − z)²(2z + 1)")
 
 
 def _squares_to(last: sympy.Expr) -> sympy.Expr:
@@ -80,7 +81,7 @@ def steps() -> Steps:
     layers.show_next(steps, PRINTED, NEXT_ORDER, MEANING, eq11.LOADED, exact)
     steps.show(
         "The profile ceases to broaden at the base, where its slope vanishes.",
-        equation(sympy.Derivative(formula("(1 − z)²(2z + 1)"), z), -6 * z * (1 - z)),
+        equation(sympy.Derivative(PROFILE, z), -6 * z * (1 - z)),
         differentiate,
         Domain(),
     )
@@ -97,6 +98,21 @@ def steps() -> Steps:
     }
     layers.claim_edges(steps, RELATIVE_VARIANCE, edges, MEANING, eq11.LOADED, exact)
     layers.claim_shares(steps, eq11.PRINTED.lhs, eq11.LOADED, groups)
+    layers.claim_exponent(
+        steps,
+        "superdiffusive near the surface, subdiffusive nearer the base: the local exponent "
+        "d ln σ_f²/d ln (1 − z) falls from 2 at the surface through 1, that of Brownian motion, at "
+        "z = 1/4, to 0 at the base",
+        PROFILE,
+        formula("6z/(2z + 1)"),
+        formula("(4z − 1)/(2z + 1)"),
+    )
+    steps.claim(
+        "1 − φ² is more than 3/4, since −½ < φ < ½",
+        equation(terms(1, -(phi**2)), formula("3/4 + (1/2 − φ)(1/2 + φ)")),
+        rewrite(),
+        Domain(),
+    )
     return steps
 
 
@@ -122,6 +138,11 @@ DERIVATION = Derivation(
         "The limit is taken at fixed z. A fixed number of layers below the surface the "
         "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "
         "not 6 M, in units of (σ/r)²/(1 − φ²)².",
+        "The Gaussian P(f) of the paper is that of one contact, over the ensemble of packings, as "
+        "M → ∞ at fixed z. Over a layer of one packing it is the same once the packing is much "
+        "wider than high: contacts more than M apart share no radius. Over all contacts of a "
+        "packing it is not: Gaussian laws of all widths are mixed then, and the kurtosis is "
+        "3 ⟨P²⟩/⟨P⟩² = 156/35, and not 3, P being the profile (1 − z)²(2z + 1).",
     ),
 )
 

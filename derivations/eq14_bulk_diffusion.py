@@ -194,6 +194,15 @@ def steps() -> Steps:
     }
     layers.claim_edges(steps, RELATIVE_VARIANCE, edges, MEANING, LOADED, exact)
     layers.claim_shares(steps, RATIO, LOADED, groups)
+    layers.claim_exponent(
+        steps,
+        "superdiffusive near the surface, subdiffusive below: the local exponent "
+        "d ln σ_f²/d ln (1 − z) falls from 2 at the surface through 1, that of Brownian motion, at "
+        "z = 3/8, is 0 at the maximum, z = 1/6, and negative nearer the base",
+        PROFILE,
+        formula("(12z − 2)/(4z + 1)"),
+        formula("(8z − 3)/(4z + 1)"),
+    )
     steps.claim(
         "at fixed z the printed form has one maximum, at z = 1/6: it falls short of that by "
         "(z − 1/6)² (17/3 − 4z)",

@@ -9,10 +9,10 @@ from force_diffusion.symbolic.algebra.exact import NotAStatementError
 from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
 from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.kernel.limits import bounded, leading_order_of
-from force_diffusion.symbolic.kernel.rules import Rule, same
+from force_diffusion.symbolic.kernel.rules import Rule, differentiate, rewrite, same
 from force_diffusion.symbolic.kernel.theorem import Group, NotProvedError, Theorem
 from force_diffusion.symbolic.piecewise import theorems
-from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma
+from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma, z
 from force_diffusion.symbolic.words import in_words
 
 from .proof import Definitions, Steps
@@ -109,6 +109,25 @@ def claim_edges(
         leading_order(exact),
         [at_layer(layers, layer, "∼") for layer in edges],
         definitions,
+    )
+
+
+def claim_exponent(
+    steps: Steps,
+    name: str,
+    profile: sympy.Expr,
+    exponent: sympy.Expr,
+    over_brownian: sympy.Expr,
+) -> None:
+    """Claim the local exponent of a profile in the depth 1 − z, and how far it is above 1."""
+    steps.claim(
+        name,
+        sympy.Tuple(
+            equation(minus(times(1 - z, sympy.Derivative(profile, z), 1 / profile)), exponent),
+            equation(terms(exponent, -1), over_brownian),
+        ),
+        [differentiate, rewrite()],
+        Domain(),
     )
 
 
