@@ -9,7 +9,9 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, TypeAlias
 
+import numpy as np
 import sympy
+from flint import fmpq, fmpz
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.code import name_of
@@ -34,8 +36,10 @@ TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], Any]]] 
 }
 """What holds of two together; of numbers, and of arrays element by element."""
 
-EXACT = (numbers.Rational, Decimal)
-"""Types of exact numbers; others are taken for floats."""
+EXACT = (numbers.Rational, Decimal, fmpq, fmpz)
+"""Types of exact numbers; floats of Python and NumPy up to float64 are taken, too."""
+
+_LONGEST = 10_000  # digits of a Decimal that is written out
 
 
 class ArgumentError(ForceDiffusionError, ValueError):
@@ -146,14 +150,20 @@ def _compare_names(about: str, known: Iterable[str], given: Iterable[str]) -> No
 
 
 def _exactly(name: str, value: Number) -> sympy.Rational:
+    if isinstance(value, fmpq | fmpz):
+        value = fmpq(value)
+        return sympy.Rational(int(value.p), int(value.q))
     if isinstance(value, numbers.Rational):
         return sympy.Rational(int(value.numerator), int(value.denominator))
     if isinstance(value, Decimal) and value.is_finite():
+        if max(abs(value.adjusted()), len(value.as_tuple().digits)) > _LONGEST:
+            raise ArgumentError(f"{name}: a Decimal of at most {_LONGEST} digits is allowed")
         return sympy.Rational(*value.as_integer_ratio())
-    if isinstance(value, numbers.Real) and math.isfinite(value):
+    if isinstance(value, float | np.float32 | np.float16) and math.isfinite(value):
         return sympy.Rational(*float(value).as_integer_ratio())
     raise ArgumentError(
-        f"{name} = {value!r}: one int, Fraction, SymPy Rational, Decimal or finite float is allowed"
+        f"{name} = {value!r}: one int, Fraction, SymPy Rational, Decimal or finite float is "
+        "allowed; of a longer float give the Fraction that it is"
     )
 
 
@@ -198,12 +208,14 @@ def indices_at(at: Mapping[str, Any]) -> dict[sympy.Symbol, sympy.Integer]:
             raise ArgumentError(f"{name} is no index: {', '.join(by_name)} are")
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
             raise ArgumentError(f"{name} = {value!r}: a whole number is allowed")
+        if int(value).bit_length() > _LONGEST:
+            raise ArgumentError(f"{name}: a number of fewer than 3000 digits is allowed")
     return {by_name[name]: sympy.Integer(int(value)) for name, value in at.items()}
 
 
 def told(symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]) -> str:
     """Values in words."""
-    return ", ".join(f"{text(symbol)} = {values[symbol]}" for symbol in symbols)
+    return ", ".join(f"{text(symbol)} = {text(values[symbol])}" for symbol in symbols)
 
 
 def rounded(value: sympy.Expr) -> float:

@@ -84,6 +84,17 @@ def is_vector(expr: Expr) -> bool:
     return expr in sy.VECTORS or any(is_vector(arg) for arg in expr.args)
 
 
+_LONGEST = 10_000  # bits of a number that is written out, within what Python converts
+
+
+def digits(number: int) -> str:
+    """A whole number; of one that is too long for a page, how many digits it has."""
+    length = int(number).bit_length()
+    if length <= _LONGEST:
+        return str(int(number))
+    return f"[a number of about {length * 3 // 10} digits]"
+
+
 def _index_key(term: Expr) -> int:
     """Place of a term within an index: letters in their fixed order, numbers last."""
     places = [sy.INDICES.index(s) for s in term.free_symbols if s in sy.INDICES]
@@ -200,12 +211,13 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
             texts.append(text)
         return self.juxtaposition.join(texts)
 
+    def _print_Integer(self, expr: Integer) -> str:
+        return digits(expr.p).replace("-", self.minus)
+
     def _print_Rational(self, expr: Rational) -> str:
-        if expr.q == 1:
-            return str(expr.p).replace("-", self.minus)
         if expr.p < 0:
             return f"{self.minus}{self._print(-expr)}"
-        return self.set_fraction(str(expr.p), str(expr.q), alone=True)
+        return self.set_fraction(digits(expr.p), digits(expr.q), alone=True)
 
     def _print_Pow(self, expr: Pow, **_: Any) -> str:
         if isinstance(expr.base, MatrixBase):
