@@ -35,7 +35,7 @@ _FIXED_FIRST = {
     )
 }
 """Which symbol an equation gives, the first that it holds: M and N also stand in denominators."""
-_MOST = 2**62  # isl takes machine integers
+LARGEST = 2**62  # isl takes machine integers
 
 
 class OpenSumError(NotExactError):
@@ -52,7 +52,7 @@ def row(form: sympy.Expr) -> Row:
     factors: dict[sympy.Symbol, int] = {}
     constant = 0
     for term, factor in sympy.expand(form).as_coefficients_dict().items():
-        if not isinstance(factor, sympy.Integer) or abs(int(factor)) > _MOST:
+        if not isinstance(factor, sympy.Integer) or abs(int(factor)) > LARGEST:
             raise NotExactError(f"{form} does not have whole factors of a usual size")
         if term == 1:
             constant = int(factor)

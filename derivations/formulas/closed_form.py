@@ -48,7 +48,7 @@ from ..framework.decide import strange_symbol
 from ..framework.proof import equations_of
 from .arrays import evaluate
 from .deciding import decided
-from .evaluation import ArgumentError, Number, in_order, read_arguments, rounded, told
+from .evaluation import ArgumentError, Number, in_order, indices_at, read_arguments, rounded, told
 
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
@@ -478,12 +478,8 @@ class ClosedForm:
         Raises:
             ArgumentError: an index is none that it depends on, or no whole number.
         """
-        at_place: list[sympy.Basic] = []
-        for name, value in at.items():
-            symbol = self.symbols.get(name)
-            if symbol not in sy.INDICES or not isinstance(value, Integral):
-                raise ArgumentError(f"{name}={value!r}: whole numbers for its indices are allowed")
-            at_place.append(sympy.Eq(symbol, int(value), evaluate=False))
+        indices = indices_at(at, self.symbols.values())
+        at_place = [sympy.Eq(symbol, n, evaluate=False) for symbol, n in indices.items()]
         return decided(candidate, (self.equation,), lambda _, one: self._rule_on(one, at_place))
 
     def _rule_on(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Ruling:

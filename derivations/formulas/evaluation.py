@@ -13,6 +13,7 @@ import numpy as np
 import sympy
 from flint import fmpq, fmpz
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.code import name_of
 from force_diffusion.symbolic.printing.text import text
@@ -196,20 +197,22 @@ def range_of(symbol: sympy.Symbol, dimension: int = 2) -> tuple[str, Callable[[A
     return "a number", lambda _: True
 
 
-def indices_at(at: Mapping[str, Any]) -> dict[sympy.Symbol, sympy.Integer]:
+def indices_at(
+    at: Mapping[str, Any], known: Iterable[sympy.Symbol] = sy.INDICES
+) -> dict[sympy.Symbol, sympy.Integer]:
     """Whole numbers for indices, by symbol.
 
     Raises:
-        ArgumentError: a name is no index, or a value no whole number.
+        ArgumentError: a name is none of the indices known, or a value no whole number.
     """
-    by_name = {symbol.name: symbol for symbol in sy.INDICES}
+    by_name = {symbol.name: symbol for symbol in known if symbol in sy.INDICES}
     for name, value in at.items():
         if name not in by_name:
             raise ArgumentError(f"{name} is no index: {', '.join(by_name)} are")
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
             raise ArgumentError(f"{name} = {value!r}: a whole number is allowed")
-        if int(value).bit_length() > _LONGEST:
-            raise ArgumentError(f"{name}: a number of fewer than 3000 digits is allowed")
+        if abs(int(value)) > sets.LARGEST:
+            raise ArgumentError(f"{name}: a whole number up to {sets.LARGEST} is allowed")
     return {by_name[name]: sympy.Integer(int(value)) for name, value in at.items()}
 
 
