@@ -4,7 +4,8 @@ Both to first order, exact at a finite height M. From Eq. 3, in units of r and f
 
     Var(δx) = (4 j − 3) σ²/(2 n_x²),        Var(δy) = (4 j − 1) σ²/(2 n_y²),
 
-which is Brownian; the forces, Eq. 13, are not.
+which is Brownian; the forces, Eq. 13, are not: the exponent d ln σ²/d ln (1 − z) of their leading
+order is 6z/(2z + 1), above 1 for z > ¼ and below it for z < ¼.
 """
 
 import numpy as np
@@ -15,6 +16,8 @@ from .comparison import curves
 from .packings import PAPER, Medium, Options
 
 HEIGHT = 16
+CROSSOVER = 0.25
+"""z below which the forces spread more slowly than a Brownian path."""
 
 
 def displacement_std(height: int, medium: Medium = PAPER) -> tuple[Array, Array]:
@@ -56,6 +59,8 @@ def figure(o: Options) -> spec.Figure:
         spec.Line(name=rf"$\pm\sigma$, exact at $M={M}$"),
         spec.Line(name="Eq. (13), printed", colour="black", dashes="--"),
         spec.Line(name="Brownian", colour="black", dashes=":"),
+        spec.Line([-2.3, 2.3], [CROSSOVER] * 2, spec.GREY, "-."),
+        spec.Line(name="superdiffusive above, subdiffusive below", colour=spec.GREY, dashes="-."),
         spec.Area(name=r"within $\pm\sigma$", alpha=0.45),
         spec.Area(name=r"within $\pm2\sigma$", alpha=0.18),
     ]
