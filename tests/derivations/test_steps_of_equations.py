@@ -7,13 +7,13 @@ from dataclasses import replace
 
 import pytest
 import sympy
+from force_diffusion.derivations.eq15_general_form import HEIGHT
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Lines
 from force_diffusion.derivations.framework.record import Derivation, Statement
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.derivations.framework.runner import proofs, run
-from force_diffusion.derivations.parts.tensile import HEIGHT
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Verdict

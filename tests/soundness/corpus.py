@@ -454,7 +454,7 @@ def statements(source: Source, turn: int | None = None) -> Iterator[Statement]:
         for kind, rules in kinds.items():
             for rule in rules:
                 made = [one for one in rule(source) if one[1] != source.printed]
-                if sy.d in source.free or source.dimension != 2:  # n_x and n_y are of the plane
+                if source.dimension != 2:  # n_x and n_y are of the plane
                     made = [one for one in made if not (holds and one[1].has(sy.n_x, sy.n_y))]
                 if turn is not None and made:
                     made = [made[turn % len(made)]]

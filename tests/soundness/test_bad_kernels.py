@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.catalogue import Number, modules
+from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import KernelError
@@ -19,6 +19,7 @@ from force_diffusion.symbolic.kernel.decisions import proved, refuted
 import force_diffusion as fd
 from tests.soundness import trial
 from tests.soundness.attacks.every import succeeded
+from tests.soundness.trial import DERIVED
 
 pytestmark = pytest.mark.usefixtures("nothing_is_remembered")
 
@@ -31,7 +32,7 @@ def is_noticed(number: Number) -> bool:
 
 
 @pytest.mark.long(sample=7)
-@pytest.mark.parametrize("number", modules())
+@pytest.mark.parametrize("number", DERIVED)
 def test_it_proves_all(monkeypatch: Plant, number: Number) -> None:
     monkeypatch.setattr(Line, "rule_on", lambda *_: proved("of course"))
     assert trial.is_noticed(replace(load(number), premises=()))
@@ -45,7 +46,7 @@ def test_what_is_proved_and_explicit_values_refute_is_an_error(monkeypatch: Plan
 
 
 @pytest.mark.long(sample=7)
-@pytest.mark.parametrize("number", modules())
+@pytest.mark.parametrize("number", DERIVED)
 def test_it_refutes_all(monkeypatch: Plant, number: Number) -> None:
     monkeypatch.setattr(Line, "rule_on", lambda *_: refuted("never"))
     assert trial.is_noticed(replace(load(number), premises=()))
@@ -98,7 +99,7 @@ def test_an_order_too_many(monkeypatch: Plant, number: int) -> None:
 
 
 @pytest.mark.long(sample=17)
-@pytest.mark.parametrize("number", modules())
+@pytest.mark.parametrize("number", DERIVED)
 def test_only_one_sign_of_phi(monkeypatch: Plant, number: Number) -> None:
     """Roots are counted for 0 < φ < ½ alone: n_x² is between ¼ and ½ there."""
     whole = signs._on_interval

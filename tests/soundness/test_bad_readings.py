@@ -7,7 +7,6 @@ import sympy
 from force_diffusion.derivations.framework import record
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra import weights
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel import language, rules, theorem
 from force_diffusion.symbolic.kernel.decisions import proved
@@ -40,8 +39,8 @@ def test_without_a_plant_nothing_is_noticed(number: int) -> None:
 
 
 @pytest.mark.long(sample=2)
-@pytest.mark.parametrize("number", [*range(1, 17), "B4"])
-def test_what_is_put_in_cancels_zero_over_zero(monkeypatch: Plant, number: int | str) -> None:
+@pytest.mark.parametrize("number", range(1, 17))
+def test_what_is_put_in_cancels_zero_over_zero(monkeypatch: Plant, number: int) -> None:
     monkeypatch.setattr(language, "in_place", lambda side, image: side.xreplace(image))
     assert is_noticed(number)
 
@@ -95,11 +94,6 @@ def test_an_index_that_is_free_and_summed_over_is_attacked(monkeypatch: Plant) -
     whole = theorem._check
     monkeypatch.setattr(theorem, "_check", lambda node, where, _: whole(node, where, frozenset()))
     assert "an index summed over and free" in {one.tried for one in succeeded()}
-
-
-def test_lines_that_are_not_told_apart_are_attacked(monkeypatch: Plant) -> None:
-    monkeypatch.setattr(weights, "_assert_lines_apart", lambda *_: None)
-    assert "two lines that may be one" in {one.tried for one in succeeded()}
 
 
 @pytest.mark.parametrize("number", [1, 2, 3, 4, 5, 6, 9, 10, 11])

@@ -6,7 +6,6 @@ from collections.abc import Callable
 import pytest
 import sympy
 from force_diffusion.derivations.eq11_total_force import in_radii
-from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
@@ -34,7 +33,7 @@ from tests.properties.mutants import EQUIVALENT
 from tests.soundness.corpus import FALSE as FALSE_KINDS
 from tests.soundness.corpus import LARGER, statements
 from tests.soundness.corpus import TRUE as TRUE_KINDS
-from tests.soundness.trial import judged_mutants, source_of
+from tests.soundness.trial import DERIVED, judged_mutants, source_of
 
 Change = Callable[[sympy.Eq], sympy.Eq]
 
@@ -207,7 +206,7 @@ def test_an_order_that_fails_at_one_place_is_refuted_by_values() -> None:
 
 
 @pytest.mark.long(share=3)
-@pytest.mark.parametrize("number", modules())
+@pytest.mark.parametrize("number", DERIVED)
 def test_the_whole_corpus(number: int | str) -> None:
     """Nothing false is proved; all that is true is."""
     derivation, found = load(number), Counter()
@@ -222,9 +221,9 @@ def test_the_whole_corpus(number: int | str) -> None:
 
 @pytest.mark.long
 def test_every_kind_is_tried_where_it_can_be() -> None:
-    kinds = {one.kind for n in modules() for one in statements(source_of(load(n), 0), 0)}
+    kinds = {one.kind for n in DERIVED for one in statements(source_of(load(n), 0), 0)}
     assert kinds == {LARGER, *FALSE_KINDS, *TRUE_KINDS}
-    for number in modules():
+    for number in DERIVED:
         derivation = load(number)
         for part in range(len(derivation.printed)):
             every = list(statements(source_of(derivation, part)))
@@ -234,7 +233,7 @@ def test_every_kind_is_tried_where_it_can_be() -> None:
 
 
 @pytest.mark.long(sample=2)
-@pytest.mark.parametrize("number", modules())
+@pytest.mark.parametrize("number", DERIVED)
 def test_mutants_are_refuted(number: int | str) -> None:
     refuted, equivalent = 0, []
     for mutant, ruling in judged_mutants(load(number)):

@@ -8,6 +8,8 @@ import gc
 from collections.abc import Iterator
 from functools import _lru_cache_wrapper, cached_property
 
+from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.record import Derivation, KernelError
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
@@ -15,6 +17,9 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from tests.properties.mutants import EQUIVALENT, Mutated, mutants
 from tests.soundness.corpus import Statement, statements
 from tests.soundness.sources import Form, Source
+
+DERIVED = [number for number in modules() if isinstance(load(number), Derivation)]
+"""The equations that the rules prove step by step; rows are closed forms."""
 
 
 class FaultError(AssertionError):
