@@ -187,7 +187,7 @@ def closed_form(
     """
     observables = [one for moment in statistic.atoms(sy.Moment) for one in moment.args]
     on = domain(observables, load, *where)
-    scales = {}
+    scales: dict[sympy.Expr, sympy.Expr] = {}
     if relative:
         for one in observables:
             scales |= _scales(one, load)

@@ -65,7 +65,7 @@ class Row(Statement):
         return self.forms()
 
     @property
-    def remarks(self) -> tuple[str, ...]:
+    def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
         """What the forms say."""
         return (self.meaning,)
 
@@ -77,7 +77,7 @@ class Row(Statement):
         return (*self.quantities, *usual(*by_name(held)))
 
     @property
-    def assumptions(self) -> tuple[str, ...]:
+    def assumptions(self) -> tuple[str, ...]:  # type: ignore[override]
         """What is assumed, in words."""
         forms = self.exact_forms.values()
         order = SECOND_ORDER if any(one.meant.has(Shift) for one in forms) else FIRST_ORDER
@@ -85,7 +85,7 @@ class Row(Statement):
         return (*order, *dict.fromkeys(loads))
 
     @property
-    def premises(self) -> tuple[Statement, ...]:
+    def premises(self) -> tuple[Statement, ...]:  # type: ignore[override]
         """The derivations that it rests on."""
         numbers = (number for form in self.exact_forms.values() for number in form.premises)
         return tuple(map(load, dict.fromkeys(numbers)))
@@ -128,7 +128,7 @@ class Row(Statement):
             Claim(words, partial(decide, self.exact_forms)) for words, decide in self.claimed
         )
 
-    def steps(self) -> Lines:  # type: ignore[override]
+    def steps(self) -> Lines:
         """A line for each formula and part of its domain."""
         return self._steps
 

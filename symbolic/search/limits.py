@@ -138,7 +138,7 @@ def counterexample(statement: sympy.Eq, where: Where, force: sympy.Eq | None = N
         return not_proportional(right, left / right)
     if limit is None or limit.relation != "∼" or not _is_rational(left):
         return None
-    return parts_in_the_limit(left, right, _places(limit), where.dimension)
+    return parts_in_the_limit(left, right, _places(limit))
 
 
 _RATIOS: Mapping[int, tuple[tuple[Fraction | int, ...], ...]] = {

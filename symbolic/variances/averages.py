@@ -57,6 +57,7 @@ def layer_average(form: ClosedForm) -> LayerAverage:
     below the surface has a formula of its own, nothing is divided by k.
     """
     height, above = FIELD.generator(M), FIELD.generator(k)
+    edges: tuple[sympy.Expr | int, ...]
     try:
         interior, edges, lowest = form.on(j >= 2), (0, 1), 1
     except NotProvedError:
