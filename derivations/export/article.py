@@ -354,6 +354,6 @@ def verdicts(outcomes: Sequence[Outcome]) -> str:
     return (
         f"In the run that wrote this text the program derived {len(found)} equations: "
         f"{verdicts_text(outcomes)}."
-        + (f" Not derived in it: {', '.join(left)}." if left else "")
+        + (f" Not derived in it: {', '.join(map(str, left))}." if left else "")
         + (f" As its words read in Ref. [1], {both(refuted)} is refuted." if refuted else "")
     )

@@ -4,6 +4,7 @@ import copyreg
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import suppress
 from importlib import import_module
+from typing import Any
 
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
 
@@ -21,7 +22,7 @@ def load(number: Number) -> Statement:
     return several[number] if several else module.DERIVATION
 
 
-def pickled(statement: Statement) -> tuple[Callable[[Number], Statement], tuple[Number]]:
+def pickled(statement: Statement) -> tuple[Callable[[Number], Any], tuple[Number]]:
     """Say how a derivation is had again: by its number, since it is made of functions."""
     return load, (statement.number,)
 

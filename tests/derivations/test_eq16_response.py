@@ -21,7 +21,6 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proving import Line
 from force_diffusion.derivations.framework.record import Check
 from force_diffusion.derivations.framework.vocabulary import UNIT
-from force_diffusion.derivations.parts import cone
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra import explicit
@@ -66,7 +65,7 @@ def test_bead_forms_are_sums_of_squared_weights(j: int, p: int, q: int, phi: int
     """On explicit sites, which know nothing of cases."""
     values = explicit.geometry(*DIRECTIONS[phi], ONE)
     at = {**values, sy.i: j, sy.j: j, sy.p: p, sy.q: q}
-    response = (cone.UPPER_RIGHT + cone.UPPER_LEFT) / 2
+    response = (eq16.UPPER_RIGHT + eq16.UPPER_LEFT) / 2
     weights = explicit.weights(eq11.in_radii(response), at)
     total = sum((w**2 for key, w in weights.items() if key[0]), Fraction(0))
     site = (0, j, p - q, j + p + q)
@@ -91,7 +90,7 @@ def test_the_branch_is_that_of_equation_10() -> None:
     at = {sy.k: sy.i + sy.p - sy.q, sy.l: sy.j + sy.p + sy.q}
     count = eq10.BRANCH_COUNT.xreplace(at)
     assert count.expand() == sy.q
-    assert eq10.PRINTED.rhs.xreplace({sy.n: sy.q}) == cone.UPPER_LEFT
+    assert eq10.PRINTED.rhs.xreplace({sy.n: sy.q}) == eq16.UPPER_LEFT
 
 
 @given(
