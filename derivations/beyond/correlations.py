@@ -1,11 +1,9 @@
 """Eqs. B7, B8, B12 and B21: correlations of contact forces, and means over neighbours."""
 
 # fmt: off
-from collections.abc import Iterable
-
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations import eq14_bulk_diffusion as eq14
+from force_diffusion.derivations.beyond.variances import PAPER
 from force_diffusion.derivations.calculator.statistics import (
     covariance, mean_over, response, variance)
 from force_diffusion.derivations.framework.catalogue import Number
@@ -39,16 +37,15 @@ APART = Symbol(
 LAYERS, BULK_LAYERS = (
     Symbol(
         f"{load}layers_covariance",
-        r"\frac{\langle\Delta f^{+}_{ij}\,\Delta f^{+}_{i+l-j,\,l}\rangle"
-        rf"{index}}}{{\langle f_{{ij}}\rangle\langle f_{{i+l-j,\,l}}\rangle}}",
-        f"⟨Δf⁺_ij Δf⁺_{{i+l−j,l}}⟩{index.replace('bulk', 'bulk')}/⟨f_ij⟩⟨f_{{i+l−j,l}}⟩",
+        r"\frac{\langle\Delta f^{+}_{ij}\,\Delta f^{+}_{i+l-j,\,l}\rangle}"
+        r"{\langle f_{ij}\rangle\langle f_{i+l-j,\,l}\rangle}",
+        "⟨Δf⁺_ij Δf⁺_{i+l−j,l}⟩/⟨f_ij⟩⟨f_{i+l−j,l}⟩",
     )
-    for load, index in (("", ""), ("bulk_", ""))
+    for load in ("", "bulk_")
 )
 z_upper = Symbol("z_upper", "z'", "z′", positive=True)
 """Relative height l/M of the upper contact."""
 AT_HEIGHTS = {j: z * M, l: z_upper * M}
-PAPER = {"surface": eq13, "bulk": eq14}
 ON_DIAGONAL = {
     "surface": M**3 * (1 - z_upper) * (3 * (1 - z**2) - (1 - z_upper) ** 2) * UNIT,
     "bulk": M**3 * (1 - z_upper) / (10 * (1 - z)) * UNIT
@@ -82,43 +79,25 @@ def _contacts(number: Number, name: str, load: str) -> Row:
             (FORCE_MEAN, "variance of the mean of f^± over N neighbours of one layer"),
             (APART, "covariance of two contacts of a layer that are p places apart"),
         ),
-        claimed=(
-            (
-                "to leading order the correlation of a contact with its first neighbour is −2/3",
+        claimed={
+            "to leading order the correlation of a contact with its first neighbour is −2/3":
                 beside(1, Rational(-2, 3)),
-            ),
-            ("and with its second neighbour 1/6", beside(2, Rational(1, 6))),
-            (
-                "from the third neighbour on there is none, exactly, for p ≤ j − 2",
+            "and with its second neighbour 1/6": beside(2, Rational(1, 6)),
+            "from the third neighbour on there is none, exactly, for p ≤ j − 2":
                 equals("apart", sympy.S.Zero, p >= 3, p <= j - 2),
-            ),
-            ("nor for p ≥ j + 3", equals("apart", sympy.S.Zero, p >= j + 3)),
-            (
-                f"of Eq. {PAPER[load].DERIVATION.number} a mean over few neighbours has 2/(3N²)",
-                goes_as(
-                    "mean",
-                    Rational(2, 3) / N**2 * leading,
-                    N >= 2,
-                    j - 1 >= N,
-                    j + 2 <= M,
-                    at={j: z * M},
-                ),
-            ),
-            (
-                "over many neighbours it falls as 1/N, and M does not count: as "
-                "(1 − φ)²(σ/r)²/[2N(1 + φ)²]",
-                goes_as(
-                    "mean",
-                    (1 - phi) ** 2 * sigma**2 / (2 * N * (1 + phi) ** 2 * r**2),
-                    *_LONG,
-                    growing=N,
-                ),
-            ),
-        ),
-    )
+            "nor for p ≥ j + 3": equals("apart", sympy.S.Zero, p >= j + 3),
+            f"of Eq. {PAPER[load].DERIVATION.number} a mean over few neighbours has 2/(3N²)":
+                goes_as("mean", Rational(2, 3) / N**2 * leading, N >= 2, j - 1 >= N, j + 2 <= M,
+                        at={j: z * M}),
+            "over many neighbours it falls as 1/N, and M does not count: as "
+            "(1 − φ)²(σ/r)²/[2N(1 + φ)²]":
+                goes_as("mean", (1 - phi) ** 2 * sigma**2 / (2 * N * (1 + phi) ** 2 * r**2),
+                        *_LONG, growing=N),
+        },
+    )  # fmt: skip
 
 
-def uncorrelated(domains: Iterable[str]) -> Decide:
+def uncorrelated(*domains: str) -> Decide:
     """f⁺_ij and the f⁻ of layer l whose diagonals cross p layers above (i, j) are uncorrelated."""
 
     def decide(_: Forms) -> Ruling:
@@ -174,35 +153,19 @@ DERIVATIONS: dict[Number, Row] = {
             (BEAD_MEAN, "variance of the mean of p over N neighbours of one layer"),
             (BEAD, "variance of the vertical force p that a bead gets from both upper contacts"),
         ),
-        claimed=(
-            (
-                "of a single bead it is half of Eq. 13, to leading order: its two contacts are "
-                "uncorrelated to that order",
-                leads("bead", eq13.PRINTED.rhs.doit() / 2),
-            ),
-            (
-                "of Eq. 13 a mean over few neighbours has 1/(3N²)",
-                goes_as(
-                    "mean",
-                    eq13.PRINTED.rhs.doit() / (3 * N**2),
-                    N >= 2,
-                    j - 2 >= N,
-                    M - j - 1 >= N,
-                    at={j: z * M},
-                ),
-            ),
-            (
-                "the mean over many neighbours goes as 1/N², too",
-                goes_as(
-                    "mean",
-                    (8 * (M - j) ** 2 * (M + 2 * j) - 6 * (M - j) ** 2
-                     + (M - j) * (6 * phi**2 + 24 * phi - 2) - 3 * (1 + phi) ** 2)
-                    / (12 * N**2) * UNIT,
-                    *_LONG, M - j + 1 <= N,
-                    growing=N,
-                ),
-            ),
-        ),
+        claimed={
+            "of a single bead it is half of Eq. 13, to leading order: its two contacts are "
+            "uncorrelated to that order": leads("bead", eq13.PRINTED.rhs.doit() / 2),
+            "of Eq. 13 a mean over few neighbours has 1/(3N²)":
+                goes_as("mean", eq13.PRINTED.rhs.doit() / (3 * N**2), N >= 2, j - 2 >= N,
+                        M - j - 1 >= N, at={j: z * M}),
+            "the mean over many neighbours goes as 1/N², too":
+                goes_as("mean",
+                        (8 * (M - j) ** 2 * (M + 2 * j) - 6 * (M - j) ** 2
+                         + (M - j) * (6 * phi**2 + 24 * phi - 2) - 3 * (1 + phi) ** 2)
+                        / (12 * N**2) * UNIT,
+                        *_LONG, M - j + 1 <= N, growing=N),
+        },
     ),
     "B12": Row(
         number="B12",
@@ -224,27 +187,26 @@ DERIVATIONS: dict[Number, Row] = {
             (BULK_LAYERS, "the same under a bulk load"),
             (l, "layer of the upper contact, j that of the lower one"),
         ),
-        claimed=(
-            *((f"the leading order at the heights z = j/M and z′ = l/M, {load} load",
-               goes_as(name, ON_DIAGONAL[load], *_INSIDE, at=AT_HEIGHTS))
-              for name, load in (("layers", "surface"), ("bulk", "bulk"))),
-            *((f"for l = j it is Eq. {PAPER[load].DERIVATION.number}",
-               equals(name, (PAPER[load].DERIVATION.number, "layer"), Eq(j, l)))
-              for name, load in (("layers", "surface"), ("bulk", "bulk"))),
-            ("along a diagonal from the base to the surface a correlation of √3/2 is left under a "
-             "surface load, as M → ∞ and then z′ → 1",
-             _correlation("layers", "surface", Rational(3, 4))),
-            ("and of √5/3 under a bulk load", _correlation("bulk", "bulk", Rational(5, 9))),
-            ("the mean over a whole diagonal has 4/5 of the variance of one of its contacts, "
-             "surface load",
-             _share_of_a_diagonal("layers", "surface", Rational(4, 5))),
-            ("f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
-             "from both, from the base and from the surface, and, if q layers above both, where q "
-             "and j differ by four or more",
-             uncorrelated(("4 − j ≤ p ≤ −4", "4 ≤ p ≤ l − j − 4",
-                            "l − j + 4 ≤ p ≤ M − j − 4 and p ≤ l − 4",
-                            "l − j + 4 ≤ p ≤ M − j − 4 and p ≥ l + 4"))),
-        ),
+        claimed={
+            **{f"the leading order at the heights z = j/M and z′ = l/M, {load} load":
+                   goes_as(name, ON_DIAGONAL[load], *_INSIDE, at=AT_HEIGHTS)
+               for name, load in (("layers", "surface"), ("bulk", "bulk"))},
+            **{f"for l = j it is Eq. {PAPER[load].DERIVATION.number}":
+                   equals(name, (PAPER[load].DERIVATION.number, "layer"), Eq(j, l))
+               for name, load in (("layers", "surface"), ("bulk", "bulk"))},
+            "along a diagonal from the base to the surface a correlation of √3/2 is left under a "
+            "surface load, as M → ∞ and then z′ → 1":
+                _correlation("layers", "surface", Rational(3, 4)),
+            "and of √5/3 under a bulk load": _correlation("bulk", "bulk", Rational(5, 9)),
+            "the mean over a whole diagonal has 4/5 of the variance of one of its contacts, "
+            "surface load": _share_of_a_diagonal("layers", "surface", Rational(4, 5)),
+            "f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
+            "from both, from the base and from the surface, and, if q layers above both, where q "
+            "and j differ by four or more":
+                uncorrelated("4 − j ≤ p ≤ −4", "4 ≤ p ≤ l − j − 4",
+                             "l − j + 4 ≤ p ≤ M − j − 4 and p ≤ l − 4",
+                             "l − j + 4 ≤ p ≤ M − j − 4 and p ≥ l + 4"),
+        },
     ),
     "B21": _contacts("B21", "neighbouring_contacts_bulk", "bulk"),
 }  # fmt: skip

@@ -52,24 +52,16 @@ def _upright(
         meaning="Mean forces rise high up in the packing and fall further down, by shares of order "
         "M(σ/r)², whatever the law of the radii; their fluctuation is of order M³(σ/r)².",
         quantities=((symbol, "mean of f⁺, and of f⁻, over its value in the ordered packing"),),
-        claimed=(
-            ("the leading order", leads("force", leading * _UNIT)),
-            (
-                f"to leading order forces rise above z = {'φ' if turns == phi else 'φ/(2 − φ)'}, "
-                "and fall below",
-                turns_positive("force", z, turns),
-            ),
-            (
-                "at j = 0 they rise",
-                goes_as("force", 3 * M * (1 - 2 * phi) * share * _UNIT, *BASE),
-            ),
-            (
-                "at j = 1 they fall for φ > −3/8, by shares that z → 0 does not give",
+        claimed={
+            "the leading order": leads("force", leading * _UNIT),
+            f"to leading order forces rise above z = {'φ' if turns == phi else 'φ/(2 − φ)'}, "
+            "and fall below": turns_positive("force", z, turns),
+            "at j = 0 they rise": goes_as("force", 3 * M * (1 - 2 * phi) * share * _UNIT, *BASE),
+            "at j = 1 they fall for φ > −3/8, by shares that z → 0 does not give":
                 goes_as("force", -M * (3 + 8 * phi) * share * _UNIT, *ABOVE),
-            ),
-            *([("one layer below the surface both loads agree", below_surface)]
-              if load == "bulk" else []),
-        ),
+            **({"one layer below the surface both loads agree": below_surface}
+               if load == "bulk" else {}),
+        },
     )  # fmt: skip
 
 
@@ -90,16 +82,15 @@ def _leaning(number: Number, load: str, upright: Number, own: sympy.Expr, other:
             (PLUS, "mean of f⁺ over its value in the ordered packing"),
             (MINUS, "the same of f⁻"),
         ),
-        claimed=(
-            ("the leading order", leads("plus", M * (own + t * other) * UNIT)),
-            (
-                f"for t = 1 it is Eq. {upright}",
+        claimed={
+            "the leading order": leads("plus", M * (own + t * other) * UNIT),
+            f"for t = 1 it is Eq. {upright}":
                 equals("plus", (upright, "force"), at={t: sympy.S.One}),
-            ),
-            ("f⁻ has 1/t in place of t", equals("minus", "plus", at={t: 1 / t})),
-            *([("one layer below the surface both loads agree",
-                equals("plus", ("B15", "plus"), Eq(j, M - 1)))] if load == "bulk" else []),
-        ),
+            "f⁻ has 1/t in place of t": equals("minus", "plus", at={t: 1 / t}),
+            **({"one layer below the surface both loads agree":
+                    equals("plus", ("B15", "plus"), Eq(j, M - 1))}
+               if load == "bulk" else {}),
+        },
     )  # fmt: skip
 
 
@@ -118,18 +109,15 @@ DERIVATIONS: dict[Number, Row] = {
             (HEIGHT, "mean vertical displacement of bead (i, j); the horizontal one is 0"),
             (n_y, "vertical component of n^±"),
         ),
-        claimed=(
-            ("every layer above the base settles", has_sign("height", -1, j >= 1, at={j: j + 1})),
-            (
-                "by a share of its height that grows as its height",
-                goes_as(
-                    "height",
-                    -2 * j**2 * n_y * sigma**2 / (r * (1 + phi) * (1 - phi**2)),
-                    j >= 1,
-                    growing=j,
-                ),
+        claimed={
+            "every layer above the base settles": has_sign("height", -1, j >= 1, at={j: j + 1}),
+            "by a share of its height that grows as its height": goes_as(
+                "height",
+                -2 * j**2 * n_y * sigma**2 / (r * (1 + phi) * (1 - phi**2)),
+                j >= 1,
+                growing=j,
             ),
-        ),
+        },
     ),
     "B5": _upright("B5", "surface", FORCE, 2 * M * (z - phi), phi),
     "B6": _upright("B6", "bulk", BULK_FORCE, M * (2 * z - phi * (1 + z)), phi / (2 - phi)),

@@ -2,6 +2,7 @@
 
 # fmt: off
 import sympy
+from force_diffusion.derivations.beyond.variances import IN_SPACE
 from force_diffusion.derivations.calculator.loads import point
 from force_diffusion.derivations.calculator.statistics import mean, mean_over, response, variance
 from force_diffusion.derivations.formulas.closed_form import ClosedForm
@@ -11,7 +12,7 @@ from force_diffusion.derivations.framework.rows import (
     Forms, Row, adds_up_to_zero, equals, goes_as, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
-    ForceAlong, ForcePlus, N, VerticalAlong, i, j, k, l, p, phi, q, r, sigma, z)
+    ForceAlong, ForcePlus, N, VerticalAlong, i, j, k, l, p, phi, q, z)
 from sympy import Ge, Le, Rational, sqrt
 # fmt: on
 
@@ -22,19 +23,14 @@ CONTACT = Symbol(
     "δ⟨f⁺_ij⟩/(f_load/2n_y)",
 )
 PUSH = Symbol("mean_push", r"\frac{\delta\langle p\rangle}{f^{\mathrm{load}}}", "δ⟨p⟩/f_load")
-FACE, FACE_BEAD, LEG = (
-    Symbol(name, rf"\frac{{\sigma_{{\mathrm{{{where}}}}}^{{2}}({of})}}{{{_FORCE_LOAD}}}", words)
-    for name, where, of, words in (
-        ("face_response", "face", "n_{z} f", "σ²(n_z f on a face)/f_load²"),
-        ("face_bead_response", "face", "p", "σ²(p on a face)/f_load²"),
-        ("leg_response", "leg", "n_{z} f", "σ²(n_z f on a leg)/f_load²"),
-    )
-)
-LEG_FORCE, INSIDE = (
-    Symbol(name, rf"\frac{{\sigma_{{\mathrm{{{where}}}}}^{{2}}(f)}}{{f_{{0}}^{{2}}}}", words)
-    for name, where, words in (
-        ("leg_force", "leg", "σ²(f on a leg)/f₀²"),
-        ("inside_force", "inside", "σ²(f inside)/f₀²"),
+FACE, FACE_BEAD, LEG, LEG_FORCE, INSIDE = (
+    Symbol(name, rf"\frac{{\sigma_{{\mathrm{{{where}}}}}^{{2}}({of})}}{{{over}}}", words)
+    for name, where, of, over, words in (
+        ("face_response", "face", "n_{z} f", _FORCE_LOAD, "σ²(n_z f on a face)/f_load²"),
+        ("face_bead_response", "face", "p", _FORCE_LOAD, "σ²(p on a face)/f_load²"),
+        ("leg_response", "leg", "n_{z} f", _FORCE_LOAD, "σ²(n_z f on a leg)/f_load²"),
+        ("leg_force", "leg", "f", "f_{0}^{2}", "σ²(f on a leg)/f₀²"),
+        ("inside_force", "inside", "f", "f_{0}^{2}", "σ²(f inside)/f₀²"),
     )
 )
 OVER_LOADS, OVER_BEADS, OVER_BOTH, OVER_PAIRS = (
@@ -50,7 +46,6 @@ OVER_LOADS, OVER_BEADS, OVER_BOTH, OVER_PAIRS = (
         ("pairs", "N loads with a bead each"),
     )
 )
-_IN_SPACE = (sigma / r) ** 2 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
 SHARE = 1 + 2 * phi + 2 * phi**2
 
 # twice the steps along n⁺ and along n⁻ from the load (k, l) down to bead (i, j)
@@ -118,33 +113,19 @@ DERIVATIONS: dict[Number, Row] = {
             (PUSH, "the same of p, the vertical force that bead (i, j) gets from both contacts"),
             (l, "layer of the loaded bead"),
         ),
-        claimed=(
-            (
-                "the plateau of f is positive for φ > (√17 − 3)/4, and negative below",
-                turns_positive(
-                    "contact", phi, (sqrt(17) - 3) / 4, j >= 2, Ge(_DOWN, 2), Ge(_ACROSS, 4)
-                ),
-            ),
-            (
-                "that of p for φ > 1/5, down to the base",
+        claimed={
+            "the plateau of f is positive for φ > (√17 − 3)/4, and negative below":
+                turns_positive("contact", phi, (sqrt(17) - 3) / 4, j >= 2, Ge(_DOWN, 2),
+                               Ge(_ACROSS, 4)),
+            "that of p for φ > 1/5, down to the base":
                 turns_positive("bead", phi, Rational(1, 5), Ge(_DOWN, 4), Ge(_ACROSS, 4)),
-            ),
-            (
-                "a leg loses 2φ² + φ + 1 per layer in f, in units of (σ/r)²/(1−φ²)²",
-                goes_as(
-                    "contact",
-                    (2 * phi**2 + phi + 1) * j * UNIT,
-                    sympy.Eq(i, j + k - l),
-                    j >= 2,
-                    j <= l - 2,
-                    growing=j,
-                ),
-            ),
-            ("in p nothing is lost: in each layer all beads add up to no change",
-             adds_up_to_zero("bead", i)),
-            ("outside of the cone no mean changes",
-             equals("bead", sympy.S.Zero, Le(_ACROSS, -2))),
-        ),
+            "a leg loses 2φ² + φ + 1 per layer in f, in units of (σ/r)²/(1−φ²)²":
+                goes_as("contact", (2 * phi**2 + phi + 1) * j * UNIT, sympy.Eq(i, j + k - l),
+                        j >= 2, j <= l - 2, growing=j),
+            "in p nothing is lost: in each layer all beads add up to no change":
+                adds_up_to_zero("bead", i),
+            "outside of the cone no mean changes": equals("bead", sympy.S.Zero, Le(_ACROSS, -2)),
+        },
     ),
     "B19": Row(
         number="B19",
@@ -166,28 +147,16 @@ DERIVATIONS: dict[Number, Row] = {
             (q, "steps along that contact's own vector, from the leg where its path turns"),
             (p, "steps down that leg"),
         ),
-        claimed=(
-            (
-                "on a face, for p = q = zl, the vertical force on a bead goes as (2/3)(1 + 2φ + "
-                "2φ²)(l + j), in units of (σ/r)²/[(1−φ)(1+2φ)]²",
-                goes_as(
-                    "bead",
-                    Rational(4, 3) * SHARE * l * (1 - z) * _IN_SPACE,
-                    p >= 1, q >= 1, p + q >= 3, p + q <= l - 3,
-                    growing=l, at={p: z * l, q: z * l},
-                ),
-            ),
-            (
-                "on a leg it goes as [2(3 + 6φ + 5φ²)l + 4j]/9, at p = zl",
-                goes_as(
-                    "leg",
-                    (2 * (3 + 6 * phi + 5 * phi**2) + 4 * (1 - z)) * l / 9 * _IN_SPACE,
-                    p >= 2, p <= l - 2,
-                    growing=l, at={p: z * l},
-                ),
-            ),
-            ("inside of the cone no force changes", equals("inside", sympy.S.Zero)),
-        ),
+        claimed={
+            "on a face, for p = q = zl, the vertical force on a bead goes as (2/3)(1 + 2φ + "
+            "2φ²)(l + j), in units of (σ/r)²/[(1−φ)(1+2φ)]²":
+                goes_as("bead", Rational(4, 3) * SHARE * l * (1 - z) * IN_SPACE, p >= 1, q >= 1,
+                        p + q >= 3, p + q <= l - 3, growing=l, at={p: z * l, q: z * l}),
+            "on a leg it goes as [2(3 + 6φ + 5φ²)l + 4j]/9, at p = zl":
+                goes_as("leg", (2 * (3 + 6 * phi + 5 * phi**2) + 4 * (1 - z)) * l / 9 * IN_SPACE,
+                        p >= 2, p <= l - 2, growing=l, at={p: z * l}),
+            "inside of the cone no force changes": equals("inside", sympy.S.Zero),
+        },
     ),
     "B22": Row(
         number="B22",
@@ -205,21 +174,19 @@ DERIVATIONS: dict[Number, Row] = {
             (N, "number of neighbouring loads, or beads, or both, all beads inside of all cones"),
             (l, "layer of the loaded beads, j that of the beads whose p is averaged"),
         ),
-        claimed=(
-            (
-                "over loads it goes as 3(l + j)/2 − N/2, in units of (σ/r)²/(1−φ²)², as l → ∞ at "
-                "fixed j/l and N/l",
-                goes_as("loads", (3 * (1 + z) - _X) / 2 * l * UNIT, *_far(j >= 3),
-                        growing=l, at=_AT),
-            ),
-            *((f"over beads as (l + j)/N², {words}",
-               goes_as("beads", (1 + z) / (_X**2 * l) * UNIT, *_far(*where), growing=l, at=_AT))
-              for words, *where in (("N < j", j >= N + 3), ("N > j", j >= 3, j + 3 <= N))),
-            *((f"over both as (l + j)/N² − 1/(3N), {words}",
-               goes_as("both", ((1 + z) / _X**2 - 1 / (3 * _X)) / l * UNIT, *_far(*where),
-                       growing=l, at=_AT))
-              for words, *where in (("N < j", j >= N + 3), ("N > j", j >= 3, j + 3 <= N))),
-        ),
+        claimed={
+            "over loads it goes as 3(l + j)/2 − N/2, in units of (σ/r)²/(1−φ²)², as l → ∞ at "
+            "fixed j/l and N/l":
+                goes_as("loads", (3 * (1 + z) - _X) / 2 * l * UNIT, *_far(j >= 3), growing=l,
+                        at=_AT),
+            **{f"over beads as (l + j)/N², {words}":
+                   goes_as("beads", (1 + z) / (_X**2 * l) * UNIT, *_far(*where), growing=l, at=_AT)
+               for words, *where in (("N < j", j >= N + 3), ("N > j", j >= 3, j + 3 <= N))},
+            **{f"over both as (l + j)/N² − 1/(3N), {words}":
+                   goes_as("both", ((1 + z) / _X**2 - 1 / (3 * _X)) / l * UNIT, *_far(*where),
+                           growing=l, at=_AT)
+               for words, *where in (("N < j", j >= N + 3), ("N > j", j >= 3, j + 3 <= N))},
+        },
     ),
     "B23": Row(
         number="B23",
@@ -241,18 +208,14 @@ DERIVATIONS: dict[Number, Row] = {
             (N, "number of neighbouring loads, and of beads"),
             (l, "layer of the loaded beads, j that of the beads"),
         ),
-        claimed=(
-            (
-                "over many pairs it goes as (1 − φ)²/(4N), in units of (σ/r)²/(1−φ²)², whatever "
-                "the height",
-                goes_as("pairs", (1 - phi) ** 2 / (4 * N) * UNIT,
-                        j >= 2, j + 3 <= N, Ge(k - i, 3), growing=N),
-            ),
-            (
-                "over few as (l + j)/N²: of Eq. 16 two thirds, over N²",
+        claimed={
+            "over many pairs it goes as (1 − φ)²/(4N), in units of (σ/r)²/(1−φ²)², whatever "
+            "the height":
+                goes_as("pairs", (1 - phi) ** 2 / (4 * N) * UNIT, j >= 2, j + 3 <= N,
+                        Ge(k - i, 3), growing=N),
+            "over few as (l + j)/N²: of Eq. 16 two thirds, over N²":
                 goes_as("pairs", (1 + z) * l / N**2 * UNIT, N >= 2, j - 2 >= N, Ge(k - i, 3),
                         growing=l, at={j: z * l}),
-            ),
-        ),
+        },
     ),
 }  # fmt: skip

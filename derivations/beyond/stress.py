@@ -89,11 +89,12 @@ def _shear_forms(load: str) -> Forms:
 
 
 def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -> Row:
-    agree = (
-        (f"one layer below the surface both loads agree: {name}",
-         equals(name, ("B10", name), Eq(j, M - 1)))
+    agree = {
+        f"one layer below the surface both loads agree: {name}": equals(
+            name, ("B10", name), Eq(j, M - 1)
+        )
         for name in ("ratio", "vertical", "flux")
-    )  # fmt: skip
+    }
     return Row(
         number=number,
         name="stress" if load == "surface" else "stress_bulk",
@@ -111,19 +112,17 @@ def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -
             (VERTICAL, "the vertical one over its value in the ordered packing"),
             (BY_FLUX, "⟨S_yy⟩ over width and mean height of the layer; over load by width"),
         ),
-        claimed=(
-            ("the leading order of the ratio", leads("ratio", leading * UNIT)),
-            (
-                "it is larger than in the ordered packing above "
-                f"z = {'2φ/(1 + φ)' if load == 'surface' else 'φ'} and smaller below",
+        claimed={
+            "the leading order of the ratio": leads("ratio", leading * UNIT),
+            "it is larger than in the ordered packing above "
+            f"z = {'2φ/(1 + φ)' if load == 'surface' else 'φ'} and smaller below":
                 turns_positive("ratio", z, turns),
-            ),
-            *((f"the load's direction does not count: {name}", is_free_of(name, t))
-              for name in ("ratio", "vertical", "flux")),
-            ("over all layers, weighted as the ordered stress is, moments and flux agree",
-             adds_up_to_zero("flux", j, LAYERS[load])),
-            *(agree if load == "bulk" else ()),
-        ),
+            **{f"the load's direction does not count: {name}": is_free_of(name, t)
+               for name in ("ratio", "vertical", "flux")},
+            "over all layers, weighted as the ordered stress is, moments and flux agree":
+                adds_up_to_zero("flux", j, LAYERS[load]),
+            **(agree if load == "bulk" else {}),
+        },
     )  # fmt: skip
 
 
@@ -150,22 +149,23 @@ DERIVATIONS: dict[Number, Row] = {
             *((AXES[load], f"ψ: angle of a principal axis of ⟨S⟩ to the vertical, {load} load")
               for load in LAYERS),
         ),
-        claimed=(
-            ("the leading order under a surface load",
-             leads("shear_surface", 2 * M * (1 - 3 * z) * UNIT * (1 - phi))),
-            ("the leading order under a bulk load",
-             leads("shear_bulk", M * (1 - 5 * z) * UNIT * (1 - phi))),
-            *((f"the axes turn as −2j (1 − 3φ), in units of (σ/r)²/[(1−φ²)(1+φ)]: {load} load",
-               leads(f"axes_{load}", -2 * M * z * (1 - 3 * phi) * UNIT * (1 - phi)))
-              for load in LAYERS),
-            *((f"they turn the other way for φ > 1/3: {load} load",
-               turns_positive(f"axes_{load}", phi, sympy.Rational(1, 3)))
-              for load in LAYERS),
-            *((f"the load's direction does not count: {name}_{load}",
-               is_free_of(f"{name}_{load}", t)) for name in ("shear", "axes") for load in LAYERS),
-            *((f"moments and flux differ for σ_xy as for σ_yy, with the opposite sign: {load} load",
-               equals(f"flux_{load}", (number, "flux"), factor=-sympy.S.One))
-              for load, number in zip(LAYERS, ("B10", "B17"), strict=True)),
-        ),
+        claimed={
+            "the leading order under a surface load":
+                leads("shear_surface", 2 * M * (1 - 3 * z) * UNIT * (1 - phi)),
+            "the leading order under a bulk load":
+                leads("shear_bulk", M * (1 - 5 * z) * UNIT * (1 - phi)),
+            **{f"the axes turn as −2j (1 − 3φ), in units of (σ/r)²/[(1−φ²)(1+φ)]: {load} load":
+                   leads(f"axes_{load}", -2 * M * z * (1 - 3 * phi) * UNIT * (1 - phi))
+               for load in LAYERS},
+            **{f"they turn the other way for φ > 1/3: {load} load":
+                   turns_positive(f"axes_{load}", phi, sympy.Rational(1, 3))
+               for load in LAYERS},
+            **{f"the load's direction does not count: {name}_{load}":
+                   is_free_of(f"{name}_{load}", t)
+               for name in ("shear", "axes") for load in LAYERS},
+            **{f"moments and flux differ for σ_xy as for σ_yy, with the opposite sign: {load} load":
+                   equals(f"flux_{load}", (number, "flux"), factor=-sympy.S.One)
+               for load, number in zip(LAYERS, ("B10", "B17"), strict=True)},
+        },
     ),
 }  # fmt: skip

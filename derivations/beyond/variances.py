@@ -29,8 +29,7 @@ PLUS, MINUS, FIRST = (
 IN_SPACE = (sigma / r) ** 2 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
 BASE = (Eq(j, 0), M >= 3)
 TOP = (Eq(j, M - 1), j >= 2)
-LOADS = ("surface", "bulk")
-_PAPER = {"surface": eq13, "bulk": eq14}
+PAPER = {"surface": eq13, "bulk": eq14}
 _AVERAGE = {"surface": Rational(1, 2), "bulk": Rational(2, 3)}
 """The means of (1 − z)²(2z + 1) and (1 − z)²(4z + 1) over 0 < z < 1."""
 
@@ -51,7 +50,7 @@ def in_dimensions(load: str, d: int, shares: sympy.Expr | None = None) -> sympy.
 
 
 def _of_discs(number: Number, load: str) -> Row:
-    paper, leading = _PAPER[load], t**2 * in_dimensions(load, 2)
+    paper, leading = PAPER[load], t**2 * in_dimensions(load, 2)
     at_base = leading.xreplace({z: sympy.S.Zero})
     under = leaning(t, load)
     return Row(
@@ -67,33 +66,22 @@ def _of_discs(number: Number, load: str) -> Row:
         "fluctuation by that of the other branch: the branch that carries less fluctuates more, "
         "and the height M* at which forces turn tensile falls as min(t, 1/t)^(2/3).",
         quantities=((PLUS, "variance of f⁺ over its mean squared"), (MINUS, "the same of f⁻")),
-        claimed=(
-            (
-                "to the two highest orders it is t² times that of a vertical load",
+        claimed={
+            "to the two highest orders it is t² times that of a vertical load":
                 leads("plus", leading, t**2 * paper.NEXT_ORDER * UNIT),
-            ),
-            (
-                f"for t = 1 it is Eq. {paper.DERIVATION.number}",
+            f"for t = 1 it is Eq. {paper.DERIVATION.number}":
                 equals("plus", (paper.DERIVATION.number, "layer"), at={t: sympy.S.One}),
-            ),
-            ("f⁻ has 1/t in place of t", equals("minus", "plus", at={t: 1 / t})),
-            (
-                "as L⁻ is taken away, t → 0, the tilt of the contact itself is left, whatever M: "
-                "φ²(4j + φ²)/2 in units of (σ/r)²/(1−φ²)², for j ≥ 1",
+            "f⁻ has 1/t in place of t": equals("minus", "plus", at={t: 1 / t}),
+            "as L⁻ is taken away, t → 0, the tilt of the contact itself is left, whatever M: "
+            "φ²(4j + φ²)/2 in units of (σ/r)²/(1−φ²)², for j ≥ 1":
                 equals("plus", phi**2 * (4 * j + phi**2) / 2 * UNIT, j >= 1, at={t: sympy.S.Zero}),
-            ),
-            ("at the base it goes as at z → 0", goes_as("plus", at_base, *BASE)),
-            (
-                "one layer below the surface it goes as 2(t² + φ²) M (σ/r)²/(1−φ²)²",
+            "at the base it goes as at z → 0": goes_as("plus", at_base, *BASE),
+            "one layer below the surface it goes as 2(t² + φ²) M (σ/r)²/(1−φ²)²":
                 goes_as("plus", 2 * M * (t**2 + phi**2) * UNIT, *TOP),
-            ),
-            (
-                "its mean over all heights goes as t² M³: M* is that of a vertical load divided "
-                "by t^(2/3)",
-                averages_to("plus", at_base * _AVERAGE[load]),
-            ),
-        ),
-    )
+            "its mean over all heights goes as t² M³: M* is that of a vertical load divided "
+            "by t^(2/3)": averages_to("plus", at_base * _AVERAGE[load]),
+        },
+    )  # fmt: skip
 
 
 def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
@@ -108,25 +96,16 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
         meaning="The profile over the height is that of discs; at finite M line sums along all "
         "three base vectors count.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
-        claimed=(
-            (
-                "the two highest orders",
-                leads("first", in_dimensions(load, 3), following * IN_SPACE),
-            ),
-            (
-                "at the base it goes as at z → 0",
+        claimed={
+            "the two highest orders": leads("first", in_dimensions(load, 3), following * IN_SPACE),
+            "at the base it goes as at z → 0":
                 goes_as("first", in_dimensions(load, 3).xreplace({z: sympy.S.Zero}), *BASE),
-            ),
-            (
-                "one layer below the surface it goes as 6(1 + 2φ + 3φ²) M (σ/r)²/[(1−φ)(1+2φ)]²",
+            "one layer below the surface it goes as 6(1 + 2φ + 3φ²) M (σ/r)²/[(1−φ)(1+2φ)]²":
                 goes_as("first", 6 * (1 + 2 * phi + 3 * phi**2) * M * IN_SPACE, *TOP),
-            ),
-            *(
-                [("one layer below the surface both loads agree",
-                  equals("first", ("B13", "first"), Eq(j, M - 1)))]
-                if load == "bulk" else []
-            ),
-        ),
+            **({"one layer below the surface both loads agree":
+                    equals("first", ("B13", "first"), Eq(j, M - 1))}
+               if load == "bulk" else {}),
+        },
     )  # fmt: skip
 
 
@@ -149,24 +128,24 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
         meaning="A force is fed by the loads along the other vectors: it fluctuates the more, in "
         "units of its own mean, the less of the load points along its own.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
-        claimed=(
-            ("the leading order, with τ_n = t₂ⁿ + t₃ⁿ in the factor 2τ₁² + τ₂",
-             leads("first", leading)),
-            (f"for t₂ = t₃ = 1 it is Eq. {upright}",
-             equals("first", (upright, "first"), at={t_2: sympy.S.One, t_3: sympy.S.One})),
-            ("as the other vectors are unloaded the tilt of the contact itself is left, whatever "
-             "M: φ²(4j + 1 + 2φ²) in units of (σ/r)²/[(1−φ)(1+2φ)]², for j ≥ 2",
-             equals("first", phi**2 * (4 * j + 1 + 2 * phi**2) * IN_SPACE, j >= 2, j <= M - 2,
-                    at={t_2: sympy.S.Zero, t_3: sympy.S.Zero})),
-            ("one layer below the surface it goes as M [τ₁²(1 + φ)² + τ₂(1 + 2φ + 3φ²) + "
-             "2φ²(τ₁ + 2)] (σ/r)²/[(1−φ)(1+2φ)]²",
-             goes_as("first", below_surface * M * IN_SPACE, *TOP)),
-        ),
+        claimed={
+            "the leading order, with τ_n = t₂ⁿ + t₃ⁿ in the factor 2τ₁² + τ₂":
+                leads("first", leading),
+            f"for t₂ = t₃ = 1 it is Eq. {upright}":
+                equals("first", (upright, "first"), at={t_2: sympy.S.One, t_3: sympy.S.One}),
+            "as the other vectors are unloaded the tilt of the contact itself is left, whatever "
+            "M: φ²(4j + 1 + 2φ²) in units of (σ/r)²/[(1−φ)(1+2φ)]², for j ≥ 2":
+                equals("first", phi**2 * (4 * j + 1 + 2 * phi**2) * IN_SPACE, j >= 2, j <= M - 2,
+                       at={t_2: sympy.S.Zero, t_3: sympy.S.Zero}),
+            "one layer below the surface it goes as M [τ₁²(1 + φ)² + τ₂(1 + 2φ + 3φ²) + "
+            "2φ²(τ₁ + 2)] (σ/r)²/[(1−φ)(1+2φ)]²":
+                goes_as("first", below_surface * M * IN_SPACE, *TOP),
+        },
     )  # fmt: skip
 
 
 def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
-    paper = _PAPER[load]
+    paper = PAPER[load]
     return Row(
         number=number,
         name="any_dimension" if load == "surface" else "any_dimension_bulk",
@@ -183,10 +162,10 @@ def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
             (paper.RELATIVE_VARIANCE, "of discs"),
             (FIRST, "of spheres, for the force along base vector 1"),
         ),
-        claimed=(
-            ("the leading order of discs", leads("discs", in_dimensions(load, 2))),
-            ("the leading order of spheres", leads("spheres", in_dimensions(load, 3))),
-        ),
+        claimed={
+            "the leading order of discs": leads("discs", in_dimensions(load, 2)),
+            "the leading order of spheres": leads("spheres", in_dimensions(load, 3)),
+        },
     )
 
 

@@ -48,7 +48,7 @@ class Row(Statement):
         exact: gives the closed forms by name; the quantity of each holds a symbol of its own.
         meaning: what they say, in a sentence.
         quantities: symbols with their meanings, where these are not the usual ones.
-        claimed: further statements, each with what decides it from the closed forms.
+        claimed: further statements, and what decides each from the closed forms.
     """
 
     number: Number
@@ -58,7 +58,7 @@ class Row(Statement):
     exact: Callable[[], Forms]
     meaning: str
     quantities: tuple[tuple[sympy.Basic, str], ...]
-    claimed: tuple[tuple[str, Decide], ...] = ()
+    claimed: Mapping[str, Decide]
     relation = "="
     loads = ()
 
@@ -112,7 +112,7 @@ class Row(Statement):
     @cached_property
     def claims(self) -> tuple[tuple[str, Ruling], ...]:
         """Further statements, and what is found of them."""
-        return tuple((words, decide(self.exact_forms)) for words, decide in self.claimed)
+        return tuple((words, decide(self.exact_forms)) for words, decide in self.claimed.items())
 
     @property
     def theorems(self) -> tuple[Theorem, ...]:

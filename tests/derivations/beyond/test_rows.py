@@ -91,7 +91,7 @@ def refutations(decide: Any, forms: dict[str, ClosedForm]) -> Iterator[bool]:
 def test_claims_are_proved_and_false_of_other_forms(number: str) -> None:
     forms = row(number).exact_forms
     assert row(number).claimed
-    for words, decide in row(number).claimed:
+    for words, decide in row(number).claimed.items():
         ruling = decide(forms)
         assert ruling.verdict.is_proved, f"{words}: {ruling}"
         if not words.startswith("f⁺ and f⁻ are uncorrelated"):  # that is of forms of its own
