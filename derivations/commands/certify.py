@@ -11,7 +11,7 @@ import force_diffusion as fd
 
 from .equations import equation_number
 from .output import Output, Overwrite, out_option
-from .shared import noticing
+from .shared import Json, noticing
 
 if TYPE_CHECKING:
     from ..coq.record import Certificate
@@ -30,7 +30,7 @@ def certify(
     out: Annotated[
         Path | None, out_option("the theory, the statements and the verdicts as JSON")
     ] = None,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+    as_json: Json = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Ask Coq, an independent proof assistant, whether it accepts the printed equations."""
@@ -60,8 +60,3 @@ def _line(one: "Certificate") -> str:
     shown = ", ".join(about).replace(">=", "≥").replace("<=", "≤")
     said = f"Eq. {one.number!s:>2}  {one!s:<24}  {fd.equation(one.number).title}\n    for {shown}"
     return f"{said}\n    {one.note}" if one.note else said
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command to the command line."""
-    app.command(epilog=STATUSES)(certify)

@@ -1,9 +1,8 @@
 """The command line: which commands there are; each one's module is imported when it is asked for.
 
-A new command takes a module of ``derivations.commands`` whose ``register(app)`` adds it to a Typer
-application, and a line in ``COMMANDS``. It checks its words, calls what Python users call, and
-prints or writes the answer (``output``); errors it raises, and never catches: ``guard``
-tells them.
+A new command takes a function of a module of ``derivations.commands``, whose ``STATUSES`` stand
+below its help, and a line in ``COMMANDS``. It checks its words, calls what Python users call, and
+prints or writes the answer (``output``); errors it raises, and never catches: ``guard`` tells them.
 """
 
 import difflib
@@ -19,31 +18,34 @@ from typer.core import TyperGroup
 
 from ..formulas.lists import either
 
-# Name: (module, what --help says: the first paragraph of the command's docstring).
+# Name: (function, what --help says: the first paragraph of the command's docstring).
 COMMANDS = {
-    "derive": ("equations", "Prove equations and all that they rest on."),
+    "derive": ("deriving.derive", "Prove equations and all that they rest on."),
     "certify": (
-        "certify",
+        "certify.certify",
         "Ask Coq, an independent proof assistant, whether it accepts the printed equations.",
     ),
-    "show": ("equations", "Print equations without deriving them."),
-    "list": ("equations", "List the equations."),
-    "examples": ("examples", "Copy the example scenes into a new folder."),
-    "run": ("scenes", "Solve the packing of a scene and answer its question."),
-    "explain": ("scenes", "Say what 'run' would do, and why."),
+    "show": ("equations.show", "Print equations without deriving them."),
+    "list": ("equations.list_equations", "List the equations."),
+    "examples": ("examples.examples", "Copy the example scenes into a new folder."),
+    "run": ("scenes.run", "Solve the packing of a scene and answer its question."),
+    "explain": ("scenes.explain", "Say what 'run' would do, and why."),
     "cost": (
-        "scenes",
+        "scenes.cost",
         "Measure what accuracy costs: every way to answer a scene, its error beside its time.",
     ),
     "ensemble": (
-        "ensemble",
+        "ensemble.ensemble",
         "Statistics over many packings, on many cores, kept in a file as they come.",
     ),
     "ensemble-status": (
-        "ensemble",
+        "ensemble.ensemble_status",
         "Say what the store of an ensemble holds, and check it.",
     ),
-    "figures": ("figures", "Draw the paper's figures from new simulations of exact packings."),
+    "figures": (
+        "figures.figures",
+        "Draw the paper's figures from new simulations of exact packings.",
+    ),
 }
 STATUSES = (
     "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
@@ -73,13 +75,10 @@ class _Commands(TyperGroup):
         """Import and build one command."""
         if cmd_name not in COMMANDS:
             return None
+        name, _, function = COMMANDS[cmd_name][0].partition(".")
+        module = import_module(f"force_diffusion.derivations.commands.{name}")
         app = _application(add_completion=False)
-        import_module(f"force_diffusion.derivations.commands.{COMMANDS[cmd_name][0]}").register(app)
-        app.registered_commands = [
-            command
-            for command in app.registered_commands
-            if cmd_name == (command.name or getattr(command.callback, "__name__", None))
-        ]
+        app.command(cmd_name, epilog=getattr(module, "STATUSES", None))(getattr(module, function))
         return typer.main.get_command(app)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
@@ -106,11 +105,9 @@ class _Commands(TyperGroup):
             from pydantic import ValidationError
 
             if isinstance(error.__cause__, ValidationError):
-                first = error.__cause__.errors()[0]
-                said = rule(error.__cause__)
-                its_own = first["type"] == "value_error"  # names the value itself
-                given = repr(printable(str(first["input"])))
-                error.message = said if its_own else f"{given} {said}."
+                first, error.message = error.__cause__.errors()[0], rule(error.__cause__)
+                if first["type"] != "value_error":  # which names the value itself
+                    error.message = f"{printable(str(first['input']))!r} {error.message}."
             raise
 
 

@@ -1,37 +1,51 @@
-"""The main job: prove what is asked for and what it rests on, and write it down."""
+"""The command ``derive``: prove what is asked for and what it rests on, and write it down."""
 
 import json
-from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
+from typing import Annotated
 
+import typer
 from force_diffusion.numeric.arithmetic.errors import printable
 
+import force_diffusion as fd
+
+from ..export.document import DOCUMENT, MANIFEST, fragment_name
 from ..export.terminal import outcomes_data
 from ..formulas.lists import both
-from ..framework.catalogue import Number, modules
-from .cli import command_line
-from .output import Output, OutputError
+from ..framework.catalogue import modules
+from .cli import STATUSES, command_line  # noqa: F401 (statuses stand below the help)
+from .equations import Columns, equation_number
+from .output import Output, OutputError, Overwrite, folder_of, out_option
 from .progress import display
+from .shared import Json
 
 
 def derive(
-    numbers: Sequence[Number],
-    out: Path | None,
-    as_json: bool,
-    overwrite: bool = False,
-    columns: int = 1,
-    article: Path | None = None,
-) -> int:
-    """Derive these equations and their premises: 0 if all are proved, else 1.
+    numbers: Annotated[
+        list[str] | None,
+        typer.Argument(metavar="[N...]", help="Numbers of equations; all of them by default."),
+    ] = None,
+    out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
+    as_json: Json = False,
+    columns: Columns = 1,
+    article: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            parser=folder_of,
+            help="Write the article about the equations beyond the paper into this folder, LaTeX "
+            "and figures; it says which of them were proved. Needs matplotlib.",
+        ),
+    ] = None,
+    overwrite: Overwrite = False,
+) -> None:
+    """Prove equations and all that they rest on.
 
-    Of a single one all steps and claims are printed, of several a line each. The folders are
-    looked at before the first proof, so that a wrong one costs no time. ``article`` gets the
-    article, which says what this run has proved.
+    Of a single equation all steps and claims are printed, of several a line each.
     """
-    from ..api.derived import derive as derived
-    from ..export.document import DOCUMENT, MANIFEST, fragment_name
-
+    wanted = [equation_number(word) for word in numbers or ()] or list(modules())
+    # the folders are looked at before the first proof, so that a wrong one costs no time
     folder = paper = None
     if out:
         folder = Output(out, [*map(fragment_name, modules()), DOCUMENT, MANIFEST], overwrite)
@@ -41,11 +55,11 @@ def derive(
         if out and out.absolute() == article.absolute():
             raise OutputError(f"'{article}' is that of --out, too. Give another folder.")
         paper = Output(article, names_of_files(), overwrite)
-    in_full = numbers[0] if len(numbers) == 1 else None
-    everything = len(numbers) == len(modules())
-    watch = display(len(numbers) if everything else None, in_full, as_json=as_json)
+    in_full = wanted if len(wanted) == 1 else ()
+    total = len(wanted) if len(wanted) == len(modules()) else None
+    watch = display(total, in_full, as_json=as_json)
     with watch.showing():
-        found = derived(numbers, notice=watch.checking, finished=watch.finished)
+        found = fd.derive(wanted, notice=watch.checking, finished=watch.finished)
     if paper:
         from ..export.article import article_and_figures
 
@@ -59,4 +73,4 @@ def derive(
     watch.summary(f"{found.counts()}." + (f" Written to {both(folders)}." if folders else ""))
     if as_json:
         print(json.dumps(found.data(), indent=2), flush=True)
-    return 0 if found.proved else 1
+    raise typer.Exit(0 if found.proved else 1)

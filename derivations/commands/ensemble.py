@@ -17,14 +17,7 @@ import force_diffusion as fd
 from ..export.answers import Format, files_of, names_of
 from .guard import about, in_range, say, tell
 from .output import Output, Overwrite, out_option
-from .shared import (
-    Quiet,
-    Written,
-    checked,
-    show,
-    sourced,
-    warn,
-)
+from .shared import Json, Quiet, Written, checked, show, sourced, warn
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.result import Ensemble
@@ -85,7 +78,7 @@ def ensemble(
     ] = None,
     out: Annotated[Path | None, out_option("the result as JSON and a table")] = None,
     written: Written = Format.CSV,
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+    as_json: Json = False,
     quiet: Quiet = False,
     overwrite: Overwrite = False,
 ) -> None:
@@ -190,7 +183,7 @@ def _progress(
 
 def ensemble_status(
     store: Annotated[Path, typer.Argument(metavar="FILE", help="The store of an ensemble.")],
-    as_json: Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")] = False,
+    as_json: Json = False,
 ) -> None:
     """Say what the store of an ensemble holds, and check it."""
     found = fd.read_store(store)
@@ -198,9 +191,3 @@ def ensemble_status(
         print(json.dumps(found.data(), indent=2))
         return
     say(f"{store}: sound, {found}")
-
-
-def register(app: typer.Typer) -> None:
-    """Add the commands to the command line."""
-    app.command(epilog=STATUSES)(ensemble)
-    app.command("ensemble-status", epilog=STATUSES)(ensemble_status)

@@ -1,23 +1,15 @@
-"""The commands for equations: a thin layer over ``deriving`` and ``Equation``."""
+"""The commands ``show`` and ``list``: a thin layer over ``Equation``."""
 
 import json
 from collections.abc import Iterable
 from enum import StrEnum
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 import force_diffusion as fd
 
-from ..framework.catalogue import (
-    Number,
-    allowed,
-    modules,
-    number_of,
-)
-from .cli import STATUSES
-from .output import Overwrite, folder_of, out_option
+from ..framework.catalogue import Number, allowed, modules, number_of
 
 if TYPE_CHECKING:
     from ..api.equation import Equation
@@ -52,45 +44,6 @@ def equation_number(word: str) -> Number:
     )
 
 
-def wanted_of(words: Iterable[str]) -> list[Number]:
-    """Numbers of equations."""
-    return [*map(equation_number, words)]
-
-
-def derive(
-    numbers: Annotated[
-        list[str] | None,
-        typer.Argument(
-            metavar="[N...]",
-            help="Numbers of equations; all of them by default.",
-        ),
-    ] = None,
-    out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print the results as JSON and nothing else.")
-    ] = False,
-    columns: Columns = 1,
-    article: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="DIR",
-            parser=folder_of,
-            help="Write the article about the equations beyond the paper into this folder, LaTeX "
-            "and figures; it says which of them were proved. Needs matplotlib.",
-        ),
-    ] = None,
-    overwrite: Overwrite = False,
-) -> None:
-    """Prove equations and all that they rest on.
-
-    Of a single equation all steps and claims are printed, of several a line each.
-    """
-    from . import deriving
-
-    wanted = wanted_of(numbers or ()) or list(modules())
-    raise typer.Exit(deriving.derive(wanted, out, as_json, overwrite, columns, article))
-
-
 def show(
     numbers: Annotated[
         list[str],
@@ -107,8 +60,7 @@ def show(
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
-    wanted = wanted_of(numbers)
-    equations = [*map(fd.equation, wanted)]
+    equations = [fd.equation(equation_number(word)) for word in numbers]
     if form is Form.JSON:
         print(json.dumps({"equations": [one.data() for one in equations]}, indent=2))
         return
@@ -163,10 +115,3 @@ def list_equations() -> None:
     """
     for one in map(fd.equation, modules()):
         print(f"{one.number!s:>3}  {one.name:<26}  {one.coq:<22}  {one.title}")
-
-
-def register(app: typer.Typer) -> None:
-    """Add the commands to the command line."""
-    app.command(epilog=STATUSES)(derive)
-    app.command()(show)
-    app.command("list")(list_equations)

@@ -27,8 +27,3 @@ def examples(
     Output(folder, scenes, overwrite).write(scenes)
     for name in sorted(scenes):
         say(str(folder / name))
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command to the command line."""
-    app.command(epilog=STATUSES)(examples)

@@ -23,7 +23,7 @@ import force_diffusion as fd
 from .cli import command_line
 from .guard import about, say
 from .output import Output, Overwrite, out_option
-from .shared import images, noticing, sourced, warn
+from .shared import Json, images, noticing, sourced, warn
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure
@@ -116,9 +116,7 @@ def figures(
             metavar="X", help=f"σ/r of figures {', '.join(OWN_STD)}, in place of their own."
         ),
     ] = None,
-    as_json: Annotated[
-        bool, typer.Option("--json", help="Print what was found as JSON and nothing else.")
-    ] = False,
+    as_json: Json = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Draw the paper's figures from new simulations of exact packings."""
@@ -242,8 +240,3 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     lines = outcome_lines(about, found.count)
     lines = [line for line in lines if not line.startswith((" ", "What is"))]
     return PaperFigure(title, files, {"answer": about}, lines)
-
-
-def register(app: typer.Typer) -> None:
-    """Add the command to the command line."""
-    app.command(epilog=STATUSES)(figures)

@@ -39,11 +39,6 @@ class Silence:
         """The last word."""
 
 
-def _in_full(outcome: Outcome) -> str:
-    """All of an equation, below the lines of its premises."""
-    return "\n" + outcome_text(outcome)
-
-
 class PlainLines(Silence):
     """One line per equation, as soon as it is known, or all of it.
 
@@ -57,7 +52,7 @@ class PlainLines(Silence):
     def finished(self, outcome: Outcome) -> None:
         """Its line, and below it whatever went wrong; or all that was found."""
         if outcome.derivation.number in self._in_full:
-            print(_in_full(outcome), flush=True)
+            self.summary(f"\n{outcome_text(outcome)}")
             return
         print(summary_line(outcome), *trouble_lines(outcome), sep="\n", flush=True)
 
@@ -108,7 +103,7 @@ class LiveBar(Silence):
         """One more done."""
         self._bar.advance(self._task)
         if outcome.derivation.number in self._in_full:
-            self.summary(_in_full(outcome))
+            self.summary(f"\n{outcome_text(outcome)}")
         elif self._lines:
             from rich.text import Text
 
@@ -122,20 +117,19 @@ class LiveBar(Silence):
             self._console.print(words, markup=False, highlight=False, soft_wrap=True)
 
 
-def display(total: int | None, in_full: Number | None, *, as_json: bool) -> Silence:
+def display(total: int | None, in_full: Collection[Number], *, as_json: bool) -> Silence:
     """The display that suits where the output goes; with JSON only standard error is free.
 
     Args:
         total: how many equations there are, if that is known.
-        in_full: the number of the one of which all is printed.
+        in_full: numbers of the equations of which all is printed.
         as_json: whether standard output is for JSON.
     """
-    numbers = () if in_full is None else (in_full,)
     stream: TextIO = sys.stderr if as_json else sys.stdout
     if stream.isatty():
         from rich.console import Console
 
         console = Console(file=stream)
         if not console.is_dumb_terminal:
-            return LiveBar(console, total, numbers, lines=not as_json)
-    return Silence() if as_json else PlainLines(numbers)
+            return LiveBar(console, total, in_full, lines=not as_json)
+    return Silence() if as_json else PlainLines(in_full)

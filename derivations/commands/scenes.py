@@ -21,17 +21,7 @@ from .cli import command_line
 from .guard import about as named
 from .guard import in_range, say
 from .output import Output, Overwrite, out_option
-from .shared import (
-    Quiet,
-    Written,
-    checked,
-    drawn,
-    images,
-    noticing,
-    show,
-    sourced,
-    warn,
-)
+from .shared import Json, Quiet, Written, checked, drawn, images, noticing, show, sourced, warn
 from .sweep import Seed, Settings, name_of, variants
 
 if TYPE_CHECKING:
@@ -55,7 +45,6 @@ def _scene(command: str) -> Any:
 
 
 _Scene = Annotated[Path, _scene("run")]
-_Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 _Tolerance = Annotated[
     str | None,
     typer.Option(
@@ -103,7 +92,7 @@ def explain(
     scene: _Scene,
     tolerance: _Tolerance = None,
     certified: _Certified = False,
-    as_json: _Json = False,
+    as_json: Json = False,
 ) -> None:
     """Say what 'run' would do, and why."""
     from force_diffusion.numeric.planning.plan import plan_lines
@@ -118,7 +107,7 @@ def run(
     scene: _Scene,
     out: Annotated[Path | None, out_option("the answer as JSON and a table")] = None,
     written: Written = Format.CSV,
-    as_json: _Json = False,
+    as_json: Json = False,
     quiet: Quiet = False,
     tolerance: _Tolerance = None,
     certified: _Certified = False,
@@ -175,7 +164,7 @@ def _answer(
 def cost(
     scene: Annotated[Path, _scene("cost")],
     out: Annotated[Path | None, out_option("the study as CSV, JSON and a plot")] = None,
-    as_json: _Json = False,
+    as_json: Json = False,
     overwrite: Overwrite = False,
 ) -> None:
     """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
@@ -234,10 +223,3 @@ def _progress(
         shown = perf_counter() + MOMENT / 10
 
     return stack, progress
-
-
-def register(app: typer.Typer) -> None:
-    """Add the commands to the command line."""
-    app.command(epilog=STATUSES)(run)
-    app.command(epilog=STATUSES)(explain)
-    app.command(epilog=STATUSES)(cost)

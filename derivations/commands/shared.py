@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 Quiet = Annotated[
-    bool,
-    typer.Option("--quiet", "-q", help="Print the rows alone; with --out, nothing."),
+    bool, typer.Option("--quiet", "-q", help="Print the rows alone; with --out, nothing.")
 ]
 Written = Annotated[
     Format,
