@@ -1,8 +1,8 @@
 """One equation of the paper as a Python user holds it: SymPy objects, numbers, and its proof."""
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping
-from functools import cache, cached_property
+from collections.abc import Callable, Iterable
+from functools import cache, cached_property, partial
 from numbers import Integral
 from typing import Any
 
@@ -19,14 +19,10 @@ from ..export.terminal import statement_data, statement_text
 from ..formulas.arrays import evaluate
 from ..formulas.closed_form import ClosedForm
 from ..formulas.deciding import decided
-from ..formulas.evaluation import ArgumentError, Evaluation, indices_at
+from ..formulas.evaluation import ArgumentError, indices_at
 from ..formulas.lists import both, either
 from ..framework.catalogue import Number as EquationNumber
-from ..framework.catalogue import (
-    allowed,
-    modules,
-    number_of,
-)
+from ..framework.catalogue import allowed, modules, number_of
 from ..framework.decide import candidate_for
 from ..framework.loading import load
 from ..framework.record import Derivation, Statement
@@ -155,10 +151,6 @@ class Equation:
 
     # SymPy and LaTeX
 
-    @cached_property
-    def _lines(self) -> tuple[sympy.Eq, ...]:
-        return self._derivation.printed
-
     @property
     def expr(self) -> sympy.Basic:
         """The formula as a SymPy ``Eq``, or a ``Tuple`` of them where several lines are printed.
@@ -171,7 +163,7 @@ class Equation:
         >>> [type(line).__name__ for line in fd.equation(7).expr]
         ['Equality', 'Equality']
         """
-        return _one_or_tuple(self._lines)
+        return _one_or_tuple(self._derivation.printed)
 
     @property
     def rhs(self) -> sympy.Basic:
@@ -185,7 +177,7 @@ class Equation:
         >>> eq.rhs.subs({M: 10, z: 0})
         2000*sigma**2/(r**2*(1 - phi**2)**2)
         """
-        return _one_or_tuple(line.rhs for line in self._lines)
+        return _one_or_tuple(line.rhs for line in self._derivation.printed)
 
     @property
     def symbols(self) -> dict[str, Any]:
@@ -205,9 +197,9 @@ class Equation:
     @cached_property
     def _vocabulary(self) -> dict[str, Any]:
         named = [symbol for symbol, _ in self._derivation.symbols]
-        by_layer = [sy.j] if sy.z in self._lines[0].free_symbols else []
-        exact = [form.expr for form in self._exact.values()]
-        return _names([*named, *self._lines, *by_layer, *exact])
+        by_layer = [sy.j] if sy.z in self._derivation.printed[0].free_symbols else []
+        exact = [form.expr for form in self._derivation.exact_forms.values()]
+        return _names([*named, *self._derivation.printed, *by_layer, *exact])
 
     def latex(self, columns: int = 1) -> str:
         r"""LaTeX for mathematics mode, which needs amsmath alone; long formulas in several lines.
@@ -248,7 +240,7 @@ class Equation:
         '2*M**3*sigma**2*(1 - z)**2*(2*z + 1)/(r**2*(1 - phi**2)**2)'
         """
         is_row = isinstance(self._derivation, Row)
-        sides = (line.rhs if is_row else _value_side(line) for line in self._lines)
+        sides = (line.rhs if is_row else _value_side(line) for line in self._derivation.printed)
         return "\n".join(map(sympy_source, sides))
 
     def python_code(self) -> str:
@@ -265,9 +257,9 @@ class Equation:
             \"""Eq. 15: M*.\"""
             return r**(2/3)/sigma**(2/3)
         """
-        several = len(self._lines) > 1
+        several = len(self._derivation.printed) > 1
         if isinstance(self._derivation, Row):
-            forms = self._exact.items()
+            forms = self._derivation.exact_forms.items()
             return "\n\n".join(form.python(f"{self.name}_{name}") for name, form in forms)
         return "\n\n\n".join(
             python_source(
@@ -275,17 +267,13 @@ class Equation:
                 f"Eq. {self.number}: {self._about(line)}.",
                 _value_side(line),
             )
-            for place, line in enumerate(self._lines, start=1)
+            for place, line in enumerate(self._derivation.printed, start=1)
         )
 
     def _about(self, line: sympy.Eq) -> str:
         return "what must vanish" if line.rhs == 0 else text(line.lhs)
 
     # exact forms
-
-    @property
-    def _exact(self) -> Mapping[str, ClosedForm]:
-        return self._derivation.exact_forms
 
     @property
     def forms(self) -> tuple[str, ...]:
@@ -295,7 +283,7 @@ class Equation:
         >>> fd.equation(16).forms
         ('bead', 'contact', 'force')
         """
-        return tuple(self._exact)
+        return tuple(self._derivation.exact_forms)
 
     def exact(self, form: str | None = None) -> ClosedForm:
         """The exact form at finite size; by default the first of :attr:`forms`.
@@ -311,7 +299,7 @@ class Equation:
         Raises:
             NoSuchFormError: there is none, or none of that name.
         """
-        if not self._exact:
+        if not self._derivation.exact_forms:
             having = [str(number) for number in modules() if load(number).exact]
             raise NoSuchFormError(
                 f"Eq. {self.number} has no exact form at finite size of its own; "
@@ -319,12 +307,12 @@ class Equation:
                 "exact",
             )
         if form is None:
-            return next(iter(self._exact.values()))
-        if form not in self._exact:
+            return next(iter(self._derivation.exact_forms.values()))
+        if form not in self._derivation.exact_forms:
             raise NoSuchFormError(
                 f"Eq. {self.number} has no exact form '{form}'. It has {both(self.forms)}.", "exact"
             )
-        return self._exact[form]
+        return self._derivation.exact_forms[form]
 
     # numbers
 
@@ -358,19 +346,22 @@ class Equation:
         """
         if isinstance(self._derivation, Row):
             return self.exact().at(**arguments)
-        return evaluate(self._evaluation, arguments)
+        sides = self._numbers
+        formula = f"Eq. {self.number}", set().union(*(side.free_symbols for side in sides))
+        return evaluate(formula, [lambda at, _, s=s: s.xreplace(at) for s in sides], arguments)
 
     @property
-    def _evaluation(self) -> Evaluation:
+    def _numbers(self) -> tuple[sympy.Expr, ...]:
+        """The right-hand sides, which are numbers."""
         if isinstance(self._derivation, Row):
             raise ArgumentError(f"Eq. {self.number} is a closed form: exact().at takes arrays")
-        sides = tuple(line.rhs for line in self._lines)
+        sides = tuple(line.rhs for line in self._derivation.printed)
         if any(side.has(sy.SiteFunction, *sy.VECTORS) or side == 0 for side in sides):
             raise ArgumentError(
                 f"the right-hand side of Eq. {self.number} is no number: it holds what belongs to "
                 "single beads. equation(…).python_code() is a function of these."
             )
-        return Evaluation(f"Eq. {self.number}", sides)
+        return sides
 
     def function(self) -> Callable[..., Any]:
         """The right-hand side as a function for NumPy, by position or by name.
@@ -395,9 +386,9 @@ class Equation:
         return _Function(self)
 
     def _numpy(self) -> Callable[..., Any]:
-        about = "; ".join(self._about(line) for line in self._lines)
+        about = "; ".join(self._about(line) for line in self._derivation.printed)
         heading, meanings = f"Eq. {self.number}: {about}.", dict(self._derivation.symbols)
-        return numpy_function(self._evaluation, self.name, heading, meanings)
+        return numpy_function(self._numbers, self.name, heading, meanings)
 
     # proofs
 
@@ -459,12 +450,8 @@ class Equation:
             ArgumentError: ``at`` names something else, or no whole number.
         """
         if isinstance(self._derivation, Derivation):
-            derivation, place = self._derivation, indices_at(at)
-            return decided(
-                candidate,
-                self._lines,
-                lambda part, one: candidate_for(derivation, part, one, place),
-            )
+            rule_on = partial(candidate_for, self._derivation, at=indices_at(at))
+            return decided(candidate, self._derivation.printed, rule_on)
         return self.exact().decide(candidate, **at)
 
     def __repr__(self) -> str:
@@ -537,9 +524,9 @@ def equation(number: EquationNumber) -> Equation:
     Raises:
         NoSuchFormError: there is none.
     """
-    known = number_of(number) if isinstance(number, str) else number
-    is_number = isinstance(known, Integral | str) and not isinstance(known, bool)
-    if not is_number or known not in modules():
-        told = f"there is no equation {number!r}: give a number {allowed()}"
-        raise NoSuchFormError(told, "number")
-    return _equation(known)
+    place = number_of(number) if isinstance(number, str) else number
+    is_number = isinstance(place, Integral | str) and not isinstance(place, bool)
+    if not is_number or place not in modules():
+        message = f"there is no equation {number!r}: give a number {allowed()}"
+        raise NoSuchFormError(message, "number")
+    return _equation(place)

@@ -2,7 +2,7 @@
 
 import inspect
 import numbers
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from typing import Any
 
@@ -11,14 +11,8 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
-from ..formulas.arrays import at_element, shared_shape
-from ..formulas.evaluation import (
-    TOGETHER,
-    ArgumentError,
-    Evaluation,
-    in_order,
-    range_of,
-)
+from ..formulas.arrays import at_element, one_or_tuple, shared_shape
+from ..formulas.evaluation import TOGETHER, ArgumentError, in_order, range_of
 
 Arrays = dict[sympy.Symbol, Any]
 """Float64 arrays of one shape, by symbol."""
@@ -27,19 +21,19 @@ _MEANINGS = {sy.M: "height of the packing", sy.j: "layer, 0 at the base"}
 
 
 def numpy_function(
-    evaluation: Evaluation, name: str, heading: str, meanings: Mapping[sympy.Basic, str]
+    expressions: Sequence[sympy.Expr], name: str, heading: str, meanings: Mapping[sympy.Basic, str]
 ) -> Callable[..., Any]:
-    """The function; it refuses what ``Evaluation.at`` refuses.
+    """The function; it refuses what ``Equation.at`` refuses.
 
     Args:
-        evaluation: what is evaluated.
+        expressions: one, or several that are evaluated together.
         name: of the function.
         heading: first line of its docstring.
         meanings: of symbols, in words.
     """
-    by_name = {symbol.in_code: symbol for symbol in evaluation.needed}
-    by_name = {one: by_name[one] for one in in_order(by_name)}
-    sides = [sympy.lambdify(by_name.values(), side, "numpy") for side in evaluation.sides]
+    needed = {s.in_code: s for one in expressions for s in one.free_symbols}
+    by_name = {one: needed[one] for one in in_order(needed)}
+    sides = [sympy.lambdify(by_name.values(), side, "numpy") for side in expressions]
     signature = inspect.Signature(
         [inspect.Parameter(one, inspect.Parameter.POSITIONAL_OR_KEYWORD) for one in by_name]
     )
@@ -50,12 +44,11 @@ def numpy_function(
         shape = shared_shape({one: array for one, array in arrays.items() if array.ndim})
         values = {by_name[one]: np.broadcast_to(array, shape) for one, array in arrays.items()}
         _assert_allowed(values)
-        _assert_together(values)
         with np.errstate(all="ignore"):
-            found = [_spread(side(*values.values()), shape) for side in sides]
-        for one in found:
+            results = [_spread(side(*values.values()), shape) for side in sides]
+        for one in results:
             _refuse(np.isfinite(one), lambda _: "the value is beyond the range of floats: use at")
-        return found[0] if len(found) == 1 else tuple(found)
+        return one_or_tuple(results)
 
     function.__name__ = function.__qualname__ = name
     function.__doc__ = _docstring(heading, by_name, meanings)
@@ -81,8 +74,7 @@ def _floats(name: str, value: Any) -> Any:
 
 
 def _from_objects(array: Any) -> Any:
-    known = (numbers.Real, Decimal)
-    if array.dtype != object or not all(isinstance(one, known) for one in array.flat):
+    if array.dtype != object or not all(isinstance(x, numbers.Real | Decimal) for x in array.flat):
         raise TypeError
     return np.vectorize(float, otypes=[float])(array)
 
@@ -93,17 +85,12 @@ def _assert_allowed(values: Arrays) -> None:
         good = allowed(array) & (array == np.floor(array)) if symbol.is_integer else allowed(array)
         for right, said in ((np.isfinite(array), "finite numbers are"), (good, f"{words} is")):
             _refuse(right, lambda at: f"{symbol.in_code} = {array[at]:g}: {said} allowed")  # noqa: B023
-
-
-def _assert_together(values: Arrays) -> None:
     for pair, (words, together) in TOGETHER.items():
         if set(pair) <= set(values):
             right = together(*(values[symbol] for symbol in pair))
-            _refuse(right, lambda at: f"{_with_values(pair, values, at)}: {words} is allowed")  # noqa: B023
-
-
-def _with_values(symbols: Iterable[sympy.Symbol], values: Arrays, at: tuple[int, ...]) -> str:
-    return ", ".join(f"{text(symbol)} = {values[symbol][at]:g}" for symbol in symbols)
+            message = ", ".join(f"{text(s)} = {{:g}}" for s in pair) + f": {words} is allowed"
+            given = [values[symbol] for symbol in pair]
+            _refuse(right, lambda at: message.format(*(one[at] for one in given)))  # noqa: B023
 
 
 def _refuse(right: Any, words: Callable[[tuple[int, ...]], str]) -> None:
@@ -114,21 +101,13 @@ def _refuse(right: Any, words: Callable[[tuple[int, ...]], str]) -> None:
 
 
 def _docstring(
-    heading: str,
-    by_name: Mapping[str, sympy.Symbol],
-    meanings: Mapping[sympy.Basic, str],
+    heading: str, by_name: Mapping[str, sympy.Symbol], meanings: Mapping[sympy.Basic, str]
 ) -> str:
-    lines = [heading, ""]
-    lines.append("Args:")
+    lines = [heading, "", "Args:"]
     for name, symbol in by_name.items():
         meaning = meanings.get(symbol) or _MEANINGS.get(symbol)
         allowed, _ = range_of(symbol)
         lines.append(f"    {name}: {f'{meaning}; ' if meaning else ''}{allowed}.")
-    lines += [
-        "",
-        "Numbers or arrays that broadcast; float64 comes back, in their shape.",
-        "",
-        "Raises:",
-        "    ArgumentError: a value is not allowed.",
-    ]
+    lines += ["", "Numbers or arrays that broadcast; float64 comes back, in their shape.", ""]
+    lines += ["Raises:", "    ArgumentError: a value is not allowed."]
     return "\n".join(lines)

@@ -1,6 +1,8 @@
 """Eqs. B7, B8, B12 and B21: correlations of contact forces, and means over neighbours."""
 
 # fmt: off
+from collections.abc import Iterable
+
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond.variances import PAPER
@@ -97,7 +99,7 @@ def _contacts(number: Number, name: str, load: str) -> Row:
     )  # fmt: skip
 
 
-def uncorrelated(*domains: str) -> Decide:
+def uncorrelated(domains: Iterable[str]) -> Decide:
     """f⁺_ij and the f⁻ of layer l whose diagonals cross p layers above (i, j) are uncorrelated."""
 
     def decide(_: Forms) -> Ruling:
@@ -203,9 +205,9 @@ DERIVATIONS: dict[Number, Row] = {
             "f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
             "from both, from the base and from the surface, and, if q layers above both, where q "
             "and j differ by four or more":
-                uncorrelated("4 − j ≤ p ≤ −4", "4 ≤ p ≤ l − j − 4",
-                             "l − j + 4 ≤ p ≤ M − j − 4 and p ≤ l − 4",
-                             "l − j + 4 ≤ p ≤ M − j − 4 and p ≥ l + 4"),
+                uncorrelated(["4 − j ≤ p ≤ −4", "4 ≤ p ≤ l − j − 4",
+                              "l − j + 4 ≤ p ≤ M − j − 4 and p ≤ l − 4",
+                              "l − j + 4 ≤ p ≤ M − j − 4 and p ≥ l + 4"]),
         },
     ),
     "B21": _contacts("B21", "neighbouring_contacts_bulk", "bulk"),

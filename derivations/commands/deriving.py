@@ -10,14 +10,11 @@ from force_diffusion.numeric.arithmetic.errors import printable
 
 import force_diffusion as fd
 
-from ..export.document import DOCUMENT, MANIFEST, fragment_name
-from ..export.terminal import outcomes_data
 from ..formulas.lists import both
 from ..framework.catalogue import modules
 from .cli import STATUSES, command_line  # noqa: F401 (statuses stand below the help)
 from .equations import Columns, equation_number
 from .output import Output, OutputError, Overwrite, folder_of, out_option
-from .progress import display
 from .shared import Json
 
 
@@ -45,6 +42,10 @@ def derive(
     Of a single equation all steps and claims are printed, of several a line each.
     """
     wanted = [equation_number(word) for word in numbers or ()] or list(modules())
+    from ..export.document import DOCUMENT, MANIFEST, fragment_name
+    from ..export.terminal import outcomes_data
+    from .progress import display
+
     # the folders are looked at before the first proof, so that a wrong one costs no time
     folder = paper = None
     if out:

@@ -60,7 +60,8 @@ def show(
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
-    equations = [fd.equation(equation_number(word)) for word in numbers]
+    wanted = [*map(equation_number, numbers)]  # before SymPy is imported
+    equations = [*map(fd.equation, wanted)]
     if form is Form.JSON:
         print(json.dumps({"equations": [one.data() for one in equations]}, indent=2))
         return

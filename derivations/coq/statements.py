@@ -299,9 +299,7 @@ def _exact(derivation: Derivation) -> Statement:
     """Mean and variance of one contact's force in every layer."""
     printed, statistic = statement(derivation, 0), words(derivation.printed[0].lhs)
     (form,) = derivation.exact_forms.values()
-    layers = {
-        _all_of(part): piece.value.to_sympy() for piece in form.formulas for part in piece.where
-    }
+    layers = {_all_of(part): piece.expr for piece in form.pieces for part in piece.where}
     claims = [
         f"exists f, linearised ({_OF_RHO} f_plus F i j e) f",
         f"expect L f = {LOADS[derivation.loads[0]].mean}",

@@ -68,13 +68,13 @@ def _exact(number: Number, name: str | None = None) -> Iterator[Branch]:
     """A closed form, by default the usual one of its equation; its first piece is what is left."""
     forms = load(number).exact_forms
     form = forms[name] if name else next(iter(forms.values()))
-    for piece in reversed(form.formulas):
+    for piece in reversed(form.pieces):
         parts = (" and ".join(words.parts(part, words.PYTHON)) for part in piece.where)
-        value = piece.value.to_sympy()
+        value = piece.expr
         if {M, j} <= value.free_symbols:
             value = sympy.expand(value.xreplace({M: j + k}))
         held = [one for one in (j, k, l, *INDICES) if one in value.free_symbols]
-        test = "" if piece is form.formulas[0] else " or ".join(parts)
+        test = "" if piece is form.pieces[0] else " or ".join(parts)
         yield test, _code(value, *dict.fromkeys(held))
 
 

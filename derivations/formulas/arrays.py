@@ -1,54 +1,71 @@
 """Arrays of arguments: a formula is evaluated for each element, and each as if it were alone."""
 
-from collections.abc import Mapping, Set
+from collections.abc import Callable, Mapping, Sequence, Set
 from typing import Any
 
 import numpy as np
 import sympy
 
-from .evaluation import (
-    EXACT,
-    ArgumentError,
-    Evaluation,
-    compare_names,
-    rounded,
-)
+from .evaluation import EXACT, ArgumentError, arguments, read_arguments, rounded
 from .lists import both
 
 
-def evaluate(evaluation: Evaluation, given: Mapping[str, Any]) -> Any:
+def evaluate(
+    formula: tuple[str, set[sympy.Symbol]],
+    sides: Sequence[Callable[[Mapping[sympy.Symbol, sympy.Rational], bool], sympy.Expr]],
+    given: Mapping[str, Any],
+    dimension: int = 2,
+    *,
+    in_packing: bool = True,
+) -> Any:
     """The value for numbers; for arrays, lists and ranges an array of the shape that they share.
 
     It is float64 where anything given is a float, each value rounded once; else it holds objects,
-    SymPy's exact numbers. Of several sides a tuple of arrays is made.
+    SymPy's exact numbers. Of several sides a tuple is made.
+
+    Args:
+        formula: what it is, for messages, and the symbols that decide its value.
+        sides: give the exact values for exact numbers, and know whether these were given.
+        given: values by name.
+        dimension: as for ``read_arguments``.
+        in_packing: as for ``read_arguments``.
 
     Raises:
         ArgumentError: a name is unknown or missing, a value is not allowed, or shapes differ; the
             message names the element.
     """
+
+    def at(numbers: Mapping[str, Any]) -> list[Any]:
+        values, exact = read_arguments(*formula, numbers, dimension, in_packing=in_packing)
+        return [side(values, True) if exact else rounded(side(values, False)) for side in sides]
+
     arrays = {name: _array(name, value) for name, value in given.items() if is_several(value)}
-    others = {name: value for name, value in given.items() if name not in arrays}
-    single: dict[str, Any] = {
-        n: v[()] if isinstance(v, np.ndarray) else v for n, v in others.items()
+    single = {
+        name: value[()] if isinstance(value, np.ndarray) else value
+        for name, value in given.items()
+        if name not in arrays
     }
     if not arrays:
-        return evaluation.at(single)
-    compare_names(evaluation.about, evaluation.needed, given)
+        return one_or_tuple(at(single))
+    arguments(*formula, given)
     shape = shared_shape(arrays)
     spread = {name: np.broadcast_to(array, shape) for name, array in arrays.items()}
-    found = []
+    rows = []
     for place in np.ndindex(shape):
         try:
-            here = {name: _element(array, place) for name, array in spread.items()}
-            found.append(evaluation.at(single | here))
+            rows.append(at(single | {name: _element(one, place) for name, one in spread.items()}))
         except ArgumentError as error:
             raise ArgumentError(f"{at_element(place)}{error}") from None
     exact = all(isinstance(one, EXACT) for one in single.values())
     exact = exact and all(map(_is_exact, arrays.values()))
-    count = len(evaluation.sides)
-    parts = [[one] for one in found] if count == 1 else found
-    made = [_collected([one[n] for one in parts], shape, exact=exact) for n in range(count)]
-    return made[0] if count == 1 else tuple(made)
+    return one_or_tuple(
+        [_collected([row[n] for row in rows], shape, exact=exact) for n in range(len(sides))]
+    )
+
+
+def one_or_tuple(values: Sequence[Any]) -> Any:
+    """The value of a single side, or a tuple of several."""
+    return values[0] if len(values) == 1 else tuple(values)
 
 
 def is_several(value: Any) -> bool:
@@ -68,9 +85,9 @@ def shared_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
     try:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
-        told = both([f"{name} of shape {shape}" for name, shape in shapes.items()])
+        shown = both([f"{name} of shape {shape}" for name, shape in shapes.items()])
         raise ArgumentError(
-            f"{told} do not go together: give arrays of one shape, or shapes that NumPy broadcasts"
+            f"{shown} do not go together: give arrays of one shape, or shapes that NumPy broadcasts"
         ) from None
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from numbers import Integral
 from typing import Any
 
@@ -30,7 +30,7 @@ from force_diffusion.symbolic.kernel.rules import rewrite
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, flat
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.piecewise import Formula, PiecewiseFunction, Relations
+from force_diffusion.symbolic.piecewise import PiecewiseFunction, Relations
 from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import (
@@ -48,7 +48,7 @@ from ..framework.decide import strange_symbol
 from ..framework.proof import equations_of
 from .arrays import evaluate
 from .deciding import decided
-from .evaluation import ArgumentError, Number, in_order, indices_at, read_arguments, rounded, told
+from .evaluation import ArgumentError, Number, in_order, indices_at, with_values
 
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
@@ -56,17 +56,21 @@ _HIGHEST = 100_000  # M up to which they are exact
 _HIGH = 30  # lines of a display that fits a page of usual classes
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Piece:
     """A formula of a closed form.
 
     Attributes:
         domain: where it holds, in words, beside what holds of the whole form.
         expr: the formula.
+        where: its parts as relations of indices.
+        value: the formula as the kernel has it.
     """
 
     domain: str
     expr: sympy.Expr
+    where: tuple[Relations, ...]
+    value: RationalFunction
 
 
 class ClosedForm:
@@ -79,55 +83,39 @@ class ClosedForm:
       j ≥ 3: σ_δr² (12 j φ² + 12 j + φ⁴ + 3 φ² − 6)/[2 r² (1 − φ²)²]
       j = 2: σ_δr² (φ⁴ + 27 φ² + 3 φ + 18)/[2 r² (1 − φ²)²]
       j = 1: σ_δr² (φ⁴ − φ³ + 12 φ² − 5 φ + 7)/[2 r² (1 − φ²)²]
+
+    Attributes:
+        quantity: what it is the value of, as shown.
+        statistic: what the quantity stands for, times ``divisor``, in moments.
+        kernel_domain: its domain, with the load, as the kernel has it.
+        divisor: what of constants the statistic is divided by and may vanish, as 1 − t; or 1.
+        values: numbers for symbols of the load.
     """
 
     def __init__(
         self,
         quantity: sympy.Expr,
         statistic: sympy.Expr,
-        domain: Domain,
+        kernel_domain: Domain,
         groups: Callable[[], Sequence[Group]],
-        *,
         divisor: sympy.Expr = sympy.S.One,
         values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
         function: PiecewiseFunction | None = None,
     ) -> None:
-        self._quantity, self._statistic, self._on = quantity, statistic, domain
-        self._groups, self._divisor, self._values = groups, divisor, values or {}
+        self.quantity, self.statistic, self.kernel_domain = quantity, statistic, kernel_domain
+        self.divisor, self.values, self._groups = divisor, values or {}, groups
         if function:
             self.__dict__["function"] = function
 
     def __reduce__(self) -> tuple[Any, ...]:
         """No theorem comes out of a pickle: the groups of theorems are had again."""
-        parts = self._quantity, self._statistic, self._on, self._groups
-        return _again, (parts, self._divisor, self._values, self.function)
+        own = self.quantity, self.statistic, self.kernel_domain, self._groups
+        return ClosedForm, (*own, self.divisor, self.values, self.function)
 
     def named(self, quantity: sympy.Expr) -> "ClosedForm":
         """The same, shown as a symbol."""
-        return ClosedForm(
-            quantity, self._statistic, self._on, self._groups,
-            divisor=self._divisor, values=self._values, function=self.function,
-        )  # fmt: skip
-
-    @property
-    def quantity(self) -> sympy.Expr:
-        """What it is the value of, as shown."""
-        return self._quantity
-
-    @property
-    def statistic(self) -> sympy.Expr:
-        """What the quantity stands for, times :attr:`divisor`, in moments."""
-        return self._statistic
-
-    @property
-    def divisor(self) -> sympy.Expr:
-        """What of constants the statistic is divided by and may vanish, such as 1 − t; or 1."""
-        return self._divisor
-
-    @property
-    def kernel_domain(self) -> Domain:
-        """Its domain, with the load, as the kernel has it."""
-        return self._on
+        _, (_, *others) = self.__reduce__()
+        return ClosedForm(quantity, *others)
 
     @property
     def groups(self) -> tuple[Group, ...]:
@@ -142,13 +130,12 @@ class ClosedForm:
             NotExactError: what it is of is not linear, or not given by the radii.
         """
         return PiecewiseFunction.of(
-            self._statistic, self._on, *self.groups, divisor=self._divisor, values=self._values
+            self.statistic,
+            self.kernel_domain,
+            *self.groups,
+            divisor=self.divisor,
+            values=self.values,
         )
-
-    @property
-    def formulas(self) -> tuple[Formula, ...]:
-        """Its formulas as the kernel has them."""
-        return self.function.formulas
 
     @property
     def premises(self) -> tuple[EquationNumber, ...]:
@@ -173,8 +160,8 @@ class ClosedForm:
         ['j ≥ 2', 'j = 1', 'j = 0']
         """
         return tuple(
-            Piece("; or ".join(map(words.in_words, one.where)), one.value.to_sympy())
-            for one in self.formulas
+            Piece(_parts_in_words(one.where), one.value.to_sympy(), one.where, one.value)
+            for one in self.function.formulas
         )
 
     @cached_property
@@ -188,18 +175,14 @@ class ClosedForm:
         """
         if len(self.pieces) == 1:
             return self.pieces[0].expr
-        return sympy.Piecewise(
-            *(
-                (shown.expr, sympy.Or(*(sympy.And(*part) for part in piece.where)))
-                for shown, piece in zip(self.pieces, self.formulas, strict=True)
-            ),
-            evaluate=False,
-        )
+        parts = (sympy.Or(*(sympy.And(*part) for part in piece.where)) for piece in self.pieces)
+        values = (piece.expr for piece in self.pieces)
+        return sympy.Piecewise(*zip(values, parts, strict=True), evaluate=False)
 
     @property
     def equation(self) -> sympy.Eq:
         """That the quantity is this expression."""
-        return equation(self._quantity, self.expr)
+        return equation(self.quantity, self.expr)
 
     @property
     def domain(self) -> str:
@@ -207,21 +190,22 @@ class ClosedForm:
         return ", ".join(self._domain())
 
     def _domain(self, style: words.Style = words.TEXT) -> list[str]:
-        relations, even = self._conditions_of_indices
+        relations, even = self._conditions_of(self._needed)
         suffix = r" \text{ even}" if style is words.LATEX else " even"
         return [*words.parts(relations, style), *(style.shown(one) + suffix for one in even)]
 
-    @property
-    def _conditions_of_indices(self) -> tuple[list[sympy.Basic], list[sympy.Expr]]:
-        """The relations of its domain that its value depends on, and what is even there."""
-        indices = self._needed & {*sy.INDICES}
+    def _conditions_of(
+        self, symbols: Iterable[sympy.Symbol]
+    ) -> tuple[list[sympy.Basic], list[sympy.Expr]]:
+        """The relations of its domain that hold these alone, and what is even there."""
+        indices = {*symbols}
         relations = [one for one in self.function.domain if one.free_symbols <= indices]
         return relations, [one for one in self.even if one.free_symbols <= indices]
 
     @cached_property
     def even(self) -> list[sympy.Expr]:
         """Sums of indices that are even wherever beads are, each symbol solved for in one sum."""
-        back = self._on.straight.back
+        back = self.kernel_domain.straight.back
         odd = {
             symbol: {one for one, n in (2 * half).as_coefficients_dict().items() if n % 2}
             for symbol, half in back.items()
@@ -276,10 +260,12 @@ class ClosedForm:
         Raises:
             ArgumentError: a name is unknown or missing, or a value is outside of the domain.
         """
-        return evaluate(_Numbers(self), values)  # type: ignore[arg-type]
+        dimension = self.kernel_domain.dimension
+        about = text(self.quantity), self._needed
+        return evaluate(about, [self.value], values, dimension, in_packing=False)
 
     def value(
-        self, values: Mapping[sympy.Symbol, sympy.Rational], *, exact: bool = True
+        self, values: Mapping[sympy.Symbol, sympy.Rational], exact: bool = True
     ) -> sympy.Expr:
         """The value for exact numbers, by symbol; their names have been looked at.
 
@@ -289,28 +275,16 @@ class ClosedForm:
             ArgumentError: it is outside of the domain.
         """
         whole = {symbol: int(value) for symbol, value in values.items() if symbol in sy.INDICES}
-        if not self._holds(whole):
-            given = told([symbol for symbol in sy.INDICES if symbol in whole], values)
-            raise ArgumentError(f"{text(self._quantity)} is for {self.domain}, not for {given}")
-        for value, parts in self._conditions:
-            if any(all(_is_met(one, whole) for one in part) for part in parts):
-                return _number(value, {**values, **_harmonic(value, values, exact)})
+        given = [symbol for symbol in sy.INDICES if symbol in whole]
+        relations, even = self._conditions_of(given)
+        if not _hold(relations, whole) or any(_total(sets.row(one), whole) % 2 for one in even):
+            point = with_values(given, values)
+            raise ArgumentError(f"{text(self.quantity)} is for {self.domain}, not for {point}")
+        for piece in self.pieces:
+            if any(_hold(part, whole) for part in piece.where):
+                harmonic = _harmonic(piece.value, values, exact)
+                return _number(piece.value, {**values, **harmonic})
         raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
-
-    def _holds(self, whole: Mapping[sympy.Symbol, int]) -> bool:
-        relations = [one for one in self.function.domain if one.free_symbols <= {*whole}]
-        even = [sets.row(one) for one in self.even if one.free_symbols <= {*whole}]
-        return all(_is_met(sets.condition(one), whole) for one in relations) and all(
-            _total(form, whole) % 2 == 0 for form in even
-        )
-
-    @cached_property
-    def _conditions(self) -> list[tuple[RationalFunction, list[list[tuple[sets.Row, bool]]]]]:
-        """Values, and the conditions of the parts on which they hold."""
-        return [
-            (piece.value, [[sets.condition(one) for one in part] for part in piece.where])
-            for piece in self.formulas
-        ]
 
     def profile(self, **values: Number) -> Any:
         """The values in all layers j of a packing, from the base up; the other symbols are given.
@@ -342,7 +316,7 @@ class ClosedForm:
         Raises:
             ArgumentError: its packings have no height M, or no layer j is meant.
         """
-        piece = next((one for one in self.formulas if any(map(_is_inside, one.where))), None)
+        piece = next((one for one in self.pieces if any(map(_is_inside, one.where))), None)
         if piece is None or not {sy.M, sy.j} <= self._needed:
             raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
         height, z = FIELD.generator(sy.M), FIELD.generator(sy.z)
@@ -355,43 +329,42 @@ class ClosedForm:
 
         The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
         """
-        return self._shown(self.formulas, columns)
+        return self._shown(self.pieces, columns)
 
-    def _shown(self, formulas: Sequence[Formula], columns: int) -> str:
-        """LaTeX of some of its formulas."""
+    def _shown(self, pieces: Sequence[Piece], columns: int) -> str:
+        """LaTeX of some of its pieces."""
         room, domain = column_width(columns), self._domain(words.LATEX)
         below = _with_commas(domain, "for")
-        if len(formulas) == 1:
-            (piece,) = formulas
+        if len(pieces) == 1:
+            (piece,) = pieces
             if alternatives := _alternatives(piece.where, "if"):
                 below = [*alternatives, *_with_commas(domain, " for")]
-            line = equation(self._quantity, piece.value.to_sympy())
+            line = equation(self.quantity, piece.expr)
             return latex_body((line,), room=room, below=below)
         factor, values = self._over_common
-        rows = [(values[one], _alternatives(one.where)) for one in formulas]
-        return latex_cases(self._quantity, factor, rows, below, room)
+        rows = [(values[one], _alternatives(one.where)) for one in pieces]
+        return latex_cases(self.quantity, factor, rows, below, room)
 
     @cached_property
-    def _over_common(self) -> tuple[sympy.Expr, dict[Formula, sympy.Expr]]:
+    def _over_common(self) -> tuple[sympy.Expr, dict[Piece, sympy.Expr]]:
         """What its formulas have in common, and what else each of them holds."""
         common = _common([piece.expr for piece in self.pieces])
-        factor = self.formulas[0].value.domain.from_sympy(common)
-        return factor.to_sympy(), {one: (one.value / factor).to_sympy() for one in self.formulas}
+        factor = self.pieces[0].value.domain.from_sympy(common)
+        return factor.to_sympy(), {one: (one.value / factor).to_sympy() for one in self.pieces}
 
     def first(self, columns: int = 1) -> str:
         """LaTeX of its first formula, and where it holds."""
-        return self._shown(self.formulas[:1], columns)
+        return self._shown(self.pieces[:1], columns)
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same in displays that fit a page: several, if one for all formulas would not."""
-        return self._displays(self.formulas, columns)
+        return self._displays(self.pieces, columns)
 
-    def _displays(self, formulas: Sequence[Formula], columns: int) -> list[str]:
-        whole, half = self._shown(formulas, columns), len(formulas) // 2
+    def _displays(self, pieces: Sequence[Piece], columns: int) -> list[str]:
+        whole, half = self._shown(pieces, columns), len(pieces) // 2
         if whole.count(r"\\") <= _HIGH or not half:
             return [whole]
-        return [one for part in (formulas[:half], formulas[half:])
-                for one in self._displays(part, columns)]  # fmt: skip
+        return [*self._displays(pieces[:half], columns), *self._displays(pieces[half:], columns)]
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"
@@ -412,8 +385,8 @@ class ClosedForm:
     def python(self, name: str = "closed_form") -> str:
         """Python source of a function that refuses what :meth:`at` refuses; it needs no import."""
         lines = [f"def {name}({', '.join(self.symbols)}):"]
-        lines.append(f'    """{text(self._quantity)}, exact{self._for_domain}."""')
-        relations, even = self._conditions_of_indices
+        lines.append(f'    """{text(self.quantity)}, exact{self._for_domain}."""')
+        relations, even = self._conditions_of(self._needed)
         conditions = words.parts(relations, words.PYTHON)
         conditions += [f"({python_expression(one)}) % 2 == 0" for one in even]
         if conditions:
@@ -426,19 +399,15 @@ class ClosedForm:
         ):
             if any(piece.expr.has(symbol) for piece in self.pieces):
                 lines.append(f"    {symbol.in_code} = {source}")
-        for shown, piece in zip(self.pieces, self.formulas, strict=True):
-            either = [" and ".join(words.parts(part, words.PYTHON)) for part in piece.where]
-            value = f"return {python_expression(shown.expr)}"
-            lines += (
-                [f"    if {' or '.join(either)}:", f"        {value}"]
-                if all(either)
-                else [f"    {value}"]
-            )
+        for piece in self.pieces:
+            parts = [" and ".join(words.parts(part, words.PYTHON)) for part in piece.where]
+            value = f"    return {python_expression(piece.expr)}"
+            lines += [f"    if {' or '.join(parts)}:", f"    {value}"] if all(parts) else [value]
         return "\n".join(lines) + "\n"
 
     def lines(self, room: int = TEXT_WIDTH) -> list[str]:
         """The lines that it prints as."""
-        lines = [f"{text(self._quantity)}, exact{self._for_domain}"]
+        lines = [f"{text(self.quantity)}, exact{self._for_domain}"]
         for piece in self.pieces:
             parts = f"{piece.domain or 'everywhere'}:".replace("; or ", ";\nor ").split("\n")
             where = pack([(one, len(one) + 1) for one in parts], room - 4, room - 2)
@@ -455,7 +424,7 @@ class ClosedForm:
     def __repr__(self) -> str:
         count = len(self.pieces)
         formulas = "formula" if count == 1 else "formulas"
-        return f"<{text(self._quantity)}: {count} {formulas}{self._for_domain}>"
+        return f"<{text(self.quantity)}: {count} {formulas}{self._for_domain}>"
 
     # a candidate
 
@@ -483,15 +452,20 @@ class ClosedForm:
         return decided(candidate, (self.equation,), lambda _, one: self._rule_on(one, at_place))
 
     def _rule_on(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Ruling:
-        if candidate.lhs not in (self._quantity, self._statistic):
-            return undecided(f"it is not about {text(self._quantity)}")
-        known = {*self._on.indices, *self._statistic.free_symbols, *self._needed, *_ALWAYS_KNOWN}
+        if candidate.lhs not in (self.quantity, self.statistic):
+            return undecided(f"it is not about {text(self.quantity)}")
+        known = {
+            *self.kernel_domain.indices,
+            *self.statistic.free_symbols,
+            *self._needed,
+            *_ALWAYS_KNOWN,
+        }
         if {sy.j, sy.M} <= known:
             known.add(sy.z)
         for symbol in by_name(candidate.rhs.free_symbols - known):
             return not_a_statement(
                 strange_symbol(symbol, known)
-                or f"{text(symbol)} is no symbol of {text(self._quantity)}"
+                or f"{text(symbol)} is no symbol of {text(self.quantity)}"
             )
         try:
             return all_of(*self._rulings(candidate.rhs, at_place))
@@ -502,7 +476,7 @@ class ClosedForm:
 
     def _rulings(self, candidate: sympy.Expr, at_place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
         """What is found of each part of a candidate; its parts have to cover the domain."""
-        domain, function = self._on.also(*at_place), self.function.part(*at_place)
+        domain, function = self.kernel_domain.also(*at_place), self.function.part(*at_place)
         rest = function.points
         for value, relations in _alternatives_of(candidate):
             here = rest & function.part(*relations).points
@@ -510,25 +484,25 @@ class ClosedForm:
             for part in function.relations(here):
                 yield from self._rulings_on(value, domain.also(*part))
         if function.points.is_empty():
-            raise NotAStatementError(f"{text(self._quantity)} is for {self.domain}")
+            raise NotAStatementError(f"{text(self.quantity)} is for {self.domain}")
         if not rest.is_empty():
-            words_of = "; or ".join(map(words.in_words, function.relations(rest)))
-            raise NotAStatementError(f"it has no value for {words_of}")
+            left_out = _parts_in_words(function.relations(rest))
+            raise NotAStatementError(f"it has no value for {left_out}")
 
     def _rulings_on(self, value: sympy.Expr, domain: Domain) -> Iterator[Ruling]:
-        if not self._values:
-            by = moment(*self.groups, on=self._on)
-            yield decide(equation(self._statistic, self._divisor * value), domain, [by])
+        if not self.values:
+            by = moment(*self.groups, on=self.kernel_domain)
+            yield decide(equation(self.statistic, self.divisor * value), domain, [by])
             return
-        for formula in self.formulas:  # numbers are put in: theorems hold whatever they are
-            for part in formula.where:
+        for piece in self.pieces:  # numbers are put in: theorems hold whatever they are
+            for part in piece.where:
                 here = domain.also(*part)
                 if not here.points.is_empty():
-                    yield decide(equation(formula.value.to_sympy(), value), here, [rewrite()])
+                    yield decide(equation(piece.expr, value), here, [rewrite()])
 
 
-def _again(parts: tuple[Any, ...], divisor: Any, values: Any, function: Any) -> ClosedForm:
-    return ClosedForm(*parts, divisor=divisor, values=values, function=function)
+def _parts_in_words(parts: Iterable[Relations]) -> str:
+    return "; or ".join(map(words.in_words, parts))
 
 
 def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
@@ -540,27 +514,6 @@ def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relati
     for value, condition in folded.args:
         for part in sympy.Or.make_args(sympy.to_dnf(condition)):
             yield value, tuple(one for one in sympy.And.make_args(part) if one != sympy.true)
-
-
-class _Numbers:
-    """A closed form as numbers are put into it."""
-
-    def __init__(self, form: ClosedForm) -> None:
-        self._form, self.about, self.sides = form, text(form.quantity), (None,)
-
-    @property
-    def needed(self) -> set[sympy.Symbol]:
-        """The symbols to give a value."""
-        return self._form._needed
-
-    def at(self, given: Mapping[str, Number]) -> Any:
-        """The value for single numbers."""
-        form = self._form
-        values, exact = read_arguments(
-            self.about, form._needed, given, form.kernel_domain.dimension, in_packing=False
-        )
-        value = self._form.value(values, exact=exact)
-        return value if exact else rounded(value)
 
 
 def _alternatives(parts: Iterable[Relations], before: str = "") -> list[str]:
@@ -605,10 +558,18 @@ def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
     return form[1] + sum(factor * whole[symbol] for symbol, factor in form[0].items())
 
 
-def _is_met(condition: tuple[sets.Row, bool], whole: Mapping[sympy.Symbol, int]) -> bool:
-    form, equation = condition
-    total = _total(form, whole)
-    return total == 0 if equation else total >= 0
+@lru_cache(maxsize=4096)
+def _condition(relation: sympy.Basic) -> tuple[sets.Row, bool]:
+    return sets.condition(relation)
+
+
+def _hold(relations: Iterable[sympy.Basic], whole: Mapping[sympy.Symbol, int]) -> bool:
+    """Whether relations hold of whole numbers."""
+    for form, is_equation in map(_condition, relations):
+        total = _total(form, whole)
+        if total < 0 or (is_equation and total):
+            return False
+    return True
 
 
 def _harmonic(

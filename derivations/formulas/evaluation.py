@@ -3,10 +3,8 @@
 import math
 import numbers
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
-from functools import cached_property
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -24,6 +22,7 @@ Number: TypeAlias = int | float | Fraction | Decimal
 """What is put in: int, Fraction, Decimal and, at run time, SymPy's Rational are exact."""
 
 _ORDER = "M l j z i k phi sigma r"
+_WHOLE: tuple[str, Callable[[Any], Any]] = ("a whole number", lambda _: True)
 _ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], Any]]] = {
     sy.z: ("0 ≤ z ≤ 1", lambda value: (value >= 0) & (value <= 1)),
     sy.sigma: ("a number from 0 on", lambda value: value >= 0),
@@ -47,61 +46,32 @@ class ArgumentError(ForceDiffusionError, ValueError):
     """A formula can't be evaluated with these arguments; the message says what is allowed."""
 
 
-@dataclass(frozen=True)
-class Evaluation:
-    """A printed formula that numbers are put into.
-
-    Attributes:
-        about: what it is, for messages.
-        sides: one expression, or several that are evaluated together.
-    """
-
-    about: str
-    sides: tuple[sympy.Expr, ...]
-
-    @cached_property
-    def needed(self) -> set[sympy.Symbol]:
-        """The symbols that decide its value."""
-        return set().union(*(one.free_symbols for one in self.sides))
-
-    def at(self, given: Mapping[str, Number]) -> Any:
-        """The value for single numbers: exact for exact ones, else a float; a tuple of several.
-
-        Raises:
-            ArgumentError: a name is unknown or missing, or a value is not allowed.
-        """
-        values, exact = read_arguments(self.about, self.needed, given)
-        found = tuple(side.xreplace(values) for side in self.sides)
-        found = found if exact else tuple(map(rounded, found))
-        return found[0] if len(found) == 1 else found
-
-
-def _named(
+def arguments(
     about: str, needed: Iterable[sympy.Symbol], given: Iterable[str]
 ) -> dict[str, sympy.Symbol]:
-    """The symbols by their names, j in place of z where it is given; looks at the names alone."""
+    """The symbols by their names, j in place of z where it is given; looks at the names alone.
+
+    Raises:
+        ArgumentError: a name is unknown or missing.
+    """
     by_name = {name_of(symbol): symbol for symbol in needed if not isinstance(symbol, sympy.Dummy)}
     if "z" in by_name and "j" in given:
         if "z" in given:
             raise ArgumentError("z and j are given, and z is j/M: leave one of them out")
         del by_name["z"]
         by_name |= {"M": sy.M, "j": sy.j}
-    _compare_names(about, by_name, given)
+    names = in_order(by_name)
+    takes = f"{about} takes " + ", ".join("z (or j)" if name == "z" else name for name in names)
+    if unknown := [name for name in given if name not in by_name]:
+        raise ArgumentError(f"{about} holds no {either(unknown)}: {takes}")
+    if missing := [name for name in names if name not in given]:
+        raise ArgumentError(f"{', '.join(missing)} missing: {takes}")
     return by_name
-
-
-def compare_names(about: str, needed: Iterable[sympy.Symbol], given: Iterable[str]) -> None:
-    """Refuse names that are unknown or missing.
-
-    Raises:
-        ArgumentError: there are some.
-    """
-    _named(about, needed, given)
 
 
 def read_arguments(
     about: str,
-    needed: Iterable[sympy.Symbol],
+    needed: set[sympy.Symbol],
     given: Mapping[str, Number],
     dimension: int = 2,
     *,
@@ -121,16 +91,17 @@ def read_arguments(
     Raises:
         ArgumentError: a name is unknown or missing, or a value is not allowed.
     """
-    needed = set(needed)
-    symbols = _named(about, needed, given)
+    symbols = arguments(about, needed, given)
     values = {symbols[name]: _exactly(name, value) for name, value in given.items()}
-    for symbol, value in values.items():
-        if in_packing or symbol not in sy.INDICES:
-            _assert_allowed(symbol, value, given[name_of(symbol)], dimension)
-        elif not value.is_integer:
-            raise ArgumentError(f"{name_of(symbol)} = {value}: a whole number is allowed")
-    if in_packing:
-        _assert_together(values)
+    for name, number in given.items():
+        symbol, value = symbols[name], values[symbols[name]]
+        of_packing = in_packing or symbol not in sy.INDICES
+        words, allowed = range_of(symbol, dimension) if of_packing else _WHOLE
+        if not allowed(value) or (symbol.is_integer and not value.is_integer):
+            raise ArgumentError(f"{name} = {number}: {words} is allowed")
+    for pair, (words, allowed) in TOGETHER.items() if in_packing else ():
+        if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
+            raise ArgumentError(f"{with_values(pair, values)}: {words} is allowed")
     if sy.z in needed - {*values}:
         values[sy.z] = values[sy.j] / values[sy.M]
     return values, all(isinstance(value, EXACT) for value in given.values())
@@ -139,15 +110,6 @@ def read_arguments(
 def in_order(names: Iterable[str]) -> list[str]:
     """Names of arguments in the order in which they are told and taken."""
     return sorted(names, key=lambda name: (_ORDER.find(name) if name in _ORDER else 99, name))
-
-
-def _compare_names(about: str, known: Iterable[str], given: Iterable[str]) -> None:
-    names = in_order(known)
-    takes = f"{about} takes " + ", ".join("z (or j)" if name == "z" else name for name in names)
-    if unknown := [name for name in given if name not in known]:
-        raise ArgumentError(f"{about} holds no {either(unknown)}: {takes}")
-    if missing := [name for name in names if name not in given]:
-        raise ArgumentError(f"{', '.join(missing)} missing: {takes}")
 
 
 def _exactly(name: str, value: Number) -> sympy.Rational:
@@ -168,20 +130,6 @@ def _exactly(name: str, value: Number) -> sympy.Rational:
     )
 
 
-def _assert_allowed(
-    symbol: sympy.Symbol, value: sympy.Rational, given: Number, dimension: int
-) -> None:
-    words, allowed = range_of(symbol, dimension)
-    if not allowed(value) or (symbol.is_integer and not value.is_integer):
-        raise ArgumentError(f"{name_of(symbol)} = {given}: {words} is allowed")
-
-
-def _assert_together(values: Mapping[sympy.Symbol, sympy.Rational]) -> None:
-    for pair, (words, allowed) in TOGETHER.items():
-        if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
-            raise ArgumentError(f"{told(pair, values)}: {words} is allowed")
-
-
 def range_of(symbol: sympy.Symbol, dimension: int = 2) -> tuple[str, Callable[[Any], Any]]:
     """What is allowed of a symbol in words, and of a number or an array: whether it is."""
     if symbol == sy.phi:
@@ -191,7 +139,7 @@ def range_of(symbol: sympy.Symbol, dimension: int = 2) -> tuple[str, Callable[[A
     if symbol in _ALLOWED:
         return _ALLOWED[symbol]
     if symbol.is_integer:
-        return "a whole number", lambda _: True
+        return _WHOLE
     if symbol.is_positive:
         return "a number above 0", lambda value: value > 0
     return "a number", lambda _: True
@@ -216,8 +164,10 @@ def indices_at(
     return {by_name[name]: sympy.Integer(int(value)) for name, value in at.items()}
 
 
-def told(symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]) -> str:
-    """Values in words."""
+def with_values(
+    symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]
+) -> str:
+    """Symbols with their values, in words."""
     return ", ".join(f"{text(symbol)} = {text(values[symbol])}" for symbol in symbols)
 
 

@@ -125,11 +125,11 @@ class Row(Statement):
         for form in self.exact_forms.values():
             by = moment(*form.groups, on=form.kernel_domain)
             shown = form.quantity if form.divisor == 1 else form.divisor * form.quantity
-            for formula in form.formulas:
-                for part in formula.where:
+            for piece in form.pieces:
+                for part in piece.where:
                     steps.show(
                         f"For {in_words(part) or form.domain}:",
-                        equation(shown, form.divisor * formula.value.to_sympy()),
+                        equation(shown, form.divisor * piece.expr),
                         by,
                         form.kernel_domain.also(*part),
                         {shown: form.statistic},

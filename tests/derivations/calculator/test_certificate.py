@@ -61,7 +61,7 @@ def certify(name: str, form: fd.ClosedForm) -> int:
     """Compare a form with exact packings on each part of its domain, and count the points."""
     places, count = Places(form), 0
     true = truth(name, form)
-    for formula in form.formulas:
+    for formula in form.pieces:
         for part in formula.where:
             points = list(places.telling_apart(part))
             assert points, f"{name}: no packing is small enough for {words.in_words(part)}"
@@ -118,9 +118,9 @@ class Places:
     @cached_property
     def _degree(self) -> int:
         """Of all formulas in their indices, times their divisors."""
-        places = [self._form.formulas[0].value.domain.position[one] for one in self._symbols]
+        places = [self._form.pieces[0].value.domain.position[one] for one in self._symbols]
         powers = chain.from_iterable(
-            formula.value.numerator.to_dict() for formula in self._form.formulas
+            formula.value.numerator.to_dict() for formula in self._form.pieces
         )
         return max((sum(int(one[place]) for place in places) for one in powers), default=0)
 

@@ -84,7 +84,7 @@ def is_inside(form: fd.ClosedForm, at: dict[str, int]) -> bool:
 def test_each_place_of_the_domain_is_in_one_piece(form: fd.ClosedForm) -> None:
     tests = [
         [sympy.lambdify([*form.symbols.values()], sympy.And(*part), "math") for part in one.where]
-        for one in form.formulas
+        for one in form.pieces
     ]
     rest, inside = dict.fromkeys(others(form), 0), 0
     for at in points(form):
