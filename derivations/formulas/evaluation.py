@@ -93,10 +93,11 @@ def read_arguments(
     """
     symbols = arguments(about, needed, given)
     values = {symbols[name]: _exactly(name, value) for name, value in given.items()}
-    for name, number in given.items():
-        symbol, value = symbols[name], values[symbols[name]]
-        of_packing = in_packing or symbol not in sy.INDICES
-        words, allowed = range_of(symbol, dimension) if of_packing else _WHOLE
+    for name, symbol in symbols.items():
+        number, value = given[name], values[symbol]
+        words, allowed = range_of(symbol, dimension)
+        if symbol in sy.INDICES and not in_packing:
+            number, (words, allowed) = value, _WHOLE
         if not allowed(value) or (symbol.is_integer and not value.is_integer):
             raise ArgumentError(f"{name} = {number}: {words} is allowed")
     for pair, (words, allowed) in TOGETHER.items() if in_packing else ():
