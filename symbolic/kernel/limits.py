@@ -258,8 +258,11 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
 
 
 def _at_height(side: sympy.Expr, domain: Domain) -> sympy.Expr:
-    """A side with z = j/M, where layers are spoken of."""
-    return side.xreplace({sy.z: sy.j / sy.M}) if sy.j in domain.indices else side
+    """A side with s = 4rn_x, and z = j/M where layers are spoken of."""
+    image = {sy.spacing: 4 * sy.r * sy.n_x}
+    if sy.j in domain.indices:
+        image[sy.z] = sy.j / sy.M
+    return side.xreplace(image)
 
 
 def _one_function(number: Weights, domain: Domain) -> RationalFunction:

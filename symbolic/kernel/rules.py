@@ -11,7 +11,13 @@ from itertools import permutations
 import sympy
 
 from .. import symbols as sy
-from ..algebra.exact import FIELD, UNKNOWNS, RationalFunction
+from ..algebra.exact import (
+    FIELD,
+    UNKNOWNS,
+    NotAStatementError,
+    NotExactError,
+    RationalFunction,
+)
 from ..algebra.signs import never_zero
 from ..as_printed import equation
 from ..forms import NUMBER, Form, Image
@@ -50,7 +56,12 @@ _ACROSS = {across for across, _ in LATTICE}
 
 def proved_by(rule: Rule, formula: sympy.Eq, domain: Domain) -> Theorem:
     """What a rule proves, if it is just this statement on just this domain."""
-    theorem = rule(formula, domain)
+    try:
+        theorem = rule(formula, domain)
+    except NotAStatementError:
+        raise
+    except NotExactError as reason:
+        raise NotProvedError(str(reason)) from None
     if type(theorem) is not Theorem:
         raise NotProvedError("the rule made no theorem")
     if theorem.formula != formula or theorem.domain != domain:

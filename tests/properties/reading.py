@@ -84,9 +84,11 @@ class Plane:
             sy.n_y: n_y,
             sy.phi: dot(n_plus, n_minus),
             sy.r: self.packing.r,
+            sy.spacing: 4 * self.packing.r * n_x,
             sy.M: self.packing.height,
             sy.n_plus: n_plus,
             sy.n_minus: n_minus,
+            sy.e_y: (mp.mpf(0), mp.mpf(1)),
             sy.b_plus: (1 / (2 * n_x), 1 / (2 * n_y)),
             sy.b_minus: (-1 / (2 * n_x), 1 / (2 * n_y)),
         }

@@ -479,6 +479,22 @@ attack(
         rules.rewrite(prove(rules.rewrite(ON_LOADED), r**2 * TOP, 0, LOADED)), TOP, 0, LOADED
     ),
 )
+attack(
+    "a factor that is zero at φ = 0",
+    lambda: prove(
+        rules.rewrite(prove(rules.rewrite(BASE), phi * DeltaX(i, j), 0, BASE.domain)),
+        DeltaX(i, j),
+        0,
+        BASE.domain,
+    ),
+    "not shown to vanish nowhere",
+    lambda: prove(
+        rules.rewrite(prove(rules.rewrite(BASE), (2 + phi) * DeltaX(i, j), 0, BASE.domain)),
+        DeltaX(i, j),
+        0,
+        BASE.domain,
+    ),
+)
 STRAIGHT = load(9).theorem
 ZERO_AT_ORDER_0 = prove(
     rules.rewrite(STRAIGHT), (1 - STRAIGHT.formula.lhs) * HERE, 0, STRAIGHT.domain
@@ -1125,7 +1141,7 @@ LEFT, RIGHT_SIDE = eq12.PRINTED.args
 for name, extra, refused in (
     ("half of it", -RIGHT_SIDE / 2, "is dropped"),
     ("a large radius", M**2 * HERE, "is dropped"),
-    ("a place across", i * HERE, "neither grows nor is fixed"),
+    ("a place across", i * HERE, "place across the packing matters"),
     ("another mean", sympy.S.One, "means of both sides differ"),
     ("two forces", ForcePlus(i + 2, j), "not about one contact force"),
 ):

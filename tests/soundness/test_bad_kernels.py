@@ -1,0 +1,198 @@
+"""Kernels with one planted fault: the attacks, the proofs of the paper, or statements notice it.
+
+A fault is a change of the source of one function. It is compiled in the place of the right one,
+and all that was worked out before is forgotten.
+"""
+
+# ruff: noqa: E501 (a table)
+
+import gc
+import importlib
+import inspect
+import textwrap
+from collections.abc import Iterator
+from functools import _lru_cache_wrapper, cached_property
+from types import CodeType, FunctionType
+from typing import Any
+
+import pytest
+from force_diffusion.derivations.framework import proof
+from force_diffusion.derivations.framework.decide import candidate_for
+from force_diffusion.derivations.framework.loading import load
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
+
+from tests.properties.mutants import mutants
+from tests.soundness.test_attacks import ATTACKS, REFUSALS
+
+FAULTS = {
+    # what a theorem is, and what is a statement
+    "anybody makes theorems": ("kernel.theorem", "Theorem.__post_init__", "is not _MADE_HERE", "is NotImplemented"),
+    "premises that are no theorems": ("kernel.theorem", "made", "type(one) is Theorem", "isinstance(one, Theorem)"),
+    "any domain": ("kernel.theorem", "check_domain", "domain.points.is_empty()", "False"),
+    "any index": ("kernel.theorem", "check_domain", "free & {*sy.INDICES} - {*domain.indices}", "set()"),
+    "reserved names": ("kernel.theorem", "check_domain", "free & _RESERVED", "False"),
+    "factors that vanish": ("kernel.theorem", "isolated", "not never_zero(", "False and not never_zero("),
+    "instances beyond a domain": ("kernel.theorem", "moved", "not domain.lies_in(there)", "False"),
+    "instances under other loads": ("kernel.theorem", "moved", "not same", "False"),
+    "instances of parameters": ("kernel.theorem", "moved", "symbol not in sy.INDICES or not is_whole(at)", "False"),
+    "indices are captured": ("kernel.theorem", "with_indices", "summed & put_in", "set()"),
+    "one component of two": ("kernel.theorem", "difference", "zip(left, right, strict=True)", "zip(left[:1], right[:1])"),
+    # domains
+    "odd places": ("kernel.domain", "Domain.straight", "for across, up in self.beads", "for across, up in ()"),
+    "parity is not compared": ("kernel.domain", "Domain.lies_in", "self.points.is_subset(sets.even(form))", "True"),
+    "any dimension": ("kernel.domain", "Domain.__post_init__", "self.dimension not in (2, 3)", "False"),
+    "heights that are negative": ("kernel.domain", "Domain.put_in", "if not one.is_positive", "if False"),
+    "any load implies another": ("kernel.domain", "Loading.implies", "other is None or self == other", "True"),
+    # rules
+    "rules prove other statements": ("kernel.rules", "proved_by", "theorem.formula != formula or theorem.domain != domain", "False"),
+    "everything is rewritten": ("kernel.rules", "rewrite", "not all(form.is_zero() for form in apart)", "False"),
+    "some component is rewritten": ("kernel.rules", "rewrite", "not all(", "not any("),
+    "multiples that may be zero": ("kernel.rules", "follows", "not never_zero(", "False and not never_zero("),
+    "no multiples": ("kernel.rules", "follows", "not all(form.is_zero() for form in rest)", "False"),
+    "another order in ε": ("kernel.rules", "order", "found[power] if", "found[0] if"),
+    "no solution": ("kernel.rules", "solve", "not left.on(domain.points).is_zero()", "False"),
+    "determinants with forces": ("kernel.rules", "solve", "key != NUMBER and not located", "False"),
+    "determinants without signs": ("kernel.rules", "_determinant", "-1 if odd else 1", "1"),
+    "places across are mirrored": ("kernel.rules", "mirror", "any(map(_across_by_itself, theorem.formula.args))", "False"),
+    "inductions without a base": ("kernel.rules", "inducted", "not at_first.points.is_empty()", "False"),
+    "inductions without a step": ("kernel.rules", "inducted", "not later.points.is_empty()", "False"),
+    "inductions beyond their start": ("kernel.rules", "inducted", "not domain.implies(", "False and not domain.implies("),
+    "a base that is supposed": ("kernel.rules", "inducted", "if premises[-1].supposed", "if False"),
+    "other suppositions": ("kernel.rules", "suppose", "(formula, domain) not in supposition.members", "False"),
+    "suppositions of the same value": ("kernel.rules", "suppose", "supposition.index - supposition.before", "supposition.index"),
+    "no steps to other beads": ("kernel.rules", "reach", "not all(form.is_zero() for form in apart)", "False"),
+    "steps that say nothing": ("kernel.rules", "reach", "one.formula.rhs.has(about.func)", "False"),
+    "linked derivatives": ("kernel.rules", "differentiate", "not variables or strange", "not variables"),
+    # moments and limits
+    "products are dropped in moments": ("forms", "Reader._refuse_squares", "self.linear and", "False and"),
+    "variances without squares": ("second_order", "covariance", "left.times(right)", "left"),
+    "moments of one side": ("kernel.statistics", "moment", "not all(form.is_zero() for form in apart)", "False"),
+    "unknown quantities in moments": ("kernel.statistics", "Statistics.in_radii", "{*form.parts} - {NUMBER, RADII, SHIFT}", "False"),
+    "an order too many": ("kernel.limits", "asymptotic", "high - limit.orders", "high"),
+    "leading orders that vanish": ("kernel.limits", "_vanishes_nowhere", "value.holds(sy.H_M) or value.is_zero()", "True: return True\n    if value.is_zero()"),
+    "orders that are not uniform": ("kernel.limits", "_uniform", "grows and sum(", "False and sum("),
+    "limits beside the domain": ("kernel.limits", "limit_of", "not all(_is_late(one, domain) for one in domain.relations)", "False"),
+    "any order is negligible": ("kernel.limits", "negligible", "not order(dropped, limit) < order(kept, limit)", "False"),
+    "other means are negligible": ("kernel.limits", "negligible", "not rest.parts.get(NUMBER, Weights()).is_zero()", "False"),
+    "large shares": ("kernel.limits", "bounded", "2 * one > order(whole, limit)", "False"),
+    "H_M is as large as M": ("kernel.limits", "order", "_degrees(value.denominator, limit.growing)", "_degrees(value.denominator, (*limit.growing, sy.H_M))"),
+    "powers of negative numbers": ("kernel.averages", "_powers", "sign(value, EVERYTHING) != 1", "False"),
+    "any prefactor": ("kernel.averages", "power_law", "not (ratio - FIELD.one).is_zero()", "False"),
+    # what is read
+    "no bead is anywhere": ("forms", "Reader.site", "not self.points.is_subset(above)", "False"),
+    "divisors that are zero": ("forms", "Reader.scalar", "not never_zero(base, self.points)", "False"),
+    "sums that end early": ("forms", "Reader._series", "not self.within(sympy.Lt(high, low - 1, evaluate=False)).points.is_empty()", "False"),
+    "sums over any index": ("forms", "Reader._series", "index not in SUMMATION or index in self.summed or not self._is_free(index)", "False"),
+    "both cases everywhere": ("forms", "Reader._cases", "inner.number(part).on(inner.points)", "inner.number(part)"),
+    "forces divide that are zero": ("forms", "Reader._power", "not self._acts(self.number(base))", "False"),
+    "means capture indices": ("forms", "Reader._average", "step in (expression.free_symbols | count.free_symbols) or not self._is_free(step)", "False"),
+    # arithmetic
+    "sums are off by one": ("algebra.exact", "sum_polynomial", "low - f.domain.one", "low"),
+    "numbers of terms are off by one": ("algebra.exact", "sum_polynomial", "high - low + f.domain.one", "high - low"),
+    "another circle": ("algebra.exact", "Domain.vanishes", "cosine, circle = self._relations", "circle, cosine = self._relations"),
+    "strict bounds": ("sets", "condition", "int(isinstance(relation, sympy.Gt))", "0"),
+    "roots are not counted": ("algebra.signs", "_on_interval", "0 if inside else", "0 if False else"),
+    "pieces are merged that differ": ("weights", "_agree", ".is_zero()", ".is_zero() or True"),
+}  # fmt: skip
+"""Where, what stands there, and what is planted."""
+
+
+def planted(monkeypatch: pytest.MonkeyPatch, where: str, name: str, old: str, new: str) -> None:
+    module = importlib.import_module(f"force_diffusion.symbolic.{where}")
+    owner: Any = module
+    *path, last = name.split(".")
+    for one in path:
+        owner = getattr(owner, one)
+    found = inspect.getattr_static(owner, last)
+    for attribute in ("func", "fget", "__wrapped__"):
+        found = getattr(found, attribute, found)
+    source = textwrap.dedent(inspect.getsource(found))
+    assert source.count(old) >= 1, f"{old} does not stand in {name}"
+    namespace = vars(module)
+    before = namespace.get(last)
+    code = compile(source.replace(old, new), f"<{name} with a fault>", "exec", 0, True)
+    exec(code, scratch := dict(namespace))
+    function = scratch[last]
+    assert namespace.get(last) is before
+    bad = getattr(function, "func", getattr(function, "__wrapped__", function))
+    right, wrong = found.__code__, bad.__code__
+    inner = {one.co_name: one for one in wrong.co_consts if isinstance(one, CodeType)}
+    for one in gc.get_objects():  # rules that were made before
+        if isinstance(one, FunctionType) and one.__code__ in right.co_consts:
+            code = inner.get(one.__code__.co_name, right)
+            if code.co_freevars == one.__code__.co_freevars:
+                monkeypatch.setattr(one, "__code__", code)
+    monkeypatch.setattr(found, "__code__", wrong)
+
+
+def forget() -> None:
+    """Forget all that was worked out, since a planted fault may have had a part in it."""
+    for one in gc.get_objects():
+        if isinstance(one, _lru_cache_wrapper):
+            if _is_own(getattr(one.__wrapped__, "func", one.__wrapped__)):
+                one.cache_clear()
+        elif _is_own(type(one)) and hasattr(one, "__dict__"):
+            for name in [*vars(one)]:
+                if isinstance(inspect.getattr_static(type(one), name, None), cached_property):
+                    del vars(one)[name]
+    proof._STEP_OF.clear()
+
+
+def _is_own(one: object) -> bool:
+    module = getattr(one, "__module__", None)
+    return isinstance(module, str) and module.startswith("force_diffusion.")
+
+
+def noticed() -> Iterator[str]:
+    """What goes wrong."""
+    for one in ATTACKS:
+        try:
+            one.false()
+        except REFUSALS as reason:
+            if one.refused not in str(reason):
+                yield f"refused for another reason: {one.name}"
+        except Exception as error:  # a guard that stumbles guards nothing
+            yield f"{type(error).__name__} in {one.name}"
+        else:
+            yield f"proved: {one.name}"
+    for one in ATTACKS:
+        try:
+            one.true()
+        except Exception as error:
+            yield f"{type(error).__name__} where it is true: {one.name}"
+    for number in (3, 13):
+        try:
+            yield from wrong_verdicts(number)
+        except NotProvedError as reason:
+            yield f"Eq. {number} has no proof: {reason}"
+
+
+def wrong_verdicts(number: int) -> Iterator[str]:
+    derivation = load(number)
+    for part, printed in enumerate(derivation.printed):
+        if not candidate_for(derivation, part, printed).verdict.is_proved:
+            yield f"Eq. {number} is not proved"
+        for mutant in mutants(printed):
+            if candidate_for(derivation, part, mutant.equation).verdict.is_proved:
+                yield f"Eq. {number}: {mutant.change}"
+
+
+@pytest.fixture
+def nothing_is_remembered() -> Iterator[None]:
+    """Neither does the test see what was worked out before, nor others what it has planted."""
+    forget()
+    yield
+    forget()
+
+
+@pytest.mark.usefixtures("nothing_is_remembered")
+def test_the_kernel_without_a_fault_is_right() -> None:
+    assert not list(noticed())
+
+
+@pytest.mark.long(sample=12)
+@pytest.mark.usefixtures("nothing_is_remembered")
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_fault_is_noticed(monkeypatch: pytest.MonkeyPatch, fault: str) -> None:
+    planted(monkeypatch, *FAULTS[fault])
+    assert next(noticed(), None)
