@@ -65,7 +65,7 @@ class Means:
 
     def jets(self) -> dict[type, tuple[Known, ...]]:
         """The same quantities, with the shifts of their means."""
-        shifts = {
+        shifts: dict[type, tuple[Weights, ...]] = {
             DeltaNPlus: (self.along[PLUS], self.beside[PLUS]),
             DeltaNMinus: (self.beside[MINUS], self.along[MINUS]),
         }
