@@ -444,8 +444,12 @@ def sample(points: Set) -> dict[sympy.Symbol, int]:
     return next(samples(points))
 
 
-def samples(points: Set, most: int = 8) -> Iterator[dict[sympy.Symbol, int]]:
-    """Some points of a set."""
+def samples(
+    points: Set, among: Iterable[sympy.Symbol] = (), most: int = 8
+) -> Iterator[dict[sympy.Symbol, int]]:
+    """Some points of a set, which differ in what it is said by and in symbols ``among``."""
+    idle = [one for one in DIMENSIONS if one not in among and not depends_on(points, one)]
+    points = points & where(*(sympy.Eq(one, 0, evaluate=False) for one in idle))
     for _ in range(most):
         if points.is_empty():
             return

@@ -14,6 +14,7 @@ from typing import Any, Self
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
+from ..printing.text import text
 from ..symbols import H_M, INDICES, PARAMETERS, M, l, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
@@ -84,6 +85,7 @@ class Domain:
 
         Raises:
             NotExactError: for anything else, floats included.
+            NotAStatementError: it is infinite, or no number.
         """
         if expression in self.position:
             return self.generator(expression)
@@ -101,7 +103,7 @@ class Domain:
             return product
         if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Integer):
             return self.from_sympy(expression.base) ** int(expression.exp)
-        raise NotExactError(f"{expression} is not a rational function of the symbols")
+        raise _not_exact(expression)
 
     def total(self, values: Iterable["RationalFunction"]) -> "RationalFunction":
         """The sum of elements; what has one denominator is brought to lowest terms once."""
@@ -139,6 +141,21 @@ class Domain:
 
 _MOST_TERMS = 20_000
 """Of a polynomial that is multiplied out: fifty times what any equation takes."""
+
+
+def _not_exact(expression: sympy.Expr) -> NotExactError:
+    """Why an expression is no rational function."""
+    if expression.has(*_NO_NUMBERS):
+        return NotAStatementError(f"{text(expression)} is no number")
+    if decimals := sorted(map(float, expression.atoms(sympy.Float))):
+        return NotExactError(
+            f"it holds the decimal {decimals[0]!r}: write exact numbers, such as Rational(3, 2) "
+            "for 1.5"
+        )
+    return NotExactError(f"{text(expression)} is not a rational function of the symbols")
+
+
+_NO_NUMBERS = sympy.oo, -sympy.oo, sympy.zoo, sympy.nan
 
 
 def _refuse_more_terms(number: int) -> None:

@@ -9,7 +9,7 @@ from math import lcm
 import sympy
 
 from .. import symbols as sy
-from ..algebra.exact import FIELD, NotExactError, RationalFunction
+from ..algebra.exact import FIELD, NotAStatementError, NotExactError, RationalFunction
 from ..algebra.signs import sign
 from ..as_printed import equation
 from ..printing.text import text
@@ -166,5 +166,7 @@ def _argument(side: sympy.Expr) -> sympy.Expr:
 def _read(node: sympy.Expr) -> RationalFunction:
     try:
         return FIELD.from_sympy(node)
+    except NotAStatementError:
+        raise
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None

@@ -12,8 +12,16 @@ import sympy
 
 from .. import sets
 from .. import symbols as sy
-from ..algebra.exact import FIELD, SITE, NotExactError, Polynomial, RationalFunction
+from ..algebra.exact import (
+    FIELD,
+    SITE,
+    NotAStatementError,
+    NotExactError,
+    Polynomial,
+    RationalFunction,
+)
 from ..algebra.signs import sign
+from ..as_printed import in_place
 from ..forms import FORCES, NUMBER, RADII, Form
 from ..notation import by_name
 from ..printing.text import text
@@ -65,10 +73,17 @@ def asymptotic(*groups: Group) -> Rule:
 def _other_order(left: RationalFunction, right: RationalFunction, limit: Limit) -> str:
     """How two sides go differently, in words."""
     if order(left, limit) != order(right, limit) or limit.orders > 1:
-        shown = text(leading(left - right, limit).reduced().to_sympy())
+        shown = _shown(leading(left - right, limit), limit)
         return f"as {limit.words}, left less right goes as {shown}"
-    ratio = (leading(left, limit) / leading(right, limit)).reduced().to_sympy()
-    return f"as {limit.words}, left over right goes to {text(ratio)}, not to 1"
+    ratio = _shown(leading(left, limit) / leading(right, limit), limit)
+    return f"as {limit.words}, left over right goes to {ratio}, not to 1"
+
+
+def _shown(value: RationalFunction, limit: Limit) -> str:
+    """A function in words, of z where that is fixed."""
+    if {*limit.growing} == {sy.M, sy.j}:
+        value = value.substitute({sy.j: FIELD.generator(sy.z) * FIELD.generator(sy.M)})
+    return text(value.reduced().to_sympy())
 
 
 def negligible(*groups: Group) -> Rule:
@@ -225,6 +240,8 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
     try:
         form = Statistics.on(finite, groups).in_radii(_at_height(expression, domain))
+    except NotAStatementError:
+        raise
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None
     if free:  # a step to the right, of the bead and of all sites
@@ -250,6 +267,8 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
     """
     try:
         number = worked_out(_at_height(side, domain), domain.in_the_limit(None), tuple(groups))
+    except NotAStatementError:
+        raise
     except NotExactError as reason:
         raise NotProvedError(str(reason)) from None
     if {*number.parts} - {NUMBER}:
@@ -262,7 +281,7 @@ def _at_height(side: sympy.Expr, domain: Domain) -> sympy.Expr:
     image = {sy.spacing: 4 * sy.r * sy.n_x}
     if sy.j in domain.indices:
         image[sy.z] = sy.j / sy.M
-    return side.xreplace(image)
+    return in_place(side, {one: value for one, value in image.items() if side.has(one)})
 
 
 def _one_function(number: Weights, domain: Domain) -> RationalFunction:

@@ -27,7 +27,7 @@ from ..algebra.exact import (
     RationalFunction,
 )
 from ..algebra.signs import never_zero
-from ..as_printed import equation
+from ..as_printed import equation, in_place
 from ..forms import FORCES, NUMBER, RADII, Form, Image, Key, Known, Reader, is_whole
 from ..notation import by_name
 from ..printing.text import text
@@ -361,7 +361,8 @@ def meant(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
     image[sy.spacing] = 4 * sy.r * sy.n_x
     if {sy.j, sy.M} <= {*domain.indices}:
         image[sy.z] = sy.j / sy.M
-    left, right = (side.xreplace(image) for side in formula.args)
+    image = {symbol: one for symbol, one in image.items() if formula.has(symbol)}
+    left, right = (in_place(side, image) for side in formula.args)
     return left, right
 
 
@@ -442,7 +443,7 @@ def witness(
 ) -> tuple[dict[sympy.Symbol, sympy.Integer], dict[sympy.Symbol, sympy.Integer], sympy.Expr] | None:
     """A point at which a function is not zero: its indices, its site, and the value there."""
     for part in sets.parts(points):
-        for at in sets.samples(part):
+        for at in sets.samples(part, [one for one in FIELD.generators if value.holds(one)]):
             numbers = {one: sympy.Integer(number) for one, number in at.items()}
             held = {s: FIELD.constant(number) for s, number in numbers.items() if value.holds(s)}
             straight = domain.straight.image

@@ -101,8 +101,7 @@ def proves(step: Step, part: int, candidate: sympy.Eq) -> bool:
     """Whether the rule of a step proves a candidate for one of its equations."""
     try:
         step.prove(part, candidate)
-    except (NotProvedError, NotExactError) as why:
-        assert str(why)
+    except (NotProvedError, NotExactError):
         return False
     return True
 

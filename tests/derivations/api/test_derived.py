@@ -21,7 +21,8 @@ def test_premises_come_first_and_callbacks_are_told() -> None:
     assert finished == list(found.verdicts)
     assert finished[-1] == 5
     assert len(finished) > 1
-    assert told[0].startswith(f"Eq. {finished[0]}: ")
+    assert told[0] == "Eq. 5"
+    assert sorted(told) == [f"Eq. {number}" for number in sorted(finished)]
     assert found.proved
     assert found.counts() == f"{len(finished)} proved"
     assert str(found).splitlines()[-1] == f"{found.counts()}."
@@ -53,10 +54,7 @@ def test_the_command_prints_and_writes_what_derive_gives(
     found = fd.derive([5])
 
     def timeless(data: dict[str, list[dict[str, object]]]) -> object:
-        return [
-            {**one, "seconds": 0, "checks": [{**c, "seconds": 0} for c in one["checks"]]}  # type: ignore[attr-defined]
-            for one in data["equations"]
-        ]
+        return [{**one, "seconds": 0} for one in data["equations"]]
 
     assert timeless(printed) == timeless(found.data())
     for name, text in found.latex().items():
