@@ -85,10 +85,12 @@ def critical_height(load: str) -> sympy.Expr:
 def tensile_fraction(load: str) -> sympy.Expr:
     """Expected fraction of tensile contacts at M ≫ 1 as a function of M/M*."""
     ratio = power(times(HEIGHT, 1 / M), Rational(3, 2))
+    number, square, rest = PROFILES[load].args
     inner = times(
         ratio,
-        power(2, Rational(-1, 2)),
-        *(power(one, Rational(-1, 2)) for one in PROFILES[load].args),
+        power(2 * number, Rational(-1, 2)),
+        power(square.base, -1),
+        power(rest, Rational(-1, 2)),
     )
     half = times(sympy.S.Half, sympy.erfc(inner, evaluate=False))
     return sympy.Integral(half, (z, 0, 1))
@@ -169,9 +171,10 @@ def steps() -> Steps:
 def claims(steps: Steps) -> None:
     """What else follows."""
     for load in LOADS:
-        shifted = power(terms(M, -HEIGHT_SHIFT[load]), 3)
+        shift = HEIGHT_SHIFT[load]
+        shifted = power(terms(M, -shift), 3)
         steps.claim(
-            f"as M* → ∞ the exact mean is 1 at M* + {HEIGHT_SHIFT[load]}, {load} load",
+            f"as M* → ∞ the exact mean is 1 at M* {'−' if shift < 0 else '+'} {abs(shift)}, {load} load",
             equation(MEAN_SQUARE, times(LEADING[load], shifted, layers.UNIT)),
             asymptotic(*IN_RADII[load]()),
             heights(load).in_the_limit(at_large_height("∼", 2)),

@@ -58,12 +58,13 @@ class Proof:
         return f"Eq. {outcome.derivation.number} is {outcome.words}{refuted and f'; {refuted}'}."
 
     def _premises(self) -> str:
-        return rests_text(self.outcomes[-1].derivation)
+        outcome = self.outcomes[-1]
+        return rests_text(outcome.derivation) if outcome.verdict.is_proved else ""
 
     def __str__(self) -> str:
         return "\n".join(
             [
-                f"{self._said()} {self._premises()}",
+                f"{self._said()} {self._premises()}".rstrip(),
                 *map(summary_line, self.outcomes[:-1]),
                 *map(check_text, self.checks),
             ]
@@ -78,7 +79,7 @@ class Proof:
         rows = [row(one.kind, one.words, one.name, one.note) for one in self.checks]
         return "\n".join(
             [
-                f"**{self._said()}** {self._premises()}",
+                f"**{self._said()}** {self._premises()}".rstrip(),
                 "",
                 row("kind", "verdict", "check", "note"),
                 row("---", "---", "---", "---"),

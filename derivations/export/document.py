@@ -97,9 +97,9 @@ def _noted(verdict: str, name: str, note: str) -> str:
     return f"{said} {prose_latex(sentence(note))}" if note else said
 
 
-def _steps(derivation: Statement) -> str:
-    items = []
-    for step in derivation.proof:
+def _steps(outcome: Outcome) -> str:
+    derivation, items = outcome.derivation, []
+    for step in derivation.proof if outcome.verdict.is_proved else ():
         follows = f"\\emph{{{prose_latex(sentence(follows_text(step)))}}}"
         if derivation.printed == (step.formula,):  # not the same display twice
             reason = prose_latex(step.reason.rstrip(".:"))
@@ -117,12 +117,12 @@ def _shown(formula: Basic, relation: str) -> str:
     return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
 
 
-def _refuted(derivation: Statement) -> str:
+def _refuted(outcome: Outcome) -> str:
     """Printed statements that do not hold; they are in no fragment."""
     return "".join(
         f"\\par {prose_latex(sentence(one.reading))}\n"
         f"{_shown(one.formula, RELATIONS[one.relation])}"
-        for one in derivation.proof.refuted
+        for one in (outcome.derivation.proof.refuted if outcome.refuted else ())
     )
 
 
@@ -156,10 +156,10 @@ def section_latex(outcome: Outcome) -> str:
             f"Verdict: \\textbf{{{prose_latex(outcome.words)}}}. "
             f"Coq: {recorded(derivation.number)}."
             + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
-            _part("Printed as well, and refuted", _refuted(derivation)),
+            _part("Printed as well, and refuted", _refuted(outcome)),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
-            _part("Steps", _steps(derivation)),
+            _part("Steps", _steps(outcome)),
             _part("Claims", _list("itemize", claims)),
             _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),
         ]

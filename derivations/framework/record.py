@@ -11,7 +11,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import Theorem
+from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import column_width, latex_body, text_lines
 
@@ -85,8 +85,11 @@ class Statement:
 
     @property
     def premises(self) -> tuple[Number, ...]:
-        """The equations that it rests on, as its theorems say."""
-        shown = (*self.proof, *self.proof.claims)
+        """The equations that it rests on, as its theorems say; none where it is not proved."""
+        try:
+            shown = (*self.proof, *self.proof.claims)
+        except NotProvedError:
+            return ()
         return in_order(number for step in shown for number in step.equations_used)
 
     @cached_property

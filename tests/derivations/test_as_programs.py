@@ -28,13 +28,13 @@ def test_each_is_a_script_that_prints_its_steps_and_claims(number: int) -> None:
     assert (done.returncode, done.stderr) == (0, "")
     whole = " ".join(done.stdout.split())
     assert f"Eq. {number} is proved" in whole
-    derivation = load(number)
-    for step in derivation.steps():
+    proof = load(number).proof
+    for step in proof:
         assert f"{step.reason} " in whole
-    for claim in derivation.all_claims:
-        assert re.search(f"- proved[^:]*: {re.escape(claim.name)} \\(proof, ", whole), claim.name
-    for one in derivation.refuted:
-        assert f"- refuted: {one.reading} (refutation, " in whole
+    for claim in proof.claims:
+        assert re.search(f"- proved[^:]*: {re.escape(claim.reason)} \\(proof\\)", whole), claim
+    for one in proof.refuted:
+        assert f"- refuted: {one.reading} (refutation)" in whole
 
 
 @pytest.mark.long

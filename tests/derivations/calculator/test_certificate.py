@@ -1,6 +1,7 @@
 """Every exact form against exact packings, at as many points as its degree asks for.
 
-Where it has one formula a form is, times its divisors, a polynomial of some degree in its indices, and so is what it stands for. Two such polynomials are the same if they are at points at
+Where it has one formula a form is, times its divisors, a polynomial of some degree in its indices,
+and so is what it stands for. Two such polynomials are the same if they are at points at
 which no polynomial of that degree but 0 vanishes. The base vectors are fractions of so many digits
 that two functions of φ with shorter factors are the same if they are there.
 """

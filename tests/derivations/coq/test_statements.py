@@ -12,7 +12,7 @@ from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation, minus, terms, times
-from force_diffusion.symbolic.kernel.where import Where
+from force_diffusion.symbolic.kernel.domain import Domain
 
 i, j, m = sy.i, sy.j, sy.m
 
@@ -56,7 +56,7 @@ def test_ranges_are_those_of_the_domain() -> None:
     assert about(10)[2:] == ("(n >= 1)%Z", "(n < -j + l)%Z", turned, "(j >= 0)%Z")
     assert about(11)[1:] == ("(j >= 0)%Z", "(j < M)%Z")
     steps = ("(p >= 1)%Z", "(q >= 1)%Z")
-    assert about(16)[:4] == (*steps, "(k = i + p - q)%Z", "(l = j + p + q)%Z")
+    assert about(16)[:4] == ("(k = i + p - q)%Z", "(l = j + p + q)%Z", *steps)
 
 
 def test_asymptotic_ones_are_stated_of_every_contact() -> None:
@@ -115,7 +115,7 @@ def test_the_mirror_image_of_a_bead_is_entered_by_the_other_force() -> None:
 
 
 def test_a_change_of_the_ranges_or_the_formula_changes_the_statement() -> None:
-    narrower = replace(load(11), where=Where.of(sy.j >= 0, sy.j < sy.M - 1))
+    narrower = replace(load(11), domain=Domain.of(sy.j >= 0, sy.j < sy.M - 1))
     assert "(j < M - 1)%Z" in coq.statement(narrower, 0).proposition
     assert "(j < M - 1)%Z" not in coq.statement(load(11), 0).proposition
     (printed,) = load(11).printed

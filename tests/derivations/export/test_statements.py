@@ -6,12 +6,11 @@ from textwrap import indent
 import pytest
 from force_diffusion.derivations.export.document import fragment_name, statement_latex
 from force_diffusion.derivations.export.prose import prose_latex
-from force_diffusion.derivations.export.terminal import heading, relation_of
+from force_diffusion.derivations.export.terminal import heading
 from force_diffusion.derivations.formulas.lists import both
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
-from force_diffusion.derivations.framework.proving import Refuted, Shown
-from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.derivations.framework.proof import Refuted, Step
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, latex_body, text_lines
 
@@ -26,16 +25,15 @@ def compare(path: Path, found: str, update: bool) -> None:
     assert path.read_text(encoding="utf-8") == found, "run pytest --update-golden and review"
 
 
-def step_shown(derivation: Derivation, place: int, step: Shown) -> str:
+def step_shown(step: Step) -> str:
     """A step as text and below it as LaTeX: the reason, and the formula that it gives."""
-    relation = relation_of(derivation, step)
     uses = f", from {both(step.uses)}" if step.uses else ""
     shown = (
-        f"Step {place}{uses}",
+        f"Step {step.number}{uses}",
         step.reason,
-        indent("\n".join(text_lines(step.formula, relation, TEXT_WIDTH)), "    "),
+        indent("\n".join(text_lines(step.formula, step.relation, TEXT_WIDTH)), "    "),
         prose_latex(step.reason),
-        indent(latex_body([step.formula], RELATIONS[relation]), "    "),
+        indent(latex_body([step.formula], RELATIONS[step.relation]), "    "),
     )
     return "\n\n".join(shown) + "\n"
 
@@ -60,8 +58,8 @@ def test_statement(number: int, update_golden: bool) -> None:
 @pytest.mark.parametrize("number", range(1, 17))
 def test_steps(number: int, update_golden: bool) -> None:
     derivation = load(number)
-    steps = [step_shown(derivation, *one) for one in enumerate(derivation.steps(), start=1)]
-    refuted = [refuted_shown(one) for one in derivation.refuted]
+    steps = [step_shown(step) for step in derivation.proof]
+    refuted = [refuted_shown(one) for one in derivation.proof.refuted]
     found = "\n\n".join([f"{heading(derivation)}\n", *steps, *refuted])
     path = GOLDEN / "steps" / fragment_name(derivation.number).replace(".tex", ".txt")
     compare(path, found, update_golden)
