@@ -172,9 +172,9 @@ def claims(steps: Steps) -> None:
     """What else follows."""
     for load in LOADS:
         shift = HEIGHT_SHIFT[load]
-        shifted = power(terms(M, -shift), 3)
+        shifted, sign = power(terms(M, -shift), 3), "−" if shift < 0 else "+"
         steps.claim(
-            f"as M* → ∞ the exact mean is 1 at M* {'−' if shift < 0 else '+'} {abs(shift)}, {load} load",
+            f"as M* → ∞ the exact mean is 1 at M* {sign} {abs(shift)}, {load} load",
             equation(MEAN_SQUARE, times(LEADING[load], shifted, layers.UNIT)),
             asymptotic(*IN_RADII[load]()),
             heights(load).in_the_limit(at_large_height("∼", 2)),

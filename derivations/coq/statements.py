@@ -197,6 +197,8 @@ FRAMES: dict[Number, Frame] = {
         _BELOW_AT_A_DISTANCE,
         _near("pressed_down X F i j", "47"),
         (
+            "(p >= 1)%Z",
+            "(q >= 1)%Z",
             *(f"({x.in_code} = {index(at)})%Z" for x, at in _IN_CONE.items()),
             "bead M i j",
             "bead M k l",

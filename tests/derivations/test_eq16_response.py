@@ -13,15 +13,9 @@ from force_diffusion.derivations.api.proof import Proof
 from force_diffusion.derivations.export import terminal
 from force_diffusion.derivations.export.document import statement_latex
 from force_diffusion.derivations.framework import runner
-from force_diffusion.derivations.framework.loading import load
-<<<<<<< HEAD
-from force_diffusion.derivations.framework.proving import Line
-from force_diffusion.derivations.framework.record import Check
-from force_diffusion.derivations.framework.vocabulary import UNIT
-=======
 from force_diffusion.derivations.framework.layers import UNIT
+from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Step, Steps
->>>>>>> 37980c1 (Golden files, documents and certificates as they are now; an undecided equation can be set in LaTeX)
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import equation
@@ -62,43 +56,15 @@ def test_every_contact_and_bead_of_the_cone(level: int) -> None:
             assert closed_forms.leg_variance(layer, level, phi, ONE, ONE) == relative, site
 
 
-<<<<<<< HEAD
-@given(j=st.integers(0, 6), p=st.integers(1, 6), q=st.integers(1, 6), phi=st.sampled_from(range(4)))
-def test_bead_forms_are_sums_of_squared_weights(j: int, p: int, q: int, phi: int) -> None:
-    """On explicit sites, which know nothing of cases."""
-    values = explicit.geometry(*DIRECTIONS[phi], ONE)
-    at = {**values, sy.i: j, sy.j: j, sy.p: p, sy.q: q}
-    response = (eq16.UPPER_RIGHT + eq16.UPPER_LEFT) / 2
-    weights = explicit.weights(eq11.in_radii(response), at)
-    total = sum((w**2 for key, w in weights.items() if key[0]), Fraction(0))
-    site = (0, j, p - q, j + p + q)
-    if j % 2:
-        site = (1, j, 1 + p - q, j + p + q)
-    assert closed_forms.bead_response(*site, Fraction(values[sy.phi]), ONE, ONE) == total
-=======
 EXACT = [step for step in eq16.steps() if step.formula.has(*eq16.EXACT) and step.relation == "="]
->>>>>>> 37980c1 (Golden files, documents and certificates as they are now; an undecided equation can be set in LaTeX)
 
 
 @pytest.mark.parametrize("step", EXACT, ids=lambda step: str(step.number))
 def test_a_wrong_closed_form_is_found(step: Step) -> None:
     left, right = step.formula.args
     for change in (Rational(1), sy.phi / 10**6, sy.j, sy.phi * sy.l):
-<<<<<<< HEAD
-        wrong = equation(left, right + change * UNIT)
-        assert step.rule_on(0, wrong).verdict is Verdict.REFUTED, change
-
-
-def test_the_branch_is_that_of_equation_10() -> None:
-    """f⁻ inside of the cone is Eq. 10 with its own n."""
-    at = {sy.k: sy.i + sy.p - sy.q, sy.l: sy.j + sy.p + sy.q}
-    count = eq10.BRANCH_COUNT.xreplace(at)
-    assert count.expand() == sy.q
-    assert eq10.PRINTED.rhs.xreplace({sy.n: sy.q}) == eq16.UPPER_LEFT
-=======
         with pytest.raises(FalseStatementError):
             step.prove(0, equation(left, right + change * UNIT))
->>>>>>> 37980c1 (Golden files, documents and certificates as they are now; an undecided equation can be set in LaTeX)
 
 
 @given(

@@ -56,7 +56,7 @@ def test_ranges_are_those_of_the_domain() -> None:
     assert about(10)[2:] == ("(n >= 1)%Z", "(n < -j + l)%Z", turned, "(j >= 0)%Z")
     assert about(11)[1:] == ("(j >= 0)%Z", "(j < M)%Z")
     steps = ("(p >= 1)%Z", "(q >= 1)%Z")
-    assert about(16)[:4] == ("(k = i + p - q)%Z", "(l = j + p + q)%Z", *steps)
+    assert about(16)[:4] == (*steps, "(k = i + p - q)%Z", "(l = j + p + q)%Z")
 
 
 def test_asymptotic_ones_are_stated_of_every_contact() -> None:
