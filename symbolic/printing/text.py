@@ -82,6 +82,8 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
         return text + (self.set_brackets(inner) if expr.function.is_Add else inner)
 
     def _print_Integral(self, expr: Any) -> str:
+        if [len(limit) for limit in expr.limits] != [3]:
+            return str(super()._print_Integral(expr))
         ((variable, lower, upper),) = expr.limits
         name = self._print(variable)
         return f"∫({name}={lower}…{upper}) {self._print(expr.function)} d{name}"
