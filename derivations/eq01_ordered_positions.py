@@ -13,8 +13,7 @@ from force_diffusion.symbolic.symbols import (
 BEADS = Domain.of(j >= 0)
 
 PRINTED = equation(
-    Position(i, j),
-    terms(times(r, terms(j, i), n_plus), times(r, terms(j, -i), n_minus)),
+    Position(i, j), terms(times(r, terms(j, i), n_plus), times(r, terms(j, -i), n_minus))
 )
 
 TOUCHING = sympy.Tuple(

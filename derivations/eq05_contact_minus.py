@@ -73,9 +73,7 @@ def steps() -> Steps:
         mirror_of(eq04.DERIVATION.theorem),
     )
     steps.show(
-        "Again the change is at right angles to the contact.",
-        RIGHT_ANGLE,
-        rewrite(printed.theorem),
+        "Again the change is at right angles to the contact.", RIGHT_ANGLE, rewrite(printed.theorem)
     )
     return steps
 

@@ -94,10 +94,7 @@ DERIVATION = Derivation(
         (ForcePlus(k - 1, l - 1), "force of the contact from (k−1, l−1), compressive when > 0"),
         (ForceMinus(k + 1, l - 1), "force of the contact from (k+1, l−1)"),
     ),
-    assumptions=(
-        "no friction; contacts push along the line of centres",
-        *LOADED.in_words(),
-    ),
+    assumptions=("no friction; contacts push along the line of centres", *LOADED.in_words()),
     printed=(PRINTED,),
     domain=LOADED,
     steps=steps,

@@ -168,11 +168,7 @@ DERIVATION = Derivation(
         (M, "height of the packing in layers above the base"),
         (n, "layers between the contact and the bead at which a force turns into it"),
     ),
-    assumptions=(
-        "first order in δr",
-        *LOADED.in_words(),
-        "no horizontal boundary is met (W > M)",
-    ),
+    assumptions=("first order in δr", *LOADED.in_words(), "no horizontal boundary is met (W > M)"),
     printed=(PRINTED,),
     domain=LOADED,
     steps=steps,

@@ -88,9 +88,7 @@ def steps() -> Steps:
         INSIDE,
     )
     steps.show(
-        "That is of the order that is dropped anyway.",
-        PRINTED,
-        negligible(*eq11.in_radii()),
+        "That is of the order that is dropped anyway.", PRINTED, negligible(*eq11.in_radii())
     )
     steps.claim(
         "the mean force of Eq. 11 is f_load/2n_y at every height",

@@ -19,17 +19,13 @@ RELATIVE_VARIANCE = Symbol(
 MEANING = {RELATIVE_VARIANCE: Variance(eq11.PRINTED.lhs)}
 IN_THE_LIMIT = eq11.LOADED.in_the_limit(at_fixed_height("∼"))
 
-PRINTED = equation(
-    RELATIVE_VARIANCE,
-    formula("(2M³/(1 − φ²)²) (1 − z)²(2z + 1)(σ_δr/r)²"),
-)
+PRINTED = equation(RELATIVE_VARIANCE, formula("(2M³/(1 − φ²)²) (1 − z)²(2z + 1)(σ_δr/r)²"))
 
 KEPT = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
 """The variance of what Eq. 12 keeps."""
 
 WEIGHTS = times(
-    6,
-    terms(sympy.Sum((M - j) ** 2, (m, 1, j)), sympy.Sum((M - m) ** 2, (m, j + 1, M))),
+    6, terms(sympy.Sum((M - j) ** 2, (m, 1, j)), sympy.Sum((M - m) ** 2, (m, j + 1, M)))
 )
 """Six times the squared weights of the Δ in Eq. 12."""
 TOTAL = formula("2(M − j)²(M + 2j) − 3(M − j)² + (M − j)")
@@ -121,10 +117,7 @@ DERIVATION = Derivation(
     name="surface_diffusion",
     title="Variance of the forces under a surface load",
     symbols=usual(sigma, r, M, z, phi),
-    assumptions=(
-        *FIRST_ORDER,
-        "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
-    ),
+    assumptions=(*FIRST_ORDER, "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M"),
     printed=(PRINTED,),
     domain=IN_THE_LIMIT,
     steps=steps,

@@ -26,10 +26,7 @@ RELATIVE_VARIANCE = Symbol(
 )
 MEAN_FORCE = Symbol("mean_force", r"\langle f\rangle_z", "⟨f⟩_z", positive=True)
 
-PRINTED = equation(
-    RELATIVE_VARIANCE,
-    formula("(3M³/(10(1 − φ²)²)) (1 − z)²(4z + 1)(σ_δr/r)²"),
-)
+PRINTED = equation(RELATIVE_VARIANCE, formula("(3M³/(10(1 − φ²)²)) (1 − z)²(4z + 1)(σ_δr/r)²"))
 
 RATIO = ForcePlus(i, j) / ((M - j) * m_g / (2 * n_y))
 """The force over its mean, (M − j) m g/2n_y."""
@@ -48,8 +45,7 @@ AVERAGE_OF_EQ_12 = minus(
 WEIGHTS = times(
     6,
     terms(
-        sympy.Sum(power(AVERAGED[0], 2), (m, 1, j)),
-        sympy.Sum(power(AVERAGED[1], 2), (m, j + 1, M)),
+        sympy.Sum(power(AVERAGED[0], 2), (m, 1, j)), sympy.Sum(power(AVERAGED[1], 2), (m, j + 1, M))
     ),
 )
 HIGHEST = formula("(3/10)(M − j)²(M + 4j)")
@@ -228,10 +224,7 @@ DERIVATION = Derivation(
     number=14,
     name="bulk_diffusion",
     title="Variance of the forces under a bulk load",
-    symbols=(
-        *usual(sigma, r, M, z, phi),
-        (m_g, "weight of a bead"),
-    ),
+    symbols=(*usual(sigma, r, M, z, phi), (m_g, "weight of a bead")),
     assumptions=(
         *FIRST_ORDER,
         "every bead above the base weighs mg, whatever its radius",

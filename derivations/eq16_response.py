@@ -38,9 +38,7 @@ ON_LEG = Symbol(
     "σ²(p on a leg)/f_load²",
 )
 LEG_MAGNITUDE = Symbol(
-    "leg_force",
-    r"\frac{\sigma_{\mathrm{leg}}^{2}(f)}{\langle f\rangle^{2}}",
-    "σ²(f on a leg)/⟨f⟩²",
+    "leg_force", r"\frac{\sigma_{\mathrm{leg}}^{2}(f)}{\langle f\rangle^{2}}", "σ²(f on a leg)/⟨f⟩²"
 )
 ORDERED = f_load / (2 * n_y)
 """Force of the contacts of the ordered packing: those on the legs of the cone."""
@@ -161,8 +159,7 @@ def steps() -> Steps:
         "On the left leg of the cone f⁺_ij is the split of the load (Eq. 7), carried down by "
         "Eq. 9. With the contact's own tilt its vertical component over f_load is",
         equation(
-            LEG_RESPONSE,
-            terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), LEG_TILTS)),
+            LEG_RESPONSE, terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), LEG_TILTS))
         ),
         rewrite(eq07.right_angles()),
         LEFT_LEG,
@@ -222,8 +219,7 @@ def claims(steps: Steps) -> None:
     steps.claim(
         "the mean is that of the ordered packing",
         sympy.Tuple(
-            equation(Mean(PRESSED), 0),
-            equation(Mean(VerticalPlus(i, j) / f_load), Rational(1, 2)),
+            equation(Mean(PRESSED), 0), equation(Mean(VerticalPlus(i, j) / f_load), Rational(1, 2))
         ),
         by,
         [INSIDE, LEFT_LEG],

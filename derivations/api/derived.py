@@ -6,12 +6,7 @@ from typing import Any
 
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
-from ..export.document import (
-    DOCUMENT,
-    document,
-    fragment_name,
-    statement_latex,
-)
+from ..export.document import DOCUMENT, document, fragment_name, statement_latex
 from ..export.terminal import (
     expected_text,
     outcomes_data,

@@ -129,10 +129,6 @@ DERIVATIONS: dict[Number, Row] = {
         z * (1 - 3 * phi - 2 * phi**2) + 2 * phi**2,
     ),
     "B16": _leaning(
-        "B16",
-        "bulk",
-        "B6",
-        z * (1 + 2 * phi**2) - phi,
-        z * (1 - 3 * phi) + phi**2 * (1 - z),
+        "B16", "bulk", "B6", z * (1 + 2 * phi**2) - phi, z * (1 - 3 * phi) + phi**2 * (1 - z)
     ),
 }

@@ -112,9 +112,7 @@ class _Commands(TyperGroup):
 
 
 app = _application(
-    cls=_Commands,
-    no_args_is_help=True,
-    context_settings={"help_option_names": ["--help", "-h"]},
+    cls=_Commands, no_args_is_help=True, context_settings={"help_option_names": ["--help", "-h"]}
 )
 
 

@@ -45,10 +45,7 @@ def equation_number(word: str) -> Number:
 
 
 def show(
-    numbers: Annotated[
-        list[str],
-        typer.Argument(metavar="N", help="Numbers of equations."),
-    ],
+    numbers: Annotated[list[str], typer.Argument(metavar="N", help="Numbers of equations.")],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
         bool, typer.Option("--exact", help="The exact forms at finite size, where there are any.")

@@ -79,8 +79,7 @@ def figures(
     heights: Annotated[
         str | None,
         typer.Option(
-            metavar="M,M...",
-            help=f"Heights of figure 3; {','.join(map(str, HEIGHTS))} by default.",
+            metavar="M,M...", help=f"Heights of figure 3; {','.join(map(str, HEIGHTS))} by default."
         ),
     ] = None,
     realisations: Annotated[

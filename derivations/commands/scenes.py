@@ -141,12 +141,7 @@ def run(
 
 
 def _answer(
-    planned: "Plan",
-    scene: Path,
-    folder: Output | None,
-    written: Format,
-    as_json: bool,
-    quiet: bool,
+    planned: "Plan", scene: Path, folder: Output | None, written: Format, as_json: bool, quiet: bool
 ) -> None:
     """Answer one scene, and print or write the answer."""
     from force_diffusion.numeric.run.outcome import outcome_lines

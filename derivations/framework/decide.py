@@ -12,11 +12,7 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_stat
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import (
-    Group,
-    NotProvedError,
-    Theorem,
-)
+from force_diffusion.symbolic.kernel.theorem import Group, NotProvedError, Theorem
 from force_diffusion.symbolic.notation import by_name
 
 from .loading import load

@@ -113,11 +113,7 @@ def claim_edges(
 
 
 def claim_exponent(
-    steps: Steps,
-    name: str,
-    profile: sympy.Expr,
-    exponent: sympy.Expr,
-    over_brownian: sympy.Expr,
+    steps: Steps, name: str, profile: sympy.Expr, exponent: sympy.Expr, over_brownian: sympy.Expr
 ) -> None:
     """Claim the local exponent of a profile in the depth 1 − z, and how far it is above 1."""
     steps.claim(

@@ -15,11 +15,7 @@ from force_diffusion.symbolic.algebra.exact import NotExactError
 from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule, proved_by
-from force_diffusion.symbolic.kernel.theorem import (
-    FalseStatementError,
-    NotProvedError,
-    Theorem,
-)
+from force_diffusion.symbolic.kernel.theorem import FalseStatementError, NotProvedError, Theorem
 from sympy.core.function import UndefinedFunction
 
 from .catalogue import Number, in_order
