@@ -6,9 +6,9 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, equation, minus, order, rewrite, terms, times)
+    Derivation, Domain, Step, Steps, axioms, equation, minus, order, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNPlus, DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_plus, r)
+    DeltaNMinus, DeltaNPlus, DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_minus, n_plus, r)
 # fmt: on
 
 BEADS = Domain.of(j >= 0)
@@ -33,39 +33,42 @@ PRINTED = equation(
     ),
 )
 
-ABOVE = (i + 1, j + 1)
 
+def show_change(steps: Steps, side: int, printed: sympy.Eq, reasons: tuple[str, str, str]) -> Step:
+    """Show how a contact turns: along n⁺ for the side 1, along n⁻ for −1.
 
-def from_displacements(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
-    """2r δn⁺_ij: difference of the displacements less n⁺ times the sum of the two δr."""
-    return terms(above, minus(below), minus(times(n_plus, terms(DeltaR(i, j), DeltaR(*ABOVE)))))
+    The exact unit vector is differentiated, and Eq. 3 put in: 2r δn is the difference of the
+    displacements less n times the sum of the two δr.
+    """
+    change = DeltaNPlus(i, j) if side == 1 else DeltaNMinus(i, j)
+    normal, above = n_plus if side == 1 else n_minus, (i + side, j + 1)
+    radii, apart = terms(DeltaR(i, j), DeltaR(*above)), (DeltaX(*above), minus(DeltaX(i, j)))
+    changed = steps.show(
+        reasons[0],
+        equation(times(2, r, change), terms(*apart, minus(times(normal, radii)))),
+        order(axioms.direction(side), 1),
+    )
+    displaced = (eq03.DERIVATION.theorem, axioms.base())
+    steps.show(reasons[1], equation(Dot(normal, terms(*apart)), radii), rewrite(displaced))
+    return steps.show(reasons[2], printed, rewrite(changed.theorem, displaced))
 
 
 @cache
 def steps() -> Steps:
     """Differentiate the exact unit vector, then put in Eq. 3."""
     steps = Steps(4, BEADS)
-    changed = steps.show(
-        "The centres of touching beads are exactly R + R′ apart, so the unit vector of the "
-        "contact is their separation over R + R′ = 2r + ερ; its derivative at ε = 0 is "
-        "(Δx − ρ n⁺)/2r.",
-        equation(times(2, r, DeltaNPlus(i, j)), from_displacements(DeltaX(*ABOVE), DeltaX(i, j))),
-        order(axioms.direction(1), 1),
-    )
-    displaced = (eq03.DERIVATION.theorem, axioms.base())
-    steps.show(
-        "With Eq. 3 for both beads, the b⁺ component of the difference is the sum of the two radii "
-        "alone, since both beads lie on one diagonal along n⁺.",
-        equation(
-            Dot(n_plus, terms(DeltaX(*ABOVE), minus(DeltaX(i, j)))),
-            terms(DeltaR(i, j), DeltaR(*ABOVE)),
-        ),
-        rewrite(displaced),
-    )
-    printed = steps.show(
-        "The b⁻ component compares two neighbouring diagonals along n⁻.",
+    printed = show_change(
+        steps,
+        1,
         PRINTED,
-        rewrite(changed.theorem, displaced),
+        (
+            "The centres of touching beads are exactly R + R′ apart, so the unit vector of the "
+            "contact is their separation over R + R′ = 2r + ερ; its derivative at ε = 0 is "
+            "(Δx − ρ n⁺)/2r.",
+            "With Eq. 3 for both beads, the b⁺ component of the difference is the sum of the two "
+            "radii alone, since both beads lie on one diagonal along n⁺.",
+            "The b⁻ component compares two neighbouring diagonals along n⁻.",
+        ),
     )
     steps.show(
         "The contact's length has been used: the change is at right angles to n⁺.",

@@ -4,13 +4,11 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, equation, lattice, minus, mirror_of, order, rewrite,
-    terms, times)
+    Derivation, Domain, Steps, equation, lattice, minus, mirror_of, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_minus, r)
+    DeltaNMinus, DeltaR, Dot, b_minus, b_plus, i, j, m, n_minus, r)
 # fmt: on
 
 BEADS = Domain.of(j >= 0)
@@ -35,36 +33,20 @@ PRINTED = equation(
     ),
 )
 
-ABOVE = (i - 1, j + 1)
-
-
-def from_displacements(above: sympy.Expr, below: sympy.Expr) -> sympy.Expr:
-    """2r δn⁻_ij: difference of the displacements less n⁻ times the sum of the two δr."""
-    return terms(above, minus(below), minus(times(n_minus, terms(DeltaR(i, j), DeltaR(*ABOVE)))))
-
 
 @cache
 def steps() -> Steps:
     """The same derivation for the other contact, and the mirror image of Eq. 4."""
     steps = Steps(5, BEADS)
-    changed = steps.show(
-        "As for Eq. 4, from the exact unit vector of the contact along n⁻:",
-        equation(times(2, r, DeltaNMinus(i, j)), from_displacements(DeltaX(*ABOVE), DeltaX(i, j))),
-        order(axioms.direction(-1), 1),
-    )
-    displaced = (eq03.DERIVATION.theorem, axioms.base())
-    steps.show(
-        "With Eq. 3 for both beads, now the b⁻ component is the two radii alone.",
-        equation(
-            Dot(n_minus, terms(DeltaX(*ABOVE), minus(DeltaX(i, j)))),
-            terms(DeltaR(i, j), DeltaR(*ABOVE)),
-        ),
-        rewrite(displaced),
-    )
-    printed = steps.show(
-        "The b⁺ component compares two neighbouring diagonals along n⁺.",
+    printed = eq04.show_change(
+        steps,
+        -1,
         PRINTED,
-        rewrite(changed.theorem, displaced),
+        (
+            "As for Eq. 4, from the exact unit vector of the contact along n⁻:",
+            "With Eq. 3 for both beads, now the b⁻ component is the two radii alone.",
+            "The b⁺ component compares two neighbouring diagonals along n⁺.",
+        ),
     )
     steps.show(
         "It is the mirror image of Eq. 4: i → −i at every bead, n⁺ ↔ n⁻ and b⁺ ↔ b⁻ in that "

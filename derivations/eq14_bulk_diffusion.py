@@ -96,7 +96,7 @@ def gained(above: int) -> sympy.Eq:
 @cache
 def force_steps() -> Steps:
     """The force as an average of Eq. 11."""
-    steps, loads = Steps(14, eq12.INSIDE), axioms.loads(axioms.BULK)
+    steps, loads = Steps(14, eq12.INSIDE, MEANING), axioms.loads(axioms.BULK)
     steps.show(
         "The weight of the beads in layer l acts as the surface load of a packing of "
         "height l. The ordered forces of the layers above j add up to",
@@ -161,11 +161,10 @@ def steps() -> Steps:
         PRINTED,
         of_what_is_kept(kept.theorem, variance.theorem, added.theorem),
         IN_THE_LIMIT,
-        MEANING,
     )
     how = "every radius has one weight; each sum telescopes"
     exact = layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, LOADED, groups)
-    layers.show_next(steps, PRINTED, NEXT_ORDER, MEANING, LOADED, exact)
+    layers.show_next(steps, PRINTED, NEXT_ORDER, LOADED, exact)
     steps.show(
         "The profile rises up to z = 1/6 and falls from there on. Without the normalisation it "
         "would be stationary at the base.",
@@ -184,11 +183,7 @@ def steps() -> Steps:
         moment(*groups),
         LOADED,
     )
-    edges = {
-        sympy.S.Zero: PRINTED.rhs.xreplace({z: sympy.S.Zero}),
-        M - 1: 2 * M * (1 + phi**2) * layers.UNIT,
-    }
-    layers.claim_edges(steps, RELATIVE_VARIANCE, edges, MEANING, LOADED, exact)
+    layers.claim_edges(steps, PRINTED, LOADED, exact)
     layers.claim_shares(steps, RATIO, LOADED, groups)
     layers.claim_exponent(
         steps,
@@ -215,7 +210,6 @@ def steps() -> Steps:
         sympy.Tuple(gained(4), gained(5)),
         asymptotic(*groups),
         [next_to_the_maximum(4), next_to_the_maximum(5)],
-        MEANING,
     )
     return steps
 

@@ -19,10 +19,6 @@ from ..framework.loading import load
 from .equation import NoSuchFormError, equation
 
 
-def _silent(_: str) -> None:
-    """Tell nobody."""
-
-
 def stated(numbers: Iterable[Number] | None = None) -> dict[Number, list[Statement]]:
     """What ``certify`` asks of each equation.
 
@@ -33,18 +29,20 @@ def stated(numbers: Iterable[Number] | None = None) -> dict[Number, list[Stateme
     for number in wanted:
         if number not in paper():
             last = max(paper())
-            told = f"Eq. {number} is not stated for Coq: give a number from 1 to {last}"
-            raise NoSuchFormError(told, "number")
+            message = f"Eq. {number} is not stated for Coq: give a number from 1 to {last}"
+            raise NoSuchFormError(message, "number")
     return {number: statements(load(number)) for number in wanted}
 
 
 def sources(asked: Mapping[Number, Sequence[Statement]]) -> dict[str, str]:
     """Names and sources of all that Coq reads: the theory, and the files of these statements."""
-    made = (one.files for of in asked.values() for one in of)
-    return theory() | {name: text for files in made for name, text in files.items()}
+    files = (statement.files for made in asked.values() for statement in made)
+    return theory() | {name: text for each in files for name, text in each.items()}
 
 
-def certify(numbers: Iterable[Number] | None = None, *, notice: Notice = _silent) -> Certification:
+def certify(
+    numbers: Iterable[Number] | None = None, *, notice: Notice = lambda _: None
+) -> Certification:
     """Ask Coq about the paper's equations, by default all of them; takes about two minutes.
 
     Each statement is made and proved in files of its own, the axioms that it rests on are compared

@@ -53,18 +53,16 @@ class Proof:
         """Printed statements that were refuted as expected: ERRATA.md says why."""
         return self.outcomes[-1].refuted
 
-    def _said(self) -> str:
+    def _headline(self, mark: str = "") -> str:
         outcome, refuted = self.outcomes[-1], expected_text(len(self.refuted))
-        return f"Eq. {outcome.derivation.number} is {outcome.words}{refuted and f'; {refuted}'}."
-
-    def _premises(self) -> str:
-        outcome = self.outcomes[-1]
-        return rests_text(outcome.derivation) if outcome.verdict.is_proved else ""
+        number, verdict = outcome.derivation.number, f"{outcome.words}{refuted and f'; {refuted}'}"
+        premises = f" {rests_text(outcome.derivation)}" if outcome.verdict.is_proved else ""
+        return f"{mark}Eq. {number} is {verdict}.{mark}{premises}"
 
     def __str__(self) -> str:
         return "\n".join(
             [
-                f"{self._said()} {self._premises()}".rstrip(),
+                self._headline(),
                 *map(summary_line, self.outcomes[:-1]),
                 *map(check_text, self.checks),
             ]
@@ -79,7 +77,7 @@ class Proof:
         rows = [row(one.kind, one.words, one.name, one.note) for one in self.checks]
         return "\n".join(
             [
-                f"**{self._said()}** {self._premises()}".rstrip(),
+                self._headline("**"),
                 "",
                 row("kind", "verdict", "check", "note"),
                 row("---", "---", "---", "---"),

@@ -18,9 +18,8 @@ if TYPE_CHECKING:
 INTERRUPTED = 130
 MESSAGE = "interrupted; no half-written file is left."
 
-came: list[
-    int
-] = []  # the signals; where a module is loaded, an interrupt may be taken for an error
+# the signals; where a module is loaded, an interrupt may be taken for an error
+came: list[int] = []
 
 
 def _interrupt(number: int, where: FrameType | None) -> None:

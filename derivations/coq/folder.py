@@ -146,18 +146,13 @@ class CoqFolder:
         running: dict[str, _Running] = {}
         try:
             while order.is_active():
-                for name in order.get_ready():
-                    if name in self.said:
-                        order.done(name)
-                    else:
-                        ready.append(name)
+                ready += order.get_ready()
                 while ready and len(running) < (os.cpu_count() or 1):
                     name = ready.pop(0)
                     notice(name)
                     with without_interrupts(signal.SIGTERM):  # or a program that starts is lost
-                        running[name] = _Running(
-                            self.folder, "coqc", "-q", "-R", ".", LIBRARY, name
-                        )
+                        options = "-q", "-R", ".", LIBRARY
+                        running[name] = _Running(self.folder, "coqc", *options, name)
                 for name in [name for name, one in running.items() if one.over()]:
                     self.said[name] = running.pop(name).end()
                     order.done(name)

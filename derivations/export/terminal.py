@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Iterable
+from dataclasses import asdict
 from textwrap import fill
 from typing import Any
 
@@ -19,9 +20,8 @@ _PAIR = re.compile(r"\((\S+), (\S+)\)")
 
 
 def _paragraph(words: str, first: str = "  ", later: str | None = None) -> str:
-    kept = _PAIR.sub("(\\1,\N{NO-BREAK SPACE}\\2)", words)  # (i, j) stays on one line
     filled = fill(
-        kept,
+        _PAIR.sub("(\\1,\N{NO-BREAK SPACE}\\2)", words),  # (i, j) stays on one line
         TEXT_WIDTH,
         initial_indent=first,
         subsequent_indent=first if later is None else later,
@@ -118,8 +118,8 @@ def outcome_text(outcome: Outcome) -> str:
     parts = [statement_text(derivation), *refuted_text(derivation), "", rests_text(derivation)]
     parts += ["", "Steps", steps_text(derivation.proof), "", "Claims"]
     parts += [check_text(check) for check in outcome.checks if check.kind != "step"]
-    said = [f"Eq. {derivation.number} is {outcome.words}", expected_text(len(outcome.refuted))]
-    parts += ["", f"{'; '.join(filter(None, said))} ({outcome.seconds:.2f} s)"]
+    found = [f"Eq. {derivation.number} is {outcome.words}", expected_text(len(outcome.refuted))]
+    parts += ["", f"{'; '.join(filter(None, found))} ({outcome.seconds:.2f} s)"]
     return "\n".join(parts)
 
 
@@ -156,27 +156,17 @@ def statement_data(derivation: Statement) -> dict[str, Any]:
 
 def outcomes_data(outcomes: Iterable[Outcome], *, timed: bool = True) -> dict[str, Any]:
     """What ``derive --json`` prints; verdicts are words, times, if they are wanted, seconds."""
-
-    def lasted(seconds: float) -> dict[str, float]:
-        return {"seconds": round(seconds, 6)} if timed else {}
-
     equations = [
         {
             **statement_data(outcome.derivation),
             "verdict": str(outcome.verdict),
             "assuming": list(outcome.assuming),
             "checks": [
-                {
-                    "kind": check.kind,
-                    "name": check.name,
-                    "verdict": str(check.verdict),
-                    "note": check.note,
-                    "assuming": list(check.assuming),
-                }
+                asdict(check) | {"verdict": str(check.verdict), "assuming": list(check.assuming)}
                 for check in outcome.checks
             ],
             "refuted as expected": len(outcome.refuted),
-            **lasted(outcome.seconds),
+            **({"seconds": round(outcome.seconds, 6)} if timed else {}),
         }
         for outcome in outcomes
     ]

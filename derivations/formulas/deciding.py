@@ -52,14 +52,11 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
         return next(ranked[one] for one in Verdict if one in ranked)
     if isinstance(candidate, sympy.Expr):
         return _on_a_side(candidate, lines, rule_on)
+    kind = type(candidate).__name__
     if isinstance(candidate, bool | BooleanAtom):
-        return not_a_statement(
-            f"a SymPy Eq or expression is needed, and this is {candidate}. Where SymPy made it of "
-            "an Eq: write Eq(left, right, evaluate=False)"
-        )
-    return not_a_statement(
-        f"a SymPy Eq or expression is needed, and this is {type(candidate).__name__}"
-    )
+        advice = "Where SymPy made it of an Eq: write Eq(left, right, evaluate=False)"
+        kind = f"{candidate}. {advice}"
+    return not_a_statement(f"a SymPy Eq or expression is needed, and this is {kind}")
 
 
 def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
@@ -71,14 +68,14 @@ def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> 
             about = f"the right-hand side is that of {text(lines[0].lhs)}"
             return replace(ruling, note=f"{ruling.note}; {about}")
         return ruling
-    told = [_about(line, ruling) for line, ruling in zip(lines, rulings, strict=True)]
-    if found := next((one for one in told if one.verdict.is_proved), None):
-        return found
-    verdicts = {one.verdict for one in rulings}
+    rulings = [_about(line, ruling) for line, ruling in zip(lines, rulings, strict=True)]
+    verdicts = {ruling.verdict for ruling in rulings}
+    if proofs := [ruling for ruling in rulings if ruling.verdict.is_proved]:
+        return proofs[0]
     if Verdict.UNDECIDED in verdicts:
         sides = either([text(line.lhs) for line in lines])
         return undecided(f"which line is meant? Give an Eq whose left-hand side is {sides}")
-    notes = "; ".join(one.note for one in told)
+    notes = "; ".join(ruling.note for ruling in rulings)
     return refuted(notes) if Verdict.REFUTED in verdicts else not_a_statement(notes)
 
 
@@ -98,17 +95,18 @@ def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: Rul
         few = "1 line is" if len(lines) == 1 else f"{len(lines)} lines are"
         return not_a_statement(f"{few} printed, and there are {len(candidates)} here")
     places: dict[int, Any] = {}
+    others = []
     for candidate in candidates:
-        for part, line in enumerate(lines):
-            if part not in places and getattr(candidate, "lhs", None) == line.lhs:
-                places[part] = candidate
-                break
-    taken = {id(one) for one in places.values()}
-    others = iter([one for one in candidates if id(one) not in taken])
+        side = getattr(candidate, "lhs", None)
+        free = (n for n, line in enumerate(lines) if n not in places and side == line.lhs)
+        if (part := next(free, None)) is None:
+            others.append(candidate)
+        else:
+            places[part] = candidate
     rulings = []
     for part, line in enumerate(lines):
-        one = places[part] if part in places else next(others, None)
-        ruling = _on_one(one, [line], lambda _, of, part=part: rule_on(part, of))  # type: ignore[misc]
+        own = places[part] if part in places else others.pop(0)
+        ruling = _on_one(own, [line], lambda _, of, part=part: rule_on(part, of))  # type: ignore[misc]
         rulings.append(_about(line, ruling) if len(lines) > 1 else ruling)
     return all_of(*rulings)
 

@@ -1,6 +1,6 @@
 """What is said of a variance at every layer of a packing beside its printed leading order."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from typing import TYPE_CHECKING
 
@@ -71,12 +71,7 @@ def leading_order(exact: Iterable[Theorem]) -> Rule:
 
 
 def show_next(
-    steps: Steps,
-    printed: sympy.Eq,
-    following: sympy.Expr,
-    definitions: Definitions,
-    layers: Domain,
-    exact: Sequence[Theorem],
+    steps: Steps, printed: sympy.Eq, following: sympy.Expr, layers: Domain, exact: Sequence[Theorem]
 ) -> None:
     """Show what comes after the printed leading order, in units of ``UNIT``."""
     steps.show(
@@ -84,7 +79,6 @@ def show_next(
         equation(terms(printed.lhs, minus(printed.rhs)), times(UNIT, following)),
         leading_order(exact),
         layers.in_the_limit(at_fixed_height("∼")),
-        definitions,
     )
 
 
@@ -94,21 +88,17 @@ def at_layer(layers: Domain, layer: sympy.Expr, relation: str) -> Domain:
     return layers.also(fixed).in_the_limit(in_a_layer(relation))
 
 
-def claim_edges(
-    steps: Steps,
-    symbol: sympy.Symbol,
-    edges: Mapping[sympy.Expr, sympy.Expr],
-    definitions: Definitions,
-    layers: Domain,
-    exact: Sequence[Theorem],
-) -> None:
-    """Claim what the closed form goes as in layers next to base and surface."""
+def claim_edges(steps: Steps, printed: sympy.Eq, layers: Domain, exact: Sequence[Theorem]) -> None:
+    """Claim what the closed form goes as at the base, and below the surface, as for Eq. 13."""
+    edges = {
+        sympy.S.Zero: printed.rhs.xreplace({z: sympy.S.Zero}),
+        M - 1: 2 * M * (1 + phi**2) * UNIT,
+    }
     steps.claim(
         "leading orders of the exact forms at the base and below the surface",
-        sympy.Tuple(*(equation(symbol, value) for value in edges.values())),
+        sympy.Tuple(*(equation(printed.lhs, value) for value in edges.values())),
         leading_order(exact),
         [at_layer(layers, layer, "∼") for layer in edges],
-        definitions,
     )
 
 

@@ -5,12 +5,11 @@ What makes an expression as it is printed, the axioms, the rules, and what a der
 
 # fmt: off
 from force_diffusion.symbolic.as_printed import certificate, equation, minus, power, terms, times
-from force_diffusion.symbolic.as_written import formula, relations
+from force_diffusion.symbolic.as_written import formula
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_height
-from force_diffusion.symbolic.kernel.limits import (
-    asymptotic, bounded, leading_order_of, negligible, of_what_is_kept)
+from force_diffusion.symbolic.kernel.limits import asymptotic, negligible, of_what_is_kept
 from force_diffusion.symbolic.kernel.rules import (
     along, below, differentiate, follows, induct, inducted, instance, mirror, mirror_of, order,
     reach, rewrite, same, solve)
@@ -19,7 +18,7 @@ from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
 
-from .proof import Steps
+from .proof import Step, Steps
 from .record import FIRST_ORDER, Derivation, usual
 # fmt: on
 
@@ -27,10 +26,9 @@ Groups = tuple[Group, ...]
 """Theorems to be put in one after the other; those of a group at once."""
 
 __all__ = [
-    "FIRST_ORDER", "Derivation", "Domain", "Groups", "Limit", "Steps", "Symbol", "Theorem", "along",
-    "asymptotic", "at_fixed_height", "axioms", "below", "bounded", "certificate", "differentiate",
-    "equation", "follows", "formula", "induct", "inducted", "instance", "lattice",
-    "leading_order_of", "minus", "mirror", "mirror_of", "moment", "negligible", "of_what_is_kept",
-    "order", "power", "power_law", "reach", "relations", "rewrite", "same", "solve", "tensile",
-    "terms", "times", "usual",
+    "FIRST_ORDER", "Derivation", "Domain", "Groups", "Limit", "Step", "Steps", "Symbol", "Theorem",
+    "along", "asymptotic", "at_fixed_height", "axioms", "below", "certificate", "differentiate",
+    "equation", "follows", "formula", "induct", "inducted", "instance", "lattice", "minus",
+    "mirror", "mirror_of", "moment", "negligible", "of_what_is_kept", "order", "power", "power_law",
+    "reach", "rewrite", "same", "solve", "tensile", "terms", "times", "usual",
 ]  # fmt: skip
