@@ -348,7 +348,7 @@ class Equation:
             return self.exact().at(**arguments)
         sides = self._numbers
         formula = f"Eq. {self.number}", set().union(*(side.free_symbols for side in sides))
-        return evaluate(formula, [lambda at, _, s=s: s.xreplace(at) for s in sides], arguments)
+        return evaluate(formula, [partial(_put_in, side) for side in sides], arguments)
 
     @property
     def _numbers(self) -> tuple[sympy.Expr, ...]:
@@ -459,6 +459,10 @@ class Equation:
 
     def __str__(self) -> str:
         return statement_text(self._derivation)
+
+
+def _put_in(side: sympy.Expr, values: Mapping[sympy.Symbol, sympy.Rational], _: bool) -> sympy.Expr:
+    return side.xreplace(values)
 
 
 def _one_or_tuple(parts: Iterable[sympy.Basic]) -> sympy.Basic:

@@ -100,8 +100,8 @@ def read_arguments(
             number, (words, allowed) = value, _WHOLE
         if not allowed(value) or (symbol.is_integer and not value.is_integer):
             raise ArgumentError(f"{name} = {number}: {words} is allowed")
-    for pair, (words, allowed) in TOGETHER.items() if in_packing else ():
-        if set(pair) <= set(values) and not allowed(*(values[symbol] for symbol in pair)):
+    for pair, (words, together) in TOGETHER.items() if in_packing else ():
+        if set(pair) <= set(values) and not together(*(values[symbol] for symbol in pair)):
             raise ArgumentError(f"{with_values(pair, values)}: {words} is allowed")
     if sy.z in needed - {*values}:
         values[sy.z] = values[sy.j] / values[sy.M]

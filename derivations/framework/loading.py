@@ -24,7 +24,7 @@ def pickled(statement: Statement) -> tuple[Callable[[Number], Any], tuple[Number
     return load, (statement.number,)
 
 
-copyreg.pickle(Derivation, pickled)  # type: ignore[arg-type]
+copyreg.pickle(Derivation, pickled)
 
 
 def with_premises(

@@ -137,7 +137,7 @@ class Row(Statement):
         return steps
 
 
-copyreg.pickle(Row, pickled)  # type: ignore[arg-type]
+copyreg.pickle(Row, pickled)
 
 
 # what may be claimed of the form of some name

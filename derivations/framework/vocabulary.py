@@ -9,7 +9,8 @@ from force_diffusion.symbolic.as_written import formula
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_height
-from force_diffusion.symbolic.kernel.limits import asymptotic, negligible, of_what_is_kept
+from force_diffusion.symbolic.kernel.limits import (
+    asymptotic, leading_order_of, negligible, of_what_is_kept)
 from force_diffusion.symbolic.kernel.rules import (
     along, below, differentiate, follows, induct, inducted, instance, mirror, mirror_of, order,
     reach, rewrite, same, solve)
@@ -28,7 +29,8 @@ Groups = tuple[Group, ...]
 __all__ = [
     "FIRST_ORDER", "Derivation", "Domain", "Groups", "Limit", "Step", "Steps", "Symbol", "Theorem",
     "along", "asymptotic", "at_fixed_height", "axioms", "below", "certificate", "differentiate",
-    "equation", "follows", "formula", "induct", "inducted", "instance", "lattice", "minus",
-    "mirror", "mirror_of", "moment", "negligible", "of_what_is_kept", "order", "power", "power_law",
-    "reach", "rewrite", "same", "solve", "tensile", "terms", "times", "usual",
+    "equation", "follows", "formula", "induct", "inducted", "instance", "lattice",
+    "leading_order_of", "minus", "mirror", "mirror_of", "moment", "negligible", "of_what_is_kept",
+    "order", "power", "power_law", "reach", "rewrite", "same", "solve", "tensile", "terms", "times",
+    "usual",
 ]  # fmt: skip
