@@ -1,7 +1,7 @@
 """One equation of the paper as a Python user holds it: SymPy objects, numbers, and its proof."""
 
 import inspect
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache, cached_property, partial
 from numbers import Integral
 from typing import Any
