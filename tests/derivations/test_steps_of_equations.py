@@ -78,6 +78,11 @@ SAME = {
         "left: −X dropped",
         "left: 2 changed to 3",
     ),
+    ("14", 3): (
+        NOTHING_THERE,
+        "left: lower bound l = j + 1 shifted to j",
+        "left: lower bound l = m shifted to m + 1",
+    ),
     ("14", 4): (
         DROPPED_ANYWAY,
         "lower bound m = 1 shifted to 2",
