@@ -176,6 +176,21 @@ def test_a_radius_that_is_not_positive_is_named_alike(
     assert len(said[0].split(":")[0].split(",")) == made.problem.dimension
 
 
+@pytest.mark.long(sample=8)
+@pytest.mark.parametrize("std", ["=1e-3", "=1e-140", "=1e-160"])
+@pytest.mark.parametrize("name", CASES)
+def test_the_stated_error_does_not_depend_on_the_compiler(
+    name: str, std: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    found = []
+    for compiled in (True, False):
+        monkeypatch.setattr(engine, "compiles", lambda *_, compiled=compiled, **__: compiled)
+        engine._kept.last.clear()
+        outcome = run(planned(sections(name, relative_std=std)))
+        found.append((outcome.accuracy, outcome.data()["results"]))
+    assert found[0] == found[1]
+
+
 @pytest.mark.long(sample=12)
 @pytest.mark.parametrize("kind", ["uniform", "two-point"])
 @pytest.mark.parametrize("name", CASES)
