@@ -40,8 +40,8 @@ CUT_OFF = 20
 # An estimated bound is twice what the number may be off, or more: so one within half of it may be
 # printed as 0, and others rounded, and what is printed is within the bound.
 SWALLOWED = 2
-# Forces and positions, which are no changes, are also off by so much of themselves at the most: they
-# are sums and products of a few rounded numbers. Up to 2.4 × 2^-52 was measured.
+# Forces and positions, which are no changes, are off by so much of themselves more: they are sums
+# and products of a few rounded numbers. At most 2.4 × 2^-52 was measured.
 ROUNDED = 2.0**-50
 
 
