@@ -37,9 +37,12 @@ from .tables import significant, text_of
 CARRIED = "estimated, as the sweep carried it, not certified"
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 CUT_OFF = 20
-# An estimated bound is twice what was measured or more: a number within half of it is printed as 0,
-# which is then off by its size and by its own error, together no more than the bound.
+# An estimated bound is twice what the number may be off, or more: so one within half of it may be
+# printed as 0, and others rounded, and what is printed is within the bound.
 SWALLOWED = 2
+# Forces and positions, which are no changes, are off by so much of themselves more: they are sums
+# and products of a few rounded numbers. At most 2.4 × 2^-52 was measured.
+ROUNDED = 2.0**-50
 
 
 @dataclass(frozen=True)
@@ -187,7 +190,7 @@ def of_carried(found: Answer, plan: Plan) -> Accuracy:
     else:
         unseen = Fraction(moved * float(1 / plan.problem.n_x)) * scene.packing.radius
     ratio = gathering(plan.quantity, plan.problem) * UNIT + 2 * unseen / largest
-    return _estimate(ratio, plan, CARRIED)
+    return _estimate(ratio, CARRIED)
 
 
 def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
@@ -206,14 +209,12 @@ def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
         return _of_zeros(plan, note, exact=not apart)
     ratio = max(UNSEEN * Fraction(float(apart)) / largest, 4 * UNIT)
     ratio += gathering(plan.quantity, plan.problem) * UNIT
-    return _estimate(ratio, plan, note)
+    return _estimate(ratio, note)
 
 
-def _estimate(ratio: Fraction, plan: Plan, note: str) -> Accuracy:
-    """State an error relative to the largest change; with a tolerance, as printed."""
-    if plan.tolerance is not None:
-        ratio *= PRINTED
-    bound = float(min(ratio, Fraction(10) ** 300)) * (1 + 1e-15)
+def _estimate(ratio: Fraction, note: str) -> Accuracy:
+    """State an error relative to the largest change, as printed."""
+    bound = float(min(PRINTED * ratio, Fraction(10) ** 300)) * (1 + 1e-15)
     lost = max(math.log2(bound) + FLOAT64.bits, 0.0)
     return Accuracy(bound, False, FLOAT64.name, round(lost, 1), note)
 
@@ -322,11 +323,12 @@ def _ball_string(value: Any, most: int) -> str:
 def known_digits(column: Array, error: Array | float, sampling: Array | float = 0.0) -> Array:
     """Write float64 as text, up to two digits beyond its absolute errors.
 
-    A number that the ``error`` of its arithmetic swallows is 0; ``sampling`` swallows none.
+    A number that the ``error`` of its arithmetic swallows is 0; ``sampling`` swallows none. What is
+    cut off is less than half of ``error``, or than ``ROUNDED`` of the number.
     """
     size = np.abs(column)
     with np.errstate(all="ignore"):
-        off = error + size * 2.0**-52
+        off = error + size * ROUNDED
         known = np.isfinite(column) & (SWALLOWED * size > off)
         # two digits beyond the error: cutting the rest off adds at most a twentieth of it
         seen = np.floor(np.log10(np.maximum(off, sampling)))

@@ -5,6 +5,9 @@ import re
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_DOWN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from functools import cache
+from numbers import Rational
+
+import flint
 
 LARGEST_EXPONENT = 5000
 MOST_DIGITS = 5000
@@ -15,29 +18,30 @@ _DECIMAL = re.compile(r"[+-]?([0-9]+(\.[0-9]*)?|\.[0-9]+)([eE][+-]?[0-9]{1,6})?"
 def exact(value: object) -> Fraction:
     """Turn a number into the fraction that it is; a float into the decimal that Python prints.
 
-    Raises ``ValueError`` for anything else and for more than 5000 digits or an exponent beyond
-    ±5000: such a number is an accident, or a way to fill the memory.
+    Whole and rational numbers may be those of NumPy, SymPy or python-flint. Raises ``ValueError``
+    for anything else, longer floats too, and for more than 5000 digits or an exponent beyond ±5000:
+    such a number is an accident, or a way to fill the memory.
 
     >>> exact(Decimal("2.2")), exact(0.1)
     (Fraction(11, 5), Fraction(1, 10))
     """
-    if isinstance(value, Fraction):
-        return value
     if isinstance(value, float):
         value = Decimal(repr(float(value)))
-    if isinstance(value, bool) or not isinstance(value, int | Decimal):
-        raise ValueError("must be a number")
-    if isinstance(value, int):
-        if abs(value) >= _MOST:
-            raise ValueError(f"must have at most {MOST_DIGITS} digits")
+    if isinstance(value, Decimal):
+        if not value.is_finite():
+            raise ValueError("must be a finite number")
+        if len(value.as_tuple().digits) > MOST_DIGITS or abs(value.adjusted()) > LARGEST_EXPONENT:
+            raise ValueError(
+                f"must have at most {MOST_DIGITS} digits and an exponent within ±{LARGEST_EXPONENT}"
+            )
         return Fraction(value)
-    if not value.is_finite():
-        raise ValueError("must be a finite number")
-    if len(value.as_tuple().digits) > MOST_DIGITS or abs(value.adjusted()) > LARGEST_EXPONENT:
-        raise ValueError(
-            f"must have at most {MOST_DIGITS} digits and an exponent within ±{LARGEST_EXPONENT}"
-        )
-    return Fraction(value)
+    if isinstance(value, bool) or not isinstance(value, Rational | flint.fmpz | flint.fmpq):
+        kinds = ": whole, a Fraction, a Decimal or a float of 64 bits"
+        raise ValueError(f"must be a number{kinds if hasattr(value, '__float__') else ''}")
+    found = Fraction(int(value.numerator), int(value.denominator))
+    if abs(found) >= _MOST or found.denominator >= _MOST**2:
+        raise ValueError(f"must have at most {MOST_DIGITS} digits")
+    return found
 
 
 def parse(text: str) -> Fraction:

@@ -186,10 +186,11 @@ def _sizes(solved: Solved) -> Sizes:
         )
     if forces is not None:
         rows = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
-        largest = [size(F + g) for _, F, g in rows]
         found |= Sizes(
             changed=max((error(g) for _, _, g in rows), default=0.0),
-            force=max(largest, default=0.0),
+            # as compiled sweeps give it
+            force=max((size(F) for _, F, _ in rows), default=0.0)
+            + max((float(np.abs(g.nearest).max(initial=0)) for _, _, g in rows), default=0.0),
         )
     if single is not None:
         errors = [abs(float(one.error or 0)) for one in single]

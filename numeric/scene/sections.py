@@ -193,11 +193,16 @@ def radii_array(value: object) -> Array:
         raise ValueError("must have no masked entries: fill them in")
     try:
         given = np.asarray(value)
-        if given.dtype.kind not in "iufO":  # no text, no times, no truth values, nothing complex
+        if given.dtype.kind not in "iuf":  # no text, no times, no truth values, nothing complex
             raise ValueError
+    except ValueError:
+        raise ValueError(
+            "must be an array of real numbers, all rows equally long; others than NumPy's, such as "
+            "Fractions, are first to be rounded, by .astype(float)"
+        ) from None
+    with np.errstate(all="ignore"):
         values = np.array(given, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError):
-        raise ValueError("must be an array of real numbers, all rows equally long") from None
+        cut = values.astype(given.dtype) != given
     if not values.size:
         raise ValueError(f"is empty: its shape is {values.shape}")
     if not 2 <= values.ndim <= 4:
@@ -206,6 +211,10 @@ def radii_array(value: object) -> Array:
             "before it for several packings"
         )
     _refuse_infinite(values)
+    if cut.any():
+        raise ValueError(
+            f"has {given.dtype} numbers that float64 would cut: round them by .astype(float)"
+        )
     values.setflags(write=False)
     return values
 

@@ -79,7 +79,8 @@ def _estimated(
     geometry, n = scene.effects.geometry, scene.ask.realisations
     first = formula(plans["first-order"], False, EXACT)
     apart = range(n, n + min(max(n, LEAST), MOST))
-    scatter = {name: _scatter(plan, apart) for name, plan in plans.items()}
+    scale = float(Enclosed(first, EXACT).largest)
+    scatter = {name: _scatter(plan, apart, scale) for name, plan in plans.items()}
     means, residual = {"first-order": first}, np.zeros(len(first))
     if geometry == "exact":
         squares, firsts = scatter["exact"], scatter["first-order"]
@@ -156,17 +157,17 @@ def formula(plan: Plan, printed: bool, system: NumberSystem) -> Array:
 
 def _both_branches(table: Table, name: str) -> Array:
     """Give a column of a profile by layer, the mean square over its two branches; shape (M,)."""
-    squares = np.asarray(table.numbers[name]) ** 2
-    return np.asarray(np.sqrt(squares.reshape(-1, 2).mean(axis=1)))
+    plus, minus = np.asarray(table.numbers[name]).reshape(-1, 2).T
+    return np.asarray(np.hypot(plus, minus) / math.sqrt(2))  # squares may be below all floats
 
 
-def _scatter(plan: Plan, realisations: Sequence[int]) -> Array:
-    """Give the mean square of the change, by realisation and layer; shape (n, M)."""
+def _scatter(plan: Plan, realisations: Sequence[int], scale: float) -> Array:
+    """Give the mean square of the change over ``scale``, by realisation and layer; shape (n, M)."""
     squares = []
     for k in realisations:
         table = answer(plan, FLOAT64, [k])
         std, mean = _both_branches(table, "std"), _both_branches(table, "mean_change")
-        squares.append(std**2 + mean**2)
+        squares.append(np.hypot(std / scale, mean / scale) ** 2)
     return np.stack(squares)
 
 

@@ -257,3 +257,22 @@ def test_the_picture_has_all_of_the_front_within_its_axes() -> None:
             assert axis.high is not None
             assert axis.low < value < axis.high
             assert axis.ticks
+
+
+@pytest.mark.parametrize("std", ["=1e-100", "=1e-160", "=1e-290", "=1e-299"])
+def test_disorder_whose_square_no_float_holds(std: str) -> None:
+    """Relative errors are those at 1e-9: to first order σ_f is proportional to σ/r."""
+
+    def errors(std: str) -> list[Decimal]:
+        sections = profile("exact")
+        sections["disorder"]["relative_std"] = std
+        found = cost(scene(sections))
+        assert found.sampling_floor is not None
+        rows = sorted(found.ways, key=lambda row: (row.way, row.realisations or 0))
+        sampled = [row.error for row in rows if row.sampling_error is not None]
+        assert len(sampled) == 4
+        return [found.sampling_floor, *sampled]
+
+    for found, expected in zip(errors(std), errors("=1e-9"), strict=True):
+        assert float(found) == pytest.approx(float(expected), rel=1e-4)
+        assert 0.01 < found < 1
