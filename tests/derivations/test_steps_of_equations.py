@@ -107,6 +107,11 @@ SAME = {
         NOTHING_THERE,
         "left: lower bound m = 1 shifted to 0",
     ),
+    ("14", 7): (
+        NOTHING_THERE,
+        "left: upper bound m = M shifted to M + 1",
+        "left: upper bound m = M shifted to M − 1",
+    ),
     ("B7", 15): (
         "j = 1 there, and all of its powers are 1",
         "3 changed to 4",
