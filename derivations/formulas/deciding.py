@@ -45,6 +45,8 @@ def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
 def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
     if isinstance(candidate, sympy.Basic) and (reason := too_large(candidate)):
         return undecided(reason)
+    if isinstance(candidate, sympy.Basic) and candidate.has(sympy.Lambda, sympy.MatrixExpr):
+        return not_a_statement("it holds a function or a matrix, and numbers and vectors are read")
     if isinstance(candidate, sympy.Eq):
         parts = [n for n, line in enumerate(lines) if line.lhs == candidate.lhs]
         rulings = [rule_on(part, candidate) for part in parts or range(len(lines))]

@@ -6,15 +6,17 @@ domain is not a statement.
 """
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from enum import StrEnum
 
 import sympy
 
 from ..algebra.exact import NotAStatementError
+from ..printing.text import text
 from .domain import Domain
 from .rules import Rule, proved_by
-from .theorem import FalseStatementError, NotProvedError
+from .theorem import FalseStatementError, NotProvedError, names_for
 
 
 class Verdict(StrEnum):
@@ -109,13 +111,22 @@ def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Rulin
         try:
             theorem = proved_by(rule, formula, domain)
         except NotAStatementError as reason:
-            return not_a_statement(str(reason))
+            return not_a_statement(_for_users(reason, formula))
         except FalseStatementError as reason:
-            return refuted(str(reason))
+            return refuted(_for_users(reason, formula))
         except (NotProvedError, RecursionError) as reason:
-            reasons.append(str(reason) or "it is nested too deeply")
+            reasons.append(_for_users(reason, formula))
         else:
             if theorem.supposed:
                 return undecided("it rests on what is only supposed")
             return proved(f"by the rule: {theorem.rule}", sorted(theorem.assuming))
     return undecided(reasons[-1] if reasons else "no rule decides it")
+
+
+def _for_users(reason: Exception, formula: sympy.Eq) -> str:
+    """A reason that names a user's own symbols, and not what stands for them."""
+    words = str(reason) or "it is nested too deeply"
+    with suppress(NotProvedError):  # there are too many of them
+        for symbol, stand_in in names_for(formula).items():
+            words = words.replace(text(stand_in), text(symbol))
+    return words
