@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
+from functools import cached_property
 from math import isqrt
 from typing import Any
 
@@ -13,7 +14,8 @@ from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import Radii
 from ..lattice.branch import Contact, PerBranch, Site, per_direction
-from ..lattice.layers import LazyRows, Region, Rows
+from ..lattice.layers import Layer, LazyRows, Region, Rows
+from ..lattice.regions import reached
 from .loads import LoadSpec
 from .local import cosine
 from .sweep import Forces, Memory, SolvedPacking
@@ -82,6 +84,13 @@ class Problem:
     def height(self) -> int:
         """M."""
         return self.load.height
+
+    @cached_property
+    def reached(self) -> Sequence[Layer]:
+        """The beads that loads reach: of each layer, runs of neighbours."""
+        if self.load.loaded is None:
+            return self.force_rows
+        return reached(self.load.loaded, self.force_rows, self.region)
 
 
 @dataclass(frozen=True)
@@ -171,26 +180,23 @@ def rounded(solved: Solved) -> Solved:
 def _sizes(solved: Solved) -> Sizes:
     """Give the largest errors, of rows of numbers that carry theirs."""
 
-    def error(values: Any) -> float:
-        return float(np.abs(values.error).max(initial=0))
-
     def size(values: Any) -> float:
-        return float(np.abs(values.value).max(initial=0))
+        return float(np.abs(values).max(initial=0))
 
     packing, forces, single = solved.packing, solved.forces, solved.single
     found = Sizes()
     if packing is not None and packing.memory is None:
         found |= Sizes(
-            max(error(row) for _, rows in packing.c for row in rows),
-            max(error(x) for _, rows in packing.dn for row in rows for x in row),
+            max(size(row.error) for _, rows in packing.c for row in rows),
+            max(size(x.error) for _, rows in packing.dn for row in rows for x in row),
         )
     if forces is not None:
-        rows = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
+        below: list[Any] = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
         found |= Sizes(
-            changed=max((error(g) for _, _, g in rows), default=0.0),
+            changed=max((size(g.error) for _, _, g in below), default=0.0),
             # as compiled sweeps give it
-            force=max((size(F) for _, F, _ in rows), default=0.0)
-            + max((float(np.abs(g.nearest).max(initial=0)) for _, _, g in rows), default=0.0),
+            force=max((size(F.value) for _, F, _ in below), default=0.0)
+            + max((size(g.nearest) for _, _, g in below), default=0.0),
         )
     if single is not None:
         errors = [abs(float(one.error or 0)) for one in single]

@@ -15,6 +15,7 @@ from .base import (
     Listed,
     Quantity,
     Table,
+    contact_changes,
     joined,
 )
 from .contact import SingleContact
@@ -23,7 +24,7 @@ DEFAULT_BINS = 20
 
 
 class Histogram(ContactQuantity, Listed):
-    """All changes of contact forces, or those of some layers, to be counted into bins."""
+    """Changes of the contact forces that loads reach, or those of some layers, in bins."""
 
     name = "histogram"
     numbers = 2
@@ -44,10 +45,7 @@ class Histogram(ContactQuantity, Listed):
 
     def rows(self, problem: Problem, solved: Solved) -> Table:
         """Give the changes of contacts."""
-        forces = solved.forces
-        assert forces is not None
-        rows = filter(self.is_asked, range(1, len(forces.rows)))
-        parts = [g for j in rows for _, _, g in forces.below(j)]
+        parts = [g[0] for _, _, g in contact_changes(solved, self.blocks(problem), 1)]
         return Table({}, {"change": joined(solved.system, parts)}, ("change",))
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
@@ -55,7 +53,7 @@ class Histogram(ContactQuantity, Listed):
         return {}
 
     def members(self, problem: Problem) -> int:
-        """All contacts."""
+        """All contacts that loads reach."""
         return sum(row.count for _, row in self.blocks(problem))
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
