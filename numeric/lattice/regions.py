@@ -59,15 +59,15 @@ def reached(loaded: Iterable[Site], rows: Rows, region: Region) -> list[Layer]:
 
     ``rows`` are those of ``downward_cone``, or whole layers.
     """
-    sites = np.array(list(loaded), np.int64).reshape(-1, 2)
-    order = np.argsort(sites[:, 1], kind="stable")
-    starts = np.searchsorted(sites[order, 1], np.arange(len(rows) + 1))
+    on: dict[int, list[int]] = {}
+    for i, j in loaded:
+        on.setdefault(j, []).append(i)
     found = list[Layer]()
     upper, above = Layer(0, 0, 0), np.zeros(0, bool)
     for row in reversed(rows):
-        columns = (sites[order[starts[row.j] : starts[row.j + 1]], 0] - row.first) // 2
+        columns = (np.array(on.get(row.j, []), np.int64) - row.first) // 2
         here = np.zeros(row.count, bool)
-        here[columns if region.width is None else columns % region.width] = True
+        here[columns % (region.width or max(row.count, 1))] = True
         for axis in range(region.dimension if upper.count else 0):
             here |= region.moved(above, upper, row, region.step(axis, 1), False)
         ends = np.flatnonzero(np.diff(here, prepend=False, append=False)).reshape(-1, 2)

@@ -1,6 +1,6 @@
 """What is to be solved: beads, radii, loads, and by which theory."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -177,27 +177,22 @@ def rounded(solved: Solved) -> Solved:
     return Solved(FLOAT64, packing, forces, single, _sizes(solved))
 
 
-def _sizes(solved: Solved) -> Sizes:
+def _sizes(solved: Any) -> Sizes:
     """Give the largest errors, of rows of numbers that carry theirs."""
 
-    def size(values: Any) -> float:
-        return float(np.abs(values).max(initial=0))
+    def most(rows: Iterable[Any]) -> float:
+        return max((float(np.abs(row).max(initial=0)) for row in rows), default=0.0)
 
     packing, forces, single = solved.packing, solved.forces, solved.single
     found = Sizes()
     if packing is not None and packing.memory is None:
-        found |= Sizes(
-            max(size(row.error) for _, rows in packing.c for row in rows),
-            max(size(x.error) for _, rows in packing.dn for row in rows for x in row),
-        )
+        moved, turned = ([row for _, rows in v for row in rows] for v in (packing.c, packing.dn))
+        found |= Sizes(most(c.error for c in moved), most(x.error for dn in turned for x in dn))
     if forces is not None:
-        below: list[Any] = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
-        found |= Sizes(
-            changed=max((size(g.error) for _, _, g in below), default=0.0),
-            # as compiled sweeps give it
-            force=max((size(F.value) for _, F, _ in below), default=0.0)
-            + max((size(g.nearest) for _, _, g in below), default=0.0),
-        )
+        below = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
+        # as compiled sweeps give it
+        force = most(F.value for _, F, _ in below) + most(g.nearest for _, _, g in below)
+        found |= Sizes(changed=most(g.error for _, _, g in below), force=force)
     if single is not None:
         errors = [abs(float(one.error or 0)) for one in single]
         found |= Sizes(max(errors), 0.0, max(errors), max(abs(float(s.value)) for s in single))

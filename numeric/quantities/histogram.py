@@ -41,7 +41,7 @@ class Histogram(ContactQuantity, Listed):
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """Two a bin, for its edges as decimals; a change counts for a little."""
-        return 2 * (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
+        return 2 * (self.scene.ask.bins or 1) + realisations * (1 + region.beads // 50)
 
     def rows(self, problem: Problem, solved: Solved) -> Table:
         """Give the changes of contacts."""
@@ -53,7 +53,7 @@ class Histogram(ContactQuantity, Listed):
         return {}
 
     def members(self, problem: Problem) -> int:
-        """All contacts that loads reach."""
+        """All contacts that loads reach, or the one."""
         return sum(row.count for _, row in self.blocks(problem))
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
@@ -69,14 +69,6 @@ class Histogram(ContactQuantity, Listed):
 
 class ContactHistogram(SingleContact, Histogram):
     """Changes of one contact force over many packings."""
-
-    def answer_rows(self, region: Region, realisations: int) -> int:
-        """Two a bin, for its edges as decimals; a change counts for a little."""
-        return 2 * (self.scene.ask.bins or 1) + realisations
-
-    def members(self, problem: Problem) -> int:
-        """The one contact."""
-        return 1
 
 
 def histogram_of(scene: Scene) -> Quantity:
