@@ -121,10 +121,11 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
     system = plan.system
     assert isinstance(system, Balls)
     if system.bits > MOST_BITS:
+        first_bits = MOST_BITS - initial_bits(Fraction(1), problem.height)
         raise ToleranceError(
             f"the tolerance can't be reached: {short(plan.tolerance or floor)} at height "
             f"{problem.height} needs {system.bits} bits or more, and {MOST_BITS} are "
-            f"the most; ask for about {_least_tolerance(problem.height)} at best"
+            f"the most; ask for about 1e-{int(first_bits * 0.30102)} at best"
         )
     while True:
         try:
@@ -147,12 +148,6 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
             f"M* = (σ/r)^(-2/3) = {highest:.3g}"
         )
     raise ToleranceError(message)
-
-
-def _least_tolerance(height: int) -> str:
-    """Give the power of ten that the highest precision starts with, at this height."""
-    digits = MOST_BITS - initial_bits(Fraction(1), height)
-    return f"1e-{int(digits * 0.30102)}"
 
 
 def estimated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
@@ -276,7 +271,8 @@ def printed(
         sampling = _of_sampling(table, name) if sampled else 0.0
         if isinstance(system, Balls) and not np.any(sampling):
             most = most_digits(system)
-            numbers[name] = text_of([_ball_string(v, most) for v in column])
+            known = ["0" if v.contains(0) else v.str(most, radius=False) for v in column]
+            numbers[name] = text_of(known)
         else:  # what scatters needs no more than a float has
             error = _of_arithmetic(table, name, accuracy)
             numbers[name] = known_digits(as_floats(column), error, sampling)
@@ -312,12 +308,6 @@ def _over(table: Table, name: str) -> Array | float:
         return 1.0
     mean = abs(as_floats(table.numbers["mean"]))
     return np.where(mean > 0, mean, 1.0)  # smaller than any float: so is the error
-
-
-def _ball_string(value: Any, most: int) -> str:
-    if value.contains(0):
-        return "0"
-    return str(value.str(most, radius=False))
 
 
 def known_digits(column: Array, error: Array | float, sampling: Array | float = 0.0) -> Array:

@@ -33,8 +33,8 @@ class Where(StrEnum):
 
 
 STATUSES = (
-    "Exit status: 0 answered, 2 something wrong in the scene, the options or the store, 3 the "
-    "confidence is not reached, or workers or the disk failed, 130 interrupted."
+    "Exit status: 0 answered, 2 wrong usage or input, 3 what was asked for can't be reached, or "
+    "something outside the program failed, such as the disk, 130 interrupted."
 )
 
 

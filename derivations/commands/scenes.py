@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 # Seconds from which on progress is shown.
 MOMENT = 1.0
 STATUSES = (
-    "Exit status: 0 answered, 2 something wrong in the scene or its files, 3 the tolerance "
-    "can't be reached or the disk failed, 130 interrupted."
+    "Exit status: 0 answered, 2 wrong usage or input, 3 what was asked for can't be reached, or "
+    "something outside the program failed, such as the disk, 130 interrupted."
 )
 
 

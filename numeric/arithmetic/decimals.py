@@ -2,7 +2,7 @@
 
 import math
 import re
-from decimal import MAX_EMAX, MIN_EMIN, ROUND_DOWN, ROUND_HALF_EVEN, Context, Decimal
+from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from functools import cache
 from numbers import Rational
@@ -57,55 +57,40 @@ def parse(text: str) -> Fraction:
     return exact(Decimal(stripped))
 
 
-def decimal_string(value: Fraction, error: Fraction | None) -> str:
-    """Write a number with the digits that an absolute error leaves, at most 1 in the last one.
+def decimal_string(value: Fraction) -> str:
+    """Write all of an exact decimal, or 40 digits.
 
-    Without an error all of an exact decimal is written, or 40 digits. A value that its error
-    swallows is written as "0".
-
-    >>> decimal_string(Fraction(2, 3), Fraction(1, 10**5)), decimal_string(Fraction(-5, 4), None)
-    ('0.6667', '-1.25')
+    >>> decimal_string(Fraction(-5, 4)), decimal_string(Fraction(1, 8 * 10**6))
+    ('-1.25', '1.25e-07')
     """
     if not value:
         return "0"
-    if error is None or not error:
-        digits = 40
-    else:
-        if abs(value) < error:
-            return "0"
-        digits = max(_exponent(value) - _exponent(error), 1)
-    return _rounded(value, digits)
+    sign, figures, exponent = _figures(value, 40)
+    figures = figures.rstrip("0")
+    if not -5 <= exponent < min(len(figures) + 3, 40):
+        return _scientific(sign, figures, exponent)
+    if exponent < 0:
+        return f"{sign}0.{'0' * (-exponent - 1)}{figures}"
+    if len(figures) <= exponent + 1:
+        return sign + figures + "0" * (exponent + 1 - len(figures))
+    return f"{sign}{figures[: exponent + 1]}.{figures[exponent + 1 :]}"
 
 
-def short(value: Fraction) -> str:
-    """Write a number for a message, in a few digits, however far outside a float's range.
+def short(value: Fraction, digits: int = 6) -> str:
+    """Write a number, for a message in a few digits, however far outside a float's range.
 
     >>> short(Fraction(1, 3)), short(Fraction(25, 10**5000))
     ('0.333333', '2.5e-4999')
     """
     if not value or Fraction(1, 10**300) < abs(value) < 10**300:
-        return f"{float(value):.6g}"
-    sign, figures, exponent = _figures(value, 6)
+        return f"{float(value):.{digits}g}"
+    sign, figures, exponent = _figures(value, digits)
     return _scientific(sign, figures.rstrip("0"), exponent)
 
 
-def _exponent(value: Fraction) -> int:
-    """Give the power of ten of the leading digit, exactly.
-
-    >>> _exponent(Fraction(1, 1000)), _exponent(Fraction(999)), _exponent(Fraction(1000))
-    (-3, 2, 3)
-    """
-    return _divided(abs(value), _context(1, ROUND_DOWN)).adjusted()
-
-
 @cache
-def _context(digits: int, rounding: str = ROUND_HALF_EVEN) -> Context:
-    return Context(prec=digits, rounding=rounding, Emin=MIN_EMIN, Emax=MAX_EMAX)
-
-
-def _divided(value: Fraction, context: Context) -> Decimal:
-    """Round a fraction, once."""
-    return context.divide(Decimal(value.numerator), Decimal(value.denominator))
+def _context(digits: int) -> Context:
+    return Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
 
 
 def bound_string(value: Fraction) -> str:
@@ -114,30 +99,15 @@ def bound_string(value: Fraction) -> str:
     >>> bound_string(Fraction(12301, 10**404))
     '1.24e-400'
     """
-    exponent = _exponent(value)
+    exponent = _figures(value, 6)[2]
     scaled = math.ceil(value * Fraction(10) ** (2 - exponent))
     return short(Fraction(scaled) * Fraction(10) ** (exponent - 2))
 
 
 def _figures(value: Fraction, digits: int) -> tuple[str, str, int]:
-    rounded = _divided(abs(value), _context(digits))
+    rounded = _context(digits).divide(Decimal(abs(value.numerator)), Decimal(value.denominator))
     mantissa, _, exponent = f"{rounded:.{digits - 1}e}".partition("e")
     return "-" if value < 0 else "", mantissa.replace(".", ""), int(exponent)
-
-
-def _rounded(value: Fraction, digits: int) -> str:
-    sign, figures, exponent = _figures(value, digits)
-    if digits == 40:
-        figures = figures.rstrip("0")
-    if -5 <= exponent < len(figures) + 3 and exponent < 40:
-        if exponent < 0:
-            return f"{sign}0.{'0' * (-exponent - 1)}{figures}"
-        if len(figures) <= exponent + 1:
-            if digits != 40 and len(figures) < exponent + 1:
-                return _scientific(sign, figures, exponent)
-            return sign + figures + "0" * (exponent + 1 - len(figures))
-        return f"{sign}{figures[: exponent + 1]}.{figures[exponent + 1 :]}"
-    return _scientific(sign, figures, exponent)
 
 
 def _scientific(sign: str, figures: str, exponent: int) -> str:

@@ -26,7 +26,8 @@ def printable(text: str) -> str:
 class ForceDiffusionError(Exception):
     """Something that a user can mend; the message says what was wrong, where, and what to do.
 
-    ``exit_status``: 2 where the input is wrong, 3 where what was asked for can't be reached.
+    ``exit_status``: 2 where the input is wrong; 3 where what was asked for can't be reached, or
+    something outside the program failed.
     """
 
     exit_status: ClassVar[int] = WRONG_INPUT

@@ -13,7 +13,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from .layers import Region, Rows, closed_below
+from .layers import Layer, Region, Rows, closed_below
 
 Site = tuple[int, int]
 
@@ -52,6 +52,28 @@ def downward_cone(loaded: Iterable[Site], width: int | None) -> Rows:
     np.minimum.at(first, j, i)
     np.maximum.at(last, j, i)
     return closed_below(layers, first, last, width)
+
+
+def reached(loaded: Iterable[Site], rows: Rows, region: Region) -> list[Layer]:
+    """Give the beads of ``rows`` that loads on ``loaded`` reach: of each layer, runs of neighbours.
+
+    ``rows`` are those of ``downward_cone``, or whole layers.
+    """
+    on: dict[int, list[int]] = {}
+    for i, j in loaded:
+        on.setdefault(j, []).append(i)
+    found = list[Layer]()
+    upper, above = Layer(0, 0, 0), np.zeros(0, bool)
+    for row in reversed(rows):
+        columns = (np.array(on.get(row.j, []), np.int64) - row.first) // 2
+        here = np.zeros(row.count, bool)
+        here[columns % (region.width or max(row.count, 1))] = True
+        for axis in range(region.dimension if upper.count else 0):
+            here |= region.moved(above, upper, row, region.step(axis, 1), False)
+        ends = np.flatnonzero(np.diff(here, prepend=False, append=False)).reshape(-1, 2)
+        found += [Layer(row.j, row.first + 2 * a, b - a) for a, b in ends[::-1].tolist()]
+        upper, above = row, here
+    return found[::-1]
 
 
 def upward_cone(x: Site, top: int, width: int | None) -> Rows:

@@ -122,7 +122,9 @@ class LoadSpec:
         """The loaded beads, or None where whole layers are loaded."""
         if self.kind in {"surface", "bulk"}:
             return None
-        return [self.at] if self.at is not None else sorted(self.single)
+        if self.at is not None:
+            return [self.at]
+        return sorted(site for site, force in self.single.items() if any(force))
 
     def strength(self, n_x: Fraction, system: NumberSystem) -> Strength:
         """Give (L^a) of the unit load, or of each loaded bead.

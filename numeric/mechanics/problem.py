@@ -1,9 +1,10 @@
 """What is to be solved: beads, radii, loads, and by which theory."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
+from functools import cached_property
 from math import isqrt
 from typing import Any
 
@@ -13,7 +14,8 @@ from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import Radii
 from ..lattice.branch import Contact, PerBranch, Site, per_direction
-from ..lattice.layers import LazyRows, Region, Rows
+from ..lattice.layers import Layer, LazyRows, Region, Rows
+from ..lattice.regions import reached
 from .loads import LoadSpec
 from .local import cosine
 from .sweep import Forces, Memory, SolvedPacking
@@ -82,6 +84,13 @@ class Problem:
     def height(self) -> int:
         """M."""
         return self.load.height
+
+    @cached_property
+    def reached(self) -> Sequence[Layer]:
+        """The beads that loads reach: of each layer, runs of neighbours."""
+        if self.load.loaded is None:
+            return self.force_rows
+        return reached(self.load.loaded, self.force_rows, self.region)
 
 
 @dataclass(frozen=True)
@@ -168,30 +177,22 @@ def rounded(solved: Solved) -> Solved:
     return Solved(FLOAT64, packing, forces, single, _sizes(solved))
 
 
-def _sizes(solved: Solved) -> Sizes:
+def _sizes(solved: Any) -> Sizes:
     """Give the largest errors, of rows of numbers that carry theirs."""
 
-    def error(values: Any) -> float:
-        return float(np.abs(values.error).max(initial=0))
-
-    def size(values: Any) -> float:
-        return float(np.abs(values.value).max(initial=0))
+    def most(rows: Iterable[Any]) -> float:
+        return max((float(np.abs(row).max(initial=0)) for row in rows), default=0.0)
 
     packing, forces, single = solved.packing, solved.forces, solved.single
     found = Sizes()
     if packing is not None and packing.memory is None:
-        found |= Sizes(
-            max(error(row) for _, rows in packing.c for row in rows),
-            max(error(x) for _, rows in packing.dn for row in rows for x in row),
-        )
+        moved, turned = ([row for _, rows in v for row in rows] for v in (packing.c, packing.dn))
+        found |= Sizes(most(c.error for c in moved), most(x.error for dn in turned for x in dn))
     if forces is not None:
-        rows = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
-        found |= Sizes(
-            changed=max((error(g) for _, _, g in rows), default=0.0),
-            # as compiled sweeps give it
-            force=max((size(F) for _, F, _ in rows), default=0.0)
-            + max((float(np.abs(g.nearest).max(initial=0)) for _, _, g in rows), default=0.0),
-        )
+        below = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
+        # as compiled sweeps give it
+        force = most(F.value for _, F, _ in below) + most(g.nearest for _, _, g in below)
+        found |= Sizes(changed=most(g.error for _, _, g in below), force=force)
     if single is not None:
         errors = [abs(float(one.error or 0)) for one in single]
         found |= Sizes(max(errors), 0.0, max(errors), max(abs(float(s.value)) for s in single))

@@ -267,8 +267,8 @@ class ContactQuantity(Quantity):
         return self.layers is None or j - 1 in self.layers
 
     def blocks(self, problem: Problem) -> list[Block]:
-        """Give the contacts that are asked for, in the order of the groups."""
-        rows = (row for row in problem.force_rows[1:] if row.count and self.is_asked(row.j))
+        """Give the contacts that are asked for and that loads reach, in the order of the groups."""
+        rows = (row for row in problem.reached if row.j and row.count and self.is_asked(row.j))
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:

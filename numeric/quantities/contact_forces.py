@@ -1,12 +1,11 @@
 """All contact forces."""
 
-from collections.abc import Sequence
 from functools import lru_cache, partial
 
 import numpy as np
 
 from ..arithmetic.systems import Array
-from ..lattice.layers import Block, Layer, Region, full_layer
+from ..lattice.layers import Block, Region, full_layer
 from ..mechanics.problem import Problem, Solved
 from .base import (
     Columns,
@@ -36,10 +35,10 @@ class ContactForces(ContactQuantity, Listed):
         assert solved.forces is not None
         if self.at_once(problem, solved):
             return self._at_once(solved)
-        rows: Sequence[Layer] = problem.force_rows[1:]
+        blocks = self.blocks(problem)
         if self.width is not None:
             rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
-        blocks = [Block(b, row) for row in rows for b in self.branches]
+            blocks = [Block(b, row) for row in rows for b in self.branches]
         found = list(contact_changes(solved, blocks, 1))
         return Table(
             self.naming.contacts(blocks),

@@ -15,6 +15,7 @@ from .base import (
     Listed,
     Quantity,
     Table,
+    contact_changes,
     joined,
 )
 from .contact import SingleContact
@@ -23,7 +24,7 @@ DEFAULT_BINS = 20
 
 
 class Histogram(ContactQuantity, Listed):
-    """All changes of contact forces, or those of some layers, to be counted into bins."""
+    """Changes of the contact forces that loads reach, or those of some layers, in bins."""
 
     name = "histogram"
     numbers = 2
@@ -40,14 +41,11 @@ class Histogram(ContactQuantity, Listed):
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """Two a bin, for its edges as decimals; a change counts for a little."""
-        return 2 * (self.scene.ask.bins or 1) + realisations * (region.beads // 50)
+        return 2 * (self.scene.ask.bins or 1) + realisations * (1 + region.beads // 50)
 
     def rows(self, problem: Problem, solved: Solved) -> Table:
         """Give the changes of contacts."""
-        forces = solved.forces
-        assert forces is not None
-        rows = filter(self.is_asked, range(1, len(forces.rows)))
-        parts = [g for j in rows for _, _, g in forces.below(j)]
+        parts = [g[0] for _, _, g in contact_changes(solved, self.blocks(problem), 1)]
         return Table({}, {"change": joined(solved.system, parts)}, ("change",))
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
@@ -55,7 +53,7 @@ class Histogram(ContactQuantity, Listed):
         return {}
 
     def members(self, problem: Problem) -> int:
-        """All contacts."""
+        """All contacts that loads reach, or the one."""
         return sum(row.count for _, row in self.blocks(problem))
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
@@ -71,14 +69,6 @@ class Histogram(ContactQuantity, Listed):
 
 class ContactHistogram(SingleContact, Histogram):
     """Changes of one contact force over many packings."""
-
-    def answer_rows(self, region: Region, realisations: int) -> int:
-        """Two a bin, for its edges as decimals; a change counts for a little."""
-        return 2 * (self.scene.ask.bins or 1) + realisations
-
-    def members(self, problem: Problem) -> int:
-        """The one contact."""
-        return 1
 
 
 def histogram_of(scene: Scene) -> Quantity:

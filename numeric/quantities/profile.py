@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.decimals import decimal_string
+from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array, NumberSystem, as_floats
 from ..lattice.branch import Direction
 from ..lattice.layers import Block, Region, full_layer
@@ -116,7 +116,7 @@ class ProfileMoments(Gatherer):
         if theory is not None:
             index["first_order_std"] = np.array(
                 [
-                    _printed(theory[branch][j] * self.quantity.scene.load.magnitude)
+                    short(theory[branch][j] * self.quantity.scene.load.magnitude, 12)
                     for j, branch in keys
                 ],
                 dtype="U",
@@ -134,10 +134,3 @@ class ProfileMoments(Gatherer):
     def _errors(self) -> dict[str, Array]:
         mean, std = (error * self.unit for error in self.scatter.errors())
         return {"mean_change": mean, "std": std}
-
-
-def _printed(value: Fraction) -> str:
-    """Print twelve digits, also of what a float can't hold."""
-    if Fraction(1, 10**290) < value < 10**290:
-        return f"{float(value):.12g}"
-    return decimal_string(value, value / 10**12)

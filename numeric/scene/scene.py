@@ -128,7 +128,7 @@ def _check_packing(p: Packing) -> None:
     flat, widest = p.dimension == 2, 8 + Fraction(8, p.dimension)  # −1/d < φ = 1 − s²/8r² < 1/2
     if not 4 * p.radius**2 < p.s**2 < widest * p.radius**2 or p.s < 0:
         most = f"{math.sqrt(widest):.6f}"[:6]
-        ratio = decimal_string(p.s / p.radius, None)
+        ratio = decimal_string(p.s / p.radius)
         ratio = ratio if len(ratio) <= 15 else f"about {short(p.s / p.radius)}"
         raise SceneError(
             "packing.spacing",
@@ -370,5 +370,5 @@ def _said(section: Section) -> dict[str, Any]:
 def _exact(value: Any) -> Any:
     if not isinstance(value, Fraction):
         return value
-    shown = decimal_string(value, None)
+    shown = decimal_string(value)
     return shown if Fraction(shown) == value else str(value)

@@ -52,7 +52,7 @@ class Written(Decimal):
 
 def _shown(value: object) -> str:
     if isinstance(value, Fraction):
-        return decimal_string(value, None)
+        return decimal_string(value)
     if isinstance(value, int) and abs(value) > 10**40:
         return "a number of more than 40 digits"
     if isinstance(value, bool):
@@ -176,10 +176,9 @@ class Disorder(Section):
 
 def _refuse_infinite(values: Array) -> None:
     """Raise ``ValueError`` where a float64 is not finite, or so large that sums are not."""
-    with np.errstate(invalid="ignore"):
-        if values.min() >= -LARGEST and values.max() <= LARGEST:  # neither holds with a NaN
-            return
     good = np.abs(values) <= LARGEST
+    if good.all():
+        return
     at = tuple(int(k) for k in np.argwhere(~good)[0])
     place = f"[{', '.join(map(str, at))}]"
     if np.isfinite(values[at]):

@@ -60,8 +60,8 @@ def printed(bins: list[tuple[Fraction, Fraction, int]]) -> list[dict[str, Any]]:
     """Print bins, edges as the decimals that they are; a bin begins where the last one ends."""
     rows: list[dict[str, Any]] = []
     for low, high, count in bins:
-        start = rows[-1]["high"] if rows else decimal_string(low, None)
-        rows.append({"low": start, "high": decimal_string(high, None), "count": count})
+        start = rows[-1]["high"] if rows else decimal_string(low)
+        rows.append({"low": start, "high": decimal_string(high), "count": count})
     return rows
 
 

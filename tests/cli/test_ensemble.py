@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import time
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -62,7 +63,9 @@ def test_kept_in_a_file_and_written_out(
     assert call(capsys, *arguments, "--overwrite")[0] == 0  # again, from the file alone
     assert (out / "result.json").read_bytes() == first
     assert main(["ensemble-status", str(store)]) == 0
-    assert "sound, 40 realisations" in capsys.readouterr().out
+    said = capsys.readouterr().out
+    assert "sound, 40 realisations" in said
+    assert f"version: force-diffusion = {version('force-diffusion')}\n" in said
     assert main(["ensemble-status", str(store), "--json"]) == 0
     held = json.loads(capsys.readouterr().out)
     assert held["ranges"] == [[0, 32], [32, 40]]

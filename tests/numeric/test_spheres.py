@@ -299,7 +299,7 @@ def test_radii_are_listed_in_any_order(tmp_path: Path) -> None:
         lines = [f"p,q,j,{name}"]
         for p, q, j in reversed([*beads(4, 3)]):
             delta = values[p, q, j] + (name == "r")
-            lines.append(f"{p},{q},{j},{decimal_string(delta * unit, None)}")
+            lines.append(f"{p},{q},{j},{decimal_string(delta * unit)}")
         (tmp_path / "radii.csv").write_text("\n".join(lines))
         packing = asked.packing.model_copy(
             update={"radius": unit, "spacing": unit * Fraction("2.9")}

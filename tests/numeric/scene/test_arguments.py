@@ -37,68 +37,52 @@ def test_wrong_types_for_an_ensemble(wrong: dict[str, Any]) -> None:
 
 
 EXACT = [
-    Fraction(16, 5), Decimal("3.2"), 3.2, np.float64(3.2), sympy.Rational(16, 5),
-    flint.fmpq(16, 5),
-]  # fmt: skip
-WHOLE = [3, Fraction(3), np.int64(3), np.uint8(3), sympy.Integer(3), flint.fmpz(3), flint.fmpq(3)]
+    *(Fraction(16, 5), Decimal("3.2"), 3.2, np.float64(3.2)),
+    *(sympy.Rational(16, 5), flint.fmpq(16, 5)),
+    *(3, Fraction(3), np.int64(3), np.uint8(3), sympy.Integer(3), flint.fmpz(3), flint.fmpq(3)),
+]
 
 
-@pytest.mark.parametrize("number", [*EXACT, *WHOLE], ids=repr)
-def test_exact_numbers_are_taken(number: Any) -> None:
-    expected = Fraction(16, 5) if "2" in str(number) or "5" in str(number) else Fraction(3)
+@pytest.mark.parametrize("at", range(len(EXACT)))
+def test_exact_numbers_are_taken(at: int) -> None:
+    expected = Fraction(16, 5) if at < 6 else Fraction(3)
     delta = 1e-3 * np.random.default_rng(1).uniform(-1, 1, (3, 6))
-    assert fd.Packing(height=2, spacing=number).spacing == expected
-    assert fd.solve(delta_r=delta, spacing=number).scene.packing.spacing == expected
-    assert fd.SurfaceLoad(magnitude=number).magnitude == expected
+    assert fd.Packing(height=2, spacing=EXACT[at]).spacing == expected
+    assert fd.solve(delta_r=delta, spacing=EXACT[at]).scene.packing.spacing == expected
 
 
-REFUSED = [
-    mpmath.mpf("3.2"), mpmath.iv.mpf([3, 3.5]), mpmath.mpc(3, 0), sympy.Float("3.2", 40),
-    sympy.sqrt(10), sympy.oo, np.longdouble("3.2"), np.float32(3.2), flint.arb("3.2"), 3 + 0j,
-    True, Decimal("1E+9999999"), Decimal("1E-9999999"), Decimal("NaN"), 10**6000,
-    Fraction(10**6000, 3), Fraction(1, 10**20000), flint.fmpq(10**6000), math.nan,
-]  # fmt: skip
+REFUSED = [  # longer than float64, not one number, or too long
+    *(mpmath.mpf("3.2"), mpmath.iv.mpf([3, 3.5]), mpmath.mpc(3, 0), sympy.Float("3.2", 40)),
+    *(sympy.sqrt(10), sympy.oo, np.longdouble("3.2"), np.float32(3.2), flint.arb("3.2"), 3 + 0j),
+    *(True, Decimal("1E+9999999"), Decimal("1E-9999999"), Decimal("NaN"), math.nan, 10**6000),
+    *(Fraction(10**6000, 3), Fraction(1, 10**20000), flint.fmpq(10**6000)),
+]
 
 
 @pytest.mark.parametrize("number", REFUSED, ids=range(len(REFUSED)))
 def test_other_numbers_are_refused_in_words(number: Any) -> None:
-    """They are longer than float64, or not one number, or too long."""
-    delta = np.zeros((3, 6))
-    with pytest.raises(fd.SceneError, match=r"^packing\.spacing = .*: must (be|have) "):
-        fd.Packing(height=2, spacing=number)
-    with pytest.raises(fd.SceneError, match=r"^spacing = .*: must (be|have) "):
-        fd.solve(delta_r=delta, spacing=number)
-    with pytest.raises(fd.SceneError, match=r"^tolerance = .*: must (be|have) "):
-        fd.solve(delta_r=delta, tolerance=number)
+    for name in ("spacing", "tolerance"):
+        with pytest.raises(fd.SceneError, match=rf"^{name} = .*: must (be|have) "):
+            fd.solve(delta_r=np.zeros((3, 6)), **{name: number})
 
 
-@pytest.mark.parametrize(
-    "radii",
-    [
-        np.array([[1, 1, 1], [1, Fraction(4, 3), 1]]),
-        [[mpmath.mpf(1) + mpmath.mpf(2) ** -50] * 3] * 2,
-        [[Decimal("1.1")] * 3] * 2,
-        [[mpmath.iv.mpf([1, 2])] * 3] * 2,
-        [[sympy.Rational(4, 3)] * 3] * 2,
-        np.full((2, 3), 1 + np.longdouble(2) ** -60),
-        np.full((2, 3), 2**53 + 1),
-        np.full((2, 3), True),
-    ],
-    ids=range(8),
-)
+LONGER = [
+    [[1, Fraction(4, 3)]] * 2, [[mpmath.mpf(1)] * 2] * 2, [[Decimal("1.1")] * 2] * 2,
+    [[mpmath.iv.mpf([1, 2])] * 2] * 2, np.full((2, 3), 1 + np.longdouble(2) ** -60),
+    np.full((2, 3), 2**53 + 1), np.full((2, 3), True),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("radii", LONGER, ids=range(len(LONGER)))
 def test_radii_are_not_cut_in_silence(radii: Any) -> None:
-    with pytest.raises(fd.SceneError, match=r"(?s)^radii = .*(by \.astype\(float\)|would cut)"):
+    with pytest.raises(fd.SceneError, match=r"(?s)^radii = .*by \.astype\(float\)"):
         fd.solve(radii)
 
 
 @pytest.mark.parametrize("kind", [np.longdouble, np.float32, np.float16, np.int8, np.uint64])
 def test_radii_that_float64_holds_are_taken(kind: Any) -> None:
     radii = np.full((3, 6), 64).astype(kind)
-    radii[1, 1] += 1
-    found = fd.solve(radii, radius=64).scene.disorder
-    assert isinstance(found, fd.GivenRadii)
-    assert found.values.dtype == np.float64
-    assert (found.values == radii).all()
+    assert fd.solve(radii, radius=64).scene.disorder.values.dtype == np.float64  # type: ignore[union-attr]
 
 
 @pytest.mark.parametrize("wrong", [{"heights": 5}, {"realisations": "a"}, {"realisations": -1}])

@@ -1,0 +1,101 @@
+"""Contacts that no load reaches are none of a histogram, nor of a slab's contact forces."""
+
+from pathlib import Path
+from typing import Any
+
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+import force_diffusion as fd
+from tests.numeric.scenes import scene
+
+Bead = tuple[int, ...]
+
+
+def below(loads: set[Bead], width: int | None) -> set[tuple[Any, ...]]:
+    """Contacts (lower bead, branch) that loads reach, bead by bead; a width of discs."""
+    todo, found = set(loads), set()
+    while todo:
+        i, j = todo.pop()
+        for side, branch in ((-1, "+"), (1, "-")) if j else ():
+            lower = (i + side if width is None else (i + side) % (2 * width)), j - 1
+            found.add((*lower, branch))
+            todo.add(lower)
+    return found
+
+
+def asked(
+    folder: Path, loads: set[Bead], width: int | None, height: int, quantity: str, **ask: Any
+) -> fd.Scene:
+    lines = [f"{i},{j},0.01,-1" for i, j in loads]
+    packing: dict[str, Any] = {"height": height}
+    if width is None:
+        lines.append(f"{80 + height % 2},{height},0,0")  # no load
+    else:
+        packing |= {"width": width, "allow_images": True}
+    (folder / "loads.csv").write_text("\n".join(["i,j,fx,fy", *lines]) + "\n")
+    return scene(
+        {
+            "packing": packing,
+            "disorder": {"kind": "uniform", "relative_std": "=1e-3", "seed": 1},
+            "load": {"kind": "file", "file": "loads.csv"},
+            "ask": {"quantity": quantity, **ask},
+        },
+        folder,
+    )
+
+
+def count(scene: fd.Scene) -> int:
+    return int(sum(scene.run().arrays["count"]))
+
+
+def test_two_loads_that_are_far_apart(tmp_path: Path) -> None:
+    loads: set[Bead] = {(0, 4), (40, 4)}
+    assert count(asked(tmp_path, loads, 60, 4, "histogram")) == 40
+    assert asked(tmp_path, loads, None, 4, "contact_forces").run().count == 40
+    assert count(asked(tmp_path, loads, 60, 4, "histogram", layers=[3])) == 4
+    assert count(asked(tmp_path, loads, 60, 4, "histogram", realisations=3)) == 120
+    found = fd.ensemble(asked(tmp_path, loads, 60, 4, "histogram"), 4, reach=0.01)
+    assert found.samples == 160
+
+
+def test_a_point_load_on_spheres() -> None:
+    """Its cone has 1, 3 and 6 beads; layers of 7 × 7 are solved."""
+    made = scene(
+        {
+            "packing": {"height": 3, "width": 7, "dimension": 3},
+            "disorder": {"kind": "uniform", "relative_std": "=1e-3", "seed": 1},
+            "load": {"kind": "point", "at": [5, 6, 3]},
+            "ask": {"quantity": "histogram"},
+        }
+    )
+    assert count(made) == 3 * (1 + 3 + 6)
+
+
+@st.composite
+def loaded(draw: st.DrawFn) -> tuple[set[Bead], int | None, int]:
+    height = draw(st.integers(1, 5))
+    width = draw(st.none() | st.integers(1, 9))
+    columns = st.integers(0, 12 if width is None else width - 1)
+    beads = st.tuples(columns, st.integers(1, height)).map(
+        lambda at: (2 * at[0] + at[1] % 2, at[1])
+    )
+    return draw(st.sets(beads, min_size=1, max_size=4)), width, height
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@given(loaded())
+def test_contacts_are_those_below_loads(
+    tmp_path: Path, drawn: tuple[set[Bead], int | None, int]
+) -> None:
+    loads, width, height = drawn
+    expected = below(loads, width)
+    found = asked(tmp_path, loads, width, height, "contact_forces").run().arrays
+    contacts = list(zip(found["i"].tolist(), found["j"].tolist(), found["branch"], strict=True))
+    if width is None:
+        assert set(contacts) == expected
+        assert len(contacts) == len(expected)
+        return
+    assert count(asked(tmp_path, loads, width, height, "histogram")) == len(expected)
+    pressed = {one for one, force in zip(contacts, found["force"], strict=True) if force}
+    assert pressed <= expected
