@@ -11,7 +11,7 @@ from .derivations.calculator.statistics import mean as mean
 from .derivations.calculator.statistics import mean_over as mean_over
 from .derivations.calculator.statistics import response as response
 from .derivations.calculator.statistics import variance as variance
-from .derivations.formulas.closed_form import ClosedForm as ClosedForm
+from .derivations.framework.closed_form import ClosedForm as ClosedForm
 from .numeric.arithmetic.errors import ForceDiffusionError as ForceDiffusionError
 from .numeric.ensemble.ensemble import ensemble as ensemble
 from .numeric.ensemble.result import Ensemble as Ensemble

@@ -20,9 +20,9 @@ from . import sets
 from . import symbols as sy
 from .algebra.bases import LINE_SUM
 from .algebra.exact import FIELD, SITE, SOURCE, NotAStatementError, NotExactError, RationalFunction
-from .algebra.signs import never_zero
 from .printing.text import text
 from .sets import Set
+from .signs import never_zero
 from .weights import Weights
 
 Factor: TypeAlias = sympy.Expr | str

@@ -15,7 +15,7 @@ from .forms import NUMBER, Straightening
 from .kernel.domain import Domain as Where
 from .kernel.statistics import moment, worked_out
 from .kernel.theorem import Group, NotProvedError, Theorem, names_for
-from .weights import Weights
+from .weights import Piece, Weights
 
 Relations = tuple[sympy.Basic, ...]
 
@@ -49,9 +49,17 @@ class PiecewiseFunction:
     straight: Straightening
     constants: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
 
-    def __reduce__(self) -> tuple[type["PiecewiseFunction"], tuple[object, ...]]:
+    def __reduce__(
+        self,
+    ) -> tuple[type["PiecewiseFunction"], tuple[object, ...], dict[str, list[Piece]]]:
         """Relations are left out of pickles: SymPy would evaluate them."""
-        return PiecewiseFunction, (self.weights, self.points, self.straight, self.constants)
+        parts = (self.weights, self.points, self.straight, self.constants)
+        return PiecewiseFunction, parts, {"_merged": self._merged}
+
+    @cached_property
+    def _merged(self) -> list[Piece]:
+        """Few polynomials, each on a set of its own; where it is 0 is left out."""
+        return self.weights.formulas()
 
     @classmethod
     def of(
@@ -100,7 +108,7 @@ class PiecewiseFunction:
         """Its formulas, on parts of the domain that cover it and share no point."""
         found = []
         left = self.points
-        for whole, value in self.weights.formulas():
+        for whole, value in self._merged:
             left = left - whole
             found.append(Formula(self.relations(whole), self._formula(whole, value)))
         if not left.is_empty():

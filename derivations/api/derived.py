@@ -97,11 +97,11 @@ def derive(
     :meth:`Equation.prove` is the same for one equation.
 
     >>> import force_diffusion as fd
-    >>> found = fd.derive([2])
+    >>> found = fd.derive([3])
     >>> {number: str(verdict) for number, verdict in found.verdicts.items()}
-    {1: 'proved', 2: 'proved'}
+    {2: 'proved', 3: 'proved'}
     >>> found.proved, found.counts(), sorted(found.latex())
-    (True, '2 proved', ['eq01.tex', 'eq02.tex', 'equations.tex'])
+    (True, '2 proved', ['eq02.tex', 'eq03.tex', 'equations.tex'])
 
     Args:
         numbers: of the equations, all of them by default.

@@ -16,14 +16,14 @@ from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
 from ..export.terminal import statement_data, statement_text
-from ..formulas.arrays import evaluate
-from ..formulas.closed_form import ClosedForm
-from ..formulas.deciding import decided
-from ..formulas.evaluation import ArgumentError, indices_at
-from ..formulas.lists import both, either
+from ..framework.arrays import evaluate
 from ..framework.catalogue import Number as EquationNumber
 from ..framework.catalogue import allowed, modules, number_of
+from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
+from ..framework.deciding import decided
+from ..framework.evaluation import ArgumentError, indices_at
+from ..framework.lists import both, either
 from ..framework.loading import load
 from ..framework.record import Derivation, Statement
 from ..framework.rows import Row
@@ -135,7 +135,7 @@ class Equation:
 
         >>> import force_diffusion as fd
         >>> [premise.number for premise in fd.equation(13).premises]
-        [11, 12]
+        [4, 5, 11, 12]
         """
         return tuple(_equation(number) for number in self._derivation.premises)
 
@@ -402,7 +402,7 @@ class Equation:
         >>> step.reason
         'Added up:'
         >>> step.formula.rhs
-        2*(M - j)**2*(M + 2*j) - 3*(M - j)**2 + M - j
+        2*(M - j)**2*(M + 2*j) - 3*(M - j)**2 + (M - j)
         """
         return StepList.of(self._derivation)
 
@@ -414,7 +414,7 @@ class Equation:
         >>> str(proof.verdict)
         'proved'
         >>> print(str(proof).splitlines()[0])
-        Eq. 9 is proved. It rests on Eq. 8.
+        Eq. 9 is proved. It rests on Eqs. 4, 5, 8.
         """
         return Proof(tuple(run_all([self.number])))
 

@@ -11,8 +11,8 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
-from ..formulas.arrays import at_element, one_or_tuple, shared_shape
-from ..formulas.evaluation import TOGETHER, ArgumentError, in_order, range_of
+from ..framework.arrays import at_element, one_or_tuple, shared_shape
+from ..framework.evaluation import TOGETHER, ArgumentError, in_order, range_of
 
 Arrays = dict[sympy.Symbol, Any]
 """Float64 arrays of one shape, by symbol."""

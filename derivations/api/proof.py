@@ -26,11 +26,11 @@ class Proof:
     """What :meth:`Equation.prove` found; it prints as lines, and as a table in a notebook.
 
     >>> import force_diffusion as fd
-    >>> proof = fd.equation(2).prove()
+    >>> proof = fd.equation(3).prove()
     >>> [(outcome.derivation.number, str(outcome.verdict)) for outcome in proof.outcomes]
-    [(1, 'proved'), (2, 'proved')]
+    [(2, 'proved'), (3, 'proved')]
     >>> proof.checks[0].name, proof.checks[0].note
-    ('printed equation', 'by the rule: solve')
+    ('printed equation', 'by the rule: induction')
 
     Attributes:
         outcomes: all that has been run, premises first; the last is the equation's own.

@@ -5,7 +5,7 @@ import sympy
 from force_diffusion.derivations.beyond.variances import IN_SPACE
 from force_diffusion.derivations.calculator.loads import point
 from force_diffusion.derivations.calculator.statistics import mean, mean_over, response, variance
-from force_diffusion.derivations.formulas.closed_form import ClosedForm
+from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (

@@ -7,7 +7,7 @@ S = Σ f ℓ N⊗N over the two contacts above a bead, all over the values of th
 import sympy
 from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import force_moment, mean
-from force_diffusion.derivations.formulas.closed_form import ClosedForm
+from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (

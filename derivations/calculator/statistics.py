@@ -11,7 +11,7 @@ from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
-from ..formulas.closed_form import ClosedForm
+from ..framework.closed_form import ClosedForm
 from .loads import PLANE, Load, ObservableError, in_radii, load_of
 from .observables import ACROSS, SPHERES, domain, layer_of, read, relations_of
 

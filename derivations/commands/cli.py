@@ -16,7 +16,7 @@ import typer
 from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT, printable, rule
 from typer.core import TyperGroup
 
-from ..formulas.lists import either
+from ..framework.lists import either
 
 # Name: (function, what --help says: the first paragraph of the command's docstring).
 COMMANDS = {

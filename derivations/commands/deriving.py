@@ -10,8 +10,8 @@ from force_diffusion.numeric.arithmetic.errors import printable
 
 import force_diffusion as fd
 
-from ..formulas.lists import both
 from ..framework.catalogue import modules
+from ..framework.lists import both
 from .cli import STATUSES, command_line  # noqa: F401 (statuses stand below the help)
 from .equations import Columns, equation_number
 from .output import Output, OutputError, Overwrite, folder_of, out_option

@@ -22,8 +22,8 @@ from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import column_width, latex_body, stacked
 
-from ..formulas.lists import both
 from ..framework.catalogue import Number, modules, number_of
+from ..framework.lists import both
 from ..framework.loading import load
 from ..framework.record import Outcome, Statement
 from ..framework.rows import Row

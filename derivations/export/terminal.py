@@ -12,7 +12,7 @@ from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
-from ..formulas.lists import both
+from ..framework.lists import both
 from ..framework.proof import Step
 from ..framework.record import Check, Outcome, Statement
 

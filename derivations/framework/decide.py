@@ -1,11 +1,10 @@
 """Decides what is said in the place of a printed equation."""
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.as_printed import equation, in_place, nodes
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement
@@ -13,8 +12,9 @@ from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, NotProvedError, Theorem
-from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.signs import sign
 
+from .deciding import strange_symbol
 from .loading import load
 from .record import Derivation
 
@@ -51,15 +51,6 @@ def candidate_for(
     if not ruling.verdict.is_proved and (squares := _squares(meant, domain)) is not None:
         return decide(squares, domain, attempts)
     return ruling
-
-
-def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str:
-    """Why a symbol may be taken for another one of the same name; "" where none may be."""
-    names = {symbol.name for symbol in known}
-    for symbol in by_name(formula.free_symbols - {*known}):
-        if symbol.name in names:
-            return f"{symbol.name} is another symbol than the {symbol.name} of the equation"
-    return ""
 
 
 def _further(statement: Derivation, formula: sympy.Eq, domain: Domain) -> Iterator[Rule]:

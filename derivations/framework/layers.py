@@ -18,7 +18,7 @@ from force_diffusion.symbolic.words import in_words
 from .proof import Definitions, Steps
 
 if TYPE_CHECKING:
-    from ..formulas.closed_form import ClosedForm
+    from .closed_form import ClosedForm
 
 UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 """What variances of forces over their mean squared are numbers and powers of M times."""
@@ -31,7 +31,7 @@ def closed_form(
     groups: Callable[[], Sequence[Group]],
 ) -> "ClosedForm":
     """The closed form of what a symbol stands for; it is worked out when it is asked for."""
-    from ..formulas.closed_form import ClosedForm
+    from .closed_form import ClosedForm
 
     return ClosedForm(symbol, definitions[symbol], domain, groups)
 

@@ -19,7 +19,7 @@ from .catalogue import Number, in_order
 from .proof import Step, Steps
 
 if TYPE_CHECKING:
-    from ..formulas.closed_form import ClosedForm
+    from .closed_form import ClosedForm
 
 _MEANINGS = {
     sy.sigma: "standard deviation σ_δr of the radii",

@@ -8,7 +8,6 @@ from functools import cached_property
 import sympy
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.algebra.signs import sign
 from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted
 from force_diffusion.symbolic.kernel.domain import Domain
@@ -18,11 +17,12 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import PiecewiseFunction
 from force_diffusion.symbolic.printing.lines import stacked
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.signs import sign
 from force_diffusion.symbolic.symbols import M, Shift, z
 from force_diffusion.symbolic.words import in_words
 
-from ..formulas.closed_form import ClosedForm
 from .catalogue import Number
+from .closed_form import ClosedForm
 from .loading import load, pickled
 from .proof import Steps
 from .record import FIRST_ORDER, SECOND_ORDER, Statement, usual

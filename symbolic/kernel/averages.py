@@ -10,10 +10,10 @@ import sympy
 
 from .. import symbols as sy
 from ..algebra.exact import FIELD, NotAStatementError, NotExactError, RationalFunction
-from ..algebra.signs import sign
 from ..as_printed import equation
 from ..printing.text import text
 from ..sets import EVERYTHING
+from ..signs import sign
 from .axioms import GAUSSIAN_FORCES
 from .domain import AT_FIXED_RATIO, Domain, at_fixed_height, at_large_height
 from .limits import in_the_limit, leading, limit_of, order

@@ -20,13 +20,13 @@ from ..algebra.exact import (
     Polynomial,
     RationalFunction,
 )
-from ..algebra.signs import sign
 from ..as_printed import in_place
 from ..forms import FORCES, NUMBER, RADII, Form
 from ..notation import by_name
 from ..printing.text import text
 from ..second_order import covariance
 from ..sets import EVERYTHING, Set
+from ..signs import sign
 from ..weights import Weights
 from .domain import Domain, Limit
 from .rules import Rule

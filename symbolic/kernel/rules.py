@@ -18,11 +18,11 @@ from ..algebra.exact import (
     NotExactError,
     RationalFunction,
 )
-from ..algebra.signs import never_zero
 from ..as_printed import equation
 from ..forms import NUMBER, Form, Image
 from ..mechanics import lattice
 from ..printing.text import text
+from ..signs import never_zero
 from ..weights import Weights
 from . import axioms
 from .domain import LATTICE, Domain

@@ -26,12 +26,12 @@ from ..algebra.exact import (
     NotExactError,
     RationalFunction,
 )
-from ..algebra.signs import never_zero
 from ..as_printed import equation, in_place
 from ..forms import FORCES, NUMBER, RADII, Form, Image, Key, Known, Reader, is_whole
 from ..notation import by_name
 from ..printing.text import text
 from ..second_order import Means
+from ..signs import never_zero
 from .domain import Domain, Loading
 
 _MADE_HERE = object()

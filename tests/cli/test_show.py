@@ -10,9 +10,9 @@ from random import Random
 
 import pytest
 import sympy
-from force_diffusion.derivations.formulas.closed_form import ClosedForm
-from force_diffusion.derivations.formulas.evaluation import ArgumentError
 from force_diffusion.derivations.framework.catalogue import modules, paper
+from force_diffusion.derivations.framework.closed_form import ClosedForm
+from force_diffusion.derivations.framework.evaluation import ArgumentError
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.structure import rebuilt

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import sympy
 from flint import fmpq, fmpz
-from force_diffusion.derivations.formulas.evaluation import ArgumentError
+from force_diffusion.derivations.framework.evaluation import ArgumentError
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.kernel.decisions import Verdict
 

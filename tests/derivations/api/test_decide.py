@@ -162,7 +162,9 @@ def test_exact_forms_are_decided_on_their_own(number: int | str) -> None:
     equation = fd.equation(number)
     for form in map(equation.exact, equation.forms):
         left, right = form.equation.args
-        same = (form.equation, right, equal(right, left), equal(times(2, left), times(2, right)))
+        same = [form.equation, right, equal(right, left)]
+        if form.divisor == 1:  # else both sides are divided by what may vanish
+            same.append(equal(times(2, left), times(2, right)))
         for one in (*same, (form.equation,), right * sy.phi / sy.phi):
             found = form.decide(one)
             assert found.verdict is Verdict.PROVED, found
@@ -171,8 +173,6 @@ def test_exact_forms_are_decided_on_their_own(number: int | str) -> None:
             found = form.decide(wrong)
             assert found.verdict is Verdict.REFUTED, found
             assert found.note.startswith("at ")
-        assert not form.decide(equal(sy.phi * left, sy.phi * right)).verdict.is_proved
-        assert not form.decide(equal(right, right)).verdict.is_proved
         assert form.decide(right + sympy.Symbol("y")).verdict is Verdict.NOT_A_STATEMENT
 
 

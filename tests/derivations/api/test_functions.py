@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import sympy
 from force_diffusion.derivations.api.equation import NoSuchFormError
-from force_diffusion.derivations.formulas.evaluation import ArgumentError
+from force_diffusion.derivations.framework.evaluation import ArgumentError
 from force_diffusion.numeric import closed_forms
 from hypothesis import given
 from hypothesis import strategies as st

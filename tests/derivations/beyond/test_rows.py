@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 import sympy
 from force_diffusion.derivations.beyond import correlations, variances
-from force_diffusion.derivations.formulas.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic.algebra.exact import FIELD

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import sympy
 from force_diffusion.derivations.calculator.loads import ObservableError
-from force_diffusion.derivations.formulas.evaluation import ArgumentError
+from force_diffusion.derivations.framework.evaluation import ArgumentError
 from force_diffusion.symbolic.symbols import Load, Position, m, n
 
 import force_diffusion as fd
@@ -192,9 +192,9 @@ HERE = {"M": 6, "j": 2, "phi": 0, "sigma": 1, "r": 1}
     ("change", "says"),
     [
         ({"j": 6}, r"var\(f⁺_ij\) is for 0 ≤ j ≤ M − 1, not for j = 6, M = 6"),
-        ({"j": -1}, "not for j = -1, M = 6"),
+        ({"j": -1}, "not for j = −1, M = 6"),
         ({"M": 2}, "not for j = 2, M = 2"),
-        ({"M": -1, "j": -3}, "not for j = -3, M = -1"),
+        ({"M": -1, "j": -3}, "not for j = −3, M = −1"),
         ({"j": 0.5}, "j = 1/2: a whole number is allowed"),
         ({"M": np.float64(6.5)}, "M = 13/2: a whole number is allowed"),
         *(({"j": one}, "j = .*: one int, Fraction, SymPy Rational, Decimal or finite float")

@@ -9,8 +9,8 @@ from force_diffusion.derivations.export.document import (
     statement_latex,
 )
 from force_diffusion.derivations.export.prose import prose_latex
-from force_diffusion.derivations.formulas.lists import both
 from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.lists import both
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex

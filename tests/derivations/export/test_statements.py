@@ -7,8 +7,8 @@ import pytest
 from force_diffusion.derivations.export.document import fragment_name, statement_latex
 from force_diffusion.derivations.export.prose import prose_latex
 from force_diffusion.derivations.export.terminal import heading
-from force_diffusion.derivations.formulas.lists import both
 from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.lists import both
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Refuted, Step
 from force_diffusion.symbolic.printing.latex import RELATIONS

@@ -1,6 +1,6 @@
 """What a user may hand to ``decide``: a line, the right-hand side of one, or all lines at once."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +14,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     refuted,
     undecided,
 )
+from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from sympy.logic.boolalg import BooleanAtom
 
@@ -108,6 +109,8 @@ def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: Rul
     rulings = []
     for part, line in enumerate(lines):
         own = places[part] if part in places else others.pop(0)
+        if getattr(own, "lhs", None) in {other.lhs for other in lines} - {line.lhs}:
+            return undecided(f"nothing is said of {text(line.lhs)}")
         ruling = _on_one(own, [line], lambda _, of, part=part: rule_on(part, of))  # type: ignore[misc]
         rulings.append(_about(line, ruling) if len(lines) > 1 else ruling)
     return all_of(*rulings)
@@ -115,3 +118,12 @@ def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: Rul
 
 def _about(line: sympy.Eq, ruling: Ruling) -> Ruling:
     return replace(ruling, note=f"{text(line.lhs)}: {ruling.note}")
+
+
+def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str:
+    """Why a symbol may be taken for another one of the same name; "" where none may be."""
+    names = {symbol.name for symbol in known}
+    for symbol in by_name(formula.free_symbols - {*known}):
+        if symbol.name in names:
+            return f"{symbol.name} is another symbol than the {symbol.name} of the equation"
+    return ""

@@ -17,7 +17,7 @@ from force_diffusion.symbolic.algebra.exact import (
     NotExactError,
     RationalFunction,
 )
-from force_diffusion.symbolic.as_printed import equation
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
@@ -43,12 +43,11 @@ from force_diffusion.symbolic.printing.lines import (
 )
 from force_diffusion.symbolic.printing.text import text
 
-from ..framework.catalogue import Number as EquationNumber
-from ..framework.decide import strange_symbol
-from ..framework.proof import equations_of
 from .arrays import evaluate
-from .deciding import decided
+from .catalogue import Number as EquationNumber
+from .deciding import decided, strange_symbol
 from .evaluation import ArgumentError, Number, in_order, indices_at, with_values
+from .proof import equations_of
 
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
@@ -452,53 +451,67 @@ class ClosedForm:
         return decided(candidate, (self.equation,), lambda _, one: self._rule_on(one, at_place))
 
     def _rule_on(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Ruling:
-        if candidate.lhs not in (self.quantity, self.statistic):
-            return undecided(f"it is not about {text(self.quantity)}")
+        if candidate.rhs in (self.quantity, self.statistic):
+            candidate = equation(candidate.rhs, candidate.lhs)
         known = {
             *self.kernel_domain.indices,
             *self.statistic.free_symbols,
+            *self.quantity.free_symbols,
             *self._needed,
             *_ALWAYS_KNOWN,
         }
         if {sy.j, sy.M} <= known:
             known.add(sy.z)
-        for symbol in by_name(candidate.rhs.free_symbols - known):
+        for symbol in by_name(candidate.free_symbols - known):
             return not_a_statement(
                 strange_symbol(symbol, known)
                 or f"{text(symbol)} is no symbol of {text(self.quantity)}"
             )
         try:
-            return all_of(*self._rulings(candidate.rhs, at_place))
+            return all_of(*self._rulings(candidate, at_place))
         except NotAStatementError as reason:
             return not_a_statement(str(reason))
         except NotExactError as reason:
             return undecided(str(reason))
 
-    def _rulings(self, candidate: sympy.Expr, at_place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
+    def _rulings(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
         """What is found of each part of a candidate; its parts have to cover the domain."""
         domain, function = self.kernel_domain.also(*at_place), self.function.part(*at_place)
         rest = function.points
-        for value, relations in _alternatives_of(candidate):
+        cases = next(iter(candidate.atoms(sympy.Piecewise)), sympy.S.Zero)
+        for value, relations in _alternatives_of(cases):
             here = rest & function.part(*relations).points
             rest = rest - here
+            formula = in_place(candidate, {cases: value}) if cases else candidate
             for part in function.relations(here):
-                yield from self._rulings_on(value, domain.also(*part))
+                yield from self._rulings_on(formula, domain.also(*part))
         if function.points.is_empty():
             raise NotAStatementError(f"{text(self.quantity)} is for {self.domain}")
         if not rest.is_empty():
             left_out = _parts_in_words(function.relations(rest))
             raise NotAStatementError(f"it has no value for {left_out}")
 
-    def _rulings_on(self, value: sympy.Expr, domain: Domain) -> Iterator[Ruling]:
+    def _rulings_on(self, formula: sympy.Eq, domain: Domain) -> Iterator[Ruling]:
         if not self.values:
             by = moment(*self.groups, on=self.kernel_domain)
-            yield decide(equation(self.statistic, self.divisor * value), domain, [by])
+            yield decide(self._in_moments(formula), domain, [by])
             return
         for piece in self.pieces:  # numbers are put in: theorems hold whatever they are
             for part in piece.where:
                 here = domain.also(*part)
                 if not here.points.is_empty():
-                    yield decide(equation(piece.expr, value), here, [rewrite()])
+                    yield decide(in_place(formula, {self.quantity: piece.expr}), here, [rewrite()])
+
+    def _in_moments(self, formula: sympy.Eq) -> sympy.Eq:
+        """An equation about the quantity as one about what that stands for."""
+        if formula.lhs in (self.quantity, self.statistic):
+            return equation(self.statistic, self.divisor * formula.rhs)
+        meant = sympy.Mul(self.statistic, 1 / self.divisor, evaluate=False)
+        shown = by_name(self.quantity.free_symbols - self.statistic.free_symbols)
+        if not shown:
+            return in_place(formula, {self.quantity: meant})
+        (symbol,) = shown  # the quantity may be this symbol less 1
+        return in_place(formula, {symbol: sympy.Add(meant, symbol - self.quantity)})
 
 
 def _parts_in_words(parts: Iterable[Relations]) -> str:

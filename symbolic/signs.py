@@ -9,10 +9,10 @@ from functools import lru_cache
 
 import sympy
 
-from .. import sets
-from ..notation import by_name
-from ..symbols import INDICES, M, N, epsilon, n_x, n_y, phi, z
-from .exact import FIELD, SITE, SOURCE, NotExactError, Polynomial, RationalFunction
+from . import sets
+from .algebra.exact import FIELD, SITE, SOURCE, NotExactError, Polynomial, RationalFunction
+from .notation import by_name
+from .symbols import INDICES, M, N, epsilon, n_x, n_y, phi, z
 
 _WHOLE = {*INDICES, *SITE, *SOURCE}
 _COSINES = {n_x, n_y, phi}
