@@ -16,6 +16,7 @@ from ..coq.record import Certificate, Certification
 from ..coq.statements import statements
 from ..framework.catalogue import Number, paper
 from ..framework.loading import load
+from ..framework.record import Derivation
 from .equation import NoSuchFormError, equation
 
 
@@ -31,7 +32,8 @@ def stated(numbers: Iterable[Number] | None = None) -> dict[Number, list[Stateme
             last = max(paper())
             message = f"Eq. {number} is not stated for Coq: give a number from 1 to {last}"
             raise NoSuchFormError(message, "number")
-    return {number: statements(load(number)) for number in wanted}
+    derivations = ((number, load(number)) for number in wanted)
+    return {n: statements(one) for n, one in derivations if isinstance(one, Derivation)}
 
 
 def sources(asked: Mapping[Number, Sequence[Statement]]) -> dict[str, str]:
