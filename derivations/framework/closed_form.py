@@ -52,7 +52,7 @@ from .proof import equations_of
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
-_HIGH = 30  # lines of a display that fits a page of usual classes
+_HIGH = 28  # lines of a display that fits a page of usual classes
 
 
 @dataclass(frozen=True, eq=False)
