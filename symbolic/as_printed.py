@@ -63,7 +63,7 @@ def bits(tree: sympy.Basic) -> int:
         elif isinstance(node, sympy.Pow) and isinstance(node.exp, sympy.Rational):
             length = parts[0] * max(1, -(-abs(int(node.exp.p)) // int(node.exp.q)))
         elif isinstance(node, sympy.Piecewise):  # each alternative is read by itself
-            length = max(parts)
+            length = max(parts, default=0)
         else:
             length = 8 + sum(parts)
         found[id(node)] = length

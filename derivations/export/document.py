@@ -10,6 +10,7 @@ from sympy import Basic
 from ..coq.record import recorded
 from ..framework.catalogue import Number
 from ..framework.record import Outcome, Statement
+from ..framework.rows import Row
 from .prose import prose_latex
 from .terminal import follows_text
 
@@ -159,7 +160,7 @@ def section_latex(outcome: Outcome) -> str:
             _part("Printed as well, and refuted", _refuted(outcome)),
             _part("Symbols", _list("itemize", symbols)),
             _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
-            _part("Steps", _steps(outcome)),
+            _part("Steps", "" if isinstance(derivation, Row) else _steps(outcome)),
             _part("Claims", _list("itemize", claims)),
             _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),
         ]

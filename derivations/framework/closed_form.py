@@ -52,6 +52,7 @@ from .proof import equations_of
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
+_SMALLER = {"footnotesize": 0.85, "scriptsize": 0.75, "tiny": 0.6}  # widths of LaTeX's type
 _HIGH = 28  # lines of a display that fits a page of usual classes
 
 
@@ -330,9 +331,9 @@ class ClosedForm:
         """
         return self._shown(self.pieces, columns)
 
-    def _shown(self, pieces: Sequence[Piece], columns: int) -> str:
-        """LaTeX of some of its pieces."""
-        room, domain = column_width(columns), self._domain(words.LATEX)
+    def _shown(self, pieces: Sequence[Piece], columns: int, size: float = 1.0) -> str:
+        """LaTeX of some of its pieces, in type of some size."""
+        room, domain = column_width(columns) / size, self._domain(words.LATEX)
         below = _with_commas(domain, "for")
         if len(pieces) == 1:
             (piece,) = pieces
@@ -361,8 +362,15 @@ class ClosedForm:
 
     def _displays(self, pieces: Sequence[Piece], columns: int) -> list[str]:
         whole, half = self._shown(pieces, columns), len(pieces) // 2
-        if whole.count(r"\\") <= _HIGH or not half:
+        if whole.count(r"\\") <= _HIGH:
             return [whole]
+        if not half:  # a single formula is set in smaller type
+            smaller = ((n, self._shown(pieces, columns, size)) for n, size in _SMALLER.items())
+            name, small = next(
+                (one for one in smaller if one[1].count(r"\\") <= _HIGH),
+                ("tiny", self._shown(pieces, columns, _SMALLER["tiny"])),
+            )
+            return [rf"\mbox{{\{name}$\displaystyle {small}$}}"]
         return [*self._displays(pieces[:half], columns), *self._displays(pieces[half:], columns)]
 
     def _repr_latex_(self) -> str:
@@ -500,7 +508,11 @@ class ClosedForm:
             for part in piece.where:
                 here = domain.also(*part)
                 if not here.points.is_empty():
-                    yield decide(in_place(formula, {self.quantity: piece.expr}), here, [rewrite()])
+                    yield decide(
+                        in_place(formula, {self.quantity: piece.expr, **self.values}),
+                        here,
+                        [rewrite()],
+                    )
 
     def _in_moments(self, formula: sympy.Eq) -> sympy.Eq:
         """An equation about the quantity as one about what that stands for."""
@@ -520,6 +532,10 @@ def _parts_in_words(parts: Iterable[Relations]) -> str:
 
 def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
     """The formulas of a function that is given in pieces, with relations; the first that fits."""
+    if isinstance(candidate, sympy.Piecewise) and not any(
+        c != sympy.false for _, c in candidate.args
+    ):
+        raise NotAStatementError("it has no value anywhere")
     folded = sympy.piecewise_fold(candidate) if candidate.has(sympy.Piecewise) else candidate
     if not isinstance(folded, sympy.Piecewise):
         yield folded, ()

@@ -59,7 +59,8 @@ def _further(statement: Derivation, formula: sympy.Eq, domain: Domain) -> Iterat
         yield from statement.deciders()
         return
     theorems = statement.theorems
-    groups = theorems, *_geometry()
+    loads = axioms.loads(domain.loading) if domain.loading else ()
+    groups = (*theorems, *loads), *_geometry()
     if formula.has(sy.Moment):
         yield moment(*groups)
         return
@@ -121,7 +122,7 @@ def _is_root(base: sympy.Expr, exponent: sympy.Expr, domain: Domain) -> bool:
     """Whether a power has a rational square, and is not negative on a domain."""
     if not (2 * exponent).is_Integer:
         return False
-    if not exponent.is_Integer:
+    if base.is_nonnegative or isinstance(base, sy.Variance):
         return True
     value = base.xreplace({sy.z: sy.j / sy.M}) if sy.j in domain.indices else base
     try:

@@ -114,7 +114,7 @@ def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Rulin
             return not_a_statement(_for_users(reason, formula))
         except FalseStatementError as reason:
             return refuted(_for_users(reason, formula))
-        except (NotProvedError, RecursionError) as reason:
+        except (NotProvedError, RecursionError, ValueError) as reason:
             reasons.append(_for_users(reason, formula))
         else:
             if theorem.supposed:
@@ -125,7 +125,7 @@ def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Rulin
 
 def _for_users(reason: Exception, formula: sympy.Eq) -> str:
     """A reason that names a user's own symbols, and not what stands for them."""
-    words = str(reason) or "it is nested too deeply"
+    words = " ".join(str(reason).split()) or "it is nested too deeply"
     with suppress(NotProvedError):  # there are too many of them
         for symbol, stand_in in names_for(formula).items():
             words = words.replace(text(stand_in), text(symbol))

@@ -170,6 +170,8 @@ def check_domain(formula: sympy.Eq, domain: Domain, *, in_a_limit: bool = False)
         raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
     if free & _RESERVED:
         raise NotAStatementError("it holds a name of the kernel's own")
+    if domain.loading and (both := by_name(_summed(formula) & domain.loading.fixed)):
+        raise NotAStatementError(f"{text(both[0])} is the place of the load, and summed over")
 
 
 def isolated(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
@@ -280,13 +282,21 @@ def with_indices(formula: sympy.Eq, image: Image) -> sympy.Eq:
     Raises:
         NotProvedError: an index would have two meanings.
     """
-    summed = {limit[0] for one in formula.atoms(sympy.Sum) for limit in one.limits}
+    summed = _summed(formula)
     if sy.M in image and formula.has(sy.H_M):
         raise NotProvedError(f"{text(sy.H_M)} is that of the height {text(sy.M)} alone")
+    if image and formula.has(sy.z):
+        raise NotProvedError(f"{text(sy.z)} is the height of one layer alone")
     put_in = {*image}.union(*(one.free_symbols for one in image.values()))
     if both := by_name(summed & put_in):
         raise NotProvedError(f"{text(both[0])} would have two meanings")
     return equation(*(side.xreplace(dict(image)) for side in formula.args))
+
+
+def _summed(formula: sympy.Basic) -> set[sympy.Symbol]:
+    """The indices over which an equation sums."""
+    summed = {limit[0] for one in formula.atoms(sympy.Sum) for limit in one.limits}
+    return summed | ({sy.n} if formula.has(sy.MeanOver) else set())
 
 
 def _what_it_says(theorem: Theorem, later: Mapping[type, tuple[Known, ...]]) -> tuple[type, Known]:
@@ -294,6 +304,8 @@ def _what_it_says(theorem: Theorem, later: Mapping[type, tuple[Known, ...]]) -> 
     domain = theorem.domain
     if domain.limit is not None or domain.dimension != 2:
         raise NotProvedError(f"{text(theorem.formula.lhs)} is known in a limit, or elsewhere")
+    if theorem.formula.has(sy.z):
+        raise NotProvedError(f"{text(sy.z)} is the height of one layer alone")
     subject, value = theorem.subject
     quantity = subject.args[1] if isinstance(subject, sy.Dot) else subject
     reader = replace(domain.reader(), known=later)
@@ -418,13 +430,10 @@ def refuse(
 ) -> NotProvedError:
     """Why two sides of a formula that differ are not equal: that they do somewhere, or may.
 
-    Radii are independent. What holds nothing else, but for the force of one contact that acts, is
-    false where a weight differs.
+    Radii are independent: what holds nothing else is false where a weight differs.
     """
     keys = {key for form in apart for key in form.parts}
-    common = {tuple(pair for pair in key if not isinstance(pair[0], str)) for key in keys}
-    others = {tuple(pair for pair in key if isinstance(pair[0], str)) for key in keys}
-    if len(common) == 1 and others <= {NUMBER, RADII} and not _supposes(groups):
+    if keys <= {NUMBER, RADII} and not _supposes(groups):
         for form in apart:
             for key, weights in form.parts.items():
                 for points, value in weights.pieces:
