@@ -16,13 +16,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 78
 LIMITS = {
-    "symbolic": 4_540,
-    "derivations": 8_330,
+    "symbolic": 4_545,
+    "derivations": 8_350,
     "numeric": 13_037,
     "force_diffusion": 62,
     "benchmarks": 896,
     ".ci": 500,
-    "tests": 20_000,
+    "tests": 20_040,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

@@ -52,8 +52,8 @@ from .proof import equations_of
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
-_SMALLER = {"footnotesize": 0.85, "scriptsize": 0.75, "tiny": 0.6}  # widths of LaTeX's type
-_HIGH = 28  # lines of a display that fits a page of usual classes
+_SMALLER = {"footnotesize": 0.85, "scriptsize": 0.75, "tiny": 0.68}  # widths of LaTeX's type
+_HIGH = {1: 28, 2: 22}  # lines of a display that fits a page of usual classes, by columns
 
 
 @dataclass(frozen=True, eq=False)
@@ -362,12 +362,12 @@ class ClosedForm:
 
     def _displays(self, pieces: Sequence[Piece], columns: int) -> list[str]:
         whole, half = self._shown(pieces, columns), len(pieces) // 2
-        if whole.count(r"\\") <= _HIGH:
+        if whole.count(r"\\") <= _HIGH[columns]:
             return [whole]
         if not half:  # a single formula is set in smaller type
             smaller = ((n, self._shown(pieces, columns, size)) for n, size in _SMALLER.items())
             name, small = next(
-                (one for one in smaller if one[1].count(r"\\") <= _HIGH),
+                (one for one in smaller if one[1].count(r"\\") <= _HIGH[1]),
                 ("tiny", self._shown(pieces, columns, _SMALLER["tiny"])),
             )
             return [rf"\mbox{{\{name}$\displaystyle {small}$}}"]

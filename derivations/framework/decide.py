@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.as_printed import equation, in_place, nodes
+from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement
 from force_diffusion.symbolic.kernel.domain import Domain
@@ -93,13 +93,11 @@ def _geometry() -> tuple[Group, ...]:
 
 def _squares(formula: sympy.Eq, domain: Domain) -> sympy.Eq | None:
     """Both sides squared, where both are roots that are not negative; None for other equations."""
-    if not any(isinstance(one, sympy.Pow) and one.exp.is_Rational and one.exp.q == 2
-               for one in nodes(formula)):  # fmt: skip
-        return None
     sides = []
     for side in formula.args:
         factors = list(_factors(side))
-        if not all(_is_root(base, exponent, domain) for base, exponent in factors):
+        has_root = any((2 * exponent).is_odd for _, exponent in factors)
+        if not has_root or not all(_is_root(*factor, domain) for factor in factors):
             return None
         squares = (sympy.Pow(base, 2 * exponent, evaluate=False) for base, exponent in factors)
         sides.append(sympy.Mul(*squares, evaluate=False))
