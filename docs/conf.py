@@ -54,6 +54,7 @@ os.environ["PATH"] = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PAT
 os.environ["COLUMNS"] = "88"
 programoutput_use_ansi = False
 
+_SMALLER = re.compile(r"\\mbox\{\\\w+\$\\displaystyle (.*)\$\}", re.DOTALL)  # smaller type
 _LATEX = math_core.LatexToMathML()
 # Finer spacing than MathML has: between the columns of an array, and after a line of it.
 _SPACING = re.compile(r"@\{[^}]*\}|(?<=\\\\)\[\d+pt\]")
@@ -62,6 +63,7 @@ _SPACING = re.compile(r"@\{[^}]*\}|(?<=\\\\)\[\d+pt\]")
 def _formula(writer: Any, node: nodes.Element, display: bool) -> None:
     """Write a formula as MathML, which browsers lay out without a script."""
     latex = _SPACING.sub("", node.astext())
+    latex = _SMALLER.sub(r"\1", latex)
     mathml = _LATEX.convert_with_local_state(latex, displaystyle=display)
     writer.body.append(f'<div class="formula">{mathml}</div>' if display else mathml)
     raise nodes.SkipNode
