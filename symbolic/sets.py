@@ -182,7 +182,7 @@ def _row(constraint: Any) -> Row:
 
 def depends_on(points: Set, symbol: sympy.Symbol) -> bool:
     """Whether conditions on a symbol say what is in a set."""
-    return bool(points.involves_dims(_DIM, DIMENSIONS.index(symbol), 1))
+    return bool(points.involves_dims(_DIM, _PLACE[symbol], 1))
 
 
 Interval = tuple[int | None, int | None]
