@@ -140,7 +140,10 @@ def leaning(ratio: sympy.Expr, load: str = "surface") -> Load:
     """
     if load not in _LEANING:
         raise ObservableError(f"leaning(…, {load!r}): 'surface' or 'bulk' is allowed")
-    value = sympy.sympify(ratio)
+    try:
+        value = sympy.sympify(ratio, strict=True)  # else SymPy evaluates text
+    except sympy.SympifyError:
+        value = None
     if value == t:
         return _LEANING[load]
     if not (isinstance(value, sympy.Rational) and value > 0):

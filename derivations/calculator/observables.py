@@ -51,7 +51,7 @@ def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
     if isinstance(observable, type):
         raise ObservableError(f"{observable.__name__} is of no bead: write its place, as (i, j)")
     try:
-        found = sympy.sympify(observable)
+        found = sympy.sympify(observable, strict=True)  # else SymPy evaluates text
     except sympy.SympifyError:
         found = None
     if not isinstance(found, sympy.Expr):

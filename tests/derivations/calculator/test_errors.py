@@ -1,5 +1,6 @@
 """What is refused, and in which words."""
 
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -113,6 +114,38 @@ def test_loads_on_spheres(load: Any) -> None:
 def test_ratios(ratio: Any) -> None:
     with pytest.raises(ObservableError, match="the symbol t or a positive rational is allowed"):
         fd.leaning(ratio)
+
+
+class Words:
+    """Something that reads as code."""
+
+    def __init__(self, code: str) -> None:
+        self.code = code
+
+    def __str__(self) -> str:
+        return self.code
+
+    __repr__ = __str__
+
+
+@pytest.mark.parametrize("wrapped", [str, lambda code: [code], Words])
+@pytest.mark.parametrize(
+    "ask",
+    [
+        fd.leaning,
+        fd.variance,
+        fd.mean,
+        lambda text: fd.covariance(f_plus(i, j), text),
+        lambda text: fd.mean_over(text, 2),
+        lambda text: fd.mean_over(f_plus(i, j), text),
+        lambda text: fd.variance(f_plus(i, j), where=text),
+    ],
+)
+def test_text_is_never_evaluated(ask: Any, wrapped: Any, tmp_path: Path) -> None:
+    code = f"__import__('pathlib').Path({str(tmp_path / 'evaluated')!r}).touch()"
+    with pytest.raises(ObservableError):
+        ask(wrapped(code))
+    assert not list(tmp_path.iterdir())
 
 
 def test_other_loads() -> None:
