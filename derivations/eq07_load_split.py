@@ -1,6 +1,7 @@
 """Eq. 7: how a vertical load splits between the two supports."""
 
 # fmt: off
+from collections.abc import Callable
 from functools import cache
 
 import sympy
@@ -8,8 +9,8 @@ from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, Theorem, along, axioms, equation, follows, lattice, minus,
-    mirror_of, solve, terms, times)
+    Derivation, Domain, Rule, Steps, Theorem, along, axioms, below, equation, follows, lattice,
+    minus, mirror_of, solve, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, k, l, n_minus, n_plus,
     n_y, phi)
@@ -48,6 +49,11 @@ def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 def right_angles() -> tuple[Theorem, ...]:
     """What is used of Eqs. 4 and 5: n⁺·δn⁺ = 0 and n⁻·δn⁻ = 0."""
     return eq04.steps()[-1].theorem, eq05.steps()[-1].theorem
+
+
+def balancing(loads: tuple[Theorem, ...]) -> Callable[[tuple[Theorem, ...]], Rule]:
+    """The rule for the contacts below beads, given the forces above these; () in the top layer."""
+    return lambda above: below((*above, *loads), right_angles())
 
 
 @cache

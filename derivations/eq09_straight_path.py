@@ -7,7 +7,7 @@ import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, below, equation, induct, minus, rewrite, terms, times)
+    Derivation, Domain, Steps, axioms, equation, induct, minus, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, i, j, k, l, n_minus, phi, site_r, site_s)
 from sympy import Eq
@@ -82,7 +82,7 @@ def steps() -> Steps:
             j,
             l - 1,
             rewrite(loads),
-            lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+            eq07.balancing(loads),
             down=True,
             family=NOTHING_TO_THE_LEFT,
         ),

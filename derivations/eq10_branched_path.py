@@ -8,7 +8,7 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, below, equation, induct, lattice, minus, rewrite, terms,
+    Derivation, Domain, Steps, axioms, equation, induct, lattice, minus, rewrite, terms,
     times)
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus, Dot, ForceMinus, ForcePlus, i, j, k, l, n, n_minus, p, phi, q, site_r, site_s)
@@ -91,7 +91,7 @@ def steps() -> Steps:
             j,
             l - 1,
             rewrite(loads),
-            lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+            eq07.balancing(loads),
             down=True,
             family=((eq09.PRINTED, eq09.STRAIGHT), *NOTHING_BESIDE),
         ),

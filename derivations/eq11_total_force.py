@@ -10,7 +10,7 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, axioms, below, equation, induct, lattice, minus, mirror,
+    Derivation, Domain, Groups, Steps, axioms, equation, induct, lattice, minus, mirror,
     mirror_of, moment, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
     M, DeltaNMinus, DeltaNPlus, Dot, ForcePlus, Variance, f_load, i, j, k, l, n, n_minus, n_plus,
@@ -114,15 +114,15 @@ def steps() -> Steps:
         rewrite(),
         LAYERS,
     )
-    loads = axioms.loads(axioms.SURFACE)
+    balancing = eq07.balancing(axioms.loads(axioms.SURFACE))
     steps.show(
         "Both together; from layer to layer down, every bead is balanced by these forces:",
         PRINTED,
         induct(
             j,
             M - 1,
-            below(loads, eq07.right_angles()),
-            lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+            balancing(()),
+            balancing,
             down=True,
             mirrored=True,
         ),

@@ -12,7 +12,7 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic, at_fixed_height,
-    axioms, below, certificate, differentiate, equation, formula, induct, minus, mirror, moment,
+    axioms, certificate, differentiate, equation, formula, induct, minus, mirror, moment,
     negligible, of_what_is_kept, power, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
@@ -96,7 +96,8 @@ def gained(above: int) -> sympy.Eq:
 @cache
 def force_steps() -> Steps:
     """The force as an average of Eq. 11."""
-    steps, loads = Steps(14, eq12.INSIDE, MEANING), axioms.loads(axioms.BULK)
+    balancing = eq07.balancing(axioms.loads(axioms.BULK))
+    steps = Steps(14, eq12.INSIDE, MEANING)
     steps.show(
         "The weight of the beads in layer l acts as the surface load of a packing of "
         "height l. The ordered forces of the layers above j add up to",
@@ -115,8 +116,8 @@ def force_steps() -> Steps:
         induct(
             j,
             M - 1,
-            below(loads, eq07.right_angles()),
-            lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+            balancing(()),
+            balancing,
             down=True,
             mirrored=True,
         ),

@@ -12,9 +12,9 @@ from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, below,
-    equation, formula, inducted, lattice, leading_order_of, minus, mirror, moment, rewrite, same,
-    terms, times, usual)
+    FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, equation,
+    formula, inducted, lattice, leading_order_of, minus, mirror, moment, rewrite, same, terms,
+    times, usual)
 from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.symbols import (
     Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
@@ -99,12 +99,12 @@ DEEP = INSIDE.also(j >= 3, p + q >= 3)
 @cache
 def forces() -> tuple[Theorem, ...]:
     """The force of every contact below the load."""
-    loads = axioms.loads(axioms.POINT)
+    balancing = eq07.balancing(axioms.loads(axioms.POINT))
     plus = inducted(
         j,
         l - 1,
-        below(loads, eq07.right_angles()),
-        lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+        balancing(()),
+        balancing,
         FAMILY,
         down=True,
         mirrored=True,

@@ -12,7 +12,7 @@ from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, below, equation, inducted, lattice,
+    Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, equation, inducted, lattice,
     minus, rewrite, same, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, L_minus, L_plus, M, e_x, e_y, f_load, i, j,
@@ -54,13 +54,12 @@ SINE, COSINE = (Symbol(name, rf"\{name}\theta", f"{name} θ", real=True) for nam
 
 def _from_the_surface_down(statements: tuple[sympy.Eq, ...], domain: Domain) -> tuple[Theorem, ...]:
     """Both statements, by induction, balancing bead after bead."""
-    loads = axioms.loads(domain.loading)
-    first = below(loads, eq07.right_angles())
+    balancing = eq07.balancing(axioms.loads(domain.loading))
     return inducted(
         j,
         M - 1,
-        first,
-        lambda supposed: below((*supposed, *loads), eq07.right_angles()),
+        balancing(()),
+        balancing,
         [(one, domain) for one in statements],
         down=True,
     )
@@ -94,7 +93,7 @@ def steps() -> Steps:
                 times(ForceMinus(*above), eq10.branched_plus(i, j, 1)),
             ),
         ),
-        below(axioms.loads(axioms.SURFACE_TILTED), eq07.right_angles()),
+        eq07.balancing(axioms.loads(axioms.SURFACE_TILTED))(()),
         ON_SURFACE.also(j <= M - 2),
     )
     steps.show(

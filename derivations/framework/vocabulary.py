@@ -12,8 +12,8 @@ from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_heigh
 from force_diffusion.symbolic.kernel.limits import (
     asymptotic, leading_order_of, negligible, of_what_is_kept)
 from force_diffusion.symbolic.kernel.rules import (
-    along, below, differentiate, follows, induct, inducted, instance, mirror, mirror_of, order,
-    reach, rewrite, same, solve)
+    Rule, along, below, differentiate, follows, induct, inducted, instance, mirror, mirror_of,
+    order, reach, rewrite, same, solve)
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.mechanics import lattice
@@ -27,10 +27,10 @@ Groups = tuple[Group, ...]
 """Theorems to be put in one after the other; those of a group at once."""
 
 __all__ = [
-    "FIRST_ORDER", "Derivation", "Domain", "Groups", "Limit", "Step", "Steps", "Symbol", "Theorem",
-    "along", "asymptotic", "at_fixed_height", "axioms", "below", "certificate", "differentiate",
-    "equation", "follows", "formula", "induct", "inducted", "instance", "lattice",
-    "leading_order_of", "minus", "mirror", "mirror_of", "moment", "negligible", "of_what_is_kept",
-    "order", "power", "power_law", "reach", "rewrite", "same", "solve", "tensile", "terms", "times",
-    "usual",
+    "FIRST_ORDER", "Derivation", "Domain", "Groups", "Limit", "Rule", "Step", "Steps", "Symbol",
+    "Theorem", "along", "asymptotic", "at_fixed_height", "axioms", "below", "certificate",
+    "differentiate", "equation", "follows", "formula", "induct", "inducted", "instance",
+    "lattice", "leading_order_of", "minus", "mirror", "mirror_of", "moment", "negligible",
+    "of_what_is_kept", "order", "power", "power_law", "reach", "rewrite", "same", "solve",
+    "tensile", "terms", "times", "usual",
 ]  # fmt: skip
