@@ -7,7 +7,7 @@ from force_diffusion.derivations.calculator.statistics import mean
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Row, equals, goes_as, has_sign, leads, turns_positive)
+    Row, agrees_below_surface, equals, goes_as, has_sign, leads, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, ForceMinus, ForcePlus, M, e_y, i, j, n_y, phi, r, sigma, t, z)
@@ -42,7 +42,6 @@ def _upright(
     number: Number, load: str, symbol: sympy.Symbol, leading: sympy.Expr, turns: sympy.Expr
 ) -> Row:
     share = {"surface": Rational(1, 4), "bulk": Rational(1, 8)}[load]
-    below_surface = equals("force", ("B5", "force"), Eq(j, M - 1))
     return Row(
         number=number,
         name=f"mean_{load}",
@@ -59,8 +58,7 @@ def _upright(
             "at j = 0 they rise": goes_as("force", 3 * M * (1 - 2 * phi) * share * _UNIT, *BASE),
             "at j = 1 they fall for φ > −3/8, by shares that z → 0 does not give":
                 goes_as("force", -M * (3 + 8 * phi) * share * _UNIT, *ABOVE),
-            **({"one layer below the surface both loads agree": below_surface}
-               if load == "bulk" else {}),
+            **(agrees_below_surface("force", ("B5", "force")) if load == "bulk" else {}),
         },
     )  # fmt: skip
 
@@ -87,9 +85,7 @@ def _leaning(number: Number, load: str, upright: Number, own: sympy.Expr, other:
             f"for t = 1 it is Eq. {upright}":
                 equals("plus", (upright, "force"), at={t: sympy.S.One}),
             "f⁻ has 1/t in place of t": equals("minus", "plus", at={t: 1 / t}),
-            **({"one layer below the surface both loads agree":
-                    equals("plus", ("B15", "plus"), Eq(j, M - 1))}
-               if load == "bulk" else {}),
+            **(agrees_below_surface("plus", ("B15", "plus")) if load == "bulk" else {}),
         },
     )  # fmt: skip
 

@@ -11,7 +11,8 @@ from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import variance
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
-from force_diffusion.derivations.framework.rows import Row, averages_to, equals, goes_as, leads
+from force_diffusion.derivations.framework.rows import (
+    Row, agrees_below_surface, averages_to, equals, goes_as, leads)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceAlong, ForceMinus, ForcePlus, M, i, j, phi, r, sigma, t, t_2, t_3, z)
@@ -102,9 +103,7 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
                 goes_as("first", in_dimensions(load, 3).xreplace({z: sympy.S.Zero}), *BASE),
             "one layer below the surface it goes as 6(1 + 2φ + 3φ²) M (σ/r)²/[(1−φ)(1+2φ)]²":
                 goes_as("first", 6 * (1 + 2 * phi + 3 * phi**2) * M * IN_SPACE, *TOP),
-            **({"one layer below the surface both loads agree":
-                    equals("first", ("B13", "first"), Eq(j, M - 1))}
-               if load == "bulk" else {}),
+            **(agrees_below_surface("first", ("B13", "first")) if load == "bulk" else {}),
         },
     )  # fmt: skip
 

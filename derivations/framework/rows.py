@@ -18,7 +18,7 @@ from force_diffusion.symbolic.piecewise import PiecewiseFunction
 from force_diffusion.symbolic.printing.lines import stacked
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.signs import sign
-from force_diffusion.symbolic.symbols import M, Shift, z
+from force_diffusion.symbolic.symbols import M, Shift, j, z
 from force_diffusion.symbolic.words import in_words
 
 from .catalogue import Number
@@ -199,6 +199,12 @@ def equals(
         return ruled(apart.on(function.points).is_zero(), f"{text(form.quantity)} is another one")
 
     return decide
+
+
+def agrees_below_surface(name: str, surface: tuple[Number, str]) -> dict[str, Decide]:
+    """The claim that under a bulk load the highest layer is that of a surface load."""
+    words = "one layer below the surface both loads agree"
+    return {words: equals(name, surface, sympy.Eq(j, M - 1))}
 
 
 def adds_up_to_zero(name: str, index: sympy.Symbol, weight: sympy.Expr = sympy.S.One) -> Decide:

@@ -1,5 +1,6 @@
 """Tiny derivations with a known fate, for tests of all that surrounds a derivation."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import sympy
@@ -59,21 +60,18 @@ CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", steps=conc
 
 def with_claim(rule: Rule) -> Derivation:
     """The conclusion with a claim that a rule is to prove."""
-
-    def steps() -> Steps:
-        found = conclusion()
-        found.claim("doubtful", TWICE, rule)
-        return found
-
-    return replace(CONCLUSION, steps=steps)
+    return _with(lambda steps: steps.claim("doubtful", TWICE, rule))
 
 
 def with_step(rule: Rule) -> Derivation:
     """The conclusion with a step that a rule is to prove."""
+    return _with(lambda steps: steps.show("So it is.", TWICE, rule))
 
+
+def _with(added: Callable[[Steps], object]) -> Derivation:
     def steps() -> Steps:
-        found = conclusion()
-        found.show("So it is.", TWICE, rule)
-        return found
+        proof = conclusion()
+        added(proof)
+        return proof
 
     return replace(CONCLUSION, steps=steps)

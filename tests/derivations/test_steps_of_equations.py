@@ -29,6 +29,17 @@ AT_RIGHT_ANGLES = "a change of direction is at right angles to its contact, at e
 NOTHING_THERE = "the weight of the layer that is added, left out or counted elsewhere is zero there"
 DROPPED_ANYWAY = "weights of order 1 change, and these are what the step drops"
 
+OF_ACROSS = (
+    "left: sign of (y − Y)² flipped",
+    "left: (y − Y)² dropped",
+    "left: sign of y flipped",
+    "left: y dropped",
+    "left: sign of −Y flipped",
+    "left: −Y dropped",
+    "left: 2 changed to 3",
+)
+OF_UP = tuple(change.replace("y", "x").replace("Y", "X") for change in OF_ACROSS)
+"""Changes that a derivative by x, or by y, does not see."""
 SAME = {
     ("4", 4): (
         AT_RIGHT_ANGLES,
@@ -63,39 +74,16 @@ SAME = {
     ),
     ("6", 1): (
         "a derivative does not see what does not depend on its variable",
-        "left: sign of (y − Y)² flipped",
-        "left: (y − Y)² dropped",
-        "left: sign of y flipped",
-        "left: y dropped",
-        "left: sign of −Y flipped",
-        "left: −Y dropped",
-        "left: 2 changed to 3",
-        "left: sign of (x − X)² flipped",
-        "left: (x − X)² dropped",
-        "left: sign of x flipped",
-        "left: x dropped",
-        "left: sign of −X flipped",
-        "left: −X dropped",
-        "left: 2 changed to 3",
+        *OF_ACROSS,
+        *OF_UP,
     ),
     ("6", 2): (
         "a derivative does not see what does not depend on its variable; its square has no sign",
-        "left: sign of (x − X)² flipped",
-        "left: sign of (y − Y)² flipped",
-        "left: (y − Y)² dropped",
-        "left: sign of y flipped",
-        "left: y dropped",
-        "left: sign of −Y flipped",
-        "left: −Y dropped",
-        "left: 2 changed to 3",
-        "left: sign of (x − X)² flipped",
-        "left: (x − X)² dropped",
-        "left: sign of (y − Y)² flipped",
-        "left: sign of x flipped",
-        "left: x dropped",
-        "left: sign of −X flipped",
-        "left: −X dropped",
-        "left: 2 changed to 3",
+        OF_UP[0],
+        *OF_ACROSS,
+        *OF_UP[:2],
+        OF_ACROSS[0],
+        *OF_UP[2:],
     ),
     ("14", 3): (
         NOTHING_THERE,

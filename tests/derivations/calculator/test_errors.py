@@ -116,19 +116,7 @@ def test_ratios(ratio: Any) -> None:
         fd.leaning(ratio)
 
 
-class Words:
-    """Something that reads as code."""
-
-    def __init__(self, code: str) -> None:
-        self.code = code
-
-    def __str__(self) -> str:
-        return self.code
-
-    __repr__ = __str__
-
-
-@pytest.mark.parametrize("wrapped", [str, lambda code: [code], Words])
+@pytest.mark.parametrize("wrapped", [str, lambda code: [code], Exception])
 @pytest.mark.parametrize(
     "ask",
     [
