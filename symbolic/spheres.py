@@ -153,7 +153,7 @@ def _vertical(load: str, axis: int) -> Known:
     return vertical(_force(load, axis), 3, axis)
 
 
-def known(load: str) -> Mapping[type, Axes]:
+def known_forces(load: str) -> Mapping[type, Axes]:
     """The forces of all contacts of a packing of spheres, by axis."""
     return {
         ForceAlong: Axes(partial(_force, load)),

@@ -243,18 +243,6 @@ class MeanOver(Function):  # type: ignore[misc]
         return f"mean of {count} neighbours ({quantity})"
 
 
-class LargestWeight(Function):  # type: ignore[misc]
-    """The largest weight of a radius in X, without its sign (X over a length)."""
-
-    nargs = 1
-
-    def _latex(self, printer: Any) -> str:
-        return rf"\max |w| \left( {printer._print(self.args[0])} \right)"
-
-    def _text(self, printer: Any) -> str:
-        return f"max |w|({printer._print(self.args[0])})"
-
-
 class UnitHeight(Function):  # type: ignore[misc]
     """The height M at which the leading order of X(M) is 1, as M → ∞; X keeps its symbol M."""
 

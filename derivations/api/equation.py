@@ -163,7 +163,7 @@ class Equation:
         >>> [type(line).__name__ for line in fd.equation(7).expr]
         ['Equality', 'Equality']
         """
-        return _one_or_tuple(self._derivation.printed)
+        return _expression_or_tuple(self._derivation.printed)
 
     @property
     def rhs(self) -> sympy.Basic:
@@ -177,7 +177,7 @@ class Equation:
         >>> eq.rhs.subs({M: 10, z: 0})
         2000*sigma**2/(r**2*(1 - phi**2)**2)
         """
-        return _one_or_tuple(line.rhs for line in self._derivation.printed)
+        return _expression_or_tuple(line.rhs for line in self._derivation.printed)
 
     @property
     def symbols(self) -> dict[str, Any]:
@@ -465,7 +465,7 @@ def _put_in(side: sympy.Expr, values: Mapping[sympy.Symbol, sympy.Rational], _: 
     return side.xreplace(values)
 
 
-def _one_or_tuple(parts: Iterable[sympy.Basic]) -> sympy.Basic:
+def _expression_or_tuple(parts: Iterable[sympy.Basic]) -> sympy.Basic:
     first, *others = parts
     return sympy.Tuple(first, *others) if others else first
 

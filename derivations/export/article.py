@@ -166,11 +166,11 @@ def _made(info: str, markdown: str) -> str:
     """What a fence stands for, as Markdown. Raises ``ArticleError`` where that is nothing."""
     if info == "{exact-forms}":
         return "\n".join(_forms(load(label), 1) for label in own_equations(markdown))
-    number, body = _stated(info, 1)
+    number, body = _number_and_latex(info, 1)
     return f"({number})\n\n{_display(body)}"
 
 
-def _stated(info: str, columns: int) -> tuple[Number, str]:
+def _number_and_latex(info: str, columns: int) -> tuple[Number, str]:
     """The equation that a fence stands for, and its LaTeX.
 
     Raises ``ArticleError`` where there is none.
@@ -293,7 +293,7 @@ class _Writer:
             return _table(_inline(more), inner)
         if info == "{exact-forms}":
             return self.written("\n".join(_forms(load(one), COLUMNS) for one in self.numbers))
-        number, body = _stated(info, COLUMNS)
+        number, body = _number_and_latex(info, COLUMNS)
         place = number if isinstance(number, int) else self.numbers[number]
         label = f"\\label{{eq:fd{number}}}"
         display = f"\\begin{{equation}}{label}\n{body}\n\\end{{equation}}\n"

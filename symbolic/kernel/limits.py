@@ -253,7 +253,7 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
 
 
 def _variance(form: Form, domain: Domain) -> RationalFunction:
-    return _one_function(covariance(form, form), domain)
+    return _formula_in_the_limit(covariance(form, form), domain)
 
 
 # one function in all of a limit
@@ -273,7 +273,7 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
         raise NotProvedError(str(reason)) from None
     if {*number.parts} - {NUMBER}:
         raise NotProvedError(f"{text(side)} belongs to single beads")
-    return _one_function(number.parts.get(NUMBER, Weights()), domain)
+    return _formula_in_the_limit(number.parts.get(NUMBER, Weights()), domain)
 
 
 def _at_height(side: sympy.Expr, domain: Domain) -> sympy.Expr:
@@ -284,7 +284,7 @@ def _at_height(side: sympy.Expr, domain: Domain) -> sympy.Expr:
     return in_place(side, {one: value for one, value in image.items() if side.has(one)})
 
 
-def _one_function(number: Weights, domain: Domain) -> RationalFunction:
+def _formula_in_the_limit(number: Weights, domain: Domain) -> RationalFunction:
     limit = domain.limit
     assert limit is not None
     back = {s: FIELD.from_sympy(at) for s, at in domain.straight.back.items()}

@@ -226,13 +226,13 @@ def _named(
 def _slope(row: Form, name: sympy.Symbol, names: Sequence[sympy.Symbol]) -> Form:
     """The factor of an unknown number, of which a row is a linear function."""
 
-    def one(value: RationalFunction) -> RationalFunction:
-        found = value.coefficients(name)
-        if len(found) > 2 or any(found[-1].holds(other) for other in names if len(found) == 2):
+    def slope(value: RationalFunction) -> RationalFunction:
+        powers = value.coefficients(name)
+        if len(powers) > 2 or any(powers[-1].holds(other) for other in names if len(powers) == 2):
             raise NotProvedError("an equation to be solved is not linear")
-        return found[1] if len(found) == 2 else FIELD.zero
+        return powers[1] if len(powers) == 2 else FIELD.zero
 
-    return row.mapped(lambda weights: weights.mapped(one))
+    return row.mapped(lambda weights: weights.mapped(slope))
 
 
 def _without(value: RationalFunction, names: Sequence[sympy.Symbol]) -> RationalFunction:

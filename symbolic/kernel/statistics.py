@@ -28,9 +28,9 @@ from .theorem import (
     check_domain,
     difference,
     flat,
+    in_kernel_symbols,
     knowing,
     made,
-    meant,
     refuse,
 )
 
@@ -108,7 +108,7 @@ class Statistics(Reader):
         if self.domain.dimension == _PLANE:
             reader = knowing(plain, self.domain, self.groups, kind)
         elif linear and loading and loading in SPHERES.values():
-            reader = replace(plain, known=spheres.known(loading.name))
+            reader = replace(plain, known=spheres.known_forces(loading.name))
         else:
             raise NotExactError("that is not known in three dimensions")
         form = reader.number(expression).on(self.points).merged()
@@ -140,7 +140,7 @@ def moment(*groups: Group, on: Domain | None = None) -> Rule:
             raise NotProvedError("the larger domain is another one")
         if not domain.points.is_subset(whole.points):
             raise NotProvedError("the domain is no part of the larger one")
-        left, right = meant(formula, domain)
+        left, right = in_kernel_symbols(formula, domain)
         try:
             forms = worked_out(left, whole, groups), worked_out(right, domain, groups)
         except NotAStatementError:

@@ -213,7 +213,7 @@ def _is_quantity(node: sympy.Basic) -> bool:
 
 
 @lru_cache(maxsize=4096)
-def known(
+def known_quantities(
     groups: tuple[Group, ...], loading: Loading | None, kind: type[Form] = Form
 ) -> Mapping[type, tuple[Known, ...]]:
     """What theorems say of quantities, in terms of what those of later groups say.
@@ -224,8 +224,10 @@ def known(
     if not groups:
         return {}
     if kind is not Form:
-        return Means(known(groups, loading), loading.place[-1] if loading else None).jets()
-    later = known(groups[1:], loading)
+        return Means(
+            known_quantities(groups, loading), loading.place[-1] if loading else None
+        ).jets()
+    later = known_quantities(groups[1:], loading)
     found: dict[type, tuple[Known, ...]] = {}
     for theorem in flat(groups[:1]):
         about, what = _what_it_says(_under(theorem, loading), later)
@@ -351,7 +353,7 @@ def read(formula: sympy.Eq, domain: Domain, groups: Groups = ()) -> Sides:
 
 def knowing(reader: Reader, domain: Domain, groups: Groups, kind: type[Form] = Form) -> Reader:
     """A reader on a domain that puts theorems in, one group after the other."""
-    facts = known(tuple(groups), domain.loading, kind)  # type: ignore[arg-type]
+    facts = known_quantities(tuple(groups), domain.loading, kind)  # type: ignore[arg-type]
     for theorem in flat(groups):
         here = _under(theorem, domain.loading)
         for symbol in _named(here) & {*domain.indices}:
@@ -367,7 +369,7 @@ def _named(theorem: Theorem) -> set[sympy.Symbol]:
     return theorem.fixed | (loading.fixed if loading else set())
 
 
-def meant(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
+def in_kernel_symbols(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
     """Both sides, in the symbols of the exact field; s is 4rn_x, and with j and M, z is j/M."""
     image: dict[sympy.Symbol, sympy.Expr] = dict(names_for(formula))
     image[sy.spacing] = 4 * sy.r * sy.n_x
@@ -383,7 +385,7 @@ def both_sides(formula: sympy.Eq, domain: Domain, reader: Reader) -> Sides:
     try:
         left, right = (
             side if isinstance(side, tuple) else (side,)
-            for side in map(reader.read, meant(formula, domain))
+            for side in map(reader.read, in_kernel_symbols(formula, domain))
         )
     except NotAStatementError:
         raise
