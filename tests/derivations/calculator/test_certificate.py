@@ -23,7 +23,7 @@ from force_diffusion.symbolic import words
 import force_diffusion as fd
 from tests.soundness.witnesses.moments import Packing, Spheres, exact
 
-HIGHEST = 19
+HIGHEST = 29
 """Of packings that are looked at."""
 FARTHER = 3
 """Heights at which no point is to be new before there is held to be none."""
