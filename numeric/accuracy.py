@@ -32,7 +32,7 @@ from .planning.plan import CERTIFY, Plan
 from .planning.planner import PRINTED, UNIT, UNSEEN, gathering, initial_bits
 from .quantities.answer import Answer, answer
 from .quantities.base import RATIO, SCATTER_OF, Table
-from .tables import significant, text_of
+from .tables import significant
 
 CARRIED = "estimated, as the sweep carried it, not certified"
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
@@ -260,19 +260,18 @@ def most_digits(system: Balls) -> int:
 
 def printed(
     table: Table, accuracy: Accuracy, system: NumberSystem, *, sampled: bool
-) -> dict[str, Array]:
+) -> dict[str, list[str]]:
     """Give the number columns as text (see ``tables``), each number with the digits that are known.
 
     Standard errors stand beside their columns, with three digits, and nothing where they are not
     known. ``sampled``: whether to leave out digits that would be others in another sample.
     """
-    numbers: dict[str, Array] = {}
+    numbers: dict[str, list[str]] = {}
     for name, column in table.numbers.items():
         sampling = _of_sampling(table, name) if sampled else 0.0
         if isinstance(system, Balls) and not np.any(sampling):
             most = most_digits(system)
-            known = ["0" if v.contains(0) else v.str(most, radius=False) for v in column]
-            numbers[name] = text_of(known)
+            numbers[name] = ["0" if v.contains(0) else v.str(most, radius=False) for v in column]
         else:  # what scatters needs no more than a float has
             error = _of_arithmetic(table, name, accuracy)
             numbers[name] = known_digits(as_floats(column), error, sampling)
@@ -281,11 +280,9 @@ def printed(
     return numbers
 
 
-def of_errors(errors: Array) -> Array:
+def of_errors(errors: Array) -> list[str]:
     """Write standard errors with three digits; nothing where there is none."""
-    text = significant(errors, np.full(len(errors), 3))
-    text[~np.isfinite(errors)] = 0
-    return text
+    return significant(np.where(np.isfinite(errors), errors, np.nan), np.full(len(errors), 3))
 
 
 def _of_arithmetic(table: Table, name: str, accuracy: Accuracy) -> Array | float:
@@ -310,7 +307,7 @@ def _over(table: Table, name: str) -> Array | float:
     return np.where(mean > 0, mean, 1.0)  # smaller than any float: so is the error
 
 
-def known_digits(column: Array, error: Array | float, sampling: Array | float = 0.0) -> Array:
+def known_digits(column: Array, error: Array | float, sampling: Array | float = 0.0) -> list[str]:
     """Write float64 as text, up to two digits beyond its absolute errors.
 
     A number that the ``error`` of its arithmetic swallows is 0; ``sampling`` swallows none. What is
@@ -324,6 +321,4 @@ def known_digits(column: Array, error: Array | float, sampling: Array | float = 
         seen = np.floor(np.log10(np.maximum(off, sampling)))
         digits = np.floor(np.log10(size)) - seen + 2
     digits = np.where(known, np.clip(digits, 1, 17), 1).astype(np.int64)
-    text = significant(np.where(known | ~np.isfinite(column), column, 0.0), digits)
-    text[np.isnan(column)] = 0
-    return text
+    return significant(np.where(known | ~np.isfinite(column), column, 0.0), digits)

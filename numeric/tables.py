@@ -1,13 +1,8 @@
-"""Results as rows, as tables to be looked at, and as columns of text, all rows at once.
-
-A column of text is a matrix of bytes, a row each, in which zero bytes stand for nothing and are
-dropped in the end: so CSV and JSON are written in less time than solving takes.
-"""
+"""Results as rows, as tables to be looked at, and as columns of text."""
 
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
-from fractions import Fraction
 from functools import cache
 from html import escape
 from typing import Any
@@ -18,11 +13,6 @@ from .arithmetic.systems import Array
 
 Row = dict[str, Any]
 SHOWN = 20
-# Rows that are worked on together: they fit into a cache.
-BLOCK = 8192
-MOST = 17  # digits that tell all doubles apart
-# Numbers within 10^±BULK are written here, the few others one by one.
-BULK = 250
 
 
 def rows_of(columns: Mapping[str, Array]) -> list[Row]:
@@ -106,196 +96,42 @@ def _cell(value: Any) -> str:
     return escape(f"{value:.6g}" if isinstance(value, float) else str(value))
 
 
-def significant(values: Array, digits: Array) -> Array:
-    """Write float64 with 1 to 17 significant digits each, as ``f"{value:.{digits}g}"`` does.
+def significant(values: Array, digits: Array) -> list[str]:
+    """Write float64 with 1 to 17 significant digits each; nothing for NaN.
 
-    >>> strings(significant(np.array([0.75, -1.25e-7]), np.array([17, 2])))
-    ['0.75', '-1.2e-07']
+    >>> significant(np.array([0.75, -1.25e-7, np.nan]), np.array([17, 2, 3]))
+    ['0.75', '-1.2e-07', '']
     """
-    blocks = [
-        _significant(values[at : at + BLOCK], digits[at : at + BLOCK])
-        for at in range(0, len(values), BLOCK)
-    ]
-    width = max((block.shape[1] for block in blocks), default=0)
-    found = np.zeros((len(values), width), np.uint8)
-    for n, block in enumerate(blocks):
-        found[n * BLOCK : n * BLOCK + len(block), : block.shape[1]] = block
-    return found
+    pairs = zip(values.tolist(), digits.tolist(), strict=True)
+    return [f"{value:.{count}g}" if not math.isnan(value) else "" for value, count in pairs]
 
 
-def _significant(values: Array, digits: Array) -> Array:
-    size = np.abs(values)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        power = np.floor(np.log10(size))
-        usual = np.abs(power) < BULK
-    power = np.where(usual, power, 0).astype(np.int64)
-    size = np.where(usual, size, 1.0)
-    high, low = (part[power + BULK + MOST] for part in _powers())
-    power -= (size < high) | ((size == high) & (low > 0))  # where the logarithm was rounded up
-    whole, sure = _scaled(size, digits - 1 - power)
-    # what is rounded up to a power of ten has a digit too many
-    sure &= usual & (whole >= _WHOLE_POWERS[digits - 1]) & (whole < _WHOLE_POWERS[digits])
-    figures = _figures(np.where(sure, whole * _WHOLE_POWERS[MOST - digits], 0))
-    zero = values == 0
-    others = np.flatnonzero(~(sure | zero))
-    one_by_one = {int(n): f"{values[n]:.{digits[n]}g}" for n in others}
-    width = max([MOST + 7, *map(len, one_by_one.values())])
-    text = np.zeros((len(values), width), np.uint8)
-    fixed = (power >= -4) & (power < digits)
-    layout = power + BULK + np.where(fixed, 0, 2 * BULK)
-    for key in np.flatnonzero(np.bincount(layout[sure], minlength=1)).tolist():
-        rows = np.flatnonzero(sure & (layout == key))
-        form, exponent = divmod(key, 2 * BULK)
-        laid = (_scientific if form else _fixed)(figures[rows], exponent - BULK)
-        text[rows, 1 : laid.shape[1] + 1] = laid
-    text[zero, 1] = ord("0")
-    text[:, 0] = np.where(np.signbit(values), ord("-"), 0)
-    for n, shown in one_by_one.items():
-        text[n] = 0
-        text[n, : len(shown)] = np.frombuffer(shown.encode(), np.uint8)
-    return text
+def text_of(column: Array) -> list[str]:
+    """Write whole numbers, or words without quotes and commas.
 
-
-_WHOLE_POWERS = 10 ** np.arange(MOST + 1, dtype=np.int64)
-
-
-@cache
-def _powers() -> tuple[Array, Array]:
-    """Give 10^k for |k| ≤ BULK + MOST as sums of two doubles."""
-    exact = [Fraction(10) ** k for k in range(-BULK - MOST, BULK + MOST + 1)]
-    high = [float(value) for value in exact]
-    low = [float(value - Fraction(near)) for value, near in zip(exact, high, strict=True)]
-    return np.array(high), np.array(low)
-
-
-def _scaled(size: Array, power: Array) -> tuple[Array, Array]:
-    """Round size × 10^power to whole numbers, and say which are sure: no tie, as far as 2^-90."""
-    high, low = (part[power + BULK + MOST] for part in _powers())
-    product = size * high
-    size_high, size_low = _halves(size)
-    high_high, high_low = _halves(high)
-    lost = size_low * high_low - (
-        ((product - size_high * high_high) - size_low * high_high) - size_high * high_low
-    )
-    near = np.rint(product)
-    rest = (product - near) + (lost + size * low)
-    step = np.rint(rest)
-    return near.astype(np.int64) + step.astype(np.int64), np.abs(rest - step) < 0.5 - 1e-6
-
-
-def _halves(value: Array) -> tuple[Array, Array]:
-    """Cut doubles into two halves of 26 bits (Dekker)."""
-    much = value * 134217729.0
-    high = much - (much - value)
-    return high, value - high
-
-
-@cache
-def _quads() -> Array:
-    """Give four figures as one number of 32 bits; then the same without zeros at their end."""
-    listed = [f"{n:04d}".encode() for n in range(10_000)]
-    whole = b"".join([*listed, *(four.rstrip(b"0").ljust(4, b"\0") for four in listed)])
-    return np.frombuffer(whole, np.uint32)
-
-
-def _figures(whole: Array) -> Array:
-    """Give the 17 decimal figures of whole numbers, shape (rows, 17); zeros at the end are 0."""
-    fours = -(-MOST // 4)
-    found = np.empty((len(whole), fours), np.uint32)
-    nothing_follows = np.full(len(whole), True)
-    for n in reversed(range(fours)):
-        rest = whole // 10_000
-        four = whole - rest * 10_000
-        found[:, n] = _quads()[four + 10_000 * nothing_follows]
-        nothing_follows &= four == 0
-        whole = rest
-    return found.view(np.uint8)[:, 4 * fours - MOST :]
-
-
-def _fixed(figures: Array, power: int) -> Array:
-    if power < 0:
-        lead = np.frombuffer(b"0." + b"0" * (-power - 1), np.uint8)
-        return np.hstack([np.broadcast_to(lead, (len(figures), len(lead))), figures])
-    before, after = figures[:, : power + 1], figures[:, power + 1 :]
-    point = np.where(after[:, :1] > 0, ord("."), 0).astype(np.uint8)
-    return np.hstack([np.where(before > 0, before, ord("0")).astype(np.uint8), point, after])
-
-
-def _scientific(figures: Array, power: int) -> Array:
-    point = np.where(figures[:, 1:2] > 0, ord("."), 0).astype(np.uint8)
-    tail = np.frombuffer(f"e{power:+03d}".encode(), np.uint8)
-    tails = np.broadcast_to(tail, (len(figures), len(tail)))
-    return np.hstack([figures[:, :1], point, figures[:, 1:], tails])
-
-
-def text_of(column: Sequence[object] | Array) -> Array:
-    """Write whole numbers, or words without quotes and commas, as text.
-
-    >>> strings(text_of([3, -12])), strings(text_of(["+", "-"]))
+    >>> text_of(np.array([3, -12])), text_of(np.array(["+", "-"]))
     (['3', '-12'], ['+', '-'])
     """
-    values = np.asarray(column)
-    if values.dtype.kind == "i" and len(values):
-        low, high = int(values.min()), int(values.max())
-        if high - low < max(len(values), 1000):  # few numbers, many times
-            listed = np.array([b"%d" % n for n in range(low, high + 1)])
-            return np.asarray(_bytes(listed)[values - low])
-    return _bytes(values.astype("S"))
+    shared = cache(str)  # few sites and branches, many times
+    return list(map(shared, column.tolist()))
 
 
-def _bytes(values: Array) -> Array:
-    return values.view(np.uint8).reshape(len(values), values.dtype.itemsize)
-
-
-def strings(text: Array) -> list[str]:
-    """Give a column of text as strings."""
-    if not len(text):
-        return []
-    ended = np.hstack([text, np.full((len(text), 1), ord("\n"), np.uint8)])
-    return ended.tobytes().translate(None, b"\0").decode().split("\n")[:-1]
-
-
-def rows_of_text(columns: Mapping[str, Array], whole: Sequence[str]) -> list[dict[str, Any]]:
+def rows_of_text(columns: Mapping[str, list[str]], whole: Sequence[str]) -> list[Row]:
     """Give columns of text row by row: those that are ``whole`` as int, the others as strings."""
-    listed = [
-        list(map(int, strings(text))) if name in whole else strings(text)
-        for name, text in columns.items()
-    ]
+    listed = [map(int, text) if name in whole else text for name, text in columns.items()]
     return [dict(zip(columns, row, strict=True)) for row in zip(*listed, strict=True)]
 
 
-def csv_bytes(columns: Mapping[str, Array]) -> bytes:
+def csv_bytes(columns: Mapping[str, list[str]]) -> bytes:
     """Write columns of text as CSV: a header, and the rows."""
     if not columns:
         return b""
-    parts = [part for text in columns.values() for part in (text, b",")]
-    return ",".join(columns).encode() + b"\n" + _rows([*parts[:-1], b"\n"])
+    rows = map(",".join, zip(*columns.values(), strict=True))
+    return "\n".join([",".join(columns), *rows, ""]).encode()
 
 
-def json_rows(columns: Mapping[str, Array], bare: Sequence[str]) -> bytes:
+def json_rows(columns: Mapping[str, list[str]], bare: Sequence[str]) -> bytes:
     """Write columns of text as JSON objects, a line a row; all but the ``bare`` are strings."""
-    if not columns or not len(next(iter(columns.values()))):
-        return b""
-    parts: list[Array | bytes] = []
-    for n, (name, text) in enumerate(columns.items()):
-        quote = "" if name in bare else '"'
-        parts += [f'{", " if n else "      {"}"{name}": {quote}'.encode(), text, quote.encode()]
-    return _rows([*parts, b"},\n"])[:-2]
-
-
-def _rows(parts: Sequence[Array | bytes]) -> bytes:
-    """Put columns of text and what stands between them side by side."""
-    count = next(len(part) for part in parts if not isinstance(part, bytes))
-    widths = [len(part) if isinstance(part, bytes) else part.shape[1] for part in parts]
-    found = []
-    for at in range(0, count, BLOCK):
-        rows = np.empty((min(BLOCK, count - at), sum(widths)), np.uint8)
-        left = 0
-        for part, width in zip(parts, widths, strict=True):
-            put = (
-                np.frombuffer(part, np.uint8) if isinstance(part, bytes) else part[at : at + BLOCK]
-            )
-            rows[:, left : left + width] = put
-            left += width
-        found.append(rows.tobytes().translate(None, b"\0"))
-    return b"".join(found)
+    places = {name: "%s" if name in bare else '"%s"' for name in columns}
+    form = "      {" + ", ".join(f'"{name}": {place}' for name, place in places.items()) + "}"
+    return ",\n".join(form % row for row in zip(*columns.values(), strict=True)).encode()

@@ -15,7 +15,7 @@ from typing import Any, Protocol
 import numpy as np
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import Array
-from force_diffusion.numeric.tables import csv_bytes, json_rows, strings
+from force_diffusion.numeric.tables import csv_bytes, json_rows
 
 
 class Format(StrEnum):
@@ -42,7 +42,7 @@ class Answered(Protocol):
         """The columns as numbers."""
 
     @property
-    def text(self) -> dict[str, Array]:
+    def text(self) -> dict[str, list[str]]:
         """The columns as text."""
 
     @property
@@ -97,7 +97,7 @@ def _column(answer: Answered, name: str) -> Array:
     column = answer.arrays[name]
     if column.dtype == np.float64 or column.dtype.kind in "iU":
         return column
-    return np.array(strings(answer.text[name]), dtype=np.str_)
+    return np.array(answer.text[name], dtype=np.str_)
 
 
 def _npz(columns: dict[str, Array], about: str) -> bytes:

@@ -132,12 +132,12 @@ class Ensemble(Estimates):
         return len(next(iter(self.arrays.values())))
 
     @cached_property
-    def text(self) -> dict[str, Array]:
+    def text(self) -> dict[str, list[str]]:
         """The columns as text (``tables``): digits that another sample would have, too."""
         return self._text_of(self.arrays)
 
-    def _text_of(self, columns: dict[str, Array]) -> dict[str, Array]:
-        found = {}
+    def _text_of(self, columns: dict[str, Array]) -> dict[str, list[str]]:
+        found: dict[str, list[str]] = {}
         for name, column in columns.items():
             if column.dtype.kind != "f":
                 found[name] = text_of(column)

@@ -16,7 +16,7 @@ BALL_BEAD, LISTED, FILE_LINE = 2200, 3500, 600
 # Bytes of a layer: in the plan, and while it is solved in memory.
 PLAN_LAYER, SOLVED_LAYER = 150, 750
 # What a row of the answer takes: its names, a number, and that as text.
-NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 150, 1300
+NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 190, 1300
 INTERPRETER = 85_000_000
 # The compiler that the extra ``fast`` brings, and what it leaves behind.
 COMPILED = 150_000_000

@@ -112,11 +112,11 @@ class Outcome:
         return len(next(iter(self.arrays.values()), ()))
 
     @cached_property
-    def text(self) -> dict[str, Array]:
+    def text(self) -> dict[str, list[str]]:
         """The columns of the answer as text, see ``numeric.tables``: decimals with known digits."""
         if self.answer.bins is not None:
             rows = bins.printed(self.answer.bins)
-            return {name: text_of([row[name] for row in rows]) for name in ("low", "high", "count")}
+            return {name: [str(row[name]) for row in rows] for name in ("low", "high", "count")}
         system, table = self.plan.system, self.answer.table
         with system.active():
             # a tolerance asks for the digits of these very packings

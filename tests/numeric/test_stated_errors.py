@@ -17,7 +17,6 @@ from force_diffusion.numeric.quantities.answer import answer
 from force_diffusion.numeric.quantities.base import RATIO
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.run.running import run
-from force_diffusion.numeric.tables import strings
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -115,7 +114,7 @@ def beyond(outcome: Outcome) -> float:
         stated = as_ball(outcome.accuracy.error_bound) * largest
         for name in true if outcome.answer.bins is None else ():
             for text, value, mean in zip(
-                strings(outcome.text[name]), true[name], true.get("mean", true[name]), strict=True
+                outcome.text[name], true[name], true.get("mean", true[name]), strict=True
             ):
                 own = 0 if name in exact.small else abs(value) * 2.0**-50
                 allowed = stated / (abs(mean) if name == RATIO else 1) + own
@@ -137,7 +136,7 @@ def test_printing_takes_half_of_the_stated_error(value: float, ratio: float) -> 
     """Of a change: the other half is what the number itself may be off."""
     error = abs(value) * ratio
     assume(error > 1e-290)
-    (text,) = strings(known_digits(np.array([value]), error))
+    (text,) = known_digits(np.array([value]), error)
     assert abs(Fraction(text) - Fraction(value)) <= Fraction(error) / 2 * (1 + Fraction(1, 10**15))
 
 

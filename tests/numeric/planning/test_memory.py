@@ -73,7 +73,7 @@ def test_a_plan_says_gigabytes_where_it_takes_some() -> None:
             "ask": {"quantity": "histogram", "bins": 1_000_000},
         }
     )
-    assert "Memory: about 1.13 GB" in str(plan)
+    assert "Memory: about 1.21 GB" in str(plan)
 
 
 @pytest.mark.parametrize(
