@@ -31,8 +31,8 @@ def derive(
         typer.Option(
             metavar="DIR",
             parser=folder_of,
-            help="Write the article about the equations beyond the paper into this folder, LaTeX "
-            "and figures; it says which of them were proved. Needs matplotlib.",
+            help="Write the article about the equations beyond the paper into this folder: LaTeX, "
+            "figures, and a supplement that says which were proved. Needs matplotlib.",
         ),
     ] = None,
     overwrite: Overwrite = False,

@@ -187,9 +187,10 @@ class ClosedForm:
     @property
     def domain(self) -> str:
         """Where it holds, in words: where all contacts and beads that it names exist."""
-        return ", ".join(self._domain())
+        return ", ".join(self.conditions())
 
-    def _domain(self, style: words.Style = words.TEXT) -> list[str]:
+    def conditions(self, style: words.Style = words.TEXT) -> list[str]:
+        """The same, one by one."""
         relations, even = self._conditions_of(self._needed)
         suffix = r" \text{ even}" if style is words.LATEX else " even"
         return [*words.parts(relations, style), *(style.shown(one) + suffix for one in even)]
@@ -333,7 +334,7 @@ class ClosedForm:
 
     def _shown(self, pieces: Sequence[Piece], columns: int, size: float = 1.0) -> str:
         """LaTeX of some of its pieces, in type of some size."""
-        room, domain = column_width(columns) / size, self._domain(words.LATEX)
+        room, domain = column_width(columns) / size, self.conditions(words.LATEX)
         below = _with_commas(domain, "for")
         if len(pieces) == 1:
             (piece,) = pieces

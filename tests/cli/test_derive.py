@@ -144,10 +144,10 @@ def test_the_article_says_what_was_derived(made_up, drawn, tmp_path: Path, capsy
     assert main(command) == 0
     assert f"2 proved. Written to {out} and {paper}." in capsys.readouterr().out
     first = {path.name: path.read_bytes() for path in paper.iterdir()}
-    assert {"article.tex", "figureB2.pdf"} < set(first)
+    assert {"article.tex", "supplement.tex", "figureB2.pdf"} < set(first)
     assert "x.csv" not in first
-    article = " ".join(first["article.tex"].decode().split())
-    assert "derived 2 equations: 2 proved. Not derived in it:" in article
+    supplement = " ".join(first["supplement.tex"].decode().split())
+    assert "derived 2 equations: 2 proved. Not derived in it:" in supplement
     assert "equations.tex" in {path.name for path in out.iterdir()}
     assert main([*command, "--overwrite"]) == 0
     assert {path.name: path.read_bytes() for path in paper.iterdir()} == first
