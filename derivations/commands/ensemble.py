@@ -2,9 +2,9 @@
 
 import json
 import sys
-from collections.abc import Callable
-from contextlib import ExitStack
-from enum import StrEnum
+from collections.abc import Callable, Iterator
+from concurrent.futures import Executor
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -24,12 +24,8 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.scene.scene import Scene
 
 MOST_TOLD = 10**9
-
-
-class Where(StrEnum):
-    """Where a cluster is made."""
-
-    LOCAL = "local"
+# Seconds until a scheduler has to answer, and until a worker of it has to be there.
+TO_ANSWER, TO_BE_THERE = 10, 30
 
 
 STATUSES = (
@@ -63,14 +59,14 @@ def ensemble(
     ] = 0.95,
     workers: Annotated[
         int | None,
-        typer.Option(metavar="K", help="Processes; by default as many as there are cores."),
+        typer.Option(
+            metavar="K",
+            help="Threads of compiled loops, or else processes; by default as many as cores.",
+        ),
     ] = None,
     scheduler: Annotated[
         str | None,
         typer.Option(metavar="ADDRESS", help="Let the Dask cluster there work: tcp://host:8786."),
-    ] = None,
-    cluster: Annotated[
-        Where | None, typer.Option(help="Make a Dask cluster on this machine.")
     ] = None,
     reach: Annotated[
         float | None,
@@ -83,17 +79,15 @@ def ensemble(
     overwrite: Overwrite = False,
 ) -> None:
     """Statistics over many packings, on many cores, kept in a file as they come."""
-    if scheduler is not None and (cluster is not None or workers is not None):
-        other = "--workers" if cluster is None else "--cluster"
-        raise ForceDiffusionError(f"--scheduler and {other} exclude each other: leave one out")
+    if scheduler is not None and workers is not None:
+        raise ForceDiffusionError("--scheduler and --workers exclude each other: leave one out")
     with about(scene.name):
         read = fd.read_scene(scene)
     checked(written, out)
     folder = Output(out, names_of(answered("ensemble")), overwrite) if out else None
     found = _solved(
         scene.name, read, realisations, until, store, quiet,
-        confidence=confidence, workers=workers, scheduler=scheduler or cluster,
-        reach=reach,
+        scheduler, confidence=confidence, workers=workers, reach=reach,
     )  # fmt: skip
     warn(scene, found.measurement.plan)
     data = found.data(rows=False)
@@ -121,17 +115,20 @@ def _solved(
     until: float | None,
     store: Path | None,
     quiet: bool,
+    scheduler: str | None,
     **more: Any,
 ) -> "Ensemble":
     """Solve under a progress bar; errors name options as they are written here."""
-    from force_diffusion.numeric.ensemble.measure import ArgumentError
+    from force_diffusion.numeric.ensemble.ensemble import WorkersError
     from force_diffusion.numeric.ensemble.store import StoreError, StoreFailedError
-    from force_diffusion.numeric.ensemble.workers import WorkersError
+    from force_diffusion.numeric.ensemble.sums import ArgumentError
 
     try:
         with ExitStack() as stack, in_range():
             size = scene.ask.realisations if realisations is None else realisations
             progress = _progress(stack, size, until, quiet)
+            if scheduler is not None:
+                more["executor"] = stack.enter_context(_cluster(scheduler))
             return fd.ensemble(
                 scene, realisations, until=until, store=store, progress=progress, **more
             )
@@ -149,6 +146,41 @@ def _solved(
         for note in getattr(interrupt, "__notes__", [] if store else [nothing]):
             tell(note)
         raise
+
+
+@contextmanager
+def _cluster(address: str) -> Iterator[Executor]:
+    """Give the executor of the Dask cluster at an address."""
+    from force_diffusion.numeric.ensemble.ensemble import WorkersError
+
+    try:
+        import distributed as untyped
+    except ImportError:
+        raise ForceDiffusionError(
+            "a cluster needs Dask, which is missing: pip install 'force-diffusion[cluster]'"
+        ) from None
+    distributed: Any = untyped  # it has no types
+    try:
+        client = distributed.Client(address, timeout=TO_ANSWER)
+    except (OSError, ValueError) as error:
+        raise WorkersError(
+            f"no scheduler answers at {address} ({error}): give the address that "
+            "'dask scheduler' prints, such as tcp://127.0.0.1:8786"
+        ) from None
+    with client:
+        try:
+            client.wait_for_workers(1, timeout=TO_BE_THERE)
+            yield client.get_executor(pure=False)
+        except TimeoutError:
+            raise WorkersError(
+                f"the scheduler at {address} has no workers: start some with "
+                f"'dask worker {address}'"
+            ) from None
+        except distributed.KilledWorker:
+            raise WorkersError(
+                "several workers of the cluster died at the same block, perhaps for want of "
+                "memory: give them more"
+            ) from None
 
 
 def _progress(

@@ -13,7 +13,6 @@ _GROUPS = {
 }
 _CACHE = {"inactive_file", "active_file"}  # the kernel makes room of it
 
-_processes = [1]
 _thread = threading.local()
 
 
@@ -25,25 +24,19 @@ def user_cache() -> Path | None:
         return None
 
 
-def share_cores(processes: int) -> None:
-    """Leave the cores to so many processes alike, of which this is one."""
-    _processes[0] = processes
-
-
 def take_one_core() -> None:
-    """Leave this thread one core: the others do as much beside it."""
+    """Leave this thread one core: others do as much beside it."""
     _thread.alone = True
 
 
 def cores() -> int:
-    """Give the number of cores that this thread of this process may use."""
+    """Give the number of cores that this thread may use."""
     if getattr(_thread, "alone", False):
         return 1
     try:
-        found = len(os.sched_getaffinity(0))
+        return len(os.sched_getaffinity(0))
     except AttributeError:  # not on this system
-        found = os.cpu_count() or 1
-    return max(1, found // _processes[0])
+        return os.cpu_count() or 1
 
 
 def memory_limit() -> int:

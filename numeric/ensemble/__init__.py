@@ -1,1 +1,1 @@
-"""Ensembles of packings: sums joined in one fixed order, kept in a file, solved by many."""
+"""Ensembles of packings: fixed blocks, solved by any executor, kept in a file."""

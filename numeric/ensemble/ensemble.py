@@ -1,34 +1,57 @@
-"""A scene becomes an ensemble: what is measured, who solves it, and where it is kept."""
+"""A scene becomes an ensemble: blocks that are missing are solved, kept, and joined in order."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Generator, Iterable
+from concurrent.futures import (
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+    wait,
+)
 from dataclasses import replace
-from functools import partial
-from importlib import import_module
-from importlib.util import find_spec
+from itertools import islice
+from multiprocessing import get_context
 from numbers import Real
 from operator import index
 from pathlib import Path
 from typing import SupportsIndex
 
-from ..arithmetic.errors import ForceDiffusionError, NotReachedError
-from ..arithmetic.machine import cores, memory_limit
-from ..scene.scene import Scene
+from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, NotReachedError
+from ..arithmetic.machine import cores, memory_limit, take_one_core
+from ..arithmetic.processes import end_with_parent, without_interrupts
+from ..arithmetic.systems import FLOAT64
+from ..mechanics import engine
+from ..scene.scene import Scene, program_version
 from ..scene.sections import SceneError
-from ..statistics.confidence import Rule
-from .measure import ArgumentError, Measurement, measurement
+from ..statistics.confidence import looks
 from .result import Ensemble
-from .run import run
-from .scene_key import ensemble_key
-from .store import Store, StoreFailedError, open_store
-from .workers import Workers, WorkersError, cluster, here, processes, threads
+from .store import Store, StoreFailedError, description
+from .sums import ArgumentError, Block, Measurement, Sums, measurement, solve_block, why_left_out
 
 MOST, MOST_WORKERS = 10**9, 1024
-# Bytes of a batch of small packings, on top of those of one.
+# Blocks that an executor is given at a time.
+AHEAD = 256
+# Bytes of a block of small packings, on top of those of one packing.
 BATCH = 200_000_000
-# Visits to beads from which on starting more processes repays (some seconds), where each packing
-# takes as long as so many visits by itself.
-WORTH_WORKERS, OF_PACKING = 20_000_000, 1000
-LOCAL = "local"
+# Visits to beads from which on starting processes repays (some seconds), where each packing takes
+# as long as so many visits by itself.
+WORTH_PROCESSES, OF_PACKING = 20_000_000, 1000
+
+Progress = Callable[[int, float | None], None]
+"""Takes how many packings are done, and the half-width at the last look."""
+
+
+class RealisationError(ForceDiffusionError, ValueError):
+    """Hardly a realisation can be built; the message says which can't, and why."""
+
+
+class WorkersError(ForceDiffusionError, RuntimeError):
+    """Those who should solve are missing or die; the message says what to do."""
+
+    exit_status = NOT_REACHED
 
 
 def ensemble(
@@ -39,9 +62,9 @@ def ensemble(
     store: str | Path | None = None,
     confidence: float = 0.95,
     workers: int | None = 1,
-    scheduler: str | None = None,
+    executor: Executor | None = None,
     reach: float | None = None,
-    progress: Callable[[int, float | None], None] = lambda done, width: None,
+    progress: Progress = lambda done, width: None,
 ) -> Ensemble:
     """Solve many packings of a scene, and give their statistics; the same for any workers.
 
@@ -49,12 +72,13 @@ def ensemble(
     ``histogram``, of drawn radii. There are ``realisations`` packings, by default as many as the
     scene says; with ``until`` fewer, if every σ_f is known to that share of itself, all together
     with confidence ``confidence``, already before. ``store`` is a file that keeps what is done, and
-    goes on from there. ``workers`` are processes, None for as many as are good here (compiled
-    sweeps take all cores in one); above 1 they start the program anew, so that a script needs its
-    ``if __name__ == "__main__"``. ``scheduler`` is the address of a Dask scheduler, or "local" for
-    a cluster made here. ``reach`` is the outer edge of a histogram's bins, in units of force; by
-    default six times the largest σ_f of theory. ``progress`` is told how many packings are done,
-    and the half-width at the last look.
+    goes on from there. ``workers`` are threads where loops are compiled (the extra ``fast``), else
+    processes, which start the program anew, so that a script needs its
+    ``if __name__ == "__main__"``; None for as many as are good here. Any other ``executor`` of
+    ``concurrent.futures`` solves as well, such as that of a Dask cluster,
+    ``distributed.Client(address).get_executor()``. ``reach`` is the outer edge of a histogram's
+    bins, in units of force; by default six times the largest σ_f of theory. ``progress`` is called
+    with how many packings are done, and the half-width at the last look.
 
     Raises ``TypeError`` for what is no scene, ``ArgumentError``, ``SceneError``, ``StoreError`` for
     a file that can't serve, ``StoreFailedError`` where it can't be written, ``RealisationError``
@@ -79,47 +103,129 @@ def ensemble(
     size = _size(scene, realisations)
     until = None if until is None else _share("until", until, "0.01")
     confidence = _share("confidence", confidence, "0.95")
-    reach = None if reach is None else _number("reach", reach)
-    if scheduler is not None and not isinstance(scheduler, str):
-        raise ArgumentError("scheduler", scheduler, 'must be an address, or "local"')
     if store is not None and not isinstance(store, str | Path):
         raise ArgumentError("store", store, "must be the name of a file")
-    # Loaded before the memory is shared out: in a full one its library waits for ever.
-    import_module("scipy.special")
-    m = replace(measurement(scene, reach=reach), expected=size)
-    solvers = _workers(m, size, workers, scheduler)
-    rule = None if until is None else Rule(until, confidence)
-    path = None if store is None else Path(store)
-    opened: Store | None = None
+    m = measurement(scene, reach=None if reach is None else _number("reach", reach))
+    own = None if executor is not None else _executor(m, size, workers)
+    opened = None if store is None else Store(Path(store), description(m))
     try:
-        if path is not None:
-            opened = open_store(path, ensemble_key(m))
-        found = run(
-            m, size, solvers, store=opened, rule=rule, confidence=confidence, progress=progress
-        )
-        if opened is not None:
-            opened.check_it_is_there()
-        return found
-    except WorkersError as error:
-        raise WorkersError(f"{error}.{_kept(opened)}") from None
-    except OSError as error:
-        if path is None or error.filename != str(path):
-            raise
-        if not path.exists():  # with all that was done
-            raise StoreFailedError(f"{path}: {error.strerror}: what it held is lost") from None
-        raise StoreFailedError(
-            f"{path} can't be written to ({error.strerror}): make room, or move it to another "
-            f"place.{_kept(opened)}"
+        solved = own or executor
+        assert solved is not None
+        return _joined(m, size, solved, opened, until, confidence, progress)
+    except (BrokenExecutor, CancelledError) as error:
+        raise WorkersError(
+            f"a worker died, perhaps for want of memory ({error}): use fewer.{_kept(opened)}"
         ) from None
     except MemoryError:
-        raise NotReachedError(f"the memory is full; use fewer workers.{_kept(opened)}") from None
+        raise NotReachedError(f"the memory is full: use fewer workers.{_kept(opened)}") from None
+    except (WorkersError, StoreFailedError) as error:
+        raise type(error)(f"{error}.{_kept(opened)}") from None
     except KeyboardInterrupt as interrupt:
         if opened is not None:
             interrupt.add_note(_kept(opened).strip())
         raise
     finally:
+        if own is not None:
+            own.shutdown(cancel_futures=True)
         if opened is not None:
             opened.close()
+
+
+def _joined(
+    m: Measurement,
+    size: int,
+    executor: Executor,
+    store: Store | None,
+    until: float | None,
+    confidence: float,
+    progress: Progress,
+) -> Ensemble:
+    """Sum up realisations 0 … size − 1, or up to a look at which all is known well enough."""
+    blocks, held = list(m.blocks(size)), set() if store is None else store.held.copy()
+    arriving = solved_blocks(m, (block for block in blocks if block not in held), executor)
+    arrived: dict[Block, Sums] = {}
+    at_looks = set() if until is None else {*looks(size), size}
+    done, width = _count(held.intersection(blocks)), None
+    found = Ensemble(m, Sums.nothing(m), confidence, until)
+    progress(done, None)
+    for block in blocks:
+        while block not in held and block not in arrived:
+            another, sums = next(arriving)
+            arrived[another] = sums
+            if store is not None and sums.packings:  # of a wrong scene nothing is kept
+                store.put(another, sums)
+            done += _count([another])
+            found = replace(found, solved=found.solved + _count([another]))
+            progress(done, width)
+        own = arrived.pop(block) if store is None or block in arrived else store.read(block, m)
+        found = replace(found, sums=found.sums + own)
+        if block[1] in at_looks:
+            found = replace(found, looks=found.looks + 1)
+            width = found.half_width
+            progress(done, width)
+            if found.reached:
+                break
+    arriving.close()
+    if found.realisations < 2:
+        number = found.sums.first_left_out
+        raise RealisationError(
+            f"{found.unbuildable} of {size} packings are left out, and statistics need two: "
+            f"realisation {number}: {why_left_out(m, number)}"
+        )
+    return found
+
+
+def _count(blocks: Iterable[Block]) -> int:
+    return sum(stop - first for first, stop in blocks)
+
+
+def solved_blocks(
+    m: Measurement, blocks: Iterable[Block], executor: Executor
+) -> Generator[tuple[Block, Sums], None, None]:
+    """Give the sums of blocks as they come."""
+    todo, pending = iter(blocks), dict[Future[Sums], Block]()
+    try:
+        while True:
+            for block in islice(todo, AHEAD - len(pending)):
+                with without_interrupts():  # the first ones may start processes
+                    future = executor.submit(_solve, program_version(), m, *block)
+                pending[future] = block
+            if not pending:
+                return
+            wait(pending, return_when=FIRST_COMPLETED)
+            for future in [future for future in pending if future.done()]:
+                yield pending.pop(future), future.result()
+    finally:
+        for future in pending:
+            future.cancel()
+
+
+def _solve(version: str, m: Measurement, first: int, stop: int) -> Sums:
+    if version != program_version():
+        raise WorkersError(
+            f"a worker has force-diffusion {program_version()}, and this is {version}: numbers "
+            "could differ; install the same version everywhere"
+        )
+    take_one_core()
+    return solve_block(m, first, stop)
+
+
+def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
+    """Give threads where loops are compiled, and else processes."""
+    whole = workers is None or isinstance(workers, SupportsIndex)
+    if not whole or (workers is not None and not 1 <= workers <= MOST_WORKERS):
+        allowed = f"must be a whole number between 1 and {MOST_WORKERS}"
+        raise ArgumentError("workers", workers, allowed)
+    room = max(1, memory_limit() // (m.plan.memory + BATCH))
+    compiled = engine.compiles(replace(m.problem, realisations=size), FLOAT64)
+    if workers is None:
+        short = size * (m.problem.region.beads + OF_PACKING) < WORTH_PROCESSES
+        workers = 1 if short and not compiled else min(cores(), room)
+    elif workers > room:
+        raise ArgumentError("workers", workers, f"the free memory is enough for {room}")
+    if compiled or workers == 1:
+        return ThreadPoolExecutor(workers)
+    return ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent)
 
 
 def _size(scene: Scene, realisations: int | None) -> int:
@@ -150,35 +256,8 @@ def _share(name: str, value: object, such_as: str) -> float:
     return number
 
 
-def _workers(m: Measurement, size: int, workers: int | None, scheduler: str | None) -> Workers:
-    """Choose who solves: this process, others on this machine, or a cluster."""
-    whole = workers is None or isinstance(workers, SupportsIndex)
-    if not whole or (workers is not None and not 1 <= workers <= MOST_WORKERS):
-        allowed = f"must be a whole number between 1 and {MOST_WORKERS}"
-        raise ArgumentError("workers", workers, allowed)
-    if scheduler in {None, LOCAL}:
-        room = max(1, memory_limit() // (m.plan.memory + BATCH))
-        if workers is not None and workers > room:
-            raise ArgumentError("workers", workers, f"the free memory is enough for {room}")
-        if workers is None:
-            short = size * (m.plan.problem.region.beads + OF_PACKING) < WORTH_WORKERS
-            alone = scheduler is None and (short or m.compiled)  # that takes all cores by itself
-            workers = 1 if alone else min(cores(), room)
-        if scheduler is None and workers > 1:
-            return partial(processes, workers, m.plan.memory)
-    if scheduler is None:
-        room = memory_limit() // max(m.plan.memory, 1)
-        each = min(cores(), max(room, 1)) if m.compiled else 1
-        return here if each == 1 else partial(threads, each)
-    if find_spec("distributed") is None:
-        raise ForceDiffusionError(
-            "a cluster needs Dask, which is missing: pip install 'force-diffusion[cluster]'"
-        )
-    return partial(cluster, None if scheduler == LOCAL else scheduler, workers or 1)
-
-
 def _kept(store: Store | None) -> str:
     if store is None:
         return ""
-    done = sum(stop - first for first, stop in store.ranges())
-    return f" {store.path} holds {done} realisations; the same command goes on from there."
+    held = f"{store.path} holds {store.realisations} realisations"
+    return f" {held}; the same command goes on from there."

@@ -8,36 +8,42 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..accuracy import known_digits, of_errors
+from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
-from ..lattice.branch import direction
+from ..lattice.branch import ORDER, direction
 from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.scene import source_of
+from ..statistics.confidence import half_width
+from ..statistics.moments import with_errors
 from ..tables import Row, html_table, rows_of, rows_of_text, significant, text_of
-from .estimates import Estimates
+from .sums import Measurement, Sums
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+LEAST = 1e-300  # floats that are smaller have fewer digits
+
 
 @dataclass(frozen=True)
-class Ensemble(Estimates):
+class Ensemble:
     """Statistics over N packings of G groups of alike contacts.
 
     A group is a layer and branch of a profile, one contact, or all of a histogram. Forces are in
     the unit in which the load's magnitude is written; arrays are float64 of shape (G,) unless they
-    say otherwise. The spread over packings, which are independent, gives the standard errors.
+    say otherwise, in the order of the rows: by j, i (or p, q), branch and component. The spread
+    over packings, which are independent, gives the standard errors.
 
-    ``half_width``, relative, holds for all σ_f together with confidence ``confidence``. ``reached``
-    says whether the σ_f are known as well as ``until`` asked, and is None if nothing was asked;
-    ``looks`` counts how often that was tested. ``solved`` packings were solved now, the others
-    were read from a store.
+    ``half_width``, relative, holds for all σ_f together with confidence ``confidence``. ``until``
+    is how well they were to be known, None if nothing was asked; ``looks`` counts how often that
+    was tested. ``solved`` packings were solved now, the others were read from a store.
     """
 
+    measurement: Measurement
+    sums: Sums
     confidence: float
-    looks: int
-    half_width: float
-    reached: bool | None
-    solved: int
+    until: float | None = None
+    looks: int = 0
+    solved: int = 0
 
     @property
     def quantity(self) -> str:
@@ -45,9 +51,98 @@ class Ensemble(Estimates):
         return self.measurement.plan.quantity.name
 
     @property
+    def realisations(self) -> int:
+        """N packings."""
+        return self.sums.packings
+
+    @property
     def unbuildable(self) -> int:
         """Packings that were drawn and left out: a bead of them finds no rest."""
-        return self.sums.unbuildable
+        return self.sums.left_out
+
+    @property
+    def samples(self) -> int:
+        """Contacts of a group in all N packings; those of one packing are correlated."""
+        return self.realisations * self.measurement.members
+
+    @cached_property
+    def half_width(self) -> float:
+        """Half-width of the intervals of all σ_f together, relative to σ_f; the largest."""
+        _, std, _, error = self._moments
+        known = np.isfinite(error)
+        relative = (error[known] / std[known]).tolist()
+        if self.realisations < 2 or (self.realisations == 2 and (std[~known] > 0).any()):
+            relative = [math.inf]  # of single contacts two packings don't tell it
+        return half_width(relative, self.realisations, self.confidence, self.looks)
+
+    @property
+    def reached(self) -> bool | None:
+        """Whether the σ_f are known as well as ``until`` asked; None if nothing was asked."""
+        return None if self.until is None else self.half_width <= self.until
+
+    @cached_property
+    def _order(self) -> Array:
+        """Where the rows stand among the groups."""
+        labels = self.measurement.labels
+        keys = [labels[name] for name in ("component", *ORDER) if name in labels]
+        return np.lexsort(keys) if keys else np.arange(self.measurement.groups)
+
+    @property
+    def _unit(self) -> float:
+        """The load's magnitude."""
+        return float(self.measurement.plan.scene.load.magnitude)
+
+    @cached_property
+    def _moments(self) -> tuple[Array, Array, Array, Array]:
+        """Mean change, standard deviation, and their standard errors, as they were summed up."""
+        return with_errors(self.realisations, self.sums.means, self.sums.products)
+
+    def _rows(self, values: Array) -> Array:
+        """Give what was summed up row by row, in the unit of force."""
+        scaled = np.ldexp(values[self._order], self.measurement.unit)
+        return np.asarray(scaled * self._unit)
+
+    @cached_property
+    def mean(self) -> Array:
+        """Mean force."""
+        change = np.ldexp(self._moments[0], self.measurement.unit)
+        return np.asarray((self.measurement.ordered() + change)[self._order] * self._unit)
+
+    @cached_property
+    def mean_change(self) -> Array:
+        """Mean of the change g = f − F from the ordered force F."""
+        return self._rows(self._moments[0])
+
+    @cached_property
+    def mean_change_error(self) -> Array:
+        """Standard error of ``mean_change``."""
+        return self._rows(self._moments[2])
+
+    @cached_property
+    def mean_square(self) -> Array:
+        """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory.
+
+        Raises ``ForceDiffusionError`` where floats don't hold squares in this unit of force.
+        """
+        root = self._rows(np.sqrt(self.sums.means[1]))
+        with np.errstate(all="ignore"):
+            found = np.asarray(root**2)
+        if ((root != 0) & ~((found > LEAST) & np.isfinite(found))).any():
+            raise ForceDiffusionError(
+                f"squares of forces are beyond what floats hold where load.magnitude is "
+                f"{self._unit:g}: choose another unit"
+            )
+        return found
+
+    @cached_property
+    def std(self) -> Array:
+        """σ_f, the standard deviation of g about its mean."""
+        return self._rows(self._moments[1])
+
+    @cached_property
+    def std_error(self) -> Array:
+        """Standard error of ``std``; NaN where nothing varies."""
+        return self._rows(self._moments[3])
 
     @cached_property
     def index(self) -> dict[str, Array]:
@@ -92,13 +187,14 @@ class Ensemble(Estimates):
         if not m.edges:
             return None
         edges = np.array([-math.inf, *m.edges, math.inf]) * self._unit
-        share, error = self._shares()
+        N, (count, square) = self.realisations, self.sums.bins
+        variance = np.maximum(square - count * (count / N), 0) / (N - 1)
         return {
             "low": edges[:-1],
             "high": edges[1:],
-            "count": self.sums.bins[0],
-            "share": share,
-            "share_error": error,
+            "count": count,
+            "share": count / self.samples,
+            "share_error": np.sqrt(variance * N) / self.samples,
         }
 
     @cached_property
@@ -176,8 +272,8 @@ class Ensemble(Estimates):
             "ensemble": {
                 "realisations": self.realisations,
                 "unbuildable": self.unbuildable,
-                "unbuildable_share": self.unbuildable / self.sums.tried,
-                "first_unbuildable": self.sums.first_unbuildable,
+                "unbuildable_share": self.unbuildable / (self.realisations + self.unbuildable),
+                "first_unbuildable": self.sums.first_left_out if self.unbuildable else None,
                 "contacts_in_a_group": m.members,
                 "arithmetic": "float64",
             },

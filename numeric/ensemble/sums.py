@@ -1,307 +1,295 @@
-"""Sums over packings, joined in an order that nothing but the packings' numbers decides.
+"""What is measured of each packing of an ensemble, and sums of it over fixed blocks of packings.
 
-A packing says of each group of n contacts with changes g from the ordered force: a = Σ g/n and
-b = Σ g²/n. Of several packings the means of these are kept, and sums of products of deviations from
-the means. A block holds the packings k 2^l … (k + 1) 2^l − 1, and its sums are those of its two
-halves joined: who solved which, in which order and how many at a time, decides no bit.
+A group holds n contacts that are alike: a layer and branch of a profile, one contact, or all. Of
+their changes g from the ordered force, in float64, a packing gives a = Σ g/n and b = Σ g²/n. Blocks
+depend on the scene alone, and are joined in their order: who solves them decides no bit.
 """
 
-from collections.abc import Generator, Iterable, Iterator, Sequence
-from dataclasses import dataclass, fields, replace
-from functools import reduce
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property, reduce
 from operator import add
 from typing import Any
 
 import numpy as np
 
+from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array
 from ..disorder.radii import RadiusError
+from ..lattice.branch import PerBranch
 from ..mechanics import engine
-from ..mechanics.problem import Problem, Route
+from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import NotStandingError, UnbuildableError
-from ..statistics.moments import by_halves
-from .measure import Measurement
+from ..planning.plan import Plan
+from ..planning.planner import plan
+from ..quantities.base import ContactQuantity, first_order_std
+from ..scene.scene import Scene, refuse
+from ..scene.sections import SceneError
+from ..statistics.confidence import looks
+from ..statistics.moments import unit_near
 
+DEFAULT_BINS = 60
+# Outer edges of a histogram, in units of the largest theoretical σ_f.
+REACH = 6
+# Beads, and packings, of a block: a second of work at most, of which a kill loses no more.
+BEADS, PACKINGS = 8_000_000, 4096
+# Means over groups that are kept of single packings, until they are summed up.
+MEANS = 1_000_000
 # What is raised for a packing that is left out.
 TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
-# Numbers that are joined at once: few enough for a cache.
-AT_ONCE = 20_000
-# Of no packing, where the lowest number of one is looked for.
-NEVER = 2**62
+
+Block = tuple[int, int]
+"""Realisations first … stop − 1."""
 
 
-_COUNTS = ("packings", "tensile", "bins")
+class ArgumentError(ForceDiffusionError, ValueError):
+    """An argument is wrong: which, what it is, and what is allowed."""
+
+    def __init__(self, name: str, value: object, allowed: str) -> None:
+        """Say all three."""
+        super().__init__(f"{name} = {value}: {allowed}")
+
+
+@dataclass(frozen=True)
+class Measurement:
+    """What is measured: the plan of one packing, and the edges of bins, float64."""
+
+    plan: Plan
+    edges: tuple[float, ...] = ()
+
+    @property
+    def problem(self) -> Problem:
+        """What is solved."""
+        return self.plan.problem
+
+    @property
+    def quantity(self) -> ContactQuantity:
+        """What is asked of each packing."""
+        assert isinstance(self.plan.quantity, ContactQuantity)
+        return self.plan.quantity
+
+    @property
+    def counted(self) -> int:
+        """B + 2: bins, and what lies outside; 0 where none are asked for."""
+        return len(self.edges) + 1 if self.edges else 0
+
+    @cached_property
+    def unit(self) -> int:
+        """The power of two in whose units changes are summed up (σ/r is near it)."""
+        return math.frexp(unit_near(self.problem.radii.relative_std()))[1] - 1
+
+    @cached_property
+    def labels(self) -> dict[str, list[Any]]:
+        """Columns that name the groups, each of length ``groups``."""
+        return self.quantity.labels(self.problem)
+
+    @cached_property
+    def groups(self) -> int:
+        """How many groups there are."""
+        return len(next(iter(self.labels.values()), [None]))
+
+    @cached_property
+    def members(self) -> int:
+        """Contacts in a group."""
+        return self.quantity.members(self.problem)
+
+    def ordered(self) -> Array:
+        """Give the ordered force of each group (of a group whose forces differ, their mean)."""
+        return np.array([float(force) for force in self.quantity.ordered(self.problem)])
+
+    def theory(self) -> PerBranch[Sequence[Fraction]] | None:
+        """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
+        return first_order_std(self.problem)
+
+    def blocks(self, size: int) -> Iterator[Block]:
+        """Cut realisations 0 … size − 1 where sums are looked at, and after so many packings."""
+        beads = max(self.problem.region.beads, 1)
+        most = 1 << max(min(PACKINGS, BEADS // beads), 1).bit_length() - 1
+        first = 0
+        for end in (*looks(size), size):
+            while first < end:
+                yield first, min(first + most, end)
+                first = min(first + most, end)
+
+
+def measurement(scene: Scene, *, reach: float | None = None) -> Measurement:
+    """Say what is measured of an ensemble of a scene's packings.
+
+    ``reach`` is the outer edge of a histogram, in units of force; by default six times the largest
+    theoretical σ_f. Raises ``SceneError`` for what has no statistics over an ensemble.
+    """
+    ask = scene.ask
+    refuse("ensemble", scene, reach=reach is not None)
+    planned = plan(scene.model_copy(update={"ask": ask.model_copy(update={"realisations": 1})}))
+    if planned.problem.route == Route.ORDERED:
+        why = planned.skipped[-1].reason
+        raise SceneError("disorder", None, f"every realisation would be the same: {why}")
+    made = Measurement(planned)
+    if not (made.groups and made.members):
+        allowed = "bears on no contact that is asked for: there is nothing to gather"
+        raise SceneError("load.kind", scene.load.kind, allowed)
+    if ask.quantity != "histogram":
+        return made
+    reach = _usual_reach(made) if reach is None else reach / float(scene.load.magnitude)
+    if not 0 < reach < 1e300:
+        raise ArgumentError("reach", reach, "must be a positive number below 1e300")
+    bins = ask.bins or DEFAULT_BINS
+    edges = tuple(float(Fraction(reach) * (2 * k - bins) / bins) for k in range(bins + 1))
+    if len(set(edges)) <= bins:
+        raise SceneError("ask.bins", bins, "are more than float64 can tell apart here")
+    return replace(made, edges=edges)
+
+
+def _usual_reach(made: Measurement) -> float:
+    """Give the outer edge that is taken where none is named."""
+    theory = made.theory()
+    if theory is None:
+        raise SceneError(
+            "ask.quantity",
+            "histogram",
+            "no theory says how wide it will be here: give reach (--reach X), the outer edge "
+            "of the bins in units of force",
+        )
+    contact = made.problem.contact
+    if contact is None:
+        layers = made.plan.scene.ask.layers or range(len(theory.plus))
+        return float(REACH * max(rows[j] for _, rows in theory for j in layers))
+    return float(REACH * theory[contact.branch][contact.j])
 
 
 @dataclass(frozen=True, eq=False)
 class Sums:
-    """Sums over packings, of G groups and B bins; a first axis may list several.
+    """Sums over packings, of G groups and B bins.
 
-    ``first`` is the lowest number of a packing that is left out; ``packings`` (2,) counts those
-    that are summed up, and left out; ``tensile`` (G,) contacts that pull. ``bins`` (3, B + 2):
-    counts below, in and above the bins, their squares, and their products with all that a packing
-    counts. ``means`` (2, G) are those of a and b over packings, ``products`` (3, G) the sums of
-    products of deviations from them, row by row. a is in units of 2^unit of the measurement, b of
-    its square.
+    ``packings`` are summed up, ``left_out`` can't be built, the first of them ``first_left_out``.
+    ``tensile`` (G,) counts contacts that pull; ``bins`` (2, B + 2) are counts and, over packings,
+    their squares. ``means`` (2, G) are those of a and b over packings, ``products`` (3, G) the sums
+    of products of their deviations, aa, ab and bb; a is in units of 2^unit of the measurement.
     """
 
-    first: Array
-    packings: Array
+    packings: int
+    left_out: int
+    first_left_out: int
     tensile: Array
     bins: Array
     means: Array
     products: Array
 
-    @property
-    def realisations(self) -> int:
-        """N: packings that are summed up."""
-        return int(self.packings[0])
+    @staticmethod
+    def nothing(m: Measurement, left_out: Sequence[int] = ()) -> "Sums":
+        """Give the sums of no packing, where some may have been left out."""
+        G, B = m.groups, m.counted
+        tensile, bins = np.zeros(G, np.int64), np.zeros((2, B), np.int64)
+        first = left_out[0] if left_out else 0
+        return Sums(0, len(left_out), first, tensile, bins, np.zeros((2, G)), np.zeros((3, G)))
 
-    @property
-    def unbuildable(self) -> int:
-        """Packings that are left out: no forces can hold them, or a bead of them finds no rest."""
-        return int(self.packings[1])
-
-    @property
-    def first_unbuildable(self) -> int | None:
-        """The lowest number of one that is left out."""
-        return int(self.first) if self.unbuildable else None
-
-    @property
-    def tried(self) -> int:
-        """Packings that were summed up or left out."""
-        return int(self.packings.sum())
-
-    def _arrays(self) -> list[Array]:
-        return [getattr(self, field.name) for field in fields(self)]
-
-    def __getitem__(self, key: Any) -> "Sums":
-        """Give some of several."""
-        return Sums(*(array[key] for array in self._arrays()))
-
-    @np.errstate(all="ignore")  # in a forged file numbers may be of any size
     def __add__(self, other: "Sums") -> "Sums":
         """Join with later packings (Chan, Golub and LeVeque)."""
-        own, more = (one.packings[..., :1, None] for one in (self, other))
-        share = more / np.maximum(own + more, 1)
-        step, weight = other.means - self.means, own * share
-        rows, columns = np.triu_indices(step.shape[-2])
-        return replace(
-            self,
-            first=np.minimum(self.first, other.first),
-            **{name: getattr(self, name) + getattr(other, name) for name in _COUNTS},
-            means=self.means + step * share,
-            products=self.products
-            + other.products
-            + step[..., rows, :] * step[..., columns, :] * weight,
+        together = self.packings + other.packings
+        share = other.packings / max(together, 1)
+        step = other.means - self.means
+        return Sums(
+            together,
+            self.left_out + other.left_out,
+            self.first_left_out if self.left_out else other.first_left_out,
+            self.tensile + other.tensile,
+            self.bins + other.bins,
+            self.means + step * share,
+            self.products + other.products + _products(step) * (self.packings * share),
         )
 
     def to_bytes(self) -> bytes:
         """Write as bytes; equal sums give equal bytes."""
-        return b"".join(one.astype(f"<{one.dtype.kind}8").tobytes() for one in self._arrays())
-
-
-def _shapes(m: Measurement) -> list[tuple[str, tuple[int, ...]]]:
-    """Give kind and shape of each array."""
-    G = m.groups
-    whole = [(), (2,), (G,), (3, m.counted)]
-    return [("i8", shape) for shape in whole] + [("f8", (2, G)), ("f8", (3, G))]
+        head = np.array([self.packings, self.left_out, self.first_left_out])
+        whole, real = (head, self.tensile, self.bins), (self.means, self.products)
+        parts = [a.astype("<i8") for a in whole] + [a.astype("<f8") for a in real]
+        return b"".join(part.tobytes() for part in parts)
 
 
 def from_bytes(content: bytes, m: Measurement) -> Sums:
-    """Read what ``to_bytes`` wrote. Raises ``ValueError`` where it is nothing of the kind."""
-    at, arrays, shapes = 0, list[Array](), _shapes(m)
-    if len(content) != 8 * sum(int(np.prod(shape)) for _, shape in shapes):
-        raise ValueError("sums are shorter or longer than they should be")
-    for kind, shape in shapes:
-        count = int(np.prod(shape))
-        array = np.frombuffer(content, f"<{kind}", count, at).astype(kind).reshape(shape)
-        if not np.isfinite(array).all() or (kind == "i8" and (array < 0).any()):
-            raise ValueError("sums are no numbers, or count less than nothing")
-        arrays.append(array)
-        at += 8 * count
-    return Sums(*arrays)
+    """Read what ``to_bytes`` wrote. Raises ``ValueError`` where it is of another length."""
+    G, B = m.groups, m.counted
+    counts, real = np.split(np.frombuffer(content, "<i8"), [3 + G + 2 * B])
+    head, tensile, bins = np.split(counts.astype(np.int64), [3, 3 + G])
+    packings, left_out, first = head.tolist()
+    means, products = np.split(real.view("<f8").astype(np.float64).reshape(5, G), [2])
+    return Sums(packings, left_out, first, tensile, bins.reshape(2, B), means, products)
 
 
-def nothing(m: Measurement, packings: int) -> Sums:
-    """Give the sums of no packing, so many times; products can't be written to."""
-    *small, (_, products) = _shapes(m)
-    arrays = [np.zeros((packings, *shape), kind) for kind, shape in small]
-    arrays[0] += NEVER
-    arrays.append(np.broadcast_to(np.zeros(products), (packings, *products)))
-    return Sums(*arrays)
+def _products(values: Array) -> Array:
+    """Give aa, ab and bb from (…, 2, G)."""
+    return values[..., [0, 0, 1], :] * values[..., [0, 1, 1], :]
 
 
-@dataclass(frozen=True, eq=False)
-class Block:
-    """Sums over realisations first … stop − 1."""
-
-    first: int
-    stop: int
-    sums: Sums
-
-    def joins(self, other: "Block") -> bool:
-        """Whether this and the block behind it are the halves of one."""
-        size = self.stop - self.first
-        alike = self.stop == other.first and other.stop - other.first == size
-        return alike and size & (size - 1) == 0 and self.first % (2 * size) == 0
-
-
-def ranges(first: int, stop: int, most: int) -> Iterator[tuple[int, int]]:
-    """Cut realisations into the largest blocks of up to ``most``, a power of two.
-
-    >>> list(ranges(5, 16, 4))
-    [(5, 6), (6, 8), (8, 12), (12, 16)]
-    """
-    while first < stop:
-        size = min(most, first & -first or most)
-        while first + size > stop:
-            size //= 2
-        yield first, first + size
-        first += size
-
-
-def joined(blocks: Iterable[Block], apart: Sequence[int] = ()) -> list[Block]:
-    """Join halves to blocks, and these again, but not where a range has to begin or end."""
-    found: list[Block] = []
-    for block in blocks:
-        found.append(block)
-        while len(found) > 1 and found[-2].joins(found[-1]) and found[-1].first not in apart:
-            first, second = found[-2:]
-            found[-2:] = [Block(first.first, second.stop, first.sums + second.sums)]
-    return found
-
-
-def total(m: Measurement, blocks: Iterable[Block]) -> Sums:
-    """Join blocks in their order, the largest that there are."""
-    return reduce(add, (block.sums for block in joined(blocks)), nothing(m, 1)[0])
-
-
-def measured(m: Measurement, first: int, stop: int) -> list[Block]:
-    """Solve realisations first … stop − 1, and sum them up block by block.
-
-    Those that can't be built are left out, and counted.
-    """
-    found = nothing(m, stop - first)
+def solve_block(m: Measurement, first: int, stop: int) -> Sums:
+    """Solve realisations first … stop − 1, and sum them up; some may be left out."""
+    step = max(1, MEANS // m.groups)
     with FLOAT64.active():
-        _solve(m, range(first, stop), first, found)
-        return blocks_of(found, first)
+        cuts = (range(k, min(k + step, stop)) for k in range(first, stop, step))
+        return reduce(add, (_summed(m, numbers) for numbers in cuts))
+
+
+# Of packings by their numbers: means (packings, 2, G), contacts that pull (packings, G), and counts
+# of bins (packings, B + 2).
+_Solved = tuple[Sequence[int], Array, Array, Array]
+
+
+def _summed(m: Measurement, numbers: Sequence[int]) -> Sums:
+    parts = list(_solved(m, numbers))
+    lost = sorted(set(numbers).difference(*(some for some, *_ in parts)))
+    if not parts:
+        return Sums.nothing(m, lost)
+    means, tensile, counts = map(np.concatenate, list(zip(*parts, strict=True))[1:])
+    mean = means.sum(axis=0) / len(means)
+    return Sums(
+        len(means),
+        len(lost),
+        lost[0] if lost else 0,
+        tensile.sum(axis=0),
+        np.stack([counts.sum(axis=0), (counts**2).sum(axis=0)]),
+        mean,
+        _products(means - mean).sum(axis=0),
+    )
+
+
+def _solved(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
+    """Solve packings; those that can't be built are found by halving."""
+    problem = replace(m.problem, realisations=len(numbers))
+    try:
+        packings = engine.packings(problem, numbers, FLOAT64, any_number=True, copied=True)
+        yield from [_measured(m, solved, some) for solved, some in packings]
+    except TROUBLE:
+        if len(numbers) > 1:
+            half = len(numbers) // 2
+            yield from _solved(m, numbers[:half])
+            yield from _solved(m, numbers[half:])
+
+
+def _measured(m: Measurement, solved: Solved, some: Sequence[int]) -> _Solved:
+    F, g = m.quantity.changes(m.problem, solved, len(some))
+    # rows of a layout that does not depend on how many packings there are: nor does any bit
+    scaled = np.ascontiguousarray(g) * 2.0**-m.unit
+    means = np.stack([scaled.sum(axis=2), (scaled * scaled).sum(axis=2)]) / m.members
+    if not np.isfinite(means).all():
+        raise ArithmeticError("a change, or its square, is not finite")
+    tensile = np.zeros((len(some), m.groups), np.int64)
+    if F.min() + g.min() < 0:
+        tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
+    counts = np.zeros((len(some), m.counted), np.int64)
+    if m.edges:
+        for row, values in zip(counts, g[0], strict=True):
+            places = np.searchsorted(m.edges, values, side="right")
+            row[:] = np.bincount(places, minlength=m.counted)
+    return some, np.moveaxis(means, 2, 0), tensile, counts
 
 
 def why_left_out(m: Measurement, number: int) -> Exception | None:
     """Give what is raised for a realisation."""
     try:
         with FLOAT64.active():
-            list(_each(m, [number]))
+            list(engine.packings(m.problem, [number], FLOAT64))
     except TROUBLE as error:
         return error
     return None
-
-
-def blocks_of(packings: Sums, first: int) -> list[Block]:
-    """Join single packings, which are listed from number ``first`` on, to blocks."""
-    stop = first + len(packings.first)
-    cut = ranges(first, stop, 1 << stop.bit_length())
-    return [Block(a, b, _join(packings[a - first : b - first])) for a, b in cut]
-
-
-def _join(packings: Sums) -> Sums:
-    count = len(packings.first)
-    if count > 1 and count * packings.means[0].size > AT_ONCE:
-        return _join(packings[: count // 2]) + _join(packings[count // 2 :])
-    while len(packings.first) > 1:
-        packings = packings[0::2] + packings[1::2]
-    return packings[0]
-
-
-def _solve(m: Measurement, numbers: Sequence[int], first: int, found: Sums) -> None:
-    """Fill in single packings; those that can't be built are found by halving."""
-    try:
-        for some, means, tensile, counts in _each(m, numbers):
-            at = np.asarray(some) - first
-            found.packings[at] = 1, 0
-            found.means[at], found.tensile[at] = means, tensile
-            whole = counts.sum(axis=1, keepdims=True)
-            found.bins[at] = np.stack([counts, counts**2, counts * whole], axis=1)
-    except TROUBLE:
-        if len(numbers) == 1:
-            found.packings[numbers[0] - first], found.first[numbers[0] - first] = (0, 1), numbers[0]
-            return
-        half = len(numbers) // 2
-        for part in numbers[:half], numbers[half:]:
-            _solve(m, part, first, found)
-
-
-# Numbers of packings, their means (packings, 2, G), contacts that pull (packings, G), and counts of
-# bins (packings, B + 2).
-_Solved = tuple[Sequence[int] | Array, Array, Array, Array]
-
-
-def _each(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
-    quantity, problem = m.quantity, m.many
-    if m.expected < len(numbers):
-        problem = replace(problem, realisations=len(numbers))
-    if problem.route == Route.EXACT and engine.compiles(problem, FLOAT64):
-        numbers = yield from _compiled(m, problem, numbers)
-    for solved, some in engine.packings(problem, numbers, FLOAT64, any_number=True, copied=True):
-        F, g = quantity.changes(problem, solved, len(some))
-        parts = np.split(g * 2.0**-m.unit, np.cumsum(m.sizes)[:-1], axis=2)
-        sums = np.stack([[by_halves(x) for x in (part, part * part)] for part in parts], axis=-1)
-        tensile = np.zeros((len(some), m.groups), np.int64)
-        if F.min() + g.min() < 0:  # else no sum below can be negative
-            tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
-        yield some, _means(m, np.moveaxis(sums, 2, 0)), tensile, _counted(m, g[0])
-
-
-def _means(m: Measurement, sums: Array) -> Array:
-    """Give means from sums of g and of g², (packings, 2, groups, blocks)."""
-    means = by_halves(sums) / m.members
-    if not np.isfinite(means).all():
-        raise ArithmeticError("a change, or its square, is not finite")
-    return np.asarray(means)
-
-
-def _counted(m: Measurement, values: Array) -> Array:
-    """Count numbers (packings, members) by bin."""
-    packings = len(values)
-    if not m.counted:
-        return np.zeros((packings, 0), np.int64)
-    places = np.searchsorted(np.array(m.edges), values, side="right")
-    places += m.counted * np.arange(packings)[:, None]
-    counts = np.bincount(places.reshape(-1), minlength=m.counted * packings)
-    return counts.reshape(packings, m.counted)
-
-
-def _compiled(
-    m: Measurement, problem: Problem, numbers: Sequence[int]
-) -> Generator[_Solved, None, Sequence[int]]:
-    """Solve and sum up by compiled loops, bitwise the same; give numbers that are left to others.
-
-    Those are of packings out of the ordinary, and all where groups are no whole rows of contacts.
-    """
-    sweeps, loads = engine.ready(problem, FLOAT64)
-    assert sweeps is not None
-    assert loads is not None
-    if m.runs is None:
-        engine.keep(problem, sweeps, loads)
-        return numbers
-    from ..statistics.tally import tally
-
-    descent, edges = sweeps.descent(problem.force_rows, loads), np.array(m.edges)
-    count, runs = len(numbers), len(m.runs)
-    sums, negative = np.empty((count, 2, runs)), np.empty((count, runs), np.int64)
-    counts, good = np.zeros((count, m.counted), np.int64), np.ones(count, bool)
-    step = engine.at_once(problem)
-    for some in (slice(at, at + step) for at in range(0, count, step)):
-        g = sweeps.changes(numbers[some], descent)
-        if g is None:
-            good[some] = False
-        else:
-            own = sums[some], negative[some], counts[some]
-            tally(g, descent.F, m.runs, 2.0**-m.unit, edges, *own)
-    engine.keep(problem, sweeps, loads)
-    shape = m.groups, runs // m.groups
-    means = _means(m, sums[good].reshape(good.sum(), 2, *shape))
-    tensile = negative[good].reshape(good.sum(), *shape).sum(axis=-1)
-    yield np.array(numbers)[good], means, tensile, counts[good]
-    return [number for number, one in zip(numbers, good, strict=True) if not one]

@@ -10,7 +10,6 @@ look is divided among the groups, so that the statement is about all of them at 
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 
 FIRST_LOOK = 32
 
@@ -27,14 +26,6 @@ def looks(end: int) -> Iterator[int]:
         if 3 * size // 2 <= end:
             yield 3 * size // 2
         size *= 2
-
-
-@dataclass(frozen=True)
-class Rule:
-    """Stop when every σ_f is known to ``relative`` of itself, with ``confidence``."""
-
-    relative: float
-    confidence: float
 
 
 def half_width(

@@ -124,22 +124,6 @@ def with_errors(packings: int, means: Array, products: Array) -> tuple[Array, Ar
         return mean, std, error((1.0, 0.0)), of_std
 
 
-def by_halves(values: Array) -> Array:
-    """Add up along the last axis: the second half to the first, until one number is left.
-
-    Rounding grows with the logarithm of how many there are. What the axis has and no other decides
-    every bit.
-
-    >>> float(by_halves(np.array([1.0, 2.0, 3.0, 4.0, 5.0])))
-    15.0
-    """
-    while (half := values.shape[-1] // 2) > 0:
-        rest = values[..., 2 * half :]
-        values = values[..., :half] + values[..., half : 2 * half]
-        values[..., : rest.shape[-1]] += rest
-    return np.asarray(values.sum(axis=-1))  # of the one
-
-
 def unit_near(size: Fraction) -> float:
     """Give the power of two below a positive size, within the range where it can be squared.
 

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from force_diffusion.numeric.ensemble.measure import Measurement, measurement
-from force_diffusion.numeric.ensemble.sums import Sums, measured, total
+from force_diffusion.numeric.ensemble.result import Ensemble
+from force_diffusion.numeric.ensemble.sums import Measurement, Sums, measurement, solve_block
 
 from tests.numeric.scenes import scene
 
@@ -67,8 +67,15 @@ def case(name: str, **disorder: Any) -> Measurement:
 
 
 def first(m: Measurement, packings: int) -> Sums:
-    """Give the sums of the first packings, all solved here at once."""
-    return total(m, measured(m, 0, packings))
+    """Give the sums of the first packings, all solved here, block by block."""
+    total = Sums.nothing(m)
+    for block in m.blocks(packings):
+        total += solve_block(m, *block)
+    return total
+
+
+def ensemble_of(m: Measurement, packings: int) -> Ensemble:
+    return Ensemble(m, first(m, packings), 0.95)
 
 
 def bytes_of_first(m: Measurement, packings: int) -> bytes:

@@ -3,20 +3,23 @@
 import os
 import signal
 from collections.abc import Iterator
-from functools import partial
+from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.ensemble import run, workers
-from force_diffusion.numeric.ensemble.run import RealisationError
-from force_diffusion.numeric.ensemble.workers import WorkersError, cluster
+from force_diffusion.derivations.commands import ensemble as command
+from force_diffusion.numeric.ensemble import ensemble as module
+from force_diffusion.numeric.ensemble import sums
+from force_diffusion.numeric.ensemble.ensemble import RealisationError, WorkersError
 
-from tests.numeric.ensemble.cases import bytes_of_first, case
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+from tests.numeric.ensemble.cases import PROFILE, bytes_of_first, case
+from tests.numeric.scenes import scene, toml
 
 distributed = pytest.importorskip("distributed")
 
 M = case("profile")
-WHOLE = bytes_of_first(M, 300)
 
 
 @pytest.fixture(scope="module")
@@ -27,11 +30,15 @@ def local() -> Iterator[Any]:
         yield made
 
 
-def test_a_worker_is_killed_in_the_middle(local: Any, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(run, "BLOCK", 5 * M.plan.problem.region.beads)
-    address = local.scheduler_address
-    with distributed.Client(address) as client:
-        pids = list(client.run(os.getpid).values())
+@pytest.fixture
+def client(local: Any) -> Iterator[Any]:
+    with distributed.Client(local.scheduler_address) as client:
+        yield client
+
+
+def test_a_worker_is_killed_in_the_middle(client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(sums, "BEADS", 4 * M.problem.region.beads)
+    pids = list(client.run(os.getpid).values())
     assert len(set(pids) - {os.getpid()}) == 2
     done: list[int] = []
 
@@ -41,39 +48,62 @@ def test_a_worker_is_killed_in_the_middle(local: Any, monkeypatch: pytest.Monkey
             os.kill(pids.pop(), signal.SIGKILL)
             pids.clear()
 
-    found = run.run(M, 300, partial(cluster, address, 1), progress=kill_one)
+    executor = client.get_executor(pure=False)
+    found = fd.ensemble(scene(PROFILE), 300, executor=executor, progress=kill_one)
     assert not pids
     assert done[-1] == 300
     assert found.realisations == found.solved == 300  # none twice
-    assert found.sums.to_bytes() == WHOLE
+    assert found.sums.to_bytes() == bytes_of_first(M, 300)
 
 
-def test_what_a_worker_finds_wrong_is_told(local: Any) -> None:
-    wild = case("profile", kind="normal", relative_std="=0.4")
+def test_what_a_worker_finds_wrong_is_told(client: Any) -> None:
+    wild = {**PROFILE, "disorder": {"kind": "normal", "relative_std": "=0.4"}}
     with pytest.raises(RealisationError, match=r"realisation \d+: bead \("):
-        run.run(wild, 60, partial(cluster, local.scheduler_address, 1))
+        fd.ensemble(scene(wild), 60, executor=client.get_executor(pure=False))
 
 
 def test_another_version_on_a_worker_is_refused(
-    local: Any, monkeypatch: pytest.MonkeyPatch
+    client: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(workers, "program_version", lambda: "9.9")
+    monkeypatch.setattr(module, "program_version", lambda: "9.9")
     with pytest.raises(WorkersError, match="install the same version"):
-        run.run(M, 40, partial(cluster, local.scheduler_address, 1))
+        fd.ensemble(scene(PROFILE), 40, executor=client.get_executor(pure=False))
 
 
-def test_a_scheduler_that_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workers, "TO_ANSWER", 1)
+@pytest.fixture
+def path(tmp_path: Path) -> Path:
+    path = tmp_path / "scene.toml"
+    path.write_text(toml(PROFILE))
+    return path
+
+
+def call(path: Path, address: str) -> int:
+    return main(["ensemble", str(path), "--realisations", "40", "--json", "--scheduler", address])
+
+
+def test_the_command_gives_the_same(
+    local: Any, path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert call(path, local.scheduler_address) == 0
+    found = capsys.readouterr().out
+    assert main(["ensemble", str(path), "--realisations", "40", "--json"]) == 0
+    assert capsys.readouterr().out == found
+
+
+def test_a_scheduler_that_is_missing(
+    path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(command, "TO_ANSWER", 1)
     for address in ("tcp://127.0.0.1:9", "nonsense://x"):
-        with pytest.raises(WorkersError, match="no scheduler answers"):
-            run.run(M, 40, partial(cluster, address, 1))
+        assert call(path, address) == 3
+        assert "no scheduler answers" in capsys.readouterr().err
 
 
 @pytest.mark.long
-def test_a_scheduler_without_workers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workers, "TO_BE_THERE", 1)
-    with (
-        distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=":0") as empty,
-        pytest.raises(WorkersError, match="no workers"),
-    ):
-        run.run(M, 40, partial(cluster, empty.scheduler_address, 1))
+def test_a_scheduler_without_workers(
+    path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(command, "TO_BE_THERE", 1)
+    with distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=":0") as empty:
+        assert call(path, empty.scheduler_address) == 3
+    assert "has no workers" in capsys.readouterr().err

@@ -7,13 +7,12 @@ from typing import Any
 
 import pytest
 from force_diffusion.numeric.ensemble import ensemble as module
-from force_diffusion.numeric.ensemble.estimates import Estimates
-from force_diffusion.numeric.ensemble.measure import ArgumentError
 from force_diffusion.numeric.ensemble.store import StoreError
+from force_diffusion.numeric.ensemble.sums import ArgumentError
 from force_diffusion.numeric.scene.sections import SceneError
 
 import force_diffusion as fd
-from tests.numeric.ensemble.cases import CASES, PROFILE, case, first
+from tests.numeric.ensemble.cases import CASES, PROFILE, case, ensemble_of
 from tests.numeric.scenes import basic, scene
 
 
@@ -53,7 +52,7 @@ def test_arrays_rows_and_data_say_the_same(name: str) -> None:
 def test_layers_of_both_branches(tmp_path: Path) -> None:
     store = tmp_path / "ensemble.fd"
     found = fd.ensemble(scene(PROFILE), 150, store=store)
-    e = Estimates(case("profile"), first(case("profile"), 150))
+    e = ensemble_of(case("profile"), 150)
     assert found.mean_square.tolist() == e.mean_square.tolist()
     assert found.std.tolist() == e.std.tolist()
     assert found.first_order_std is not None

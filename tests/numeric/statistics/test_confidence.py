@@ -1,13 +1,13 @@
 """When an ensemble is sure enough."""
 
 import math
+from dataclasses import replace
 
 import pytest
-from force_diffusion.numeric.ensemble.estimates import Estimates
 from force_diffusion.numeric.statistics.confidence import half_width, looks
 from scipy import stats
 
-from tests.numeric.ensemble.cases import case, first
+from tests.numeric.ensemble.cases import case, ensemble_of
 
 
 @pytest.mark.parametrize(
@@ -39,12 +39,12 @@ def test_looks_are_few_and_their_shares_add_up() -> None:
 
 
 def test_more_looks_and_more_confidence_ask_for_more() -> None:
-    estimates = Estimates(m := case("profile"), first(case("profile"), 40))
-    fixed = estimates.width(0.95, 0)
+    found = ensemble_of(m := case("profile"), 40)
     t = stats.t.isf(0.05 / m.groups / 2, 39)
-    assert fixed == pytest.approx(
-        t * max(e / s for e, s in zip(estimates.std_error, estimates.std, strict=True) if e)
+    assert found.half_width == pytest.approx(
+        t * max(e / s for e, s in zip(found.std_error, found.std, strict=True) if e)
     )
-    assert fixed < estimates.width(0.95, 1) < estimates.width(0.95, 2)
-    assert fixed < estimates.width(0.99, 0)
-    assert Estimates(m, first(m, 1)).width(0.95, 0) == math.inf
+    first, second = (replace(found, looks=k).half_width for k in (1, 2))
+    assert found.half_width < first < second
+    assert found.half_width < replace(found, confidence=0.99).half_width
+    assert ensemble_of(m, 1).half_width == math.inf
