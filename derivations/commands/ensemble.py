@@ -23,9 +23,8 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.result import Ensemble
     from force_diffusion.numeric.scene.scene import Scene
 
-MOST_TOLD = 10**9
-# Seconds until a scheduler has to answer, and until a worker of it has to be there.
-TO_ANSWER, TO_BE_THERE = 10, 30
+# Seconds until a scheduler has to answer, and a worker of it has to be there.
+PATIENCE = 10
 
 
 STATUSES = (
@@ -85,10 +84,11 @@ def ensemble(
         read = fd.read_scene(scene)
     checked(written, out)
     folder = Output(out, names_of(answered("ensemble")), overwrite) if out else None
-    found = _solved(
-        scene.name, read, realisations, until, store, quiet,
-        scheduler, confidence=confidence, workers=workers, reach=reach,
-    )  # fmt: skip
+    with about(scene.name):
+        found = _solved(
+            read, realisations, until, store, quiet, scheduler,
+            confidence=confidence, workers=workers, reach=reach,
+        )  # fmt: skip
     warn(scene, found.measurement.plan)
     data = found.data(rows=False)
     data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
@@ -97,19 +97,14 @@ def ensemble(
     lines = str(found).splitlines()
     show(found, data, lines, as_json=as_json, quiet=quiet, written=folder is not None)
     if found.reached is False:
-        assert until is not None
-        N, width = found.realisations, found.half_width
-        times = width / until
-        guess = "more realisations are needed"
-        if times < MOST_TOLD:
-            guess = f"about {N * times**2:.2g} realisations may do"
+        more = (found.half_width / (until or 1)) ** 2
         raise NotReachedError(
-            f"the confidence is not reached: σ_f is known to {width:.2g}, not {until:g}; {guess}"
+            f"the confidence is not reached: σ_f is known to {found.half_width:.2g}, not {until}; "
+            f"about {more * found.realisations:.2g} realisations may do"
         )
 
 
 def _solved(
-    name: str,
     scene: "Scene",
     realisations: int | None,
     until: float | None,
@@ -119,8 +114,6 @@ def _solved(
     **more: Any,
 ) -> "Ensemble":
     """Solve under a progress bar; errors name options as they are written here."""
-    from force_diffusion.numeric.ensemble.ensemble import WorkersError
-    from force_diffusion.numeric.ensemble.store import StoreError, StoreFailedError
     from force_diffusion.numeric.ensemble.sums import ArgumentError
 
     try:
@@ -134,13 +127,6 @@ def _solved(
             )
     except ArgumentError as error:
         raise ForceDiffusionError(f"--{error}") from None
-    except (StoreError, StoreFailedError) as error:
-        raise type(error)(f"--store {error}") from None
-    except WorkersError:
-        raise
-    except (ForceDiffusionError, MemoryError) as error:
-        error.add_note(name)
-        raise
     except KeyboardInterrupt as interrupt:
         nothing = "nothing was kept; with --store FILE it would have been."
         for note in getattr(interrupt, "__notes__", [] if store else [nothing]):
@@ -161,26 +147,15 @@ def _cluster(address: str) -> Iterator[Executor]:
         ) from None
     distributed: Any = untyped  # it has no types
     try:
-        client = distributed.Client(address, timeout=TO_ANSWER)
+        client = distributed.Client(address, timeout=PATIENCE)
     except (OSError, ValueError) as error:
-        raise WorkersError(
-            f"no scheduler answers at {address} ({error}): give the address that "
-            "'dask scheduler' prints, such as tcp://127.0.0.1:8786"
-        ) from None
+        raise WorkersError(f"no Dask scheduler answers at {address} ({error})") from None
     with client:
         try:
-            client.wait_for_workers(1, timeout=TO_BE_THERE)
+            client.wait_for_workers(1, timeout=PATIENCE)
             yield client.get_executor(pure=False)
-        except TimeoutError:
-            raise WorkersError(
-                f"the scheduler at {address} has no workers: start some with "
-                f"'dask worker {address}'"
-            ) from None
-        except distributed.KilledWorker:
-            raise WorkersError(
-                "several workers of the cluster died at the same block, perhaps for want of "
-                "memory: give them more"
-            ) from None
+        except (TimeoutError, distributed.KilledWorker) as error:
+            raise WorkersError(f"{error}: give the cluster workers, or more memory") from None
 
 
 def _progress(
@@ -190,14 +165,10 @@ def _progress(
     if quiet or not sys.stderr.isatty():
         return lambda done, width: None
     from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn
-    from rich.progress import TimeElapsedColumn as Elapsed
-    from rich.progress import TimeRemainingColumn as Left
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
 
-    columns = (
-        TextColumn("realisations"), BarColumn(), MofNCompleteColumn(),
-        Elapsed(), TextColumn("left"), Left(), TextColumn("{task.description}"),
-    )  # fmt: skip
+    done_of_all, time = MofNCompleteColumn(), TimeRemainingColumn()
+    columns = "realisations", BarColumn(), done_of_all, time, "left {task.description}"
     bar = Progress(*columns, console=Console(stderr=True), transient=True)
     task = None
 

@@ -242,7 +242,7 @@ def test_a_full_disk_keeps_what_is_written_and_says_how_to_go_on(
 
     full = limited(20)
     assert (full.returncode, full.stdout) == (3, "")
-    assert f"--store {store} can't be written to" in full.stderr
+    assert f"{store} can't be written to" in full.stderr
     held = re.search(r"holds (\d+) realisations; the same command goes on", full.stderr)
     assert held is not None
     assert 0 < int(held[1]) < 9000
@@ -317,7 +317,7 @@ def test_a_terminal_sees_progress_and_the_time_left() -> None:
     )
     assert status == 0
     text = plain(shown)
-    assert re.search(r"realisations .*/60 .*left", text)
+    assert re.search(r"realisations .*/60 .* left", text)
     assert "until 0.2" in text
 
 

@@ -93,17 +93,17 @@ def test_the_command_gives_the_same(
 def test_a_scheduler_that_is_missing(
     path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(command, "TO_ANSWER", 1)
+    monkeypatch.setattr(command, "PATIENCE", 1)
     for address in ("tcp://127.0.0.1:9", "nonsense://x"):
         assert call(path, address) == 3
-        assert "no scheduler answers" in capsys.readouterr().err
+        assert "no Dask scheduler answers" in capsys.readouterr().err
 
 
 @pytest.mark.long
 def test_a_scheduler_without_workers(
     path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr(command, "TO_BE_THERE", 1)
+    monkeypatch.setattr(command, "PATIENCE", 1)
     with distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=":0") as empty:
         assert call(path, empty.scheduler_address) == 3
-    assert "has no workers" in capsys.readouterr().err
+    assert "give the cluster workers" in capsys.readouterr().err
