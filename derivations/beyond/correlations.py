@@ -16,7 +16,7 @@ from force_diffusion.symbolic.as_written import relations
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
-    ForceMinus, ForcePlus, M, N, i, j, l, p, phi, r, sigma, z)
+    ForceMinus, ForcePlus, M, N, i, j, k, l, p, phi, r, sigma, z)
 from sympy import Eq, Rational
 # fmt: on
 
@@ -33,8 +33,8 @@ BEAD_MEAN = Symbol(
 BEAD = Symbol("bead", r"\frac{\sigma^2(p)}{(f^{\mathrm{load}})^{2}}", "σ²(p)/f_load²")
 APART = Symbol(
     "places_covariance",
-    r"\frac{\langle\Delta f^{+}_{ij}\,\Delta f^{+}_{i+2p,\,j}\rangle}{\langle f\rangle^2}",
-    "⟨Δf⁺_ij Δf⁺_{i+2p,j}⟩/⟨f⟩²",
+    r"\frac{\langle\Delta f^{+}_{ij}\,\Delta f^{+}_{i+2k,\,j}\rangle}{\langle f\rangle^2}",
+    "⟨Δf⁺_ij Δf⁺_{i+2k,j}⟩/⟨f⟩²",
 )
 LAYERS, BULK_LAYERS = (
     Symbol(
@@ -64,7 +64,7 @@ def _contacts(number: Number, name: str, load: str) -> Row:
     said = f'load="{load}"'
 
     def beside(places: int, share: Rational) -> Decide:
-        return goes_as("apart", share * leading, Eq(p, places), *_DEEP, at={j: z * M})
+        return goes_as("apart", share * leading, Eq(k, places), *_DEEP, at={j: z * M})
 
     return Row(
         number=number,
@@ -73,21 +73,21 @@ def _contacts(number: Number, name: str, load: str) -> Row:
         call=f"variance(mean_over(f_plus(i, j), N), {said})",
         exact=lambda: {
             "mean": variance(mean_over(ForcePlus(i, j), N), load=load).named(FORCE_MEAN),
-            "apart": covariance(ForcePlus(i, j), ForcePlus(i + 2 * p, j), load=load).named(APART),
+            "apart": covariance(ForcePlus(i, j), ForcePlus(i + 2 * k, j), load=load).named(APART),
         },
         meaning="N independent contacts would have σ_f²/N. Force fluctuations nearly cancel along "
         "a layer up to N of order M³, where the radii of the two layers that touch take over.",
         quantities=(
             (FORCE_MEAN, "variance of the mean of f^± over N neighbours of one layer"),
-            (APART, "covariance of two contacts of a layer that are p places apart"),
+            (APART, "covariance of two contacts of a layer that are k places apart"),
         ),
         claimed={
             "to leading order the correlation of a contact with its first neighbour is −2/3":
                 beside(1, Rational(-2, 3)),
             "and with its second neighbour 1/6": beside(2, Rational(1, 6)),
-            "from the third neighbour on there is none, exactly, for p ≤ j − 2":
-                equals("apart", sympy.S.Zero, p >= 3, p <= j - 2),
-            "nor for p ≥ j + 3": equals("apart", sympy.S.Zero, p >= j + 3),
+            "from the third neighbour on there is none, exactly, for k ≤ j − 2":
+                equals("apart", sympy.S.Zero, k >= 3, k <= j - 2),
+            "nor for k ≥ j + 3": equals("apart", sympy.S.Zero, k >= j + 3),
             f"of Eq. {PAPER[load].DERIVATION.number} a mean over few neighbours has 2/(3N²)":
                 goes_as("mean", Rational(2, 3) / N**2 * leading, N >= 2, j - 1 >= N, j + 2 <= M,
                         at={j: z * M}),

@@ -27,7 +27,13 @@ FACE, FACE_BEAD, LEG, LEG_FORCE, INSIDE = (
     Symbol(name, rf"\frac{{\sigma_{{\mathrm{{{where}}}}}^{{2}}({of})}}{{{over}}}", words)
     for name, where, of, over, words in (
         ("face_response", "face", "n_{z} f", _FORCE_LOAD, "σ²(n_z f on a face)/f_load²"),
-        ("face_bead_response", "face", "p", _FORCE_LOAD, "σ²(p on a face)/f_load²"),
+        (
+            "face_bead_response",
+            "face",
+            "n_{z} f^1 + n_{z} f^2",
+            _FORCE_LOAD,
+            "σ²(n_z f¹ + n_z f² on a face)/f_load²",
+        ),
         ("leg_response", "leg", "n_{z} f", _FORCE_LOAD, "σ²(n_z f on a leg)/f_load²"),
         ("leg_force", "leg", "f", "f_{0}^{2}", "σ²(f on a leg)/f₀²"),
         ("inside_force", "inside", "f", "f_{0}^{2}", "σ²(f inside)/f₀²"),

@@ -26,8 +26,8 @@ RATIO = Symbol(
 VERTICAL = Symbol("vertical_moment", r"\frac{\langle S_{yy}\rangle}{S_{yy}^{0}}", "⟨S_yy⟩/S⁰_yy")
 BY_FLUX = Symbol(
     "moment_over_flux",
-    r"\frac{\sigma_{yy}^{\mathrm{moment}}}{\sigma_{yy}^{\mathrm{flux}}}",
-    "σ_yy(moment)/σ_yy(flux)",
+    r"\frac{T_{yy}^{\mathrm{moment}}}{T_{yy}^{\mathrm{flux}}}",
+    "T_yy(moment)/T_yy(flux)",
 )
 SHEAR, SHEAR_BY_FLUX, AXES = (
     {
@@ -38,8 +38,8 @@ SHEAR, SHEAR_BY_FLUX, AXES = (
         ("shear", r"\left(\frac{\langle S_{xy}\rangle}{S_{xy}^{0}}\right)", "(⟨S_xy⟩/S⁰_xy)"),
         (
             "shear_over_flux",
-            r"\left(\frac{\sigma_{xy}^{\mathrm{moment}}}{\sigma_{xy}^{\mathrm{flux}}}\right)",
-            "[σ_xy(moment)/σ_xy(flux)]",
+            r"\left(\frac{T_{xy}^{\mathrm{moment}}}{T_{xy}^{\mathrm{flux}}}\right)",
+            "[T_xy(moment)/T_xy(flux)]",
         ),
         (
             "axes",
@@ -163,7 +163,7 @@ DERIVATIONS: dict[Number, Row] = {
             **{f"the load's direction does not count: {name}_{load}":
                    is_free_of(f"{name}_{load}", t)
                for name in ("shear", "axes") for load in LAYERS},
-            **{f"moments and flux differ for σ_xy as for σ_yy, with the opposite sign: {load} load":
+            **{f"moments and flux differ for T_xy as for T_yy, with the opposite sign: {load} load":
                    equals(f"flux_{load}", (number, "flux"), factor=-sympy.S.One)
                for load, number in zip(LAYERS, ("B10", "B17"), strict=True)},
         },

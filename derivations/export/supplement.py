@@ -38,7 +38,8 @@ _INTRODUCTION = (
     "Each row of a table has a formula and the indices for which it holds; above it are what it is "
     "the value of, and the indices for which the rows together hold. Formulas for discs are in "
     "units of u = (σ/r)²/(1 − φ²)², formulas for spheres in units of v = (σ/r)²/[(1 − φ)² "
-    "(1 + 2φ)²], where σ is the standard deviation of the radii, written σ_δr in other places. "
+    "(1 + 2φ)²], where σ is the standard deviation of the radii, written σ_δr in the quantities. "
+    "For spheres p and q count steps, and the force on a bead is written out. "
     "The name at the left is the one by which the program knows a form. Eqs. B11 and B20 put "
     "Eqs. 13 and B13, and Eqs. 14 and B14, side by side."
 )
