@@ -14,6 +14,7 @@ from typing import Any
 import flint
 import numpy as np
 
+from .arithmetic.carried import Sizes
 from .arithmetic.decimals import short
 from .arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from .arithmetic.systems import (
@@ -27,11 +28,11 @@ from .arithmetic.systems import (
     midpoint,
 )
 from .mechanics.sweep import NotStandingError
-from .mechanics.work import ESTIMATE, Work
-from .planning.plan import CERTIFY, Plan
-from .planning.planner import PRINTED, UNIT, UNSEEN, gathering, initial_bits
-from .quantities.answer import Answer, answer
-from .quantities.base import RATIO, SCATTER_OF, Table
+from .mechanics.work import Work
+from .planning.plan import Plan
+from .planning.planner import PRINTED, UNIT, gathering, initial_bits
+from .quantities.answer import Answer, Bins, answer
+from .quantities.base import RATIO, SCATTER_OF, Quantity, Table
 from .tables import significant
 
 CARRIED = "estimated, as the sweep carried it, not certified"
@@ -50,20 +51,18 @@ class Accuracy:
     """Error of the answer's small columns, relative to the largest entry of them.
 
     ``certified``: a rigorous bound (balls). Otherwise it is estimated, from errors that the sweep
-    carried. ``bits_lost``: bits of the arithmetic that the answer lacks. A bound below what a float
-    can hold is a fraction.
+    carried. A bound below what a float can hold is a fraction.
     """
 
     error_bound: float | Fraction
     certified: bool
     arithmetic: str
-    bits_lost: float
     note: str = ""
 
-    def within(self, tolerance: Fraction) -> bool:
-        """Say whether the error is at most as large."""
+    def within(self, tolerance: Fraction | None) -> bool:
+        """Say whether the error is at most as large; without a tolerance any is."""
         bound = self.error_bound
-        return math.isfinite(bound) and Fraction(bound) <= tolerance
+        return tolerance is None or (math.isfinite(bound) and Fraction(bound) <= tolerance)
 
     @property
     def still(self) -> str:
@@ -83,23 +82,19 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
     """Judge an answer in balls; ``floor`` is the size below which a change counts as zero."""
     values = [value for name in table.small for value in table.numbers[name]]
     if not all(value.is_finite() for value in values):
-        return Accuracy(math.inf, True, system.name, float(system.bits))
+        return Accuracy(math.inf, True, system.name)
     largest = largest_of(value.abs_lower() for value in values)
     radius = largest_of(value.rad() for value in values)
     if radius == 0 and largest == 0:
-        return Accuracy(0.0, True, system.name, 0.0)
+        return Accuracy(0.0, True, system.name)
     note = ""
     if not largest > 0:
         if not floor:
-            return Accuracy(math.inf, True, system.name, float(system.bits))
+            return Accuracy(math.inf, True, system.name)
         largest = system.number(floor)
         note = "no change can be told from zero; the error is relative to σ/r instead"
-    ratio = (radius / largest).upper()
-    lost = 0.0
-    if ratio > 0:
-        lost = max(system.bits + float(ratio.log() / flint.arb.const_log2()), 0.0)
-    printed = ratio * CUT_OFF + flint.arb(10) ** (1 - most_digits(system))
-    return Accuracy(_up(printed), True, system.name, round(lost, 1), note)
+    printed = (radius / largest).upper() * CUT_OFF + flint.arb(10) ** (1 - most_digits(system))
+    return Accuracy(_up(printed), True, system.name, note)
 
 
 def _up(value: Any) -> float | Fraction:
@@ -110,31 +105,38 @@ def _up(value: Any) -> float | Fraction:
     return float(upper) * (1 + 1e-15) if upper < 10**300 else math.inf
 
 
-def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
-    """Raise the precision until the enclosure is small enough.
+def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
+    """Raise the precision until the enclosures of all answers are small enough.
 
     Gives the plan with the precision that was. Raises ``ToleranceError``, which says why more bits
     do not help.
     """
     problem, spread = plan.problem, plan.problem.radii.relative_std()
-    floor = spread * (plan.scene.load.magnitude if problem.needs_forces else 1)
     system = plan.system
     assert isinstance(system, Balls)
     if system.bits > MOST_BITS:
         first_bits = MOST_BITS - initial_bits(Fraction(1), problem.height)
         raise ToleranceError(
-            f"the tolerance can't be reached: {short(plan.tolerance or floor)} at height "
+            f"the tolerance can't be reached: {short(plan.tolerance or UNIT)} at height "
             f"{problem.height} needs {system.bits} bits or more, and {MOST_BITS} are "
             f"the most; ask for about 1e-{int(first_bits * 0.30102)} at best"
         )
+    floors = [
+        spread * (plan.scene.load.magnitude if quantity.needs_forces else 1)
+        for quantity in plan.quantities
+    ]
     while True:
         try:
-            found = answer(plan.quantity, problem, range(problem.realisations), system, work)
-            with work.timed(CERTIFY), system.active():
-                accuracy = of_balls(found.table, system, floor)
-            if plan.tolerance is None or accuracy.within(plan.tolerance):
-                return replace(plan, method=replace(plan.method, system=system)), found, accuracy
-            why = f"at {system.bits} bits {accuracy.still}"
+            found = answer(plan.quantities, problem, range(problem.realisations), system, work)
+            with system.active():
+                judged = [
+                    of_balls(table, system, floor)
+                    for table, floor in zip(found.tables, floors, strict=True)
+                ]
+            missed = [one for one in judged if not one.within(plan.tolerance)]
+            if not missed:
+                return replace(plan, system=system), found, judged
+            why = f"at {system.bits} bits {missed[0].still}"
         except (UndecidedError, NotStandingError) as error:
             why = f"at {system.bits} bits: {error}"
         if system.bits == MOST_BITS:
@@ -150,76 +152,41 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, Accuracy]:
     raise ToleranceError(message)
 
 
-def estimated(plan: Plan, work: Work) -> tuple[Answer, Accuracy]:
-    """Answer in float64, and say how large the error is, as sweeps carried it.
-
-    Of many realisations the first few are swept again with their errors.
-    """
-    quantity, problem, few = plan.quantity, plan.problem, range(plan.method.repeated)
-    if len(few) >= problem.realisations:
-        found = answer(quantity, problem, few, FLOAT64, work, carried=True)
-        return found, of_carried(found, plan)
-    found = answer(quantity, problem, range(problem.realisations), FLOAT64, work)
-    part = replace(problem, realisations=len(few))
-    with work.repeat(ESTIMATE):
-        table = answer(quantity, part, few, FLOAT64, work).table
-        again = answer(quantity, part, few, FLOAT64, work, carried=True).table
-    return found, of_repeat(table, again, found.table, plan)
+def estimated(plan: Plan, work: Work) -> tuple[Answer, list[Accuracy]]:
+    """Answer in float64, and say how large the errors are, as sweeps carried them."""
+    problem = plan.problem
+    found = answer(
+        plan.quantities, problem, range(problem.realisations), FLOAT64, work, carried=True
+    )
+    tables = zip(plan.quantities, found.tables, strict=True)
+    return found, [of_carried(quantity, table, found.sizes, plan) for quantity, table in tables]
 
 
-def of_carried(found: Answer, plan: Plan) -> Accuracy:
+def of_carried(quantity: Quantity, table: Table, sizes: Sizes, plan: Plan) -> Accuracy:
     """State the error of an answer whose sweeps carried it.
 
     It is that of gathering numbers that were rounded once; to it comes what the carried errors
     leave out themselves (``Sizes.unseen``), which is doubled for sums of a few numbers.
     """
-    table, sizes, scene = found.table, found.sizes, plan.scene
+    problem, scene = plan.problem, plan.scene
     largest = _largest(table)
-    force, moved = sizes.unseen(scene.packing.height)
+    force, moved = sizes.unseen(problem.height)
     if not math.isfinite(force + moved):
-        return Accuracy(math.inf, False, FLOAT64.name, float(FLOAT64.bits))
+        return Accuracy(math.inf, False, FLOAT64.name, "nothing is left of the answer")
     if not largest:
-        return _of_zeros(plan, CARRIED, exact=not sizes.changed and not sizes.moved)
-    if plan.problem.needs_forces:
+        # the square of a small σ/r, which is what is left where changes cancel, rounds to zero
+        vanishes = 0 < problem.radii.relative_std() ** 2 < Fraction(1, 10**300)
+        if plan.tolerance is None and not (sizes.changed or sizes.moved or vanishes):
+            return Accuracy(0.0, False, FLOAT64.name, CARRIED)
+        note = "every change is zero here, and only balls (a tolerance) tell whether that is exact"
+        return Accuracy(math.inf, False, FLOAT64.name, note)
+    if quantity.needs_forces:
         unseen = Fraction(force) * scene.load.magnitude
     else:
-        unseen = Fraction(moved * float(1 / plan.problem.n_x)) * scene.packing.radius
-    ratio = gathering(plan.quantity, plan.problem) * UNIT + 2 * unseen / largest
-    return _estimate(ratio, CARRIED)
-
-
-def of_repeat(table: Table, again: Table, whole: Table, plan: Plan) -> Accuracy:
-    """Estimate the error of a whole answer, as printed.
-
-    ``table`` and ``again`` are those of the realisations that were swept again, in float64 and with
-    their errors.
-    """
-    few = f"{plan.method.repeated} of {plan.problem.realisations} realisations"
-    note = f"estimated, not certified, from {few}"
-    apart = max(np.abs(table.numbers[n] - again.numbers[n]).max(initial=0) for n in table.small)
-    if not np.isfinite(apart):
-        return Accuracy(math.inf, False, FLOAT64.name, float(FLOAT64.bits))
-    largest = _largest(whole)
-    if not largest:
-        return _of_zeros(plan, note, exact=not apart)
-    ratio = max(UNSEEN * Fraction(float(apart)) / largest, 4 * UNIT)
-    ratio += gathering(plan.quantity, plan.problem) * UNIT
-    return _estimate(ratio, note)
-
-
-def _estimate(ratio: Fraction, note: str) -> Accuracy:
-    """State an error relative to the largest change, as printed."""
-    bound = float(min(PRINTED * ratio, Fraction(10) ** 300)) * (1 + 1e-15)
-    lost = max(math.log2(bound) + FLOAT64.bits, 0.0)
-    return Accuracy(bound, False, FLOAT64.name, round(lost, 1), note)
-
-
-def _of_zeros(plan: Plan, note: str, *, exact: bool) -> Accuracy:
-    """State the error where every change is zero; ``exact``: as far as was seen."""
-    if exact and plan.tolerance is None:
-        return Accuracy(0.0, False, FLOAT64.name, 0.0, note)
-    note = "every change is zero here, and only balls can tell whether that is exact"
-    return Accuracy(math.inf, False, FLOAT64.name, 0.0, note)
+        unseen = Fraction(moved * float(1 / problem.n_x)) * scene.packing.radius
+    ratio = PRINTED * (gathering(quantity, problem) * UNIT + 2 * unseen / largest)
+    bound = float(min(ratio, Fraction(10) ** 300)) * (1 + 1e-15)
+    return Accuracy(bound, False, FLOAT64.name, CARRIED)
 
 
 def _largest(table: Table) -> Fraction:
@@ -228,19 +195,23 @@ def _largest(table: Table) -> Fraction:
     return Fraction(most) if math.isfinite(most) else Fraction(0)
 
 
-def shortfall(found: Answer, accuracy: Accuracy, tolerance: Fraction) -> str:
-    """Say why an estimated answer does not meet the tolerance; an empty string where it does."""
-    if not accuracy.within(tolerance):
-        return accuracy.still if accuracy.bits_lost else accuracy.note
-    if found.bins:
-        edges = [found.bins[0][0], *(high for _, high, _ in found.bins)]
-        if edge_in_doubt(found.table, edges, accuracy):
+def shortfall(plan: Plan, found: Answer, judged: Sequence[Accuracy]) -> str:
+    """Say why estimated answers do not meet the tolerance; an empty string where they do."""
+    if plan.tolerance is None:
+        return ""
+    for quantity, table, accuracy in zip(plan.quantities, found.tables, judged, strict=True):
+        if not accuracy.within(plan.tolerance):
+            finite = math.isfinite(accuracy.error_bound)
+            return accuracy.still if finite else accuracy.note
+        bins = found.bins if quantity.name == "histogram" else None
+        if bins and edge_in_doubt(table, bins, accuracy):
             return "a change lies within its error of the edge of a bin"
     return ""
 
 
-def edge_in_doubt(table: Table, edges: Sequence[Fraction], accuracy: Accuracy) -> bool:
+def edge_in_doubt(table: Table, bins: Bins, accuracy: Accuracy) -> bool:
     """Say whether a change lies within its error of the edge of a bin: counts may be off."""
+    edges = [bins[0][0], *(high for _, high, _ in bins)]
     values, largest = table.numbers["change"], _largest(table)
     # bins are counted in float64, whatever the arithmetic
     error = Fraction(accuracy.error_bound) * largest + largest / 2**52

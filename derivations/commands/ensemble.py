@@ -93,9 +93,9 @@ def ensemble(
     data = found.data(rows=False)
     data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
     if folder:
-        folder.write(files_of(found, data, written))
+        folder.write(files_of([found], data, written))
     lines = str(found).splitlines()
-    show(found, data, lines, as_json=as_json, quiet=quiet, written=folder is not None)
+    show([found], data, lines, as_json=as_json, quiet=quiet, written=folder is not None)
     if found.reached is False:
         more = (found.half_width / (until or 1)) ** 2
         raise NotReachedError(

@@ -236,6 +236,4 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     }
     about = found.data(rows=False)
     about["source"] = sourced(about["source"], path, None)
-    lines = outcome_lines(about, found.count)
-    lines = [line for line in lines if not line.startswith((" ", "What is"))]
-    return PaperFigure(title, files, {"answer": about}, lines)
+    return PaperFigure(title, files, {"answer": about}, outcome_lines(about))

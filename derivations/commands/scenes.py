@@ -148,12 +148,14 @@ def _answer(
 
     warn(scene, planned)
     found = _solved(planned, scene, quiet)
+    answers = list(found.results.values())
     about = found.data(rows=False)
     about["source"] = sourced(about["source"], scene, command_line())
     if folder:
-        folder.write(files_of(found, about, written))
-    lines = outcome_lines(about, found.count)
-    show(found, about, lines, as_json=as_json, quiet=quiet, written=folder is not None)
+        folder.write(files_of(answers, about, written))
+    rows = ", ".join(f"{answer.quantity}: {answer.count} rows" for answer in answers)
+    lines = [rows, *outcome_lines(about)]
+    show(answers, about, lines, as_json=as_json, quiet=quiet, written=folder is not None)
 
 
 def cost(
@@ -202,19 +204,18 @@ def _progress(
     from rich.progress import Progress
 
     bar = Progress(console=Console(stderr=True), transient=True)
-    total = sum(step.beads for step in planned.steps)
-    task = bar.add_task("solving", total=total)
+    task = bar.add_task("solving", total=planned.beads)
     done, shown = 0, perf_counter() + MOMENT
     stack = ExitStack()
 
     def progress(kind: str, beads: int) -> None:
         nonlocal done, shown
-        done += beads
+        done += beads if kind in {"deposited", "summed"} else 0
         if perf_counter() < shown:  # single beads may come a million a second
             return
         if not bar.live.is_started:
             stack.enter_context(bar)
-        bar.update(task, completed=done, description=kind)
+        bar.update(task, completed=done)
         shown = perf_counter() + MOMENT / 10
 
     return stack, progress

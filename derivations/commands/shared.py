@@ -1,7 +1,7 @@
 """What several commands share: a line that tells how far they are, and plots if they can be."""
 
 import sys
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -20,9 +20,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+# Rows that are printed beside words.
+FEW = 10
 Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
 Quiet = Annotated[
-    bool, typer.Option("--quiet", "-q", help="Print the rows alone; with --out, nothing.")
+    bool,
+    typer.Option("--quiet", "-q", help="Print all rows and nothing else; with --out, nothing."),
 ]
 Written = Annotated[
     Format,
@@ -52,7 +55,7 @@ def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[st
 
 
 def show(
-    answer: answers.Answered,
+    found: Sequence[answers.Answered],
     about: dict[str, Any],
     lines: Iterable[str],
     *,
@@ -60,12 +63,17 @@ def show(
     quiet: bool,
     written: bool,
 ) -> None:
-    """Print JSON; or the rows, unless they are ``written``, and lines of words."""
+    """Print JSON; or the first rows, all if ``quiet``, unless they are ``written``, and words."""
     if as_json:
-        _print(answers.json_bytes(answer, about))
+        _print(answers.json_bytes(found, about))
         return
-    if not written:
-        _print(csv_bytes(answer.text))
+    for answer in found if not written else ():
+        if len(found) > 1:
+            print(f"# {answer.quantity}")
+        rows = answer.count if quiet else FEW
+        _print(csv_bytes({name: text[:rows] for name, text in answer.text.items()}))
+        if answer.count > rows:
+            print(f"# {answer.count - rows} more rows: --quiet prints all, --out DIR writes them")
     if not quiet:
         mark = "" if written else "# "
         print("\n".join(f"{mark}{line}" for line in lines))

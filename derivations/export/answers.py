@@ -8,7 +8,7 @@ schema under ``force-diffusion``.
 
 import io
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from enum import StrEnum
 from typing import Any, Protocol
 
@@ -62,17 +62,25 @@ def check(written: Format) -> None:
             ) from None
 
 
-def files_of(answer: Answered, about: dict[str, Any], written: Format) -> dict[str, bytes]:
-    """Give the files of an answer by name; ``about`` is all that JSON says of it but its rows."""
-    quantity = answer.quantity
-    name = f"{quantity}.{written}"
+def files_of(
+    answers: Sequence[Answered], about: dict[str, Any], written: Format
+) -> dict[str, bytes]:
+    """Give the files of answers by name; ``about`` is all that JSON says of them but their rows."""
+    files = {f"{answer.quantity}.{written}": answer for answer in answers}
     if written == Format.CSV:
-        return {"result.json": json_bytes(answer, about), name: csv_bytes(answer.text)}
-    about = about | {"results": {quantity: {"file": name, "rows": answer.count}}}
+        tables = {name: csv_bytes(answer.text) for name, answer in files.items()}
+        return {"result.json": json_bytes(answers, about), **tables}
+    about = about | {
+        "results": {
+            answer.quantity: {"file": name, "rows": answer.count} for name, answer in files.items()
+        }
+    }
     text = json.dumps(about, indent=2) + "\n"
-    columns = {name: _column(answer, name) for name in answer.arrays}
-    content = _npz(columns, text) if written == Format.NPZ else _parquet(columns, text)
-    return {"result.json": text.encode(), name: content}
+    made = {"result.json": text.encode()}
+    for name, answer in files.items():
+        columns = {column: _column(answer, column) for column in answer.arrays}
+        made[name] = _npz(columns, text) if written == Format.NPZ else _parquet(columns, text)
+    return made
 
 
 def names_of(quantities: Iterable[str]) -> list[str]:
@@ -80,17 +88,17 @@ def names_of(quantities: Iterable[str]) -> list[str]:
     return ["result.json", *(f"{name}.{written}" for name in quantities for written in Format)]
 
 
-def json_bytes(answer: Answered, about: dict[str, Any]) -> bytes:
-    """Give all of an answer as JSON, each of its rows on a line."""
-    quantity = answer.quantity
-    whole = json.dumps(about, indent=2) + "\n"
-    place = f'\n  "results": {{\n    "{quantity}": []'  # no string of JSON holds a line's end
-    before, _, after = whole.partition(place)
-    rows = json_rows(answer.text, answer.whole_numbers)
-    start = place.removesuffix("]").encode()
-    return b"".join(
-        [before.encode(), start, b"\n" + rows + b"\n    ]" if rows else b"]", after.encode()]
-    )
+def json_bytes(answers: Sequence[Answered], about: dict[str, Any]) -> bytes:
+    """Give all of some answers as JSON, each of their rows on a line."""
+    whole = json.dumps(about, indent=2).encode() + b"\n"
+    at = whole.index(b'\n  "results": {\n')  # no string of JSON holds a line's end
+    for answer in answers:
+        rows = json_rows(answer.text, answer.whole_numbers)
+        if rows:
+            at = whole.index(f'\n    "{answer.quantity}": []'.encode(), at)
+            at = whole.index(b"[]", at) + 1
+            whole = whole[:at] + b"\n" + rows + b"\n    " + whole[at:]
+    return whole
 
 
 def _column(answer: Answered, name: str) -> Array:

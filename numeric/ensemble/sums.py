@@ -126,6 +126,8 @@ def measurement(scene: Scene, *, reach: float | None = None) -> Measurement:
     if planned.problem.route == Route.ORDERED:
         why = planned.skipped[-1].reason
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")
+    if planned.certified:
+        raise SceneError("ask", None, f"an ensemble is solved in float64, but {planned.reason}")
     made = Measurement(planned)
     if not (made.groups and made.members):
         allowed = "bears on no contact that is asked for: there is nothing to gather"

@@ -1,11 +1,13 @@
 """The memory that a scene takes, and what is refused as too much."""
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..lattice.layers import Region, Rows
+from ..mechanics.engine import chunk_size, worth_compiling
+from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene, check
 from ..scene.sections import SceneError
@@ -35,7 +37,32 @@ class TooLargeError(SceneError):
 
 
 def memory(
-    quantity: Quantity,
+    quantities: Sequence[Quantity], problem: Problem, system: NumberSystem, *, text: bool
+) -> int:
+    """Estimate the bytes at the peak; the rows of the answer become ``text`` or not."""
+    n, region = problem.realisations, problem.region
+    together = min(n, chunk_size(problem, system))
+    at_once = region.beads * together
+    if problem.route == Route.LINE_SUMS:  # one realisation after the other
+        at_once = quantities[0].line_beads(problem.load)
+    elif problem.route == Route.ORDERED and problem.dimension == 2:
+        at_once = 0
+    at_once += sum(quantity.gathered(region, together) for quantity in quantities)
+    compiler = COMPILED * worth_compiling(problem, system, carried=True)
+    return _bytes(quantities, region, at_once, n, system, text=text) + compiler
+
+
+def refuse_beads(quantities: Sequence[Quantity], beads: int, limit: int, *, text: bool) -> None:
+    """Refuse what surely takes too much memory before a single row of ``beads`` is made."""
+    scene = quantities[0].scene
+    layers = 0 if quantities[0].single and not beads else scene.packing.height + 1
+    nothing = Region(scene.packing.width, Rows())
+    needed = _bytes(quantities, nothing, beads, 1, FLOAT64, text=text)
+    refuse_memory(scene, needed + layers * PLAN_LAYER, limit)
+
+
+def _bytes(
+    quantities: Sequence[Quantity],
     region: Region,
     beads: int,
     realisations: int,
@@ -43,35 +70,21 @@ def memory(
     *,
     text: bool,
 ) -> int:
-    """Estimate the bytes at the peak.
-
-    ``beads`` are those solved at once, ``region`` is that of the plan; the rows of the answer
-    become ``text`` or not.
-    """
-    scene = quantity.scene
+    """Estimate the bytes of so many ``beads`` solved at once, and of the rows of the answer."""
+    scene = quantities[0].scene
     each = float_bead(scene.packing.dimension)
-    row = NAMES + quantity.numbers * (FLOAT_NUMBER + TEXT * text)
     if isinstance(system, Balls):
-        each, row = BALL_BEAD * max(64 + system.bits, 128) // 128, BALL_ROW
+        each = BALL_BEAD * max(64 + system.bits, 128) // 128
     if scene.disorder is not None and scene.disorder.file is not None:
         each += FILE_LINE
-    listed = 0 if quantity.merged or realisations == 1 else realisations
-    return (
-        beads * each
-        + quantity.answer_rows(region, realisations) * row
-        + listed * LISTED
-        + quantity.kept(region, realisations)
-        + len(region.rows) * (PLAN_LAYER + SOLVED_LAYER)
-        + INTERPRETER
-    )
-
-
-def refuse_beads(quantity: Quantity, beads: int, limit: int, *, text: bool) -> None:
-    """Refuse what surely takes too much memory before a single row of ``beads`` is made."""
-    packing = quantity.scene.packing
-    layers = 0 if quantity.single and not beads else packing.height + 1
-    needed = memory(quantity, Region(packing.width, Rows()), beads, 1, FLOAT64, text=text)
-    refuse_memory(quantity.scene, needed + layers * PLAN_LAYER, limit)
+    needed = beads * each + len(region.rows) * (PLAN_LAYER + SOLVED_LAYER) + INTERPRETER
+    for quantity in quantities:
+        row = NAMES + quantity.numbers * (FLOAT_NUMBER + TEXT * text)
+        row = BALL_ROW if isinstance(system, Balls) else row
+        listed = 0 if quantity.merged or realisations == 1 else realisations
+        needed += quantity.answer_rows(region, realisations) * row + listed * LISTED
+        needed += quantity.kept(region, realisations)
+    return needed
 
 
 def refuse_memory(scene: Scene, needed: int, limit: int) -> None:

@@ -1,8 +1,4 @@
-"""Where a scene's radii and loads come from, and whether float64 holds them; files are read here.
-
-A change is about δr/r times the load. Below 1e-308 hardware floats round it to zero without a
-word, which would then pass for an answer without error. A tolerance asks for balls.
-"""
+"""Where a scene's radii and loads come from, files among them; whether float64 holds them."""
 
 from fractions import Fraction
 
@@ -16,7 +12,7 @@ from ..lattice.layers import Naming, Rows
 from ..mechanics.loads import LoadSpec
 from ..scene.files import TableError, read_array, read_loads, read_radii
 from ..scene.scene import Scene
-from ..scene.sections import GivenRadii, SceneError
+from ..scene.sections import GivenRadii
 
 # Powers of two by which a unit of length may differ from r.
 FARTHEST_UNIT = 100
@@ -24,7 +20,6 @@ FARTHEST_UNIT = 100
 LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)
 # Sums over a packing (i up to 2^60) must stay below 1e308.
 MOST = Fraction(10**280)
-WAY_OUT = "give run a tolerance: balls, its arithmetic, have no such limit"
 
 
 def load_of(scene: Scene) -> LoadSpec:
@@ -106,40 +101,16 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
     return MeasuredRadii(measured, naming.row)
 
 
-def refuse_beyond_floats(scene: Scene, radii: Radii, load: LoadSpec) -> None:
-    """Raise ``SceneError`` where float64 would overflow, or round what is asked for to zero."""
-    disorder, given = radii.relative_std(), scene.disorder
-    key, what = "relative_std", ""
-    value: Fraction | str | None = disorder
-    if isinstance(radii, MeasuredRadii):
-        assert given is not None
-        disorder = radii.least
-        key, value = "file", given.file
-        what = f"a delta_r/r of {short(disorder)}; "
-    elif isinstance(radii, ArrayRadii):
-        key = given.name if isinstance(given, GivenRadii) else "file"
-    if disorder and disorder < LEAST:
-        why = f"{what}in float64 it must be zero or at least 1e-300: {WAY_OUT}"
-        raise SceneError(f"disorder.{key}", value, why)
-    least = LEAST_PRODUCT / (disorder or 1)
+def beyond_floats(scene: Scene, radii: Radii, load: LoadSpec) -> bool:
+    """Say whether float64 would overflow, or round a change that is asked for to zero.
 
-    def allowed() -> str:
-        return (
-            f"must lie between {short(least)} and {short(MOST)} in float64 where delta_r/r is "
-            f"{short(disorder)}: choose another unit, or {WAY_OUT}"
-        )
-
-    key, unit = "load.magnitude", scene.load.magnitude
-    if scene.ask.quantity == "positions":
-        key, unit = "packing.radius", scene.packing.radius
-    if not least <= unit <= MOST:
-        raise SceneError(key, unit, allowed())
-    for site, force in load.single.items() if key == "load.magnitude" else ():
-        size = max(map(abs, force))
-        if size and not (least <= size <= MOST and least <= size * unit <= MOST):
-            bead = Naming(load.dimension, scene.packing.width).bead(site)
-            raise SceneError(
-                "load.file",
-                scene.load.file,
-                f"the load on bead {bead} is {short(size)} times load.magnitude, which {allowed()}",
-            )
+    A change is about δr/r times the load, or times the unit of length.
+    """
+    spread = radii.least if isinstance(radii, MeasuredRadii) else radii.relative_std()
+    units = [scene.packing.radius if "positions" in scene.ask.quantities else Fraction(1)]
+    if scene.ask.quantities != ("positions",):
+        units += [scene.load.magnitude]
+        sizes = (max(map(abs, force)) for force in load.single.values())
+        units += [size * unit for size in sizes if size for unit in (1, scene.load.magnitude)]
+    least = LEAST_PRODUCT / (spread or 1)
+    return 0 < spread < LEAST or not all(least <= unit <= MOST for unit in units)

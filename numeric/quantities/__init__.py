@@ -22,9 +22,9 @@ QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
 }
 
 
-def quantity_of(scene: Scene) -> Quantity:
-    """Give the question that a scene asks."""
+def quantities_of(scene: Scene) -> tuple[Quantity, ...]:
+    """Give the questions that a scene asks."""
     known: Mapping[str, Callable[[Scene], Quantity]] = QUANTITIES
     if scene.effects.contacts == "unilateral":
         known = NETWORK_QUANTITIES
-    return known[scene.ask.quantity](scene)
+    return tuple(known[name](scene.asking(name)) for name in scene.ask.quantities)

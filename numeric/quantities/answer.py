@@ -15,8 +15,10 @@ from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Work
+from ..statistics.bins import histogram
 from ..unilateral.network import Network, Relaxed
 from .base import RATIO, Quantity, Table
+from .histogram import Histogram
 
 # What the sweeps raise for a packing that can't be built.
 UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
@@ -25,22 +27,27 @@ Bins = list[tuple[Fraction, Fraction, int]]
 
 @dataclass(frozen=True)
 class Answer:
-    """Rows of numbers; (low, high, count) of a histogram's bins, None for other quantities.
+    """Tables of numbers, one a question, and (low, high, count) of a histogram's bins.
 
     ``physical``: None where nothing exact was solved, or the same packings a second time.
     ``network``: where beads came to rest under unilateral contacts. ``sizes``: those of the errors
     that sweeps carried, if they did.
     """
 
-    table: Table
+    tables: tuple[Table, ...]
     bins: Bins | None
     physical: Physicality | None
     network: Network | None = None
     sizes: Sizes = NONE
 
+    @property
+    def table(self) -> Table:
+        """The answer to the first question."""
+        return self.tables[0]
+
 
 def answer(
-    quantity: Quantity,
+    quantities: Sequence[Quantity],
     problem: Problem,
     realisations: Sequence[int],
     system: NumberSystem,
@@ -48,7 +55,7 @@ def answer(
     *,
     carried: bool = False,
 ) -> Answer:
-    """Answer a question for some realisations; ``carried``: numbers, float64, carry their errors.
+    """Answer questions about some realisations; ``carried``: numbers, float64, carry their errors.
 
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
@@ -57,23 +64,28 @@ def answer(
     physical, network, sizes, bins = None, None, NONE, None
     if problem.route == Route.EXACT and not work.repeating:
         physical = Physicality(looks_at=realisations)
-    gatherer = quantity.gatherer(problem, system)
+    gatherers = [quantity.gatherer(problem, system) for quantity in quantities]
+    tables = []
+    alike = quantities[0].scene.ask.realisations if problem.route == Route.ORDERED else 1
     with system.active():
         for solved, chunk in _solved(problem, realisations, system, work, physical, carried):
-            gatherer.add(solved, chunk)
+            for gatherer in gatherers:
+                gatherer.add(solved, chunk)
             sizes |= solved.sizes
             if isinstance(solved, Relaxed):
                 network = solved.network
-        table = in_units(quantity, gatherer.table().sorted(), system)
-        if not table.index:
-            table = replace(table, index=quantity.names)
-        if not work.repeating:
-            bins = quantity.bins_of(table, system)
-    if problem.route == Route.ORDERED:
-        table, bins = _of_all(quantity.scene.ask.realisations, table, bins)
+        for quantity, gatherer in zip(quantities, gatherers, strict=True):
+            table = in_units(quantity, gatherer.table().sorted(), system)
+            index = table.index or quantity.names
+            if alike > 1 and "samples" in index:
+                index["samples"] = index["samples"] * alike
+            tables.append(replace(table, index=index))
+            if isinstance(quantity, Histogram) and not work.repeating:
+                found = histogram(table.numbers["change"], quantity.bins, system)
+                bins = [(low, high, count * alike) for low, high, count in found]
     if physical is not None and physical.first_tensile is not None:
-        physical.first_tensile = at_home(quantity, physical.first_tensile)
-    return Answer(table, bins, physical, network, sizes)
+        physical.first_tensile = at_home(quantities[0], physical.first_tensile)
+    return Answer(tuple(tables), bins, physical, network, sizes)
 
 
 def _solved(
@@ -103,13 +115,6 @@ def _solved(
         if len(realisations) > 1:
             error.add_note(_which(problem, realisations[done:], system))
         raise
-
-
-def _of_all(alike: int, table: Table, bins: Bins | None) -> tuple[Table, Bins | None]:
-    """Count all realisations where they are alike, and one was solved."""
-    index = {k: v * alike if k == "samples" else v for k, v in table.index.items()}
-    counted = None if bins is None else [(low, high, count * alike) for low, high, count in bins]
-    return replace(table, index=index), counted
 
 
 def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:

@@ -200,12 +200,6 @@ class Quantity(ABC):
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start to gather the answer."""
 
-    def bins_of(
-        self, table: Table, system: NumberSystem
-    ) -> list[tuple[Fraction, Fraction, int]] | None:
-        """Count an answer into bins (low, high, count); None unless the question is about that."""
-        return None
-
 
 class Listing(Gatherer):
     """Lists the rows of every realisation below each other."""

@@ -5,11 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem
+from ..arithmetic.systems import Array
 from ..lattice.layers import Region
 from ..mechanics.problem import Problem, Solved
 from ..scene.scene import Scene
-from ..statistics.bins import histogram
 from .base import (
     ContactQuantity,
     Listed,
@@ -34,10 +33,6 @@ class Histogram(ContactQuantity, Listed):
     def bins(self) -> int:
         """How many bins there are."""
         return self.scene.ask.bins or DEFAULT_BINS
-
-    def bins_of(self, table: Table, system: NumberSystem) -> list[tuple[Fraction, Fraction, int]]:
-        """Count the changes into equal bins."""
-        return histogram(table.numbers["change"], self.bins, system)
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """Two a bin, for its edges as decimals; a change counts for a little."""

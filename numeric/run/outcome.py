@@ -1,7 +1,7 @@
 """A finished run: the answer as arrays, rows and decimals, its error, and what was physical."""
 
 import math
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -11,10 +11,10 @@ import numpy as np
 from ..accuracy import Accuracy, printed
 from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array, as_floats
-from ..mechanics.physicality import PHYSICAL, Physicality
-from ..mechanics.work import ESTIMATE, Work
-from ..planning.plan import Plan, plan_lines
-from ..quantities.answer import Answer
+from ..mechanics.physicality import Physicality
+from ..planning.plan import Plan
+from ..quantities.answer import Answer, Bins
+from ..quantities.base import Table
 from ..scene.scene import source_of
 from ..statistics import bins
 from ..tables import SHOWN, Row, html_table, rows_of, rows_of_text, text_of
@@ -24,55 +24,25 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-@dataclass(frozen=True)
-class Missed:
-    """A method that was tried before the one that answered, and why it did not."""
-
-    algorithm: str
-    arithmetic: str
-    why: str
-
-
 @dataclass(frozen=True, eq=False, repr=False)
-class Outcome:
-    """A finished run.
+class Result:
+    """The answer to one question, of a ``plan`` that asks it first.
 
-    ``plan`` is that of the method that answered; ``missed`` are those tried before. ``answer``
-    holds the numbers in the arithmetic of the run. ``accuracy`` says how large the error is,
-    relative to the largest change, and how it is known. ``source`` says where it came from:
-    program, version, scene, seed and the SHA-256 of what was read; ``files``: those of files.
+    ``table`` holds the numbers in the arithmetic of the run, ``bins`` those of a histogram.
+    ``accuracy`` says how large the error is, relative to the largest change, and how it is known.
+    ``network``: where beads came to rest under unilateral contacts.
     """
 
     plan: Plan
-    answer: Answer
+    table: Table
+    bins: Bins | None
     accuracy: Accuracy
-    work: Work
-    seconds: float
-    files: dict[str, str]
-    missed: tuple[Missed, ...] = ()
+    network: Network | None
 
     @property
     def quantity(self) -> str:
         """What was asked, as the scene calls it."""
         return self.plan.quantity.name
-
-    @cached_property
-    def physical(self) -> Physicality | None:
-        """Whether beads could make such a packing; None where nothing exact was solved.
-
-        ``smallest_gap`` is in the unit that radii are given in, as a float: 0 or infinite where a
-        float can't hold it, of which ``data()`` has the decimals.
-        """
-        found = self.answer.physical
-        if found is None or found.smallest_gap is None:
-            return found
-        gap = _length(found.smallest_gap, self.plan.scene.packing.radius)
-        return replace(found, smallest_gap=float(gap))
-
-    @cached_property
-    def source(self) -> dict[str, Any]:
-        """Where the answer came from."""
-        return source_of(self.plan.scene, self.files)
 
     @cached_property
     def arrays(self) -> dict[str, Array]:
@@ -82,16 +52,14 @@ class Outcome:
         where that was longer. Lengths are in the scene's unit, forces in that in which the load's
         magnitude is written. The guide to scenes says what each column means.
         """
-        if self.answer.bins is not None:
-            low, high, count = (
-                zip(*self.answer.bins, strict=True) if self.answer.bins else ((), (), ())
-            )
+        if self.bins is not None:
+            low, high, count = zip(*self.bins, strict=True) if self.bins else ((), (), ())
             return {
                 "low": np.array([_near(edge) for edge in low]),
                 "high": np.array([_near(edge) for edge in high]),
                 "count": np.array(count, dtype=np.int64),
             }
-        table = self.answer.table
+        table = self.table
         found = {
             name: values.astype(np.float64) if name == "first_order_std" else values
             for name, values in table.index.items()
@@ -114,10 +82,10 @@ class Outcome:
     @cached_property
     def text(self) -> dict[str, list[str]]:
         """The columns of the answer as text, see ``numeric.tables``: decimals with known digits."""
-        if self.answer.bins is not None:
-            rows = bins.printed(self.answer.bins)
+        if self.bins is not None:
+            rows = bins.printed(self.bins)
             return {name: [str(row[name]) for row in rows] for name in ("low", "high", "count")}
-        system, table = self.plan.system, self.answer.table
+        system, table = self.plan.system, self.table
         with system.active():
             # a tolerance asks for the digits of these very packings
             numbers = printed(table, self.accuracy, system, sampled=self.plan.tolerance is None)
@@ -135,7 +103,7 @@ class Outcome:
     @property
     def sampling_error(self) -> float | None:
         """The largest standard error of a statistic, relative to the largest change; or None."""
-        table = self.answer.table
+        table = self.table
         errors = [e[np.isfinite(e)] for e in table.errors.values()]
         if not any(len(e) for e in errors):
             return None
@@ -150,7 +118,7 @@ class Outcome:
 
         Shape (rows,) each; NaN where there was one packing. Empty where nothing is sampled.
         """
-        return self.answer.table.errors
+        return self.table.errors
 
     def plot(self) -> "Figure":
         """Draw this answer; needs matplotlib (the extra ``plots``).
@@ -160,38 +128,59 @@ class Outcome:
         """
         from ..figures.answers import figure_of
 
-        return figure_of(self.plan, self.arrays, self.standard_errors, self.answer.network)
+        return figure_of(self.plan, self.arrays, self.standard_errors, self.network)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Outcome(Result):
+    """A finished run: the answer to its question, or to the first, and all that is said of it.
+
+    ``results`` has the answer to each question by its name. ``source`` says where they came from:
+    program, version, scene, seed and the SHA-256 of what was read; ``files``: those of files.
+    """
+
+    results: dict[str, Result]
+    answer: Answer
+    seconds: float
+    files: dict[str, str]
+
+    @cached_property
+    def physical(self) -> Physicality | None:
+        """Whether beads could make such a packing; None where nothing exact was solved.
+
+        ``smallest_gap`` is in the unit that radii are given in, as a float: 0 or infinite where a
+        float can't hold it, of which ``data()`` has the decimals.
+        """
+        found = self.answer.physical
+        if found is None or found.smallest_gap is None:
+            return found
+        gap = _length(found.smallest_gap, self.plan.scene.packing.radius)
+        return replace(found, smallest_gap=float(gap))
+
+    @cached_property
+    def source(self) -> dict[str, Any]:
+        """Where the answer came from."""
+        return source_of(self.plan.scene, self.files)
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
         """Give what JSON can hold of it; the guide to scenes has the schema of each quantity.
 
-        Without ``rows`` the list of results is empty: there may be millions.
+        Without ``rows`` the lists of results are empty: there may be millions. Of several
+        questions ``accuracy`` is that of the least accurate answer.
         """
-        data = {"source": self.source, **self.plan.data()}
-        work, accuracy = self.work, self.accuracy
-        visited = {
-            "read radii": work.radii,
-            "draw radii": work.radii,
-            "deposit": work.deposited,
-            "line sums": work.summed,
-            "balance forces": work.balanced,
-            "relax": work.balanced,
-            PHYSICAL: work.checked,
-            ESTIMATE: work.again,
-        }
-        for step in data["plan"]:
-            name = step["step"]
-            clock = "radii" if name in {"read radii", "draw radii"} else name
-            step["seconds"] = round(work.seconds.get(clock, 0.0), 6)
-            step["arithmetic"] = ", then ".join(work.arithmetic)
-            step["beads"] = visited.get(name, 0)
-        data["results"] = {self.quantity: self.decimals() if rows else []}
-        data["accuracy"] = {
-            "error_bound": _bound(accuracy.error_bound),
-            "sampling_error": self.sampling_error,
-            "certified": accuracy.certified,
-            "arithmetic": accuracy.arithmetic,
-            "bits_lost": accuracy.bits_lost,
+        found = self.results.values()
+        accuracy = max((one.accuracy for one in found), key=lambda one: one.error_bound)
+        sampling = [one.sampling_error for one in found if one.sampling_error is not None]
+        data = {
+            "source": self.source,
+            **self.plan.data(),
+            "results": {name: one.decimals() if rows else [] for name, one in self.results.items()},
+            "accuracy": {
+                "error_bound": _bound(accuracy.error_bound),
+                "sampling_error": max(sampling, default=None),
+                "certified": accuracy.certified,
+                "arithmetic": accuracy.arithmetic,
+            },
         }
         if accuracy.note:
             data["accuracy"]["note"] = accuracy.note
@@ -200,22 +189,43 @@ class Outcome:
         if self.answer.network is not None:
             data["network"] = _network_data(self.answer.network)
         data["seconds"] = round(self.seconds, 6)
-        if data["choice"] is not None:
-            data["choice"]["missed"] = [asdict(missed) for missed in self.missed]
         return data
 
     def __str__(self) -> str:
-        """Say what was found, how accurately, and what was done for it."""
+        """Say what was found, how accurately, and what was left out."""
         notes = map("Note: {}".format, self.plan.notes)
-        return "\n".join([*outcome_lines(self.data(rows=False), self.count), *notes])
+        return "\n".join([*outcome_lines(self.data(rows=False)), *notes])
 
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
         """Show the first rows as a table in a notebook."""
         first = {name: text[:SHOWN] for name, text in self.text.items()}
-        lines = summary_lines(self.data(rows=False), self.count)
+        lines = outcome_lines(self.data(rows=False))
         return html_table(rows_of_text(first, self.whole_numbers), lines, self.count)
+
+
+def outcome_of(
+    plan: Plan, answer: Answer, judged: list[Accuracy], seconds: float, files: dict[str, str]
+) -> Outcome:
+    """Put the answers to a plan's questions together."""
+    results = {}
+    for quantity, table, accuracy in zip(plan.quantities, answer.tables, judged, strict=True):
+        own = replace(plan, scene=quantity.scene, quantities=(quantity,))
+        counted = answer.bins if quantity.name == "histogram" else None
+        results[quantity.name] = Result(own, table, counted, accuracy, answer.network)
+    first = results[plan.quantity.name]
+    return Outcome(
+        plan,
+        first.table,
+        first.bins,
+        first.accuracy,
+        answer.network,
+        results,
+        answer,
+        seconds,
+        files,
+    )
 
 
 def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
@@ -264,30 +274,6 @@ def _length(gap: float, radius: Fraction) -> float | str:
     return float(length) if usual else short(length)
 
 
-def _physical_line(p: dict[str, Any]) -> str:
-    """Say whether a packing is physical, of how much of it that is known, and why."""
-    words = "NOT physical"
-    if p["physical"]:
-        words = "physical" if p["whole"] else "physical, of what was looked at"
-    elif not p["overlaps"] and not p["tensile_contacts"]:
-        words = "open whether it is physical"
-    elif not p["overlaps"] and "note" in p:
-        words = "not physical by itself, as below any load on single beads"
-    gap = p["smallest_gap"]
-    gap = "none" if gap is None else gap if isinstance(gap, str) else f"{gap:.6g}"
-    pulling = "forces not asked for"
-    if p["contacts"] is not None:
-        pulling = f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile"
-    if p["tensile_contacts"] and "axis" not in p.get("first_tensile", {}):
-        pulling += ' (effects.contacts = "unilateral" lets such contacts open)'
-    open_signs = f", {p['undecided']} signs open" if p["undecided"] else ""
-    highest = "none" if p["critical_height"] is None else f"{p['critical_height']:.4g}"
-    return (
-        f"{words}: smallest gap {gap}, {p['overlaps']} overlaps, {pulling}{open_signs}; "
-        f"M = {p['height']}, M* = {highest}"
-    )
-
-
 def _network_data(found: Network) -> dict[str, Any]:
     """Say where beads came to rest, and how that is known."""
     return {
@@ -316,38 +302,42 @@ def _bound(bound: float | Fraction) -> float | str | None:
     return bound if math.isfinite(bound) else None
 
 
-def outcome_lines(data: dict[str, Any], rows: int) -> list[str]:
-    """Say in lines of text what a run found and did, and how many rows there are."""
-    return [*summary_lines(data, rows), *plan_lines(data)]
-
-
-def summary_lines(data: dict[str, Any], rows: int) -> list[str]:
-    """Say how many rows there are, how accurate they are, and what was physical."""
-    (quantity,) = data["results"]
+def outcome_lines(data: dict[str, Any]) -> list[str]:
+    """Say in lines of text what a run found, how accurately, and what was left out."""
     accuracy = data["accuracy"]
     bound = accuracy["error_bound"]
     kind = "certified" if accuracy["certified"] else "estimated"
     shown = f"{bound:.2g}" if isinstance(bound, float) else bound or "unknown"
-    lines = [
-        f"{quantity}: {rows} rows",
-        f"error {shown}, {kind}, in {accuracy['arithmetic']}; bits lost {accuracy['bits_lost']}",
-    ]
+    error = f"error {shown} ({kind}, {accuracy['arithmetic']})"
     if accuracy["sampling_error"] is not None:
-        lines[1] = (
-            f"error {accuracy['sampling_error']:.2g} of sampling, the largest standard error; "
-            f"of these packings {lines[1].removeprefix('error ')}"
-        )
-    if "physical" in data:
-        lines.append(_physical_line(data["physical"]))
+        error = f"error {accuracy['sampling_error']:.2g} of sampling; of these packings {error}"
+    verdict = f"{_physical_words(data['physical'])}; {error}" if "physical" in data else error
+    lines = [verdict]
     if "network" in data:
         found = data["network"]
         lines.append(
             f"the packing: {found['rest']}; {found['contacts']} contacts bear force, "
             f"{found['rattlers']} rattlers, smallest gap {found['smallest_gap']:.3g} r"
-            + (
-                f"; {found['programs']} linear programs, energy fell by {found['energy_fall']:.6g}"
-                if found["programs"]
-                else ""
-            )
         )
+    if data["skipped"]:
+        skipped = "; ".join(f"{s['effect']} ({s['reason']})" for s in data["skipped"])
+        lines.append(f"skipped: {skipped}")
     return lines
+
+
+def _physical_words(p: dict[str, Any]) -> str:
+    """Say whether a packing is physical, of how much of it that is known, and why it is not."""
+    if p["physical"]:
+        return "physical" if p["whole"] else "physical, of what was looked at"
+    words = "NOT physical"
+    if not p["overlaps"] and not p["tensile_contacts"]:
+        words = "open whether it is physical"
+    elif not p["overlaps"] and "note" in p:
+        words = "not physical by itself, as below any load on single beads"
+    found = [f"{p['overlaps']} overlaps"] if p["overlaps"] else []
+    if p["tensile_contacts"]:
+        opens = "" if "axis" in p["first_tensile"] else ', which contacts = "unilateral" lets open'
+        found.append(f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile{opens}")
+    if p["undecided"]:
+        found.append(f"{p['undecided']} signs open")
+    return f"{words}: {', '.join(found)}"

@@ -3,33 +3,30 @@
 ``Scene`` is the one of ``numeric.scene`` with the two verbs that need all the rooms below.
 """
 
-import math
 from collections.abc import Mapping
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from ..accuracy import Accuracy, ToleranceError, enclosed, estimated, shortfall
+from ..accuracy import ToleranceError, enclosed, estimated, shortfall
 from ..arithmetic.decimals import exact, parse
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work
-from ..planning.plan import Choice, Plan
-from ..planning.planner import plan
-from ..quantities.answer import Answer
+from ..planning.plan import Plan
+from ..planning.planner import in_balls, plan
 from ..scene import reading, scene
 from ..scene.scene import files_read
 from ..scene.sections import SceneError
-from .outcome import Missed, Outcome
+from .outcome import Outcome, outcome_of
 
 
 def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     """Run a plan, to the tolerance that it was made for.
 
-    Where the estimated error of a method misses the tolerance, the next one of the plan's choice is
-    taken. Raises ``ToleranceError``, ``TypeError`` for what is no plan, and what the sweeps raise
-    for a packing that can't be built.
+    Where the estimated error of float64 misses the tolerance, balls answer. Raises
+    ``ToleranceError``, ``TypeError`` for what is no plan, and what the sweeps raise for a packing
+    that can't be built.
     """
     if not isinstance(plan, Plan):
         raise TypeError(
@@ -39,45 +36,28 @@ def run(plan: Plan, progress: Progress | None = None) -> Outcome:
     start = perf_counter()
     files = files_read(plan.scene)
     work = Work(progress=progress)
-    missed: list[Missed] = []
-    if plan.choice is not None:
-        plan, answer, accuracy = _chosen(plan.choice, work, missed)
-    elif plan.method.certified:
-        plan, answer, accuracy = enclosed(plan, work)
-    else:
-        answer, accuracy = estimated(plan, work)
-    if not accuracy.certified and not accuracy.error_bound and _squares_vanish(plan):
-        note = "every change is zero, or below what float64 holds: a tolerance tells which"
-        accuracy = replace(accuracy, error_bound=math.inf, note=note)
-    seconds = perf_counter() - start
-    return Outcome(plan, answer, accuracy, work, seconds, files, tuple(missed))
-
-
-def _chosen(choice: Choice, work: Work, missed: list[Missed]) -> tuple[Plan, Answer, Accuracy]:
-    """Try the methods in order, until an estimate is within the tolerance or balls certify."""
-    for candidate in choice.tried:
-        assert candidate.plan is not None
-        tried = replace(candidate.plan, choice=choice)
-        if candidate.certified:
-            return enclosed(tried, work)
+    if not plan.certified:
         try:
-            answer, accuracy = estimated(tried, work)
-            why = shortfall(answer, accuracy, choice.tolerance)
+            answer, judged = estimated(plan, work)
+            missed = shortfall(plan, answer, judged)
         except (UnbuildableError, NotStandingError, ArithmeticError) as error:
-            why = str(error)  # rounding may have made it so: the next method tells
-        if not why:
-            return tried, answer, accuracy
-        missed.append(Missed(candidate.algorithm, candidate.arithmetic, why))
-    balls = next(c for c in choice.candidates if c.certified)
-    raise ToleranceError(
-        f"the tolerance can't be reached: {missed[-1].arithmetic}: {missed[-1].why}; and "
-        f"{balls.arithmetic}: {balls.out}"
-    )
+            if plan.tolerance is None:
+                raise
+            missed = str(error)  # rounding may have made it so: balls tell
+        if missed:
+            plan = _in_balls(plan, missed)
+    if plan.certified:
+        plan, answer, judged = enclosed(plan, work)
+    return outcome_of(plan, answer, judged, perf_counter() - start, files)
 
 
-def _squares_vanish(plan: Plan) -> bool:
-    """Say whether changes of second order, left where the first cancels, round to zero."""
-    return 0 < plan.problem.radii.relative_std() ** 2 < Fraction(1, 10**300)
+def _in_balls(plan: Plan, missed: str) -> Plan:
+    try:
+        return in_balls(plan, f"float64 was tried: {missed}")
+    except SceneError as error:
+        raise ToleranceError(
+            f"the tolerance can't be reached: float64: {missed}; and balls: {error}"
+        ) from None
 
 
 def read_tolerance(value: Any) -> Fraction:

@@ -100,7 +100,7 @@ class Solution:
         ask = self.scene.ask.model_copy(update={"quantity": "positions"})
         made = self.forces.plan
         scene = self.scene.model_copy(update={"ask": ask})
-        certified = made.tolerance is not None and made.method.certified
+        certified = made.tolerance is not None and made.certified
         return run(plan(scene, made.tolerance, certified=certified, text=False))
 
     @property

@@ -1,34 +1,26 @@
-"""What can't be combined: one table, from which the refusals, the help, the guide and a test come.
+"""What can't be combined: two tables, from which the refusals, the help, the guide and tests come.
 
-A row is refused where a scene and what is done with it have all of its features. What no row
-refuses is answered. Features are compared with ``==``; those that a row leaves out may be any.
+A row of ``TABLE`` is refused where a scene and what is done with it have all of its features. Those
+that a row leaves out may be any. ``ONLY_WITH`` has the keys that mean something beside some values
+of another key alone, ``REQUIRED`` those that are needed there. What no row refuses is answered.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any, Literal, get_args
+from typing import Any
 
-QuantityName = Literal[
-    "contact",
-    "contact_forces",
-    "positions",
-    "profile",
-    "histogram",
-    "response",
-]
-QUANTITIES: tuple[str, ...] = get_args(QuantityName)
+QUANTITIES = ("contact", "contact_forces", "positions", "profile", "histogram", "response")
 COMMANDS = ("run", "ensemble", "figures", "cost")
-LOADS = ("surface", "bulk", "point", "file")
 
 
 @dataclass(frozen=True)
 class Refusal:
     """A combination that is refused: ``key`` of the scene is named, and ``why``.
 
-    ``when``: features, each with the values that it has here.
+    ``when``: features, each with the values that it has here; ``words`` say the same.
     """
 
+    words: str
     when: Mapping[str, tuple[Any, ...]]
     key: str
     why: str
@@ -42,129 +34,133 @@ def _but(*quantities: str) -> tuple[str, ...]:
     return tuple(one for one in QUANTITIES if one not in quantities)
 
 
-def _load_but(*kinds: str) -> tuple[str, ...]:
-    return tuple(one for one in LOADS if one not in kinds)
-
-
 def either(words: tuple[str, ...]) -> str:
     """Say that one of several words is allowed."""
     quoted = [f'"{word}"' for word in words]
-    return ", ".join(quoted[:-1]) + f" or {quoted[-1]}"
+    return " or ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
 
 
-_OPEN, _SPHERES, _YES, _NO = ("unilateral",), (3,), (True,), (False,)
-_PLACES = ("contact", "histogram", "positions")
+_OPEN, _SPHERES, _YES = ("unilateral",), (3,), (True,)
 _GATHERED = ("profile", "contact", "contact_forces", "response", "histogram")
 _OF_NETWORKS = ("contact_forces", "positions")
-_IN_THREE = "in three dimensions"
-_ENDLESS = "is required: an infinite slab has infinitely many of these"
 
 TABLE = (
     Refusal(
-        {"dimension": _SPHERES, "slab": _YES},
+        "an infinite slab, of which infinitely many beads are asked for, or layers of spheres",
+        {"endless": _YES},
         "packing.width",
-        f"is required: beads lie in finite layers {_IN_THREE}",
+        "is required here: an infinite slab of discs answers for one contact, for one bead, or for "
+        "the contacts below loads on single beads",
     ),
     Refusal(
-        {"contacts": _OPEN, "slab": _YES},
-        "packing.width",
-        'is required with contacts = "unilateral": beads move in a periodic strip',
-    ),
-    Refusal(
-        {"leaning": _YES, "load": ("file",)}, "load.angle_deg", 'has no meaning with kind = "file"'
-    ),
-    Refusal(
+        "spheres, contacts that open",
         {"dimension": _SPHERES, "contacts": _OPEN},
         "effects.contacts",
-        f"must stay closed {_IN_THREE}",
+        "must stay closed in three dimensions",
     ),
     Refusal(
-        {"dimension": _SPHERES, "at": _YES, "quantity": _but("contact", "positions")},
-        "ask.at",
-        f'is for "contact" and "positions" {_IN_THREE}',
-    ),
-    Refusal(
+        'contacts that open, `geometry` other than "exact"',
         {"contacts": _OPEN, "geometry": ("ordered", "first-order")},
         "effects.geometry",
         'must be "exact" with contacts = "unilateral": beads move until no contact pulls',
     ),
     Refusal(
+        "contacts that open, other quantities",
         {"contacts": _OPEN, "quantity": _but(*_OF_NETWORKS)},
         "ask.quantity",
         f'must be {either(_OF_NETWORKS)} with contacts = "unilateral"',
     ),
     Refusal(
+        "contacts that open, realisations",
         {"contacts": _OPEN, "several": _YES},
         "ask.realisations",
         'must be 1 with contacts = "unilateral"',
     ),
     Refusal(
-        {"quantity": _but("response", "histogram"), "layers": _YES},
-        "ask.layers",
-        'needs quantity = "response" or "histogram"',
+        "`ask.at`, `ask.layers` or several quantities",
+        {"at": _YES, "beside": _YES},
+        "ask.at",
+        "asks for one place: for one quantity, and without layers",
     ),
     Refusal(
-        {"bins": _YES, "quantity": _but("histogram")}, "ask.bins", 'needs quantity = "histogram"'
-    ),
-    Refusal({"at": _YES, "quantity": _but(*_PLACES)}, "ask.at", f"is for {either(_PLACES)}"),
-    Refusal(
-        {"at": _YES, "layers": _YES}, "ask.layers", "one contact lies in one layer: leave at out"
-    ),
-    Refusal(
-        {"load": _load_but("point"), "quantity": ("response",)},
+        "`response`, a load that is no point load",
+        {"load": ("surface", "bulk", "file"), "quantity": ("response",)},
         "load.kind",
         'must be "point" for quantity = "response"',
     ),
     Refusal(
-        {"load": ("surface", "bulk"), "quantity": ("contact_forces",), "slab": _YES},
-        "packing.width",
-        _ENDLESS,
+        "`ensemble`, `figures` or `cost`, several quantities",
+        {"command": ("ensemble", "figures", "cost"), "together": _YES},
+        "ask.quantity",
+        "must be one quantity: only run answers several at once",
     ),
     Refusal(
-        {"at": _NO, "quantity": ("positions", "profile", "histogram"), "slab": _YES},
-        "packing.width",
-        _ENDLESS,
-    ),
-    Refusal(
+        "`ensemble`, `positions`",
         {"command": ("ensemble",), "quantity": _but(*_GATHERED)},
         "ask.quantity",
         f"an ensemble is of {either(_GATHERED)}",
     ),
     Refusal(
+        "`ensemble` or `cost`, contacts that open",
         {"command": ("ensemble", "cost"), "contacts": _OPEN},
         "effects.contacts",
         'must be "bilateral": a single packing is solved where contacts open',
     ),
     Refusal(
+        "`ensemble`, a tolerance",
         {"command": ("ensemble",), "tolerance": _YES},
         "ask.tolerance",
         "an ensemble is solved in float64: leave it out",
     ),
     Refusal(
-        {"command": ("ensemble",), "drawn": _NO},
+        "`ensemble`, radii of a file",
+        {"command": ("ensemble",), "drawn": (False,)},
         "disorder.kind",
         "an ensemble needs radii that are drawn",
     ),
     Refusal(
+        "`ensemble --reach`, all but `histogram`",
         {"command": ("ensemble",), "quantity": _but("histogram"), "reach": _YES},
         "ask.quantity",
         'only a "histogram" has bins that reach',
     ),
     Refusal(
-        {"command": ("figures",), "quantity": ("contact",)},
+        "`figures`, `contact`; of spheres all but `profile` and `histogram`",
+        {"command": ("figures",), "drawing": (False,)},
         "ask.quantity",
-        'has no figure of its own: ask for "contact_forces" or, of many packings, "histogram"',
+        'has no figure: ask for "profile" or "histogram", or of discs for "contact_forces", '
+        '"positions" or "response"',
     ),
     Refusal(
-        {"command": ("figures",), "dimension": _SPHERES, "quantity": _but("profile", "histogram")},
-        "packing.dimension",
-        'has figures of "profile" and "histogram" only',
-    ),
-    Refusal(
+        "`cost`, spheres",
         {"command": ("cost",), "dimension": _SPHERES},
         "packing.dimension",
         "must be 2: ways are compared for discs",
     ),
+)
+_DRAWN = ("uniform", "normal", "two-point")
+_Beside = tuple[tuple[str, str, tuple[str, ...]], ...]
+# Keys that only mean something where another key of their section has one of these values.
+ONLY_WITH: _Beside = (
+    ("disorder.relative_std", "kind", _DRAWN),
+    ("disorder.seed", "kind", _DRAWN),
+    ("disorder.file", "kind", ("file",)),
+    ("load.angle_deg", "kind", ("surface", "bulk", "point")),
+    ("load.at", "kind", ("point",)),
+    ("load.file", "kind", ("file",)),
+    ("effects.most_programs", "contacts", _OPEN),
+    ("effects.most_seconds", "contacts", _OPEN),
+    ("ask.at", "quantity", ("contact", "histogram", "positions")),
+    ("ask.layers", "quantity", ("response", "histogram")),
+    ("ask.bins", "quantity", ("histogram",)),
+)
+# Keys that are required where another has one of these values.
+REQUIRED: _Beside = (
+    ("disorder.relative_std", "kind", _DRAWN),
+    ("disorder.file", "kind", ("file",)),
+    ("load.at", "kind", ("point",)),
+    ("load.file", "kind", ("file",)),
+    ("ask.at", "quantity", ("contact",)),
 )
 
 # What a scene is where it does not say otherwise, and what is asked of it by the command.
@@ -175,25 +171,17 @@ PLAIN: dict[str, Any] = {
     "slab": False,
     "drawn": True,
     "load": "surface",
-    "leaning": False,
     "contacts": "bilateral",
     "geometry": "exact",
     "at": False,
     "layers": False,
-    "bins": False,
     "several": False,
+    "together": False,
     "tolerance": False,
     "reach": False,
 }
 
 
-def plain(quantity: str) -> dict[str, Any]:
-    """Give the features of the plainest scene with a question."""
-    own: dict[str, Any] = {"load": "point"} if quantity == "response" else {}
-    return PLAIN | {"quantity": quantity, "at": quantity == "contact"} | own
-
-
-@lru_cache(maxsize=1024)  # scenes that are solved one after the other are often alike
 def refusal(**features: Any) -> Refusal | None:
     """Give the first row that refuses what has these features, the others being plain.
 
@@ -202,7 +190,17 @@ def refusal(**features: Any) -> Refusal | None:
     >>> refusal(command="ensemble", dimension=3) is None
     True
     """
-    found = plain(features.get("quantity", PLAIN["quantity"])) | features
+    quantity = features.get("quantity", PLAIN["quantity"])
+    own = {"load": "point"} if quantity == "response" else {}
+    found = PLAIN | own | {"at": quantity == "contact"} | features
+    few = found["load"] in ("point", "file") and quantity not in {"profile", "positions"}
+    finite = (found["at"] or few) and found["dimension"] == 2 and found["contacts"] == "bilateral"
+    discs = ("contact_forces", "positions", "response") if found["dimension"] == 2 else ()
+    found |= {
+        "endless": found["slab"] and not finite,
+        "beside": found["layers"] or found["together"],
+        "drawing": quantity in ("profile", "histogram", *discs),
+    }
     return next((row for row in TABLE if row.holds(found)), None)
 
 
@@ -234,35 +232,12 @@ def guide() -> str:
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
-# What is said where a feature is not plain; of others the words are the values.
-_SAID = {
-    "slab": "no `packing.width`",
-    "drawn": "radii of a file",
-    "leaning": "`load.angle_deg`",
-    "at": "`ask.at`",
-    "layers": "`ask.layers`",
-    "bins": "`ask.bins`",
-    "several": "realisations",
-    "tolerance": "a tolerance",
-    "reach": "`--reach`",
-}
-
-
 def limits() -> str:
-    """Write the rows of the table as the guide to scenes has them."""
+    """Write the rows of both tables as the guide to scenes has them."""
     rows = [["asked together", "refused"], ["---"] * 2]
-    for row in TABLE:
-        words = []
-        for name, values in row.when.items():
-            if name in _SAID and values == (PLAIN[name],):
-                words += [f"no {_SAID[name]}"] * (name == "at")
-            elif name in _SAID:
-                words.append(_SAID[name])
-            elif name == "dimension":
-                words.append("spheres")
-            elif len(values) > len(_but(*values)):
-                words.append("all but " + " and ".join(f"`{one}`" for one in _but(*values)))
-            else:
-                words.append(" or ".join(f"`{value}`" for value in values))
-        rows.append([", ".join(words), f"`{row.key}` {row.why}"])
+    rows += [[row.words, f"`{row.key}` {row.why}"] for row in TABLE]
+    rows += [
+        [f"`{key}`, another `{other}`", f"`{key}` needs {other} = {either(values)}"]
+        for key, other, values in ONLY_WITH
+    ]
     return "\n".join(f"| {' | '.join(row)} |" for row in rows)

@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
-from ..lattice.branch import Axis, Branch, Contact, Site
-from .combinations import refusal
+from ..lattice.branch import Branch, Contact, Site
+from .combinations import ONLY_WITH, REQUIRED, either, refusal
 from .sections import (
+    PLACES,
     Ask,
     Disorder,
-    Effects,
     GivenRadii,
     Load,
     Packing,
@@ -63,68 +63,94 @@ class Scene(Sections):
         i, j = self.ask.at
         return int(i), int(j)
 
+    def asking(self, quantity: str) -> "Scene":
+        """Give the scene with one of its questions."""
+        if self.ask.quantity == quantity:
+            return self
+        return self.model_copy(update={"ask": self.ask.model_copy(update={"quantity": quantity})})
+
 
 def check(scene: Sections) -> None:
     """Check what keys say about each other. Raises ``SceneError``."""
     packing, disorder, ask = scene.packing, scene.disorder, scene.ask
     _check_packing(packing)
+    _check_keys(scene)
     refuse("run", scene)
     if isinstance(disorder, GivenRadii):
         _check_given(disorder, packing, ask)
     elif disorder is not None:
         _check_disorder(disorder, ask)
-    _check_load(scene.load, packing)
-    _check_ask(ask, packing)
-    _check_layers(ask, scene.load, packing.height)
-    _check_effects(scene.effects, packing)
+    load, effects = scene.load, scene.effects
+    _check_positive("load.magnitude", load.magnitude)
+    _check_positive("effects.most_seconds", effects.most_seconds)
+    if abs(load.angle_deg) > 90:
+        allowed = "must lie between -90 and 90, counted from straight down"
+        raise SceneError("load.angle_deg", load.angle_deg, allowed)
+    if load.at is not None:
+        _check_place(packing, "load.at", load.at, contact=False, layers=(1, packing.height))
+    if effects.contacts == "unilateral" and (packing.width or 3) < 3:
+        allowed = 'must be 3 or more with contacts = "unilateral": beads move in a periodic strip'
+        raise SceneError("packing.width", packing.width, allowed)
+    if ask.tolerance is not None and not 0 < ask.tolerance < 1:
+        raise SceneError("ask.tolerance", ask.tolerance, "must lie between 0 and 1")
+    if ask.at is not None:
+        contact = ask.quantity != "positions"
+        layers = (0, packing.height - contact)
+        _check_place(packing, "ask.at", ask.at, contact=contact, layers=layers)
+    _check_layers(ask, load, packing.height)
+
+
+def _check_keys(scene: Sections) -> None:
+    """Refuse keys that mean nothing beside what others say, and miss those that are needed."""
+    for needed, rows in ((True, REQUIRED), (False, ONLY_WITH)):
+        for key, other, values in rows:
+            section, _, name = key.partition(".")
+            keys = getattr(scene, section)
+            if keys is None:
+                continue
+            says = keys.quantities if other == "quantity" else (getattr(keys, other),)
+            value = getattr(keys, name) if name in keys.model_fields_set else None
+            fits = any(one in values for one in says)
+            if needed and fits and value is None:
+                form = ', as at = [i, j], or for a contact [i, j, "+"]' if name == "at" else ""
+                raise SceneError(key, None, f'is required with {other} = "{says[0]}"{form}')
+            if not needed and not fits and value is not None:
+                raise SceneError(key, value, f"needs {other} = {either(values)}")
+
+
+def _check_positive(key: str, value: Fraction | None) -> None:
+    if value is not None and value <= 0:
+        raise SceneError(key, value, "must be greater than 0")
 
 
 def refuse(command: str, scene: Sections, *, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
-    packing, load, effects, ask = scene.packing, scene.load, scene.effects, scene.ask
-    found = refusal(
-        command=command,
-        quantity=ask.quantity,
-        dimension=packing.dimension,
-        slab=packing.width is None,
-        drawn=scene.disorder is not None and scene.disorder.kind not in {"file", "given"},
-        load=load.kind,
-        leaning=bool(load.angle_deg),
-        contacts=effects.contacts,
-        geometry=effects.geometry,
-        at=ask.at is not None,
-        layers=ask.layers is not None,
-        bins=ask.bins is not None,
-        several=ask.realisations > 1,
-        tolerance=ask.tolerance is not None,
-        reach=reach,
-    )
-    if found is not None:
-        section, _, key = found.key.partition(".")
-        value = getattr(getattr(scene, section), key, None)
-        raise SceneError(found.key, value, found.why)
-
-
-def _check_effects(effects: Effects, packing: Packing) -> None:
-    if effects.contacts == "bilateral":
-        for key in ("most_programs", "most_seconds"):
-            if key in effects.model_fields_set:
-                allowed = 'only has a meaning with contacts = "unilateral"'
-                raise SceneError(f"effects.{key}", getattr(effects, key), allowed)
-        return
-    if effects.most_seconds is not None and effects.most_seconds <= 0:
-        raise SceneError("effects.most_seconds", effects.most_seconds, "must be greater than 0")
-    if packing.width is not None and packing.width < 3:
-        raise SceneError(
-            "packing.width",
-            packing.width,
-            'must be 3 or more with contacts = "unilateral": beads move in a periodic strip',
+    packing, effects, ask = scene.packing, scene.effects, scene.ask
+    for quantity in ask.quantities:
+        found = refusal(
+            command=command,
+            quantity=quantity,
+            dimension=packing.dimension,
+            slab=packing.width is None,
+            drawn=scene.disorder is not None and scene.disorder.kind not in {"file", "given"},
+            load=scene.load.kind,
+            contacts=effects.contacts,
+            geometry=effects.geometry,
+            at=ask.at is not None,
+            layers=ask.layers is not None,
+            several=ask.realisations > 1,
+            together=len(ask.quantities) > 1,
+            tolerance=ask.tolerance is not None,
+            reach=reach,
         )
+        if found is not None:
+            section, _, key = found.key.partition(".")
+            value = getattr(getattr(scene, section), key, None)
+            raise SceneError(found.key, value, found.why)
 
 
 def _check_packing(p: Packing) -> None:
-    if p.radius <= 0:
-        raise SceneError("packing.radius", p.radius, "must be greater than 0")
+    _check_positive("packing.radius", p.radius)
     flat, widest = p.dimension == 2, 8 + Fraction(8, p.dimension)  # −1/d < φ = 1 − s²/8r² < 1/2
     if not 4 * p.radius**2 < p.s**2 < widest * p.radius**2 or p.s < 0:
         most = f"{math.sqrt(widest):.6f}"[:6]
@@ -146,15 +172,29 @@ def _check_packing(p: Packing) -> None:
         )
 
 
-def _check_bead(packing: Packing, key: str, at: Any, highest: int) -> None:
-    """Check a bead (p, q, j)."""
-    if len(at) < 3 or not all(isinstance(number, int) for number in at[:3]):
-        raise SceneError(key, at, "must begin with a bead, [p, q, j], in three dimensions")
-    if not 0 <= at[2] <= highest:
-        raise SceneError(key, at, f"j must be from 0 to {highest}")
-    assert packing.width is not None
-    if not all(0 <= number < packing.width for number in at[:2]):
-        raise SceneError(key, at, f"p and q must be from 0 to {packing.width - 1}")
+def _check_place(
+    packing: Packing, key: str, at: Any, *, contact: bool, layers: tuple[int, int]
+) -> None:
+    """Check a bead in these layers, or a contact by its lower bead."""
+    d, (lowest, highest) = packing.dimension, layers
+    bead, branches = at[:d], "+-" if d == 2 else "123"
+    whole = len(at) == d + contact and all(isinstance(number, int) for number in bead)
+    if not whole or (contact and at[-1] not in list(branches)):
+        raise SceneError(key, at, f"must be {PLACES[d, contact]}")
+    *columns, j = bead
+    if not lowest <= j <= highest:
+        allowed = f"j must be from {lowest} to {highest}"
+        if lowest:
+            allowed = f"j must be from 1, above the base, to {highest}, the surface"
+        raise SceneError(key, at, allowed)
+    if d == 2 and sum(bead) % 2:
+        raise SceneError(key, at, "i + j must be even")
+    names, beads = ("i", 2) if d == 2 else ("p and q", 1)
+    if packing.width is None:
+        if abs(columns[0]) >= 2**60:
+            raise SceneError(key, at, "i must be above -2^60 and below 2^60")
+    elif not all(0 <= number < beads * packing.width for number in columns):
+        raise SceneError(key, at, f"{names} must be from 0 to {beads * packing.width - 1}")
 
 
 def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
@@ -189,79 +229,18 @@ def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
 
 def _check_disorder(d: Disorder, ask: Ask) -> None:
     if d.kind == "file":
-        if d.file is None:
-            raise SceneError("disorder.file", None, 'is required with kind = "file"')
-        for key in ("relative_std", "seed"):
-            if key in d.model_fields_set:
-                raise SceneError(
-                    f"disorder.{key}", getattr(d, key), 'has no meaning with kind = "file"'
-                )
         if ask.realisations > 1:
-            raise SceneError(
-                "ask.realisations", ask.realisations, "must be 1: a file holds one packing"
-            )
+            allowed = "must be 1: a file holds one packing"
+            raise SceneError("ask.realisations", ask.realisations, allowed)
         return
-    if d.file is not None:
-        raise SceneError("disorder.file", d.file, 'needs kind = "file"')
-    if d.relative_std is None:
-        raise SceneError("disorder.relative_std", None, f'is required with kind = "{d.kind}"')
+    assert d.relative_std is not None
     if d.relative_std > 10**100:
         raise SceneError("disorder.relative_std", d.relative_std, "must be at most 1e100")
-    reach = {"uniform": 3 * d.relative_std**2, "two-point": d.relative_std**2}.get(d.kind)
-    if reach is not None and reach >= 1:
+    reach = {"uniform": 3 * d.relative_std**2, "two-point": d.relative_std**2}.get(d.kind, 0)
+    if reach >= 1:
         below = "1/√3 = 0.57735…" if d.kind == "uniform" else "1"
-        raise SceneError(
-            "disorder.relative_std",
-            d.relative_std,
-            f"must be below {below}: {d.kind} disorder would reach a radius ≤ 0",
-        )
-
-
-def _check_load(load: Load, packing: Packing) -> None:
-    if load.magnitude <= 0:
-        raise SceneError("load.magnitude", load.magnitude, "must be greater than 0")
-    if abs(load.angle_deg) > 180:
-        raise SceneError("load.angle_deg", load.angle_deg, "must lie between -180 and 180")
-    if load.kind == "file":
-        if load.file is None:
-            raise SceneError("load.file", None, 'is required with kind = "file"')
-    elif load.file is not None:
-        raise SceneError("load.file", load.file, 'needs kind = "file"')
-    if load.kind == "point":
-        if load.at is None:
-            raise SceneError("load.at", None, 'is required with kind = "point", as at = [k, l]')
-        if len(load.at) != packing.dimension:
-            form = "[k, l]" if packing.dimension == 2 else "[p, q, l]"
-            raise SceneError("load.at", load.at, f"must be a bead, {form}")
-        _check_load_site(packing, load.at)
-    elif load.at is not None:
-        raise SceneError("load.at", load.at, 'needs kind = "point"')
-
-
-def _check_load_site(packing: Packing, at: Any) -> None:
-    if not 1 <= at[-1] <= packing.height:
-        allowed = f"j must be from 1, above the base, to {packing.height}, the surface"
-        raise SceneError("load.at", at, allowed)
-    (_check_site if packing.dimension == 2 else _check_bead)(packing, "load.at", at, packing.height)
-
-
-def _check_site(packing: Packing, key: str, site: Any, highest: int) -> None:
-    i, j = site[:2]
-    width = packing.width
-    if (i + j) % 2:
-        raise SceneError(key, site, "i + j must be even")
-    if not 0 <= j <= highest:
-        raise SceneError(key, site, f"j must be from 0 to {highest}")
-    if (width is not None and not 0 <= i < 2 * width) or abs(i) >= 2**60:
-        if width is None:
-            raise SceneError(key, site, "i must be above -2^60 and below 2^60")
-        raise SceneError(key, site, f"i must be from 0 to {2 * width - 1}")
-
-
-def _check_ask(ask: Ask, packing: Packing) -> None:
-    if ask.tolerance is not None and not 0 < ask.tolerance < 1:
-        raise SceneError("ask.tolerance", ask.tolerance, "must lie between 0 and 1")
-    _check_at(ask, packing)
+        allowed = f"must be below {below}: {d.kind} disorder would reach a radius ≤ 0"
+        raise SceneError("disorder.relative_std", d.relative_std, allowed)
 
 
 def _check_layers(ask: Ask, load: Load, height: int) -> None:
@@ -274,45 +253,6 @@ def _check_layers(ask: Ask, load: Load, height: int) -> None:
     if not all(0 <= j < top for j in ask.layers):
         allowed = f"must be layers of lower beads below the load, from 0 to {top - 1}"
         raise SceneError("ask.layers", ask.layers, allowed)
-
-
-def _check_at(ask: Ask, packing: Packing) -> None:
-    forms = {"contact": 3, "histogram": 3, "positions": 2}
-    if ask.at is None:
-        if ask.quantity == "contact":
-            raise SceneError(
-                "ask.at", None, 'is required with quantity = "contact", as at = [i, j, "+"]'
-            )
-        return
-    if packing.dimension > 2:
-        _check_at_axes(ask, packing)
-        return
-    if forms[ask.quantity] == 3:
-        if (
-            len(ask.at) != 3
-            or not all(isinstance(c, int) for c in ask.at[:2])
-            or ask.at[2] not in {"+", "-"}
-        ):
-            raise SceneError(
-                "ask.at",
-                ask.at,
-                'must be a contact, [i, j, "+"] or [i, j, "-"], (i, j) its lower bead',
-            )
-        _check_site(packing, "ask.at", ask.at, packing.height - 1)
-        return
-    if len(ask.at) != 2 or not all(isinstance(c, int) for c in ask.at):
-        raise SceneError("ask.at", ask.at, "must be a bead, [i, j]")
-    _check_site(packing, "ask.at", ask.at, packing.height)
-
-
-def _check_at_axes(ask: Ask, packing: Packing) -> None:
-    contact = ask.quantity == "contact"
-    assert ask.at is not None
-    if len(ask.at) != 3 + contact or (contact and ask.at[-1] not in list(Axis)):
-        form = 'a contact, [p, q, j, "1"], "2" or "3", (p, q, j) its lower bead'
-        form = form if contact else "a bead, [p, q, j]"
-        raise SceneError("ask.at", ask.at, f"must be {form}, in three dimensions")
-    _check_bead(packing, "ask.at", ask.at, packing.height - contact)
 
 
 @cache

@@ -17,7 +17,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from ..arithmetic.decimals import decimal_string, exact, short
 from ..arithmetic.errors import ForceDiffusionError, rule
 from ..arithmetic.systems import Array
-from .combinations import QuantityName
+from .combinations import QUANTITIES
 
 # Of numbers that are doubles: sums of as many as a memory holds stay finite.
 LARGEST = 1e300
@@ -75,12 +75,27 @@ def _whole(value: object) -> object:
 
 
 Whole = Annotated[int, BeforeValidator(_whole)]
+
+
+def _questions(value: object) -> object:
+    """Take one quantity, or a list of them."""
+    asked = value if isinstance(value, list | tuple) else [value]
+    for name in asked:
+        if name not in QUANTITIES:
+            raise _no_choice("ask.quantity", name, QUANTITIES)
+    if not asked or len(set(asked)) < len(asked):
+        raise SceneError("ask.quantity", value, "must be one quantity, or several, each once")
+    return asked[0] if len(asked) == 1 else tuple(asked)
+
+
 if TYPE_CHECKING:  # what may be given; held is the type below
+    Questions = Any
     Number = Any
     Bead = Any
     Place = Any
     Layers = Any
 else:
+    Questions = Annotated[str | tuple[str, ...], BeforeValidator(_questions)]
     Number = Annotated[Fraction, BeforeValidator(exact)]
     _listed = BeforeValidator(lambda at: list(at) if isinstance(at, tuple) else at)
     Bead = Annotated[list[int], _listed]
@@ -298,20 +313,25 @@ class Effects(Section):
 
 
 class Ask(Section):
-    """The question; ``at`` is a contact (i, j, "+" or "-"), or for positions a bead (i, j).
+    """The question, or several; ``at``: a contact (i, j, "+" or "-"), for positions a bead (i, j).
 
     ``layers`` are those of the lower beads of the contacts of a response or a histogram, by default
     all.
     """
 
     section = "ask"
-    quantity: QuantityName
+    quantity: Questions
     at: Place | None = None
     tolerance: Number | None = None
     certified: bool = False
     realisations: Whole = Field(default=1, ge=1, le=10**9)
     bins: Whole | None = Field(default=None, ge=1, le=1_000_000)
     layers: Layers | None = None
+
+    @property
+    def quantities(self) -> tuple[str, ...]:
+        """All that is asked for."""
+        return (self.quantity,) if isinstance(self.quantity, str) else self.quantity
 
 
 class Sections(Section):
@@ -334,18 +354,35 @@ def unknown(key: str, model: type[Section]) -> str:
 
 # What others call what a key may be.
 _OTHERWISE = {"gaussian": "normal", "gauss": "normal", "bidisperse": "two-point"}
+# How a bead, or with True a contact, is written in so many dimensions.
+PLACES = {
+    (2, False): "a bead, [i, j]",
+    (2, True): 'a contact, [i, j, "+"] or [i, j, "-"], (i, j) its lower bead',
+    (3, False): "a bead, [p, q, j], in three dimensions",
+    (3, True): 'a contact, [p, q, j, "1"], "2" or "3", in three dimensions',
+}
 # Forms of lists, whose elements say nothing when they are named alone.
 _LISTS = {
-    "load.at": "must be a bead, at = [k, l], of whole numbers; in three dimensions [p, q, l]",
+    "load.at": f"must be {PLACES[2, False]}, or {PLACES[3, False]}",
     "ask.layers": "must be a list of layers, such as layers = [0, 10], of whole numbers",
-    "ask.at": 'must be a contact, at = [i, j, "+"] or [i, j, "-"], or for positions a bead, '
-    'at = [i, j]; in three dimensions [p, q, j, "1"], "2" or "3", or [p, q, j]',
+    "ask.at": f"must be {PLACES[2, True]}; for positions {PLACES[2, False]}; or {PLACES[3, True]}",
 }
+
+
+def _no_choice(key: str, value: object, choices: tuple[str, ...]) -> SceneError:
+    """Say which words are allowed, and which could have been meant."""
+    allowed = [f'"{choice}"' for choice in choices]
+    meant = _OTHERWISE.get(value.lower(), value) if isinstance(value, str) else value
+    close = difflib.get_close_matches(_shown(meant), allowed, n=1)
+    hint = f"; did you mean {close[0]}?" if close else ""
+    return SceneError(key, value, f"must be one of {', '.join(allowed)}{hint}")
 
 
 def explained(error: ValidationError, model: type[Section], values: dict[str, Any]) -> SceneError:
     """Turn pydantic's first error into one line in the words of a scene."""
-    first = error.errors()[0]
+    errors = error.errors()
+    # a required key that is missing may be one that is misspelt
+    first = next((one for one in errors if one["type"] == "extra_forbidden"), errors[0])
     kind, value, context = first["type"], first["input"], first.get("ctx", {})
     within = context.get("error")
     if isinstance(within, SceneError):  # of a section within this one
@@ -358,11 +395,7 @@ def explained(error: ValidationError, model: type[Section], values: dict[str, An
         what = f"the key {key}" if model.section else f"the section [{key}]"
         return SceneError(key, None, f"{what} is required")
     if kind == "literal_error":
-        allowed = [f'"{choice}"' for choice in get_args(model.model_fields[name].annotation)]
-        meant = _OTHERWISE.get(value.lower(), value) if isinstance(value, str) else value
-        close = difflib.get_close_matches(_shown(meant), allowed, n=1)
-        hint = f"; did you mean {close[0]}?" if close else ""
-        return SceneError(key, value, f"must be one of {', '.join(allowed)}{hint}")
+        return _no_choice(key, value, get_args(model.model_fields[name].annotation))
     if key in _LISTS:
         return SceneError(key, values[name], _LISTS[key])
     if kind in {"model_type", "model_attributes_type", "dict_type"}:

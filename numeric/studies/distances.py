@@ -70,7 +70,7 @@ def answer(plan: Plan, system: NumberSystem, realisations: Sequence[int]) -> Tab
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     problem, work = plan.problem, Work(repeating=True)  # what is physical was judged before
-    return whole_answer(plan.quantity, problem, realisations, system, work).table
+    return whole_answer(plan.quantities, problem, realisations, system, work).table
 
 
 def changes(table: Table) -> Array:

@@ -21,7 +21,7 @@ def certified(scene: Scene) -> Enclosed:
     Raises ``ToleranceError``, and ``SceneError`` where nothing changes.
     """
     plan = planner.plan(scene, BEYOND, certified=True)
-    plan, found, accuracy = enclosed(plan, Work(repeating=True))
+    plan, found, (accuracy,) = enclosed(plan, Work(repeating=True))
     assert isinstance(plan.system, Balls)
     true = Enclosed(changes(found.table), plan.system)
     if true.largest.is_zero() and true.radius.is_zero():

@@ -31,16 +31,10 @@ def test_the_examples_work(path: Path, capsys: pytest.CaptureFixture[str]) -> No
     assert bool(data["notes"]) == (path.stem == "beyond")
     (rows,) = data["results"].values()
     assert rows
-    assert set(data["accuracy"]) >= {"error_bound", "certified", "arithmetic", "bits_lost"}
+    assert set(data["accuracy"]) >= {"error_bound", "certified", "arithmetic"}
     status, explained, _ = call(capsys, "explain", path, "--json")
     assert status == 0
-    before, after = json.loads(explained)["plan"], data["plan"]
-    for a, b in zip(before, after, strict=True):
-        assert (a["step"], a["reason"]) == (b["step"], b["reason"])
-        assert b["beads"] == a["beads"]
-        assert a["seconds"] is None
-    assert json.loads(explained)["skipped"] == data["skipped"]
-    assert any(step["seconds"] is not None for step in after)
+    assert json.loads(explained) == {key: data[key] for key in json.loads(explained)}
 
 
 def test_there_are_examples_enough() -> None:
@@ -53,10 +47,10 @@ def test_text_output_says_what_was_done(capsys: pytest.CaptureFixture[str]) -> N
     assert status == 0
     assert "certified" in out
     assert "physical" in out
-    assert "What is left out" in out
+    assert "skipped: other beads (only those that the answer depends on are solved)" in out
     status, out, _ = call(capsys, "explain", SCENES / "one_contact.toml")
     assert status == 0
-    assert "only the beads that the answer depends on" in out
+    assert "Skipped: other beads: only those that the answer depends on are solved" in out
 
 
 def test_a_tolerance_can_be_given(capsys: pytest.CaptureFixture[str]) -> None:
@@ -176,4 +170,4 @@ def test_memory_stays_within_what_was_announced(tolerance: str, tmp_path: Path) 
         [sys.executable, "-c", program, str(scene)], capture_output=True, text=True, check=True
     )
     kilobytes = int(done.stderr.split()[-1])
-    assert kilobytes * 1024 <= json.loads(done.stdout)["memory_bytes"]
+    assert kilobytes * 1024 <= json.loads(done.stdout)["plan"]["memory_bytes"]

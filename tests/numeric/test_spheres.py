@@ -94,13 +94,13 @@ def test_images_are_seen_where_a_wider_packing_differs(
     [
         ({"packing": {"width": None}}, "packing.width"),
         ({"packing": {"spacing": 3.3}}, "packing.spacing = 3.3: must lie strictly"),
-        ({"load": {"kind": "point", "at": (1, 1)}}, r"load.at.*\[p, q, l\]"),
+        ({"load": {"kind": "point", "at": (1, 1)}}, r"load.at.*\[p, q, j\]"),
         ({"load": {"kind": "point", "at": (9, 1, 1)}}, "p and q must be from 0 to 5"),
         ({"effects": {"contacts": "unilateral"}}, "effects.contacts"),
         ({"ask": {"quantity": "contact", "at": (1, 1, "+")}}, "must be a contact"),
         ({"ask": {"quantity": "contact", "at": (1, 1, 4, "1")}}, "j must be from 0 to 3"),
         ({"ask": {"quantity": "positions", "at": (1, 1)}}, "must be a bead"),
-        ({"ask": {"quantity": "histogram", "at": (1, 1, 1, "1")}}, "ask.at"),
+        ({"ask": {"quantity": "profile", "at": (1, 1, 1, "1")}}, "ask.at"),
     ],
 )
 def test_what_is_not_offered_is_refused(changes: dict[str, dict[str, Any]], says: str) -> None:
@@ -131,7 +131,7 @@ def test_studies_and_other_plots_refuse_three_dimensions() -> None:
     asked = scene("profile", height=2, width=6)
     with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: must be 2"):
         fd.cost(asked)
-    with pytest.raises(fd.SceneError, match='dimension = 3: has figures of "profile" and'):
+    with pytest.raises(fd.SceneError, match='has no figure: ask for "profile" or "histogram"'):
         scene(height=2, width=6).run().plot()
 
 
@@ -252,9 +252,7 @@ def test_an_array_of_another_shape_is_refused(tmp_path: Path) -> None:
 
 def test_a_plan_says_that_spheres_are_swept_whole_and_names_the_width_that_takes_memory() -> None:
     asked = scene("contact", height=3, width=9, at=(5, 5, 0, "1"))
-    why = {step.step: (step.reason, step.beads) for step in asked.explain().steps}
-    assert why["draw radii"][0].startswith("spheres are always swept in whole layers")
-    assert why["balance forces"] == ("spheres are always swept in whole layers", 3 * 81)
+    assert asked.explain().beads == 4 * 81
     wide = scene("contact", height=3, width=10**6, at=(5, 5, 0, "1"))
     with pytest.raises(fd.SceneError, match=r"packing.width = 1000000: this scene .*PB of"):
         wide.explain()
@@ -379,9 +377,8 @@ def test_no_theory_is_said_of_loads_at_an_angle() -> None:
 
 
 @pytest.mark.parametrize("magnitude", ["1e-250", "1e300"])
-def test_a_load_that_float64_cannot_hold_is_named(magnitude: str, tmp_path: Path) -> None:
+def test_a_load_beyond_float64_is_answered_in_balls(magnitude: str, tmp_path: Path) -> None:
     (tmp_path / "loads.csv").write_text(f"p,q,j,fx,fy,fz\n1,2,2,0,{magnitude},0")
     asked = scene("profile", load=fd.Load(kind="file", file="loads.csv"), height=2, width=3,
                   std=1e-60)  # fmt: skip
-    with pytest.raises(fd.SceneError, match=r"the load on bead \(1, 2, 2\) is"):
-        asked.model_copy(update={"folder": tmp_path}).run()
+    assert asked.model_copy(update={"folder": tmp_path}).run().accuracy.certified

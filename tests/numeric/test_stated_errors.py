@@ -104,7 +104,7 @@ def beyond(outcome: Outcome) -> float:
     of them, all else within 2^-50 of itself more.
     """
     plan, system, found = outcome.plan, Balls(220), [0.0]
-    exact = answer(plan.quantity, plan.problem, range(1), system).table
+    exact = answer(plan.quantities, plan.problem, range(1), system).table
     with system.active():
         true = {
             name: [as_ball(value).mid() for value in column]

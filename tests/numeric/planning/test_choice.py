@@ -2,7 +2,6 @@
 
 import itertools
 from collections.abc import Iterator
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -10,7 +9,8 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, midpoint
 from force_diffusion.numeric.planning import sources
-from force_diffusion.numeric.planning.plan import Candidate, Plan
+from force_diffusion.numeric.planning.plan import Plan
+from force_diffusion.numeric.planning.planner import in_balls
 from force_diffusion.numeric.run import run
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene.sections import SceneError
@@ -29,12 +29,12 @@ SPACINGS = ("2.05", "2.75", "3.0", "3.4")
 SHAPES: tuple[tuple[int, int | None], ...] = ((4, 9), (3, 4), (5, None), (4, 3))
 
 
-def only(plan: Plan, way: Candidate) -> Plan:
-    """Give the plan with a single way, and balls for where it misses."""
-    assert plan.choice is not None
-    assert way.plan is not None
-    last = [c for c in plan.choice.candidates if c.certified and c is not way]
-    return replace(way.plan, choice=replace(plan.choice, candidates=(way, *last)))
+def both(plan: Plan) -> Iterator[Plan]:
+    """Give the plan in float64, where that may meet the tolerance, and in balls."""
+    if not plan.certified:
+        yield plan
+        plan = in_balls(plan, "")
+    yield plan
 
 
 def reference(sections: dict[str, dict[str, Any]]) -> Outcome:
@@ -108,14 +108,11 @@ def test_every_way_that_may_answer_keeps_the_tolerance(
 ) -> None:
     """Not only the first."""
     plan, true = planned(sections), reference(sections)
-    assert plan.choice is not None
-    tolerance = plan.choice.tolerance
-    for way in plan.choice.candidates:
-        if way.out:
-            continue
-        outcome = run(only(plan, way))
-        assert_kept(outcome, true, tolerance)
-        assert outcome.accuracy.certified == outcome.plan.method.certified
+    assert plan.tolerance is not None
+    for way in both(plan):
+        outcome = run(way)
+        assert_kept(outcome, true, plan.tolerance)
+        assert outcome.accuracy.certified == outcome.plan.certified
 
 
 def test_changes_that_float64_can_not_hold_are_left_to_balls() -> None:
@@ -126,7 +123,7 @@ def test_changes_that_float64_can_not_hold_are_left_to_balls() -> None:
     sections["load"] = {"kind": "point", "at": [2, 2, 4]}
     sections["effects"] = {"geometry": "first-order"}
     outcome = run(planned(sections))
-    assert outcome.missed
+    assert outcome.plan.reason.startswith("float64 was tried: every change is zero")
     assert outcome.accuracy.certified
     assert_kept(outcome, reference(sections), Fraction(1, 1000))
 
@@ -136,9 +133,8 @@ def test_any_scene_keeps_its_tolerance(sections: dict[str, dict[str, Any]], want
     sections["ask"]["tolerance"] = f"={wanted}"
     plan = planned(sections)
     true = reference(sections)
-    every = [] if plan.choice is None else [c for c in plan.choice.candidates if not c.out]
-    for one in [only(plan, way) for way in every] or [plan]:
-        outcome = run(one)
+    for way in both(plan):
+        outcome = run(way)
         assert_kept(outcome, true, Fraction(wanted))
         outcome.data()
 
@@ -146,25 +142,16 @@ def test_any_scene_keeps_its_tolerance(sections: dict[str, dict[str, Any]], want
 @pytest.mark.parametrize("tolerance", ["1e-3", "1e-13", "1e-15"])
 def test_float64_does_answer(tolerance: str) -> None:
     """Were its estimates too careful, balls would answer everything, and the tests above hold."""
-    plan = planned(basic(tolerance=f"={tolerance}"))
-    assert plan.choice is not None
-    (way,) = (c for c in plan.choice.candidates if c.arithmetic == "float64")
-    outcome = run(only(plan, way))
-    assert not outcome.missed
+    outcome = run(planned(basic(tolerance=f"={tolerance}")))
     assert outcome.plan.system is FLOAT64
+    assert not outcome.plan.reason
     assert not outcome.accuracy.certified
     assert "estimated" in outcome.accuracy.note
 
 
-def candidates(sections: dict[str, dict[str, Any]]) -> tuple[Candidate, ...]:
-    plan = planned(sections)
-    assert plan.choice is not None
-    return plan.choice.candidates
-
-
 def test_certified_leaves_balls_alone() -> None:
-    for way in candidates(basic(tolerance="=1e-3", certified=True)):
-        assert way.certified or "certified was asked for" in way.out
+    plan = planned(basic(tolerance="=1e-3", certified=True))
+    assert (plan.certified, plan.reason) == (True, "only balls certify")
     with pytest.raises(SceneError, match=r"ask\.certified.*tolerance"):
         planned(basic(certified=True))
 
@@ -174,30 +161,17 @@ def test_what_only_balls_decide_is_left_to_them() -> None:
     high["disorder"]["relative_std"] = "=1e-2"
     tiny = basic(tolerance="=1e-3")
     tiny["disorder"]["relative_std"] = "=1e-400"
-    for sections, why in ((high, r"M*/2"), (tiny, "in float64")):
-        chosen, *rest = candidates(sections)
-        assert chosen.certified
-        floats = [way for way in rest if way.arithmetic == "float64"]
-        assert floats
-        assert all(why in way.out for way in floats)
-
-
-def test_the_order_is_fixed() -> None:
-    """What may answer comes first: float64, then balls; the others are listed with why."""
-    found = candidates(basic(tolerance="=1e-6", realisations=9))
-    possible = [
-        (way.arithmetic.partition(",")[0], way.method.repeated) for way in found if not way.out
-    ]
-    assert possible == [("float64", 4), ("float64", 9), ("arb balls", 0)]
-    found = candidates(basic(tolerance="=1e-20", realisations=9))
-    assert [bool(way.out) for way in found] == [False, True, True]
-    assert all("expected to err by" in way.out for way in found[1:])
+    sharp = basic(tolerance="=1e-20", realisations=9)
+    for sections, why in ((high, r"M*/2"), (tiny, "float64 does not hold"), (sharp, "to err by")):
+        plan = planned(sections)
+        assert plan.certified
+        assert why in plan.reason
 
 
 def test_an_effect_is_never_replaced() -> None:
     for geometry in ("exact", "first-order"):
         sections = {**basic(tolerance="=1e-3"), "effects": {"geometry": geometry}}
-        assert {way.plan.problem.route for way in candidates(sections) if way.plan} == {geometry}
+        assert {way.problem.route for way in both(planned(sections))} == {geometry}
 
 
 def test_a_contact_that_no_load_comes_near_has_one_row_a_realisation() -> None:
@@ -217,26 +191,19 @@ def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> No
     sections["packing"] |= {"spacing": "=2.9999813928", "allow_images": True}
     sections["disorder"] = {"kind": "two-point", "relative_std": "=2e-16", "seed": 611859}
     true, plan = reference(sections), planned(sections)
-    assert plan.choice is not None
-    (way,) = (
-        c for c in plan.choice.candidates if c.arithmetic == "float64" and c.method.repeated == 6
-    )
-    outcome = run(only(plan, way))
+    outcome = run(plan)
     assert outcome.plan.system is FLOAT64
-    assert_kept(outcome, true, plan.choice.tolerance)
+    assert_kept(outcome, true, Fraction(1, 10**12))
 
 
 def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The next way answers, and the outcome says why the first did not."""
+    """Balls answer, and the outcome says why float64 did not."""
     plan = planned(basic(tolerance="=1e-9"))
+    assert not plan.certified
     monkeypatch.setattr("force_diffusion.numeric.accuracy.PRINTED", 10**9)
-    assert plan.choice is not None
-    (way,) = (c for c in plan.choice.candidates if c.arithmetic == "float64")
-    outcome = run(only(plan, way))
-    assert [missed.arithmetic for missed in outcome.missed] == ["float64"]
-    assert "error is still" in outcome.missed[0].why
+    outcome = run(plan)
     assert outcome.accuracy.certified
-    assert outcome.data()["choice"]["missed"][0]["arithmetic"] == "float64"
+    assert "float64 was tried: the error is still" in outcome.data()["plan"]["reason"]
 
 
 def test_radii_from_a_file_are_looked_through_once(monkeypatch: pytest.MonkeyPatch) -> None:

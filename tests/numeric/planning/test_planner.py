@@ -7,6 +7,7 @@ from typing import Any
 
 import flint
 import pytest
+from force_diffusion.numeric.accuracy import enclosed, estimated
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
 from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
 from force_diffusion.numeric.lattice import regions
@@ -56,7 +57,7 @@ def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(
         assert work.summed == 0
     else:
         assert work.deposited == work.balanced == 0
-    assert [s.beads for s in plan.steps if s.step == "draw radii"] == [count]
+    assert plan.beads == count
 
 
 def gradient(M: int, contact: tuple[int, int, str], load: dict[str, Any]) -> set[tuple[int, int]]:
@@ -163,10 +164,10 @@ def test_without_disorder_nothing_is_swept() -> None:
     for quantity in ("contact_forces", "profile", "positions", "histogram"):
         sections = basic(quantity=quantity)
         del sections["disorder"]
-        outcome = answer(sections)
-        w = outcome.work
+        plan = planned(sections)
+        w, _ = beads_of(plan)
         assert (w.radii, w.deposited, w.balanced, w.summed) == (0, 0, 0, 0)
-        assert [step.step for step in outcome.plan.steps] == ["closed form"]
+        assert plan.beads == 0
 
 
 def test_a_point_load_stays_in_its_cone() -> None:
@@ -184,9 +185,10 @@ def test_a_point_load_stays_in_its_cone() -> None:
 
 
 def test_cost_grows_with_the_region_not_with_the_packing() -> None:
-    small = answer(basic(12, 30, quantity="contact", at=[30, 10, "+"]))
-    large = answer(basic(12, 3000, quantity="contact", at=[30, 10, "+"]))
-    assert small.work.deposited == large.work.deposited == regions.contact_beads(10, 12)
+    scenes = [basic(12, width, quantity="contact", at=[30, 10, "+"]) for width in (30, 3000)]
+    for sections in scenes:
+        assert planned(sections).beads == regions.contact_beads(10, 12)
+    small, large = map(answer, scenes)
     assert small.decimals() == large.decimals()
 
 
@@ -225,51 +227,30 @@ def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[
 @pytest.mark.parametrize("quantity", ["contact", "contact_forces", "positions", "profile"])
 @pytest.mark.parametrize("geometry", ["exact", "first-order"])
 def test_the_plan_is_what_runs(geometry: str, quantity: str, realisations: int) -> None:
-    outcome = run(planned(scene_of(geometry, quantity, realisations)))
-    before, after = outcome.plan.data()["plan"], outcome.data()["plan"]
-    for planned_step, done in zip(before, after, strict=True):
-        for key in ("step", "beads", "arithmetic"):
-            assert planned_step[key] == done[key]
-    work = outcome.work
-    counted = (work.radii, work.deposited, work.summed, work.balanced, work.checked, work.again)
-    assert sum(step["beads"] for step in after) == sum(counted)
+    plan = planned(scene_of(geometry, quantity, realisations))
+    work = Work()
+    estimated(plan, work)
+    assert plan.beads == work.radii
+    assert work.arithmetic == [plan.system.name]
 
 
-def test_progress_is_told_of_every_visit() -> None:
-    told: list[int] = []
+def test_progress_tells_of_every_bead() -> None:
+    seen: list[int] = []
     plan = planned(scene_of("exact", "contact_forces", 7))
-    outcome = run(plan, progress=lambda kind, beads: told.append(beads))
-    assert sum(told) == sum(step["beads"] for step in outcome.data()["plan"])
-    assert sum(told) == sum(step.beads for step in plan.steps)
+    run(plan, progress=lambda kind, beads: seen.append(beads * (kind == "deposited")))
+    assert sum(seen) == plan.beads
 
 
-@pytest.mark.parametrize("tolerance", [None, "=1e-12"])
-@pytest.mark.parametrize("geometry", ["exact", "first-order"])
-@pytest.mark.parametrize("quantity", ["contact", "contact_forces", "profile"])
-def test_clocks_do_not_overlap(geometry: str, quantity: str, tolerance: str | None) -> None:
-    sections = scene_of(geometry, quantity, 6)
-    if tolerance:
-        sections["ask"]["tolerance"] = tolerance
-    data = run(planned(sections)).data()
-    assert sum(step["seconds"] for step in data["plan"]) <= data["seconds"] + 1e-5
-
-
-def test_precisions_that_failed_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_bits_are_added_until_the_tolerance_is_met(monkeypatch: pytest.MonkeyPatch) -> None:
     sections = basic(quantity="contact", at=[2, 2, "+"], tolerance="=1e-40")
     monkeypatch.setattr(planner, "initial_bits", lambda tolerance, height: 24)
-    plan = planned(sections)
-    outcome = run(plan)
-    passes = outcome.work.arithmetic
+    work = Work()
+    plan, _, (accuracy,) = enclosed(planned(sections), work)
+    passes = work.arithmetic
     assert passes == [f"arb balls, {24 * 2**k} bits" for k in range(len(passes))]
     assert len(passes) > 2
-    data = outcome.data()
-    beads = regions.contact_beads(2, 6)
-    for step in data["plan"]:
-        assert step["arithmetic"] == ", then ".join(passes)
-        if step["step"] in {"draw radii", "deposit"}:
-            assert step["beads"] == len(passes) * beads
-    assert data["accuracy"]["arithmetic"] == passes[-1]
-    assert sum(step["seconds"] for step in data["plan"]) <= data["seconds"] + 1e-5
+    assert accuracy.arithmetic == plan.system.name == passes[-1]
+    assert accuracy.error_bound <= 1e-40
 
 
 @settings(deadline=None)

@@ -44,7 +44,7 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("disorder", "file", "radii.csv", 'needs kind = "file"'),
     ("load", "kind", "surfaces", 'did you mean "surface"'),
     ("load", "magnitude", 0, "greater than 0"),
-    ("load", "angle_deg", 181, "between -180 and 180"),
+    ("load", "angle_deg", 181, "between -90 and 90"),
     ("load", "at", [1, 1], 'needs kind = "point"'),
     ("effects", "geometry", "exakt", 'did you mean "exact"'),
     ("effects", "most_programs", 0, "at least 1"),
@@ -55,7 +55,7 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("ask", "bins", 5, 'needs quantity = "histogram"'),
     ("ask", "layers", [0], 'needs quantity = "response"'),
     ("ask", "layers", [0.5], "a list of layers"),
-    ("ask", "at", [0, 0, "+"], 'is for "contact", "histogram" or "positions"'),
+    ("ask", "at", [0, 0, "+"], 'needs quantity = "contact", "histogram" or "positions"'),
 ]
 
 
@@ -82,9 +82,9 @@ def test_errors_name_the_key_and_what_is_allowed(
         ("disorder", "relative_std", "-1E-3", "negative"),
         ("ask", "tolerance", "0", "between 0 and 1"),
         ("ask", "tolerance", "0.000", "between 0 and 1"),
-        ("load", "at", '"+"', "a bead, at = [k, l]"),
-        ("load", "at", '[1, "+"]', "a bead, at = [k, l]"),
-        ("ask", "at", "[0, 1.50]", 'a contact, at = [i, j, "+"]'),
+        ("load", "at", '"+"', "a bead, [i, j]"),
+        ("load", "at", '[1, "+"]', "a bead, [i, j]"),
+        ("ask", "at", "[0, 1.50]", 'a contact, [i, j, "+"]'),
         ("effects", "most_seconds", "1.50", 'contacts = "unilateral"'),
     ],
 )
@@ -213,26 +213,25 @@ def test_too_large_is_refused_with_its_size_before_anything_is_done() -> None:
         plan(scene(basic(100, 201)), memory_limit=100_000_000)
 
 
-def test_what_float64_cannot_hold_needs_a_tolerance(tmp_path: Path) -> None:
+def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path: Path) -> None:
     far = {"radius": "=1e400", "spacing": "=3e400"}
     near = {"radius": "=1e-400", "spacing": "=3e-400"}
-    for quantity, packing, std, says in [
-        ("contact_forces", {}, "=1e-301", "disorder.relative_std = 1e-301: "),
-        ("contact_forces", {}, "=1e-3000", "disorder.relative_std = 1e-3000: "),
-        ("profile", {}, "=1e-400", "disorder.relative_std"),
-        ("positions", far, "=1e-4", r"packing.radius = 1e\+400"),
-        ("positions", near, "=1e-4", "packing.radius = 1e-400"),
+    for quantity, packing, std in [
+        ("contact_forces", {}, "=1e-301"),
+        ("contact_forces", {}, "=1e-3000"),
+        ("profile", {}, "=1e-400"),
+        ("positions", far, "=1e-4"),
+        ("positions", near, "=1e-4"),
     ]:
         sections = basic(3, 8, quantity=quantity)
         sections["packing"].update(packing)
         sections["disorder"]["relative_std"] = std
         for geometry in ("exact", "first-order"):
             sections["effects"] = {"geometry": geometry}
-            with pytest.raises(SceneError, match=says):
-                planned(sections)
-        sections["ask"]["tolerance"] = "=1e-9"
+            assert "float64 does not hold" in planned(sections).reason
         outcome = answer(sections)
-        assert 0 < outcome.accuracy.error_bound <= 1e-9
+        assert outcome.accuracy.certified
+        assert 0 < outcome.accuracy.error_bound <= 1e-15
         name = {"positions": "dx", "profile": "std"}.get(quantity, "change")
         assert any(row[name] != "0" for row in outcome.decimals())
         json.dumps(outcome.data(), allow_nan=False)
@@ -241,14 +240,13 @@ def test_what_float64_cannot_hold_needs_a_tolerance(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("force", ["1e400", "-1e-400"])
-def test_loads_that_float64_cannot_hold_need_a_tolerance(force: str, tmp_path: Path) -> None:
+def test_loads_that_float64_cannot_hold_are_answered_in_balls(force: str, tmp_path: Path) -> None:
     (tmp_path / "loads.csv").write_text(f"i,j,fx,fy\n1,3,0,{force}\n")
     sections = basic(3, 8)
     sections["load"] = {"kind": "file", "file": "loads.csv"}
-    with pytest.raises(SceneError, match=r'load.file = "loads.csv".*bead \(1, 3\)'):
-        planned(sections, tmp_path)
-    sections["ask"]["tolerance"] = "=1e-9"
-    assert any(row["change"] != "0" for row in answer(sections, tmp_path).decimals())
+    outcome = answer(sections, tmp_path)
+    assert outcome.accuracy.certified
+    assert any(row["change"] != "0" for row in outcome.decimals())
 
 
 def test_bins_far_below_the_smallest_float() -> None:
@@ -376,7 +374,7 @@ def solved_or_refused(sections: dict[str, dict[str, Any]], folder: Path = Path()
     try:
         made = planned(sections, folder)
         made.data()
-        if sum(step.beads for step in made.steps) < 5000 and made.system.bits <= 2000:
+        if made.beads < 1500 and made.system.bits <= 2000:
             outcome = run(made)
             json.dumps(outcome.data(), allow_nan=False)
             accuracy = outcome.accuracy
