@@ -172,11 +172,11 @@ def test_each_row_refuses_something() -> None:
     """Features that follow from others come of these."""
     derived = {"endless": {"slab": True}, "beside": {"layers": True}, "drawing": {}}
     assert len(TABLE) <= 15
-    for row in TABLE:
+    for number, row in enumerate(TABLE):
         own: dict[str, Any] = {"quantity": "contact"} if "drawing" in row.when else {}
         for name, values in row.when.items():
             own |= derived.get(name, {name: values[0]})
-        assert refusal(**own) is row
+        assert refusal(**own) in TABLE[: number + 1]
 
 
 def test_the_guide_says_what_the_table_does() -> None:
