@@ -24,6 +24,7 @@ from ..arithmetic.machine import cores, memory_limit, take_one_core
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
+from ..scene.reading import read_scene
 from ..scene.scene import Scene, program_version
 from ..scene.sections import SceneError
 from ..statistics.confidence import looks
@@ -55,7 +56,7 @@ class WorkersError(ForceDiffusionError, RuntimeError):
 
 
 def ensemble(
-    scene: Scene,
+    scene: Scene | str | Path,
     realisations: int | None = None,
     *,
     until: float | None = None,
@@ -66,7 +67,7 @@ def ensemble(
     reach: float | None = None,
     progress: Progress = lambda done, width: None,
 ) -> Ensemble:
-    """Solve many packings of a scene, and give their statistics; the same for any workers.
+    """Solve many packings of a scene, or of the path of one: statistics, the same for any workers.
 
     The scene asks for a ``profile``, ``contact``, ``contact_forces``, ``response`` or
     ``histogram``, of drawn radii. There are ``realisations`` packings, by default as many as the
@@ -96,10 +97,10 @@ def ensemble(
     >>> bool((abs(found.std / found.first_order_std - 1) < found.half_width).all())
     True
     """
+    if isinstance(scene, str | Path):
+        scene = read_scene(Path(scene), Scene)
     if not isinstance(scene, Scene):
-        raise TypeError(
-            f"ensemble takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
-        )
+        raise TypeError(f"ensemble takes a scene or the path of one, not {type(scene).__name__}")
     size = _size(scene, realisations)
     until = None if until is None else _share("until", until, "0.01")
     confidence = _share("confidence", confidence, "0.95")

@@ -14,25 +14,28 @@ from ..arithmetic.decimals import exact, parse
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work
 from ..planning.plan import Plan
-from ..planning.planner import in_balls, plan
+from ..planning.planner import in_balls
+from ..planning.planner import plan as make_plan
 from ..scene import reading, scene
 from ..scene.scene import files_read
 from ..scene.sections import SceneError
 from .outcome import Outcome, outcome_of
 
 
-def run(plan: Plan, progress: Progress | None = None) -> Outcome:
-    """Run a plan, to the tolerance that it was made for.
+def run(what: "Plan | scene.Scene | str | Path", progress: Progress | None = None) -> Outcome:
+    """Run a scene, the path of a scene file, or a plan, to the tolerance that it was made for.
 
     Where the estimated error of float64 misses the tolerance, balls answer. Raises
-    ``ToleranceError``, ``TypeError`` for what is no plan, and what the sweeps raise for a packing
-    that can't be built.
+    ``ToleranceError``, ``SceneError``, ``TypeError`` for what is none of these, and what the sweeps
+    raise for a packing that can't be built.
     """
-    if not isinstance(plan, Plan):
-        raise TypeError(
-            f"run takes a plan, not {type(plan).__name__}: read_scene(path).run() runs a file, "
-            "Scene(…).run() a scene"
-        )
+    if isinstance(what, str | Path):
+        what = read_scene(what)
+    if isinstance(what, scene.Scene):
+        what = make_plan(what)
+    if not isinstance(what, Plan):
+        raise TypeError(f"run takes a scene, the path of one, or a plan, not {type(what).__name__}")
+    plan = what
     start = perf_counter()
     files = files_read(plan.scene)
     work = Work(progress=progress)
@@ -97,7 +100,7 @@ class Scene(scene.Scene):
         takes too much memory or time, and ``TableError``.
         """
         asked = None if tolerance is None else read_tolerance(tolerance)
-        return plan(self, asked, certified=certified)
+        return make_plan(self, asked, certified=certified)
 
     def run(
         self,

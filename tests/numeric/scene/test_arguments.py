@@ -100,7 +100,7 @@ def test_a_huge_number_can_be_shown() -> None:
 def test_a_file_that_is_no_scene_is_named(tmp_path: Path, capsys: Any) -> None:
     path = tmp_path / "mine.toml"
     path.write_text("root:x:0")
-    with pytest.raises(fd.SceneError, match=r"mine\.toml: is no valid TOML"):
+    with pytest.raises(fd.SceneError, match=r"mine\.toml: is no scene, which is a TOML file"):
         fd.read_scene(path)
     for name in (str(path), "nope.toml"):
         assert main(["run", name]) == 2

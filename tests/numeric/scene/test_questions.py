@@ -1,0 +1,124 @@
+"""Several questions in one scene: one packing is solved, and each answer is as if asked alone."""
+
+import csv
+import json
+from itertools import combinations
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric import accuracy
+from force_diffusion.numeric.scene.sections import SceneError
+
+import force_diffusion as fd
+from force_diffusion.__main__ import main
+from tests.numeric.scenes import basic, planned, scene, toml
+
+QUANTITIES = ("contact_forces", "positions", "profile", "histogram", "response")
+
+
+def asking(*quantities: str, **more: Any) -> dict[str, dict[str, Any]]:
+    sections = basic(4, 9, quantity=list(quantities), **more)
+    if "response" in quantities:
+        sections["load"] = {"kind": "point", "at": [4, 4]}
+    return sections
+
+
+@pytest.mark.parametrize("pair", list(combinations(QUANTITIES, 2)), ids="-".join)
+@pytest.mark.parametrize("more", [{}, {"realisations": 3}, {"tolerance": "=1e-25"}])
+def test_each_answer_is_as_if_asked_alone(pair: tuple[str, str], more: dict[str, Any]) -> None:
+    both = fd.run(planned(asking(*pair, **more)))
+    assert tuple(both.results) == pair
+    for name, found in both.results.items():
+        alone = asking(*pair, **more)
+        alone["ask"]["quantity"] = name
+        assert found.decimals() == fd.run(planned(alone)).decimals()
+
+
+def test_all_are_answered_where_contacts_open() -> None:
+    sections = basic(5, 7, quantity=["contact_forces", "positions"])
+    sections["disorder"]["relative_std"] = "=0.03"
+    sections["effects"] = {"contacts": "unilateral"}
+    found = fd.run(scene(sections)).results
+    assert len(found["positions"].rows()) == 6 * 7
+    assert min(found["contact_forces"].arrays["force"]) >= 0
+
+
+def test_one_packing_is_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+    solved = []
+    true = accuracy.answer
+
+    def counted(*given: Any, **options: Any) -> Any:
+        solved.append(len(given[0]))
+        return true(*given, **options)
+
+    monkeypatch.setattr(accuracy, "answer", counted)
+    fd.run(planned(asking("contact_forces", "positions")))
+    assert solved == [2]
+
+
+@pytest.mark.parametrize("written", ["csv", "npz"])
+def test_files_hold_all_tables(
+    written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path, out = tmp_path / "scene.toml", tmp_path / "out"
+    path.write_text(toml(asking("contact_forces", "positions")))
+    assert main(["run", str(path), "--out", str(out), "--format", written]) == 0
+    assert "contact_forces: 72 rows, positions: 45 rows" in capsys.readouterr().out
+    results = json.loads((out / "result.json").read_text())["results"]
+    for name, count in (("contact_forces", 72), ("positions", 45)):
+        if written == "npz":
+            assert results[name] == {"file": f"{name}.npz", "rows": count}
+            assert len(np.load(out / f"{name}.npz")["j"]) == count
+            continue
+        with (out / f"{name}.csv").open(newline="") as file:
+            rows = [{**row, "i": int(row["i"]), "j": int(row["j"])} for row in csv.DictReader(file)]
+        assert rows == results[name]
+        assert len(rows) == count
+
+
+def test_rows_are_printed_below_their_names(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(toml(asking("contact_forces", "positions")))
+    assert main(["run", str(path), "--quiet"]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert (lines[0], lines[74]) == ("# contact_forces", "# positions")
+    assert len(lines) == 2 + 73 + 46
+
+
+@pytest.mark.parametrize(
+    ("ask", "says"),
+    [
+        ({"quantity": []}, "one quantity, or several, each once"),
+        ({"quantity": ["profile", "profile"]}, "one quantity, or several, each once"),
+        ({"quantity": ["profile", "postions"]}, 'did you mean "positions"'),
+        ({"quantity": ["histogram", "positions"], "at": [0, 0, "+"]}, "asks for one place"),
+        ({"quantity": ["profile", "positions"], "bins": 3}, 'needs quantity = "histogram"'),
+        ({"quantity": ["contact", "positions"]}, r"ask\.at.*is required"),
+    ],
+)
+def test_what_does_not_go_together(ask: dict[str, Any], says: str) -> None:
+    with pytest.raises(SceneError, match=says):
+        scene({**basic(4, 9), "ask": ask})
+
+
+def test_other_commands_take_one() -> None:
+    asked = scene(asking("contact_forces", "positions", realisations=3))
+    for refused in (fd.cost, fd.ensemble, lambda one: one.run().plot()):
+        with pytest.raises(SceneError, match="must be one quantity"):
+            refused(asked)
+
+
+def test_a_path_is_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = tmp_path / "scene.toml"
+    path.write_text(toml(basic(4, 9)))
+    true = planned(basic(4, 9))
+    for what in (path, str(path), fd.read_scene(path)):
+        assert fd.run(what).decimals() == fd.run(true).decimals()
+    assert fd.ensemble(path, 50).realisations == 50
+    (tmp_path / "xyr.csv").write_text("x,y,r\n0,0,1\n")
+    assert main(["run", str(tmp_path / "xyr.csv")]) == 2
+    assert "is no scene" in capsys.readouterr().err
