@@ -2,25 +2,18 @@
 
 import re
 import unicodedata
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 
 _MATHS = {
     "−": "-", "±": r"\pm ", "∓": r"\mp ", "·": r"\cdot ", "×": r"\times ", "…": r"\ldots ",
-    "≤": r"\leq ", "≥": r"\geq ", "≠": r"\neq ", "≈": r"\approx ", "∼": r"\sim ", "≡": r"\equiv ",
-    "↔": r"\leftrightarrow ", "←": r"\leftarrow ", "∘": r"\circ ", "∎": r"\Box ",
-    "∝": r"\propto ", "→": r"\to ", "⇒": r"\Rightarrow ", "⇔": r"\Leftrightarrow ",
-    "↦": r"\mapsto ",
-    "∈": r"\in ", "∞": r"\infty ", "∂": r"\partial ", "√": r"\surd ", "Σ": r"\sum ", "∑": r"\sum ",
-    "⟨": r"\langle ", "⟩": r"\rangle ", "½": r"\frac{1}{2}", "⅓": r"\frac{1}{3}",
-    "¼": r"\frac{1}{4}", "°": r"^{\circ}",
-    "α": r"\alpha ", "β": r"\beta ", "γ": r"\gamma ", "δ": r"\delta ", "ε": r"\varepsilon ",
-    "η": r"\eta ", "θ": r"\theta ", "κ": r"\kappa ", "λ": r"\lambda ", "μ": r"\mu ", "ν": r"\nu ",
-    "ρ": r"\rho ", "σ": r"\sigma ", "τ": r"\tau ", "φ": r"\phi ", "ψ": r"\psi ", "ω": r"\omega ",
-    "Δ": r"\Delta ", "Φ": r"\Phi ", "Ω": r"\Omega ", "ℚ": r"\mathbf{Q}", "ℤ": r"\mathbf{Z}",
-    "ᵀ": r"^{T}", "ᵃ": r"^{a}", "ᵇ": r"^{b}", "ⁿ": r"^{n}", "ʲ": r"^{j}", "′": "'",
-    "⌊": r"\lfloor ", "⌋": r"\rfloor ", "⌈": r"\lceil ", "⌉": r"\rceil ", "∪": r"\cup ",
-    "≪": r"\ll ", "≫": r"\gg ", "≲": r"\lesssim ", "⊥": r"\perp ", "∀": r"\forall ",
-    "∃": r"\exists ", "ℓ": r"\ell ", "⊗": r"\otimes ",
+    "≤": r"\leq ", "≥": r"\geq ", "≠": r"\neq ", "≈": r"\approx ", "∼": r"\sim ",
+    "↔": r"\leftrightarrow ", "∝": r"\propto ", "→": r"\to ", "∞": r"\infty ", "√": r"\surd ",
+    "Σ": r"\sum ", "⟨": r"\langle ", "⟩": r"\rangle ", "½": r"\frac{1}{2}", "¼": r"\frac{1}{4}",
+    "°": r"^{\circ}", "α": r"\alpha ", "β": r"\beta ", "δ": r"\delta ", "ε": r"\varepsilon ",
+    "θ": r"\theta ", "κ": r"\kappa ", "λ": r"\lambda ", "μ": r"\mu ", "ν": r"\nu ", "ρ": r"\rho ",
+    "σ": r"\sigma ", "τ": r"\tau ", "φ": r"\phi ", "ψ": r"\psi ", "Δ": r"\Delta ",
+    "ℚ": r"\mathbf{Q}", "ᵀ": r"^{T}", "ᵃ": r"^{a}", "ⁿ": r"^{n}", "′": "'", "≫": r"\gg ",
+    "ℓ": r"\ell ", "⊗": r"\otimes ",
 }  # fmt: skip
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-", strict=True))
 _WORDS = {"ˡᵒᵃᵈ": r"^{\mathrm{load}}"}
@@ -28,8 +21,8 @@ _LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+-", stri
 _TEXT = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#",
     "%": r"\%", "_": r"\_", "^": r"\^{}", "~": r"\~{}", "<": "$<$", ">": "$>$", "|": "$|$",
-    "–": "--", "—": "---", "’": "'", "‘": "`", "“": "``", "”": "''", "é": r"\'e", "ö": r'\"o',
-    "…": r"\ldots{}", "§": r"\S{}", "\N{NO-BREAK SPACE}": "~",
+    "–": "--", "’": "'", "“": "``", "”": "''", "é": r"\'e", "ö": r'\"o',
+    "…": r"\ldots{}", "\N{NO-BREAK SPACE}": "~",
 }  # fmt: skip
 
 _RUN = re.compile("([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)|([₀₁₂₃₄₅₆₇₈₉₊₋]+)")
@@ -39,7 +32,6 @@ _FORCE = re.compile(r"F(?=\^\{\\mathrm\{load)")
 _RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min|exp|erfc)(?![A-Za-z])")
 _ARGUMENT = re.compile(r"(?:√|(?<![A-Za-z])(?:max|min|exp|erfc))\((?:[^()]|\([^()]*\))*\)")
-_KIND = re.compile(r"(?<=[a-z])\(([a-z]{3,})\)")  # of stress, as in σ_yy(flux)
 _SIGNS = frozenset("+−±·×/=≤≥<>")
 _POWER = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\d+))")
 _STAR = re.compile(r"(?<=[A-Za-z])\*")
@@ -64,7 +56,7 @@ def _is_mathematics(word: str) -> bool:
         return False
     if _ARGUMENT.match(word):
         return True
-    letters = re.findall(r"[A-Za-z]+", _INDEXED.sub("", _KIND.sub("", _NAMES.sub("", word))))
+    letters = re.findall(r"[A-Za-z]+", _INDEXED.sub("", _NAMES.sub("", word)))
     return bool(_SYMBOLIC.search(word)) and all(len(run) <= 2 for run in letters)
 
 
@@ -99,7 +91,6 @@ def _set_mathematics(word: str) -> str:
     for special in "%#&{}$":
         word = word.replace(special, f"\\{special}")
     word = _STAR.sub("^{*}", _POWER.sub(lambda found: f"^{{{found[1] or found[2]}}}", word))
-    word = _KIND.sub(r"^{\\mathrm{\1}}", word)
     for raised, source in _WORDS.items():
         word = word.replace(raised, source)
     word = _ROOT.sub(
@@ -140,7 +131,7 @@ def _parts(word: str) -> tuple[str, str, str]:
     return opening, core, closing
 
 
-def pieces(words: str) -> Iterator[tuple[str, list[str], str]]:
+def _pieces(words: str) -> Iterator[tuple[str, list[str], str]]:
     """The pieces between a sentence's spaces: what stands before a formula, its words, what after.
 
     Neighbouring pieces of mathematics are one formula. Plain words have an empty one, and stand
@@ -172,15 +163,6 @@ def pieces(words: str) -> Iterator[tuple[str, list[str], str]]:
         yield before, formula, ""
 
 
-def formula_latex(formula: Sequence[str]) -> str:
-    r"""The words of a formula as LaTeX for mathematics mode.
-
-    >>> print(formula_latex(["j", "≥", "1"]))
-    j \geq  1
-    """
-    return " ".join(map(_set_mathematics, formula))
-
-
 def prose_latex(words: str) -> str:
     r"""A sentence as LaTeX; neighbouring pieces of mathematics are set as one formula.
 
@@ -202,29 +184,17 @@ def prose_markdown(words: str) -> str:
 def _set(words: str, text: Callable[[str], str]) -> str:
     """A sentence with mathematics between dollars, and the ``text`` of all else."""
     done = []
-    for before, formula, after in pieces(words):
+    for before, formula, after in _pieces(words):
         plain = len(formula) == 1 and formula[0].isdecimal()
-        inner = formula[0] if plain else f"${formula_latex(formula)}$" if formula else ""
+        inner = (
+            formula[0]
+            if plain
+            else f"${' '.join(map(_set_mathematics, formula))}$"
+            if formula
+            else ""
+        )
         done.append(f"{text(before)}{inner}{text(after)}")
     return _with_brackets(" ".join(done))
-
-
-def phrase_latex(words: str) -> list[str]:
-    r"""A phrase as LaTeX for mathematics mode, piece by piece; lines may end between pieces.
-
-    >>> for piece in phrase_latex("for j ≥ 1, inside of the cone"):
-    ...     print(piece)
-    \text{for }
-    j \geq  1,
-    \text{ inside of the cone}
-    """
-    source = re.sub(
-        r"\$([^$]+)\$([,;]?)", r"$\1\2$", prose_latex(words)
-    )  # no line begins with a comma
-    found = re.split(r"(?<!\\)\$", source)
-    return [
-        piece if place % 2 else rf"\text{{{piece}}}" for place, piece in enumerate(found) if piece
-    ]
 
 
 def _with_brackets(source: str) -> str:

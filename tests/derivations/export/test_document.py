@@ -83,7 +83,6 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
     assert prose_latex("N = ½[l − (k − i)], a √(l + j)/M") == (
         r"$N = \frac{1}{2}[l -$ $(k - i)]$, a $\sqrt{l+j}/M$"
     )
-    assert prose_latex("σ_yy(flux) is a length") == r"$\sigma _{yy}^{\mathrm{flux}}$ is a length"
     assert prose_latex("unknown ☃").endswith(r"\text{[snowman]}$")
 
 
