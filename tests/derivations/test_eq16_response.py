@@ -1,12 +1,12 @@
 """The response to a point load: closed forms against exact packings, and how cases are split."""
 
-from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
 import mpmath
 import numpy as np
 import pytest
+import sympy
 from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.api.derived import Derived
 from force_diffusion.derivations.api.proof import Proof
@@ -26,8 +26,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Rational
 
-from tests.soundness.witnesses.draws import draw
-from tests.soundness.witnesses.squared_weights import weights_below_a_load
+from tests.soundness.witnesses.moments import DIRECTIONS, Packing
 
 ONE = Fraction(1)
 cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=1000)
@@ -36,24 +35,29 @@ cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=10
 @pytest.mark.parametrize("level", [*range(1, 7), 9])
 def test_every_contact_and_bead_of_the_cone(level: int) -> None:
     """l = 9 is the first with a bead that is three steps away from both legs and the base."""
-    n = draw(level).n
+    n = DIRECTIONS[level % 6]
     phi = n[1] ** 2 - n[0] ** 2
+    first = level % 2
 
-    def square(weights: Mapping[tuple[int, int], Fraction]) -> Fraction:
-        return sum((w**2 for w in weights.values()), Fraction(0))
+    def variance(of: sympy.Expr, i: int, j: int) -> Fraction:
+        packing = Packing(level, n, "point", at={sy.k: first, sy.i: i, sy.j: j}, order=1)
+        found = packing.moment(sy.Variance(of / sy.f_load))
+        return Fraction(int(found.p), int(found.q))
 
-    vertical, magnitude = weights_below_a_load(level, n)
-    for ((across, layer), branch), weights in vertical.items():
-        site = (across + level % 2, layer, level % 2, level)
-        stated = closed_forms.contact_response(*site, branch, phi, ONE, ONE)
-        assert stated == square(weights), (site, branch)
-        if branch == "+":
-            other = vertical[(across, layer), "-"]
-            both = {bead: weight + other[bead] for bead, weight in weights.items()}
-            assert closed_forms.bead_response(*site, phi, ONE, ONE) == square(both), site
-        if across == (layer - level if branch == "+" else level - layer):
-            relative = square(magnitude[(across, layer), branch]) * (2 * n[1]) ** 2
-            assert closed_forms.leg_variance(layer, level, phi, ONE, ONE) == relative, site
+    forces = sy.ForcePlus(sy.i, sy.j), sy.ForceMinus(sy.i, sy.j)
+    vertical = sy.VerticalPlus(sy.i, sy.j), sy.VerticalMinus(sy.i, sy.j)
+    for layer in range(level):
+        for across in range(layer - level, level - layer + 1, 2):
+            site = across + first, layer
+            at = *site, first, level
+            for branch, force, push in zip("+-", forces, vertical, strict=True):
+                stated = closed_forms.contact_response(*at, branch, phi, ONE, ONE)
+                assert stated == variance(push, *site), (site, branch)
+                if across == (layer - level if branch == "+" else level - layer):
+                    of_leg = closed_forms.leg_variance(layer, level, phi, ONE, ONE)
+                    assert of_leg == variance(2 * sy.n_y * force, *site), site
+            both = variance(sympy.Add(*vertical), *site)
+            assert closed_forms.bead_response(*at, phi, ONE, ONE) == both, site
 
 
 EXACT = [step for step in eq16.steps() if step.formula.has(*eq16.EXACT) and step.relation == "="]

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 
+from hypothesis import settings
 from hypothesis import strategies as st
 
 from tests.properties.packing import Number, Packing, mp, step
@@ -22,7 +23,17 @@ cosines = st.fractions(Fraction(-9, 20), Fraction(9, 20), max_denominator=20)
 """φ of either sign, within the range −½ < φ < ½ of packings."""
 
 lengths = st.builds(Fraction, st.integers(1, 9), st.integers(1, 9))
-"""Mean radii and loads; 1 is the simplest."""
+"""Mean radii, loads and σ; 1 is the simplest."""
+
+Geometry = tuple[Fraction, Fraction]
+"""φ and r."""
+geometries = st.tuples(cosines, lengths)
+
+GEOMETRY = Fraction(1, 7), Fraction(3, 4)
+"""One that is always the same."""
+
+FEWER = settings(max_examples=max(2, settings().max_examples // 10))
+"""Where an example takes a second."""
 
 
 @dataclass(frozen=True)
@@ -35,10 +46,11 @@ class Drawn:
         height: M.
         r: mean radius.
         rho: ρ of all beads, layer by layer from the base.
-        load: "point", "surface", "bulk", or "contact": nothing but a force f⁺ that enters the bead
-            (k − 1, l − 1) from above.
-        weight: the load on a bead, or the force that enters.
+        load: "point", "surface", "bulk", "leaning": −(L⁺n⁺ + L⁻n⁻) on all beads of the surface, or
+            "contact": nothing but a force f⁺ that enters the bead (k − 1, l − 1) from above.
+        weight: the load on a bead, L⁺ of a leaning one, or the force that enters.
         at: the loaded bead, as the paper's (k, l); it may lie beyond the seam.
+        t: L⁻/L⁺ of a leaning load.
     """
 
     cosine: Fraction
@@ -49,6 +61,7 @@ class Drawn:
     load: str
     weight: Fraction
     at: tuple[int, int]
+    t: Fraction = Fraction(1)
 
     def with_equal_radii(self) -> "Drawn":
         """The ordered packing."""
@@ -79,8 +92,8 @@ def fixed_packing(load: str) -> Drawn:
     """
     width, height = 8, 6
     rho = (number**3 % 113 for number in range(1, width * (height + 1) + 1))
-    cosine, r, weight = Fraction(1, 7), Fraction(3, 4), Fraction(5, 3)
-    return Drawn(cosine, width, height, r, tuple(rho), load, weight, (3, 5))
+    (cosine, r), weight = GEOMETRY, Fraction(5, 3)
+    return Drawn(cosine, width, height, r, tuple(rho), load, weight, (3, 5), Fraction(2, 5))
 
 
 @lru_cache(maxsize=64)  # all lines of an equation, and all of its changes, see the same packings
@@ -98,6 +111,9 @@ def solved(drawn: Drawn, epsilon: Number) -> Plane:
             return Plane(packing, packing.bulk_load(weight))
         case "point":
             return Plane(packing, packing.downwards(weight, [loaded]))
+        case "leaning":
+            along = (1, exactly(drawn.t))
+            return Plane(packing, packing.along(along, weight, packing.sites(drawn.height)))
     return Plane(packing, entering={(packing.home(step(loaded, 0, -1)), 0): weight})
 
 
@@ -130,4 +146,5 @@ def packings(
         load,
         draw(lengths),
         (k, l),
+        draw(lengths) if load == "leaning" else Fraction(1),
     )

@@ -21,7 +21,7 @@ ROUNDING = mp.mpf("1e-80")
 numbers above one."""
 
 
-def printed(number: int) -> tuple[sympy.Eq, ...]:
+def printed(number: int | str) -> tuple[sympy.Eq, ...]:
     """The lines of an equation, as the package has them."""
     expression = fd.equation(number).expr
     return tuple(expression) if isinstance(expression, sympy.Tuple) else (expression,)
@@ -34,7 +34,8 @@ def size(value: Value) -> Number:
 
 def left_beside(equation: sympy.Eq, drawn: Drawn, at: At) -> list[Number]:
     """The left-hand side less the right-hand side, at both strengths."""
-    at = {sy.f_load: exactly(drawn.weight), **at}
+    weight, t = exactly(drawn.weight), exactly(drawn.t)
+    at = {sy.f_load: weight, sy.L_plus: weight, sy.L_minus: t * weight, sy.t: t, **at}
     return [size(solved(drawn, epsilon).rest(equation, at)) for epsilon in STRENGTHS]
 
 

@@ -218,6 +218,15 @@ class Packing:
                     carried[contact[0]] = minus(below, times(share, column))
         return found
 
+    def along(
+        self, shares: Sequence[Number], weight: Number, sites: Iterable[Site]
+    ) -> dict[Site, Vector]:
+        """The same load on each of some beads: against each base vector a share of the weight."""
+        load = (mp.mpf(0),) * self.d
+        for share, vector in zip(shares, self.base, strict=True):
+            load = minus(load, times(share * weight, vector))
+        return dict.fromkeys(sites, load)
+
     def downwards(self, weight: Number, sites: Iterable[Site]) -> dict[Site, Vector]:
         """The same vertical load on each of some beads."""
         return {site: (*(mp.mpf(0),) * (self.d - 1), -weight) for site in sites}

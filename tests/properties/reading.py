@@ -58,12 +58,14 @@ def place(site: Site) -> tuple[int, int]:
 class Plane:
     """A packing of discs in the paper's symbols, with the forces that some loads bring.
 
-    ``entering``: contact forces that are given in place of loads, by their contacts.
+    ``entering``: contact forces that are given in place of loads, by their contacts. ``given``:
+    what the symbols of the loads stand for.
     """
 
     packing: Packing
     loads: Mapping[Site, Vector] = field(default_factory=dict)
     entering: Mapping[Contact, Number] = field(default_factory=dict)
+    given: Mapping[sympy.Symbol, Value] = field(default_factory=dict)
 
     @cached_property
     def forces(self) -> dict[Contact, Number]:
@@ -77,15 +79,22 @@ class Plane:
     @cached_property
     def symbols(self) -> dict[sympy.Symbol, Value]:
         """Numbers of the symbols that say which packing this is."""
-        n_plus, n_minus = self.packing.base
+        base = self.packing.base
+        general = {
+            **self.given,
+            sy.phi: dot(base[0], base[1]),
+            sy.r: self.packing.r,
+            sy.M: self.packing.height,
+        }
+        if len(base) > 2:
+            return general
+        n_plus, n_minus = base
         n_x, n_y = n_plus
         return {
+            **general,
             sy.n_x: n_x,
             sy.n_y: n_y,
-            sy.phi: dot(n_plus, n_minus),
-            sy.r: self.packing.r,
             sy.spacing: 4 * self.packing.r * n_x,
-            sy.M: self.packing.height,
             sy.n_plus: n_plus,
             sy.n_minus: n_minus,
             sy.e_y: (mp.mpf(0), mp.mpf(1)),
@@ -93,9 +102,9 @@ class Plane:
             sy.b_minus: (-1 / (2 * n_x), 1 / (2 * n_y)),
         }
 
-    def quantity(self, name: str, i: int, j: int) -> Value:
+    def quantity(self, name: str, i: int, j: int, origin: Site = (0, 0)) -> Value:
         """The value of δr_ij, f⁺_ij and so on, by the name of its function."""
-        site = steps_to(i, j)
+        site = plus(steps_to(i, j), origin)
         kind = name.removesuffix("Plus").removesuffix("Minus")
         top = self.packing.height - (kind != name)  # contacts start below the surface
         if not 0 <= j <= top:
@@ -112,18 +121,37 @@ class Plane:
                 return minus(self.packing.direction(contact), self.packing.base[contact[1]])
             case "Force":
                 return self.forces.get(contact, mp.mpf(0))
+            case "Vertical":
+                return self.packing.direction(contact)[-1] * self.forces.get(contact, mp.mpf(0))
             case "Load":
                 return self.loads.get(contact[0], (mp.mpf(0), mp.mpf(0)))
         raise NonsenseError(f"{name} is no quantity of a packing")
 
-    def read(self, expression: sympy.Basic, at: Mapping[sympy.Symbol, Value]) -> Value:
+    def along(self, axis: int, bead: Site, *, vertical: bool) -> Value:
+        """The force that leads up along a base vector, counted from 1; or its share straight up."""
+        if not 0 <= sum(bead) < self.packing.height:
+            raise AbsentError(f"no contact leads up from {bead}")
+        contact = self.packing.home(bead), axis - 1
+        force = self.forces.get(contact, mp.mpf(0))
+        if not vertical:
+            return force
+        return force * self.packing.direction(contact)[-1] / self.packing.base[0][-1]
+
+    def read(
+        self,
+        expression: sympy.Basic,
+        at: Mapping[sympy.Symbol, Value],
+        origin: Site = (0, 0),
+    ) -> Value:
         """The value of an expression, for these values of its indices and other symbols.
+
+        Places are counted from the bead ``origin``, in steps.
 
         Raises:
             AbsentError: it speaks of a bead or contact that is not there.
             NonsenseError: it has no value.
         """
-        return _Reading(self, {**self.symbols, **at}).value(expression)
+        return _Reading(self, {**self.symbols, **at}, origin).value(expression)
 
     def rest(self, equation: sympy.Eq, at: Mapping[sympy.Symbol, Value]) -> Value:
         """The left-hand side less the right-hand side."""
@@ -135,6 +163,7 @@ class Plane:
 class _Reading:
     plane: Plane
     symbols: Mapping[sympy.Symbol, Value]
+    origin: Site
 
     def value(self, expression: sympy.Basic) -> Value:
         match expression:
@@ -156,14 +185,27 @@ class _Reading:
                 return _sum([self.having(index, m).value(expression.function) for m in layers])
             case sy.SecondDifference():
                 r, s = map(self.index, expression.args)
-                one, two, three = (self.plane.quantity("DeltaR", r + by, s) for by in (-2, 0, 2))
+                one, two, three = (self.quantity("DeltaR", r + by, s) for by in (-2, 0, 2))
                 return 2 * two - one - three
             case sy.SiteFunction():
                 i, j = map(self.index, expression.args)
-                return self.plane.quantity(type(expression).__name__, i, j)
+                return self.quantity(type(expression).__name__, i, j)
+            case sy.ForceAlong():
+                axis, *steps = map(self.index, expression.args)
+                bead = plus(tuple(steps), self.origin)
+                vertical = isinstance(expression, sy.VerticalAlong)
+                return self.plane.along(axis, bead, vertical=vertical)
+            case sy.MeanOver():
+                quantity, count, index = expression.args
+                places = range(self.index(count))
+                first = self.symbols[index]
+                values = [self.having(index, first + 2 * n).value(quantity) for n in places]
+                return _sum(values) / len(values)
             case sy.Braces():
                 first, second, index, last = expression.args
                 return self.value(first if self.index(index) <= self.index(last) else second)
+            case sympy.Piecewise():
+                return self.value(self.case(expression))
             case sy.Dot():
                 u, v = map(self.value, expression.args)
                 return dot(u, v)
@@ -178,8 +220,19 @@ class _Reading:
             raise AbsentError(f"{expression} is {value}, no whole number")
         return int(value)
 
+    def case(self, cases: sympy.Piecewise) -> sympy.Expr:
+        """The formula whose condition these indices meet."""
+        whole = {one: value for one, value in self.symbols.items() if isinstance(value, int)}
+        for formula, condition in cases.args:
+            if condition.xreplace(whole) == sympy.true:
+                return formula
+        raise AbsentError("there is no formula for these indices")
+
+    def quantity(self, name: str, i: int, j: int) -> Value:
+        return self.plane.quantity(name, i, j, self.origin)
+
     def having(self, index: sympy.Symbol, value: int) -> "_Reading":
-        return _Reading(self.plane, {**self.symbols, index: value})
+        return _Reading(self.plane, {**self.symbols, index: value}, self.origin)
 
 
 def _sum(parts: list[Value]) -> Value:

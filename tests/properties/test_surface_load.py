@@ -1,4 +1,4 @@
-"""Eq. 11: the force of every contact under a surface load."""
+"""Eqs. 11 and B1: the force of every contact under a load on all beads of the surface."""
 
 import sympy
 from force_diffusion.symbolic.symbols import i, j
@@ -12,11 +12,20 @@ def of_each_contact(equation: sympy.Eq, drawn: Drawn) -> None:
     holds_to_first_order(equation, drawn, ({i: a, j: b} for a, b in drawn.contacts()))
 
 
-CHECKS = {11: (of_each_contact, [fixed_packing("surface")])}
+CHECKS = {
+    11: (of_each_contact, [fixed_packing("surface")]),
+    "B1": (of_each_contact, [fixed_packing("leaning")]),
+}
 
 
 @given(packings("surface"))
 def test_eq_11_the_force_is_the_sum_over_all_loads_and_paths(drawn: Drawn) -> None:
     """One straight path, and M − j − 1 paths which branch once."""
     for line in printed(11):
+        of_each_contact(line, drawn)
+
+
+@given(packings("leaning"))
+def test_eq_b1_the_same_for_loads_in_any_direction(drawn: Drawn) -> None:
+    for line in printed("B1"):
         of_each_contact(line, drawn)

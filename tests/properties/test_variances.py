@@ -1,175 +1,173 @@
-"""Eqs. 12–14: weights and variances, from one radius at a time."""
+"""Eqs. 13–16: how variances grow with the height of the packing."""
 
 from collections.abc import Callable
 from fractions import Fraction
-from functools import lru_cache
 
 import pytest
 import sympy
-from force_diffusion.symbolic.symbols import M, f_load, j, sigma, z
-from hypothesis import given, settings
+from force_diffusion.symbolic.symbols import M, i, j, k, l, sigma, z
+from hypothesis import given
 from hypothesis import strategies as st
 
-import force_diffusion as fd
-from tests.properties.drawn import cosines, exactly, lengths
-from tests.properties.one_radius import (
-    QUOTIENT_ROUNDING,
-    left_out,
-    loaded,
-    mean_force,
-    one_larger_each,
+from tests.properties.drawn import FEWER, GEOMETRY, Geometry, exactly, geometries, lengths
+from tests.properties.growth import (
+    deep_response,
+    mean_variance,
+    response,
+    tall_variance,
     variance,
 )
-from tests.properties.orders import ROUNDING, STRENGTHS, falls, printed
+from tests.properties.orders import falls, printed
 from tests.properties.packing import Number, Packing, mp
 from tests.properties.reading import Plane
 
 LOADS = {13: "surface", 14: "bulk"}
-Geometry = tuple[Fraction, Fraction]
-geometries = st.tuples(cosines, lengths)
-"""φ and r."""
-
-
-@lru_cache(maxsize=16)  # all layers, and all changes of an equation, see the same packings
-def larger(
-    geometry: Geometry, height: int, epsilon: Number, load: str, weight: Fraction
-) -> tuple[Plane, ...]:
-    """One bead of each layer larger by ε r, and the forces under a load."""
-    each = one_larger_each(*geometry, height, epsilon)
-    return tuple(loaded(packing, load, exactly(weight)) for packing in each)
-
-
-FEWER = settings(max_examples=max(3, settings().max_examples // 8))
-"""An example takes a second, and more."""
-
-
-# Eq. 12: weights
-
-Line = tuple[Geometry, Fraction, tuple[tuple[int, int], ...]]
-"""φ and r, the load on a bead, and four contacts (M, j) at equal distances, 2 ≤ j ≤ M − 2."""
-
-Place = tuple[int, int]
-"""M and j."""
-
-LINES: tuple[tuple[Place, Place], ...] = (((7, 2), (0, 1)), ((4, 2), (1, 0)), ((4, 2), (1, 1)))
-"""Along each coordinate, and along both at once."""
-
-
-def contacts(start: Place, along: Place) -> tuple[Place, ...]:
-    (height, layer), (up, by) = start, along
-    return tuple((height + t * up, layer + t * by) for t in range(4))
-
-
-@st.composite
-def lines(draw: st.DrawFn) -> Line:
-    start, along = draw(st.sampled_from(LINES))
-    return draw(geometries), draw(lengths), contacts(start, along)
-
-
-def leaves_out_order_two(equation: sympy.Eq, line: Line) -> None:
-    """The mean is the same, and of the variance an order of M is left out.
-
-    The variance of what is left out is a polynomial in M and j of degree two, while that of the
-    force is one of degree three: along a line its third difference vanishes.
-    """
-    geometry, weight, contacts = line
-
-    def left(height: int, layer: int, epsilon: Number) -> Number:
-        planes = larger(geometry, height, epsilon, "surface", weight)
-        return left_out(equation, planes, layer, {f_load: exactly(weight)})
-
-    assert left(*contacts[0], mp.mpf(0)) <= ROUNDING**2, "the mean is another"
-    sizes = []
-    for epsilon in STRENGTHS:
-        a, b, c, d = (left(*contact, epsilon) / epsilon**2 for contact in contacts)
-        sizes.append(abs(d - 3 * c + 3 * b - a))
-    assert falls(sizes, 1, rounding=QUOTIENT_ROUNDING), [mp.nstr(size, 5) for size in sizes]
-
-
-@FEWER
-@given(lines())
-def test_eq_12_leaves_out_one_order_of_the_height(line: Line) -> None:
-    for equation in printed(12):
-        leaves_out_order_two(equation, line)
-
-
-# Eqs. 13 and 14: variances
-
-
-def exact_form(number: int, height: int, layer: int) -> sympy.Expr:
-    """The exact variance of a layer, as the package has it."""
-    form = fd.equation(number).exact().expr
-    return next(value for value, where in form.args if where.xreplace({M: height, j: layer}))
-
-
-@pytest.mark.parametrize("number", [13, 14])
-@FEWER
-@given(geometry=geometries, sd=lengths, weight=lengths, height=st.integers(1, 8))
-def test_the_exact_variance_is_the_sum_of_squared_weights(
-    number: int, geometry: Geometry, sd: Fraction, weight: Fraction, height: int
-) -> None:
-    """In every layer and of both contacts.
-
-    Times M − j the sum is, for 2 ≤ j ≤ M − 2, a polynomial in M and j of degree four at most, as
-    the weights are such of lower degree; its 15 values at 4 ≤ M ≤ 8, 2 ≤ j ≤ M − 2 determine it.
-    """
-    for layer in range(height):
-        for name in ("ForcePlus", "ForceMinus"):
-            sizes = []
-            for epsilon in STRENGTHS:
-                planes = larger(geometry, height, epsilon, LOADS[number], weight)
-                packing = planes[0].packing
-                mean = mean_force(packing, LOADS[number], exactly(weight), layer)
-                squares = variance(planes, name, layer, mean) / epsilon**2
-                exact = planes[0].read(
-                    exact_form(number, height, layer), {j: layer, sigma: exactly(sd)}
-                )
-                sizes.append(abs(squares * (exactly(sd) / packing.r) ** 2 - exact))
-            assert falls(sizes, 1, rounding=QUOTIENT_ROUNDING), (layer, name, sizes)
-
+ACCURATE = mp.mpf("1e-20")
+"""Of a variance from differences, as a share of it: what they leave out is 10⁻²⁴, and extrapolation
+by a layer or two enlarges it."""
 
 HEIGHTS = 10**8, 10**10
-"""Where 1/M is as small as need be."""
+"""Where 1/M is as small as need be, and the digits that extrapolation leaves are enough."""
 
 Deep = tuple[Geometry, Fraction, Fraction]
-deep = st.tuples(
-    geometries, lengths, st.fractions(Fraction(1, 10), Fraction(9, 10), max_denominator=10)
-)
 """φ and r, σ, and z = j/M."""
+deep = st.tuples(
+    geometries,
+    lengths,
+    st.fractions(Fraction(1, 10), Fraction(9, 10), max_denominator=10),
+)
+"""So many tenths that whole layers lie there."""
 
 
-def is_the_leading_order(number: int) -> Callable[[sympy.Eq, Deep], None]:
-    """What is left beside the exact variance is smaller by 1/M."""
+def numbers(geometry: Geometry) -> Plane:
+    """What φ and r are; no bead is looked at."""
+    cosine, r = geometry
+    return Plane(Packing(exactly(cosine), 1, 1, exactly(r)))
+
+
+def is_the_leading_order(
+    of_packings: Callable[[Geometry, int, int], Number], power: int
+) -> Callable[[sympy.Eq, Deep], None]:
+    """What is left beside the variance of tall packings is smaller by 1/M."""
 
     def check(equation: sympy.Eq, drawn: Deep) -> None:
-        (cosine, r), sd, height = drawn
-        plane = Plane(Packing(exactly(cosine), 1, 1, exactly(r)))
+        geometry, sd, height = drawn
         sizes = []
         for scale in HEIGHTS:
-            top = scale * height.denominator
-            at = {M: top, j: int(height * top), z: exactly(height), sigma: exactly(sd)}
-            exact = plane.read(fd.equation(number).exact().pieces[0].expr, at)
-            left, right = (
-                plane.read(side, {**at, printed(number)[0].lhs: exact}) for side in equation.args
-            )
-            sizes.append(abs(left - right) / mp.mpf(top) ** 3)
+            top, layer = scale * height.denominator, scale * height.numerator
+            left = exactly(sd) ** 2 * of_packings(geometry, top, layer)
+            at = {M: top, l: top, j: layer, i: 0, k: 0, z: exactly(height), sigma: exactly(sd)}
+            right = numbers(geometry).read(equation.rhs, at)
+            sizes.append(abs(left - right) / mp.mpf(top) ** power)
         smaller = tuple(1 / mp.mpf(scale) for scale in HEIGHTS)
-        assert falls(sizes, 1, smaller), [mp.nstr(size, 5) for size in sizes]
+        shown = [mp.nstr(size, 5) for size in sizes]
+        assert falls(sizes, 1, smaller), f"of M^{power} is left at M = {HEIGHTS}: {shown}"
 
     return check
 
 
-@pytest.mark.parametrize("number", [13, 14])
-@given(drawn=deep)
-def test_eqs_13_and_14_are_the_leading_order_in_the_height(number: int, drawn: Deep) -> None:
-    for equation in printed(number):
-        is_the_leading_order(number)(equation, drawn)
+OF_LAYERS = {
+    number: is_the_leading_order(
+        lambda geometry, *at, load=load: tall_variance(geometry, load, *at), 3
+    )
+    for number, load in LOADS.items()
+}
+OF_RESPONSE = is_the_leading_order(deep_response, 1)
 
 
-GEOMETRY = Fraction(1, 7), Fraction(3, 4)
+@pytest.mark.parametrize("load", LOADS.values())
+@pytest.mark.parametrize("place", [(9, 2), (9, 5), (9, 7)])
+def test_small_packings_tell_the_variances_of_taller_ones(
+    load: str, place: tuple[int, int]
+) -> None:
+    found = variance(GEOMETRY, load, *place)
+    assert abs(found / tall_variance(GEOMETRY, load, *place) - 1) < ACCURATE
+
+
+@pytest.mark.parametrize("place", [(8, 3), (8, 4), (8, 5)])
+def test_small_packings_tell_the_responses_of_taller_ones(place: tuple[int, int]) -> None:
+    found = response(GEOMETRY, *place, across=place[1] % 2)
+    assert abs(found / deep_response(GEOMETRY, *place) - 1) < ACCURATE
+
+
+# Eq. 15: the mean over all layers
+
+System = tuple[int, Geometry, Fraction]
+"""M, φ and r, and σ."""
+
+
+def is_the_general_form(equation: sympy.Eq, systems: tuple[System, System]) -> None:
+    """Left over right is a positive number which is the same for all M, r and σ, up to 1/M.
+
+    σ_f²/⟨f⟩² of a system is the mean over the layers, and M* the height at which that is one.
+    """
+    deviation, height = (line.lhs for line in printed(15))
+    for load in LOADS.values():
+        quotients = []
+        for top, geometry, sd in systems:
+            at = {
+                M: top,
+                sigma: exactly(sd),
+                deviation: exactly(sd) * mp.sqrt(mean_variance(geometry, load, top)),
+                height: unit_height(geometry, load, exactly(sd)),
+            }
+            left, right = (numbers(geometry).read(side, at) for side in equation.args)
+            quotients.append(left / right)
+        one, other = quotients
+        assert min(quotients) > 0
+        # the next order of either side, and M* is a whole number: together less than 5/M (an
+        # exponent that is another by one half is a factor of two)
+        shown = [mp.nstr(one, 5) for one in quotients]
+        assert abs(other / one - 1) < mp.mpf(5) / systems[0][0], f"{load} load, {shown}"
+
+
+def unit_height(geometry: Geometry, load: str, sd: Number) -> int:
+    """The least M at which the mean of σ_f²/⟨f⟩² is one."""
+    low, high = 4, 1000
+    while high - low > 1:
+        middle = (low + high) // 2
+        is_enough = sd**2 * mean_variance(geometry, load, middle) >= 1
+        low, high = (low, middle) if is_enough else (middle, high)
+    return high
+
+
+def systems(cosine: Fraction, r: Fraction, other: Fraction) -> tuple[System, System]:
+    """So that M* is about M in both: with σ/r = 10⁻³, and an eighth of that."""
+    return (60, (cosine, r), r / 1000), (240, (cosine, other), other / 8000)
+
+
+@FEWER
+@given(deep)
+def test_eqs_13_to_15_are_the_leading_order_in_the_height(drawn: Deep) -> None:
+    for number, check in OF_LAYERS.items():
+        for equation in printed(number):
+            check(equation, drawn)
+    (cosine, r), *_ = drawn
+    for equation in printed(15):
+        is_the_general_form(equation, systems(cosine, r, r))
+
+
+# Eq. 16: the response to a load on one bead
+
+
+@FEWER
+@given(deep)
+def test_eq_16_is_the_leading_order_in_the_heights(drawn: Deep) -> None:
+    for equation in printed(16):
+        OF_RESPONSE(equation, drawn)
+
+
+@FEWER
+@given(geometries)
+def test_inside_of_the_cone_the_response_depends_on_the_heights_alone(geometry: Geometry) -> None:
+    """It is completely independent of the horizontal position."""
+    inside = [response(geometry, 7, 3, across) for across in (-2, 0, 2)]
+    assert max(inside) / min(inside) - 1 < ACCURATE
+
+
 DEEP = GEOMETRY, Fraction(2, 3), Fraction(3, 7)
 CHECKS = {
-    12: (leaves_out_order_two, [(GEOMETRY, Fraction(5, 3), contacts(*line)) for line in LINES]),
-    13: (is_the_leading_order(13), [DEEP]),
-    14: (is_the_leading_order(14), [DEEP]),
+    **{number: (check, [DEEP]) for number, check in OF_LAYERS.items()},
+    15: (is_the_general_form, [systems(*GEOMETRY, Fraction(2))]),
+    16: (OF_RESPONSE, [DEEP]),
 }

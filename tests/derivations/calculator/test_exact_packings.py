@@ -21,8 +21,14 @@ from hypothesis import strategies as st
 
 import force_diffusion as fd
 from force_diffusion.symbols import N, f_minus, f_plus, i, j, k, l, p, t
-from tests.soundness.witnesses.draws import DIRECTIONS
-from tests.soundness.witnesses.moments import AbsentError, Packing, Value, covariance, exact
+from tests.soundness.witnesses.moments import (
+    DIRECTIONS,
+    AbsentError,
+    Packing,
+    Value,
+    covariance,
+    exact,
+)
 
 HIGHEST = 7
 FEW = settings(max_examples=max(2, settings.default.max_examples // 5))

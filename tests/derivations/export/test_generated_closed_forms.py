@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import flint
@@ -17,10 +18,10 @@ from force_diffusion.symbolic import symbols as sy
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.soundness.witnesses import neighbours, second_order
-from tests.soundness.witnesses.draws import DIRECTIONS
-from tests.soundness.witnesses.squared_weights import weights_of_forces
+import force_diffusion as fd
+from tests.soundness.witnesses.moments import DIRECTIONS, Packing, exact
 
+ONE = Fraction(1)
 EXACT = {"surface": closed_forms.surface_variance, "bulk": closed_forms.bulk_variance}
 
 
@@ -31,16 +32,25 @@ def test_the_file_is_what_the_derivations_generate() -> None:
     )
 
 
-@pytest.mark.long(sample=11)
+def of_packing(
+    number: int | str, name: str, load: str, height: int, layer: int, n: Any,
+    ratio: Fraction = Fraction(1), count: int = 1,
+) -> flint.fmpq:  # fmt: skip
+    """What a closed form stands for, in an exact packing, for r = σ = 1."""
+    at = {sy.i: layer % 2, sy.j: layer, sy.N: count}
+    packing = Packing(height, n, load, ratio, at)
+    return packing.moment(fd.equation(number).exact(name).statistic)
+
+
 @pytest.mark.parametrize("load", EXACT)
-@pytest.mark.parametrize("height", range(1, 13))
+@pytest.mark.parametrize("height", range(1, 9))
 def test_exact_variance_is_that_of_exact_packings(load: str, height: int) -> None:
     """The same sums with weights that the nonlinear packing gives, nothing symbolic in them."""
-    for n in DIRECTIONS[:3]:
+    number = {"surface": 13, "bulk": 14}[load]
+    for n, layer in product(DIRECTIONS[:2], range(height)):
         phi = n[1] ** 2 - n[0] ** 2
-        for layer, weights in enumerate(weights_of_forces(height, n, load)):
-            total = sum((w**2 for w in weights.values()), Fraction(0))
-            assert EXACT[load](height, layer, phi, Fraction(1), Fraction(1)) == total
+        true = of_packing(number, "layer", load, height, layer, n)
+        assert exact(EXACT[load](height, layer, phi, ONE, ONE)) == true
 
 
 heights = st.one_of(st.integers(1, 40), st.integers(1, 10**9))
@@ -93,7 +103,6 @@ def test_printed_forms_are_the_printed_equations() -> None:
 
 
 PRINTED = (closed_forms.surface_diffusion, closed_forms.bulk_diffusion)
-ONE = Fraction(1)
 
 
 @pytest.mark.parametrize("form", EXACT.values())
@@ -163,9 +172,10 @@ AT_ANGLE = {
 def test_at_an_angle_it_is_that_of_exact_packings(load: str, height: int, ratio: Fraction) -> None:
     n = DIRECTIONS[2]
     phi = n[1] ** 2 - n[0] ** 2
-    for layer, weights in enumerate(weights_of_forces(height, n, load, ratio=ratio)):
-        total = sum((w**2 for w in weights.values()), Fraction(0))
-        assert AT_ANGLE[load](height, layer, ratio, phi, ONE, ONE) == total
+    number = {"surface": "B2", "bulk": "B3"}[load]
+    for layer in range(height):
+        true = of_packing(number, "plus", load, height, layer, n, ratio)
+        assert exact(AT_ANGLE[load](height, layer, ratio, phi, ONE, ONE)) == true
 
 
 @pytest.mark.parametrize("load", AT_ANGLE)
@@ -182,9 +192,10 @@ def test_means_are_those_of_exact_packings(height: int) -> None:
     n = DIRECTIONS[1]
     phi = n[1] ** 2 - n[0] ** 2
     shifts = {"surface": closed_forms.surface_mean_shift, "bulk": closed_forms.bulk_mean_shift}
-    for load, form in shifts.items():
-        forces, _ = second_order.means(height, n, load)
-        assert [form(height, layer, phi, ONE, ONE) for layer in range(height)] == list(forces)
+    for (load, form), layer in product(shifts.items(), range(height)):
+        number = {"surface": "B5", "bulk": "B6"}[load]
+        true = of_packing(number, "force", load, height, layer, n)
+        assert exact(form(height, layer, phi, ONE, ONE)) == true
 
 
 @pytest.mark.parametrize(
@@ -197,12 +208,12 @@ def test_means_of_neighbours_are_those_of_exact_packings(
     n = DIRECTIONS[3]
     phi = n[1] ** 2 - n[0] ** 2
     forms = {
-        "force": closed_forms.contacts_mean_variance,
-        "bead": closed_forms.beads_mean_variance,
+        "B7": closed_forms.contacts_mean_variance,
+        "B8": closed_forms.beads_mean_variance,
     }
-    for quantity, form in forms.items():
-        true = neighbours.mean_variance(quantity, height, layer, count, n)
-        assert form(height, layer, count, phi, ONE, ONE) == true
+    for number, form in forms.items():
+        true = of_packing(number, "mean", "surface", height, layer, n, count=count)
+        assert exact(form(height, layer, count, phi, ONE, ONE)) == true
         with pytest.raises(ValueError, match="N = 0"):
             form(height, layer, 0, phi, ONE, ONE)
         with pytest.raises(ValueError, match=r"j = .*allowed"):

@@ -27,6 +27,13 @@ from tests.numeric.mechanics import taylor
 from tests.soundness.witnesses import dimensions
 
 Direction = tuple[Fraction, Fraction]
+
+DIRECTIONS = tuple(
+    (Fraction(a, c), Fraction(b, c))
+    for a, b, c in ((3, 4, 5), (4, 3, 5), (20, 21, 29), (21, 20, 29), (33, 56, 65), (48, 55, 73))
+)
+"""Rational base vectors (n_x, n_y) with ½ < n_x < √3/2, φ of either sign."""
+
 Site = tuple[int, ...]
 """A bead: (i, j), or three numbers of steps."""
 
