@@ -9,19 +9,19 @@ from typing import Any
 
 
 def surface_diffusion(M: Any, z: Any, phi: Any) -> Any:
-    return 2*M**3*(1 - z)**2*(2*z + 1) / (((1 - phi) * (1 + phi)) ** 2)
+    return (2*M**3*(1 - z)**2*(2*z + 1)) / (((1 - phi) * (1 + phi)) ** 2)
 
 
 def bulk_diffusion(M: Any, z: Any, phi: Any) -> Any:
-    return 3*M**3*(1 - z)**2*(4*z + 1) / (10*((1 - phi) * (1 + phi)) ** 2)
+    return (3*M**3*(1 - z)**2*(4*z + 1)) / (10*((1 - phi) * (1 + phi)) ** 2)
 
 
 def surface_diffusion_of_spheres(M: Any, z: Any, phi: Any) -> Any:
-    return 20*M**3*(1 - z)**2*(phi + 1)**2*(2*z + 1) / (3*(1 - phi)**2*(2*phi + 1)**2)
+    return (20*M**3*(1 - z)**2*(phi + 1)**2*(2*z + 1)) / (3*(1 - phi)**2*(2*phi + 1)**2)
 
 
 def bulk_diffusion_of_spheres(M: Any, z: Any, phi: Any) -> Any:
-    return M**3*(1 - z)**2*(phi + 1)**2*(4*z + 1) / ((1 - phi)**2*(2*phi + 1)**2)
+    return (M**3*(1 - z)**2*(phi + 1)**2*(4*z + 1)) / ((1 - phi)**2*(2*phi + 1)**2)
 
 
 def surface_variance(M: Any, j: Any, k: Any, phi: Any) -> Any:
@@ -197,7 +197,7 @@ def beads_mean_variance(M: Any, j: Any, k: Any, N: Any, phi: Any) -> Any:
 
 
 def response(j: Any, l: Any, phi: Any) -> Any:
-    return 3*j + 3*l / (2*((1 - phi) * (1 + phi)) ** 2)
+    return (3*j + 3*l) / (2*((1 - phi) * (1 + phi)) ** 2)
 
 
 def bead_response(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:

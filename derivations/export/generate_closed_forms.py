@@ -61,7 +61,7 @@ def _leading(printed: sympy.Expr) -> Iterator[Branch]:
     """A printed leading order, in its own form."""
     in_units = printed.doit().xreplace({sigma: sympy.Integer(1), r: sympy.Integer(1)})
     top, bottom = sympy.fraction(sympy.together(in_units))
-    yield "", f"{top} / ({bottom})".replace("(1 - phi**2)**2", "((1 - phi) * (1 + phi)) ** 2")
+    yield "", f"({top}) / ({bottom})".replace("(1 - phi**2)**2", "((1 - phi) * (1 + phi)) ** 2")
 
 
 def _exact(number: Number, name: str | None = None) -> Iterator[Branch]:

@@ -227,3 +227,10 @@ def test_the_leading_order_of_spheres_is_that_of_tall_packings(load: str) -> Non
     exact = getattr(closed_forms, f"{load}_variance_of_spheres")
     leading = printed(height, Fraction(layer, height), phi, ONE, ONE)
     assert abs(exact(height, layer, phi, ONE, ONE) / leading - 1) < Fraction(20, height)
+
+
+def test_the_printed_response_is_that_of_a_large_cone() -> None:
+    phi, l = Fraction(-1, 8), 10**6  # noqa: E741
+    for j in (l // 4, l // 2):
+        exact = closed_forms.bead_response(0, j, 0, l, phi, ONE, ONE)
+        assert abs(exact / closed_forms.response(l, j, phi, ONE, ONE) - 1) < Fraction(2, l)
