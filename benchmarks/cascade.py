@@ -18,8 +18,8 @@ from typing import Any
 
 import numpy as np
 from force_diffusion.derivations.export.tables import csv_text
-from force_diffusion.numeric.figures import drawing, style
-from force_diffusion.numeric.figures import specification as spec
+from force_diffusion.numeric.figures import style
+from matplotlib.figure import Figure
 
 import force_diffusion as fd
 
@@ -104,22 +104,20 @@ def summary(rows: list[Any]) -> Iterator[dict[str, Any]]:
         yield found
 
 
-def picture(means: list[Any]) -> spec.Picture:
+def drawn(means: list[Any]) -> Figure:
     """Draw one panel a load: shares over M, with bars of two standard errors."""
-    panels = []
-    for load in LOADS:
+    figure, panels = style.panels("ab", style.PAGE, 2.9, sharey=True)
+    for axes, load in zip(panels, LOADS, strict=True):
         rows = [row for row in means if row["load"] == load]
         heights = [row["height"] for row in rows]
-        elements: list[spec.Element] = []
         for number, (name, words) in enumerate(SHARES.items()):
             shares, bars = ([row[n] for row in rows] for n in (name, f"{name}_error"))
-            elements += [
-                spec.Line(heights, shares, number, width=0.8),
-                spec.Points(heights, shares, number, words, [2 * bar for bar in bars]),
-            ]
-        axes = spec.Axis("height $M$", ticks=heights), spec.Axis("share", 0, 1)
-        panels.append(spec.Panel(elements, *axes, f"{load} load", "below", columns=2))
-    return spec.Picture(panels, 2.9, page=True, share="y")
+            axes.plot(heights, shares, color=f"C{number}", lw=0.8)
+            style.points(axes, heights, shares, number, words, [2 * bar for bar in bars])
+        axes.set(xlabel="height $M$", xticks=heights, ylim=(0, 1), title=f"{load} load")
+    panels[0].set_ylabel("share")
+    figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=2)
+    return figure
 
 
 def main() -> None:
@@ -137,8 +135,10 @@ def main() -> None:
     means = list(summary(rows))
     (asked.folder / "cascade.csv").write_text(csv_text(rows))
     (asked.folder / "summary.csv").write_text(csv_text(means))
-    drawn, command = partial(drawing.draw, picture(means)), "python benchmarks/cascade.py"
-    for name, content in style.images(drawn, "cascade", "Cascades", command, ["png"]).items():
+    with style.house_style():
+        figure = drawn(means)
+    command = "python benchmarks/cascade.py"
+    for name, content in style.images(figure, "cascade", "Cascades", command, ["png"]).items():
         (asked.folder / name).write_bytes(content)
 
 

@@ -21,11 +21,11 @@ import flint
 import numpy as np
 from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, NumberSystem, from_floats
-from force_diffusion.numeric.figures import drawing, style
-from force_diffusion.numeric.figures import specification as spec
+from force_diffusion.numeric.figures import style
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
+from matplotlib.figure import Figure
 from measuring import in_turn
 
 import force_diffusion as fd
@@ -140,37 +140,35 @@ def bits_lost(solve: Callable[[NumberSystem], Any]) -> float | None:
     return None
 
 
-def picture(rows: list[Any], enclosed: list[Any]) -> spec.Picture:
+def drawn(rows: list[Any], enclosed: list[Any]) -> Figure:
     """Draw errors in float64 on the left, lost bits of balls on the right."""
-    errors: list[spec.Element] = [spec.Rule("y", 0, ":", name="no digit is left above")]
-    for series, dashes, key, form in (
-        (1, "--", "plain_error", "plain form"),
-        (0, "-", "error", "deviation form"),
-    ):
-        for height in (16, 128):
-            own = [row for row in rows if row["height"] == height]
-            x, y = ([log10(row[name]) for row in own] for name in ("relative_std", key))
-            points = spec.Points(x, y, series, f"{form}, $M={height}$", filled=height > 16)
-            errors += [spec.Line(x, y, series, dashes), points]
-    lost: list[spec.Element] = []
+    figure, (errors, lost) = style.panels("ab", style.PAGE, 3.2)
+    errors.axhline(0, color="0.6", ls=":", lw=0.7, label="no digit is left above")
+    forms = (("plain_error", "plain form", 1, "--"), ("error", "deviation form", 0, "-"))
+    for (key, form, series, dashes), height in product(forms, (16, 128)):
+        own = [row for row in rows if row["height"] == height]
+        x, y = ([log10(row[name]) for row in own] for name in ("relative_std", key))
+        errors.plot(x, y, color=f"C{series}", ls=dashes)
+        face = f"C{series}" if height > 16 else "white"
+        style.points(errors, x, y, series, f"{form}, $M={height}$", mfc=face)
     for series, dashes, form in ((1, "--", POSITIONS), (0, "-", LINE_SUMS)):
         for std in sorted({row["relative_std"] for row in enclosed if row["form"] == form}):
             own = [row for row in enclosed if (row["form"], row["relative_std"]) == (form, std)]
             x, y = ([row[name] for row in own] for name in ("height", "bits_lost"))
-            points = spec.Points(x, y, series, form if std == 1e-8 else "")
-            lost += [spec.Line(x, y, series, dashes), points]
+            lost.plot(x, y, color=f"C{series}", ls=dashes)
+            style.points(lost, x, y, series, form if std == 1e-8 else "")
             if form == LINE_SUMS:
-                words = f"σ/r = 1e{log10(std):.0f}"
-                lost.append(spec.Words(x[-1], y[-1], words, 0, ("left", "center"), (6, 0)))
-    std_axis = spec.powers_of_ten("σ/r", [log10(row["relative_std"]) for row in rows])
-    heights = spec.Axis("layers $M$ (strips of 16 beads a layer)", 3.4, 4100, log=True)
-    sizes = spec.powers_of_ten("error / largest |change|", [-17, 13])
-    bits = spec.Axis("bits", 4, log=True)
-    panels = [
-        spec.Panel(errors, std_axis, sizes, "float64: largest error of the contact forces"),
-        spec.Panel(lost, heights, bits, "balls: bits lost in all"),
-    ]
-    return spec.Picture(panels, 3.2, page=True)
+                words, last = f"  σ/r = 1e{log10(std):.0f}", (x[-1], y[-1])
+                lost.annotate(words, last, va="center", color=f"C{series}", fontsize=7.5)
+    errors.set(xlabel="σ/r", ylabel="error / largest |change|", ylim=(-18.8, 14.8))
+    errors.set_title("float64: largest error of the contact forces")
+    style.powers_of_ten(errors.xaxis)
+    style.powers_of_ten(errors.yaxis)
+    lost.set(xscale="log", yscale="log", xlim=(3.4, 4100), ylabel="bits", ylim=(4, None))
+    lost.set(xlabel="layers $M$ (strips of 16 beads a layer)", title="balls: bits lost in all")
+    errors.legend()
+    lost.legend()
+    return figure
 
 
 def main(folder: Path) -> None:
@@ -179,9 +177,10 @@ def main(folder: Path) -> None:
     rows, enclosed = list(floats()), list(balls())
     (folder / "stability.csv").write_text(csv_text(rows))
     (folder / "stability_balls.csv").write_text(csv_text(enclosed))
-    drawn = partial(drawing.draw, picture(rows, enclosed))
+    with style.house_style():
+        figure = drawn(rows, enclosed)
     command = "python benchmarks/stability.py"
-    for name, content in style.images(drawn, "stability", "Stability", command, ["png"]).items():
+    for name, content in style.images(figure, "stability", "Stability", command, ["png"]).items():
         (folder / name).write_bytes(content)
 
 

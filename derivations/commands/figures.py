@@ -10,9 +10,11 @@ from force_diffusion.numeric.arithmetic.errors import printable
 from force_diffusion.numeric.figures.names import (
     FIGURES,
     HEIGHTS,
+    KINDS,
     LEAST_REALISATIONS,
     MODELS,
     OF_ENSEMBLES,
+    OF_MODELS,
     OWN_SPACING,
     OWN_STD,
 )
@@ -155,10 +157,7 @@ def figures(
                 f"{model} stands beside figure {MODELS[model]}; add {MODELS[model]}.",
                 param_hint="--with",
             )
-    from force_diffusion.numeric.figures.library import drawing
-
-    with drawing():  # or leave before anything is solved
-        pass
+    import force_diffusion.numeric.figures.style  # noqa: F401  or leave before anything is solved
 
     seed = 1 if seed is None else seed
     command = command_line()
@@ -169,7 +168,7 @@ def figures(
             param_hint="WHICH",
         )
     possible = {*scenes.values(), *(one.file for one in FIGURES.values())}
-    tables = {*possible, *(table for one in FIGURES.values() for table in one.tables)}
+    tables = {*possible, *OF_MODELS.values()}
     names = [name for stem in possible for name in (*images(stem), f"{stem}.json")]
     folder = Output(out, [*names, *(f"{table}.csv" for table in tables)], overwrite)
     with noticing() as notice:
@@ -218,7 +217,6 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     """Answer a scene, and draw the answer; a question that has no figure raises ``SceneError``."""
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.figures.catalogue import PaperFigure
-    from force_diffusion.numeric.figures.library import KINDS
     from force_diffusion.numeric.run.outcome import outcome_lines
     from force_diffusion.numeric.scene.scene import refuse
     from force_diffusion.numeric.tables import csv_bytes
@@ -231,7 +229,7 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     title = f"{printable(name)}: {scene.ask.quantity}"
     notice(f"{name}: drawing")
     files: dict[str, str | bytes] = {
-        **style.images(found.plot, name, title, command, KINDS),
+        **style.images(found.plot(), name, title, command, KINDS),
         f"{name}.csv": f"# {title}\n# {command}\n".encode() + csv_bytes(found.text),
     }
     about = found.data(rows=False)

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.numeric.figures.library import KINDS
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, MissingLibraryError
+from force_diffusion.numeric.figures.names import KINDS
 from force_diffusion.numeric.tables import csv_bytes
 
 from ..export import answers
@@ -101,16 +101,14 @@ def noticing() -> Iterator[Callable[[str], None]]:
 
 def drawn(plot: "Callable[[], Figure]", name: str, title: str, command: str) -> dict[str, bytes]:
     """Give the files of a plot, which hold the command; or say what is missing, and none."""
-    from force_diffusion.numeric.figures.library import MissingLibraryError, drawing
-
     try:
-        with drawing():
-            from force_diffusion.numeric.figures import style
-
-            return style.images(plot, name, title, command, KINDS)
+        figure = plot()
     except MissingLibraryError as error:
         tell(f"no plot: {error}")
         return {}
+    from force_diffusion.numeric.figures import style
+
+    return style.images(figure, name, title, command, KINDS)
 
 
 def images(name: str) -> list[str]:

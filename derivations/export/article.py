@@ -70,10 +70,8 @@ def figures_of(markdown: str) -> list[str]:
 
 def names_of_files() -> list[str]:
     """Name what the article is made of. Raises ``MissingLibraryError``: it has figures."""
-    from force_diffusion.numeric.figures.library import drawing
+    import force_diffusion.numeric.figures.style  # noqa: F401  or leave before anything is derived
 
-    with drawing():
-        pass
     drawn = (f"{FIGURES[name].file}.pdf" for name in figures_of(source()))
     return [ARTICLE, SUPPLEMENT, *drawn]
 

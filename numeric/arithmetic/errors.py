@@ -43,6 +43,10 @@ class NotReachedError(ForceDiffusionError):
     exit_status = NOT_REACHED
 
 
+class MissingLibraryError(NotReachedError):
+    """An optional library is not installed; the message says how to install it."""
+
+
 class UndecidedError(ForceDiffusionError, ArithmeticError):
     """Balls have grown so wide that a question stays open: more bits are needed."""
 

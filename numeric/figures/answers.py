@@ -10,7 +10,6 @@ from ..planning.plan import Plan
 from ..scene.scene import refuse
 from ..scene.sections import SceneError
 from ..unilateral.network import Network
-from .library import drawing
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -32,18 +31,19 @@ def figure_of(
     Raises ``MissingLibraryError``, and ``SceneError`` for a quantity that has no figure, for an
     answer of no rows, or for numbers beyond what floats can draw.
     """
+    from .style import house_style  # first: it says what to install
+
     quantity = plan.quantity.name
     refuse("figures", plan.scene)
-    with drawing():
-        from .answers_drawing import DRAWN
-        from .drawing import draw
+    from .answers_drawing import DRAWN
 
-        if quantity not in DRAWN:
-            raise SceneError("ask.quantity", quantity, "there is no figure of it")
-        if not len(next(iter(columns.values()), [])):
-            raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
-        _check_sizes(plan, columns)
-        return draw(DRAWN[quantity](plan, columns, errors, network))
+    if quantity not in DRAWN:
+        raise SceneError("ask.quantity", quantity, "there is no figure of it")
+    if not len(next(iter(columns.values()), [])):
+        raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
+    _check_sizes(plan, columns)
+    with house_style():
+        return DRAWN[quantity](plan, columns, errors, network)
 
 
 def _check_sizes(plan: Plan, columns: Mapping[str, Array]) -> None:

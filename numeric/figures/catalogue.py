@@ -13,10 +13,8 @@ import numpy as np
 
 from ..arithmetic.errors import ForceDiffusionError
 from ..scene.sections import SceneError
-from .library import KINDS, drawing
-from .names import FIGURES, HEIGHTS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
-from .packings import PAPER, Notice, Options, planned
-from .specification import Figure, Table
+from .names import FIGURES, HEIGHTS, KINDS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
+from .packings import PAPER, Made, Notice, Options, Table, planned
 
 LEAST_STD, MOST_STD = 1e-9, 0.5
 
@@ -116,20 +114,20 @@ def figure(
     if not layers:
         raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
     chosen = _chosen(name, spacing, relative_std)
-    file, title, module, usual, _ = FIGURES[name]
+    file, title, module, usual = FIGURES[name]
     made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"
-    with drawing():  # or leave before anything is solved
-        from . import style
-        from .drawing import draw
+    from .style import COLUMN, house_style, images  # or leave before anything is solved
 
-        options = Options(layers, realisations or usual, seed, frozenset(beside), *chosen, notice)
-        data: Figure = import_module(f".{module}", __package__).figure(options)
-        notice(f"{file}: drawing")
-        files: dict[str, str | bytes] = {
-            **style.images(lambda: draw(data.picture), file, title, made_by, kinds),
-            **{f"{own}.csv": csv_file(table, title, made_by) for own, table in data.tables.items()},
-        }
-    return PaperFigure(title, files, dict(data.facts), list(data.says), data.picture.page)
+    options = Options(layers, realisations or usual, seed, frozenset(beside), *chosen, notice)
+    with house_style():
+        made: Made = import_module(f".{module}", __package__).figure(options)
+    notice(f"{file}: drawing")
+    files: dict[str, str | bytes] = {
+        **images(made.figure, file, title, made_by, kinds),
+        **{f"{own}.csv": csv_file(table, title, made_by) for own, table in made.tables.items()},
+    }
+    wide = made.figure.get_figwidth() > COLUMN
+    return PaperFigure(title, files, dict(made.facts), list(made.lines), wide)
 
 
 def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None, float | None]:

@@ -9,11 +9,12 @@ order is 6z/(2z + 1), above 1 for z > ¼ and below it for z < ¼.
 """
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from ..arithmetic.systems import Array
-from . import specification as spec
 from .comparison import curves
-from .packings import PAPER, Medium, Options
+from .packings import PAPER, Made, Medium, Options
+from .style import COLUMN, GREY, RELATIVE_HEIGHT, panels
 
 HEIGHT = 16
 CROSSOVER = 0.25
@@ -28,62 +29,47 @@ def displacement_std(height: int, medium: Medium = PAPER) -> tuple[Array, Array]
     return np.sqrt(np.where(j > 0, x, 0)), np.sqrt(np.where(j > 0, y, 0))
 
 
-def cloud(z: Array, std: Array, colour: int) -> list[spec.Element]:
+def draw_cloud(axes: Axes, z: Array, std: Array, colour: str) -> None:
     """Shade a normal distribution of the given width at each height, with its ±σ and ±2σ."""
-    return [
-        *(
-            spec.Area(z, -n * std, n * std, colour, alpha, sideways=True)
-            for n, alpha in ((2, 0.18), (1, 0.3))
-        ),
-        *(spec.Line(sign * std, z, colour) for sign in (-1, 1)),
-    ]
+    for n, alpha in ((2, 0.18), (1, 0.3)):
+        axes.fill_betweenx(z, -n * std, n * std, color=colour, alpha=alpha, lw=0)
+    axes.plot(-std, z, std, z, color=colour)
 
 
-def figure(o: Options) -> spec.Figure:
+def figure(o: Options) -> Made:
     """Both distributions as clouds, as wide at each height as they are there."""
     o.notice("figure 2")
     M, medium = HEIGHT, o.medium()
     (x, y), (force, printed) = displacement_std(M, medium), curves(M, medium)
     z, fine = np.arange(M + 1) / M, np.linspace(0, 1, 201)
     brownian = printed[0] * np.sqrt(1 - z[:-1])
-    sides = (-1, 1)
-    left = [
-        *cloud(z, y / y[-1], 0),
-        *(spec.Line(sign * np.sqrt(fine), fine, "black", ":") for sign in sides),
-    ]
-    narrowing = (1 - fine) * np.sqrt(1 + 2 * fine)
-    right = [
-        *cloud(z, np.append(force, 0) / printed[0], 1),
-        *(spec.Line(sign * narrowing, fine, "black", "--") for sign in sides),
-        *(spec.Line(sign * np.sqrt(1 - fine), fine, "black", ":") for sign in sides),
-        spec.Line(name=rf"$\pm\sigma$, exact at $M={M}$"),
-        spec.Line(name="Eq. (13), printed", colour="black", dashes="--"),
-        spec.Line(name="Brownian", colour="black", dashes=":"),
-        spec.Line([-2.3, 2.3], [CROSSOVER] * 2, spec.GREY, "-."),
-        spec.Line(name="superdiffusive above, subdiffusive below", colour=spec.GREY, dashes="-."),
-        spec.Area(name=r"within $\pm\sigma$", alpha=0.45),
-        spec.Area(name=r"within $\pm2\sigma$", alpha=0.18),
-    ]
-    ticks = (-2, -1, 0, 1, 2)
-    displaced = spec.Axis(r"$\delta y_{ij}\,/\,\sigma_{\delta y}(M)$", -2.3, 2.3, ticks=ticks)
-    forces = spec.Axis(r"$(f_{ij}-\langle f\rangle)\,/\,\sigma_f(0)$", -2.3, 2.3, ticks=ticks)
-    panels = [
-        spec.Panel(left, displaced, spec.RELATIVE_HEIGHT),
-        spec.Panel(right, forces, spec.Axis(low=0, high=1), legend="below", columns=2),
-    ]
-    geometry = zip(range(M + 1), x.tolist(), y.tolist(), strict=True)
-    columns = (z[:-1], force, printed, brownian)
-    widths = zip(range(M), *(column.tolist() for column in columns), strict=True)
-    return spec.Figure(
-        spec.Picture(panels, 2.85, share="y"),
-        tables={
-            "figure2_geometry": spec.table("j sigma_x_over_sigma_r sigma_y_over_sigma_r", geometry),
-            "figure2_forces": spec.table("j z exact_finite_M printed brownian", widths),
-        },
-        facts={
-            "height": M,
-            "spacing_over_r": float(medium.spacing),
-            "relative_std": medium.std,
-        },
-        words=[f"exact first-order widths at M = {M}"],
-    )
+    drawn, (left, right) = panels("ab", COLUMN, 2.85, sharey=True)
+    draw_cloud(left, z, y / y[-1], "C0")
+    left.plot(-np.sqrt(fine), fine, "k:", np.sqrt(fine), fine, "k:")
+    draw_cloud(right, z, np.append(force, 0) / printed[0], "C1")
+    right.plot([], [], color=GREY, label=rf"$\pm\sigma$, exact at $M={M}$")
+    for width, dashes, name in (
+        ((1 - fine) * np.sqrt(1 + 2 * fine), "k--", "Eq. (13), printed"),
+        (np.sqrt(1 - fine), "k:", "Brownian"),
+    ):
+        right.plot(-width, fine, dashes)
+        right.plot(width, fine, dashes, label=name)
+    right.axhline(CROSSOVER, color=GREY, ls="-.", label="superdiffusive above, subdiffusive below")
+    right.fill_between([], [], color=GREY, alpha=0.45, lw=0, label=r"within $\pm\sigma$")
+    right.fill_between([], [], color=GREY, alpha=0.18, lw=0, label=r"within $\pm2\sigma$")
+    left.set(xlabel=r"$\delta y_{ij}\,/\,\sigma_{\delta y}(M)$", ylabel=RELATIVE_HEIGHT)
+    right.set(xlabel=r"$(f_{ij}-\langle f\rangle)\,/\,\sigma_f(0)$")
+    for axes in (left, right):
+        axes.set(xlim=(-2.3, 2.3), xticks=range(-2, 3), ylim=(0, 1))
+    drawn.legend(loc="outside lower center", ncols=2)
+    table = {
+        "j": range(M + 1),
+        "z": z,
+        "sigma_x_over_sigma_r": x,
+        "sigma_y_over_sigma_r": y,
+        "exact": [*force, ""],  # no contact starts at the surface
+        "printed": [*printed, ""],
+        "brownian": [*brownian, ""],
+    }
+    facts = {"height": M, "spacing_over_r": float(medium.spacing), "relative_std": medium.std}
+    return Made(drawn, {"figure2": table}, facts, [f"exact first-order widths at M = {M}"])

@@ -10,19 +10,20 @@ from math import asin, degrees, radians, sqrt, tan
 import numpy as np
 
 from .. import closed_forms
-from ..arithmetic.systems import Array
 from ..scene.sections import SurfaceLoad
-from . import specification as spec
 from .packings import (
     N_X,
     PAPER_STD,
     PHI,
+    Comparison,
+    Made,
     Options,
     band_of_spread,
+    compared,
     moments,
-    of_ensembles,
     planned,
 )
+from .style import COLUMN, panels, points
 
 HEIGHT = 24
 ANGLES = (-40, -30, -20, -10, 0, 10, 20, 30, 40)
@@ -46,12 +47,7 @@ def theory(angle: float) -> tuple[float, float]:
     return sqrt(plus / HEIGHT), sqrt(minus / HEIGHT)
 
 
-def over_layers(change: Array) -> Array:
-    """Average over all contacts of a branch; (realisations, branches)."""
-    return np.asarray(change.mean(axis=3).mean(axis=0).T)
-
-
-def simulated(o: Options) -> spec.Comparison:
+def simulated(o: Options) -> Comparison:
     """Simulate all angles, each on radii of its own: f⁺ at all of them, then f⁻."""
     found = []
     for place, angle in enumerate(ANGLES):
@@ -60,45 +56,36 @@ def simulated(o: Options) -> spec.Comparison:
             load=SurfaceLoad(angle_deg=Fraction(angle)),
         )  # fmt: skip
         what = f"figure B2, {angle} degrees"
-        found.append(moments(ensemble, o.notice, what, over_layers, place << 32))
+        found.append(moments(ensemble, o.notice, what, place << 32, axes=(0, 3)))
     mean, square = (
         np.stack(parts, axis=2).reshape(o.realisations, -1) for parts in zip(*found, strict=True)
     )
     exact = np.array([theory(angle) for angle in ANGLES]).T.ravel()
     what = f"M = {HEIGHT}, {len(ANGLES)} angles, both branches: Eq. B2"
-    return spec.Comparison(what, band_of_spread(mean, square, o.seed), exact)
+    return Comparison(what, band_of_spread(mean, square, o.seed), exact)
 
 
-def figure(o: Options) -> spec.Figure:
+def figure(o: Options) -> Made:
     """σ_f/⟨f⟩ of both branches over the angle of the load, up to that of the contacts."""
     found, count = simulated(o), len(ANGLES)
     fine = np.linspace(-0.93 * LIMIT, 0.93 * LIMIT, 161)
     curves = np.array([theory(angle) for angle in fine]).T
-    halves = slice(0, count), slice(count, None)
-    rms = r"$\sigma_f/\langle f\rangle$, r.m.s. over layers"
-    panel = spec.Panel(
-        [
-            *(spec.Line(fine, curves[b], b, name=f"$f^{s}$, theory") for b, s in enumerate("+-")),
-            *(
-                found.points(ANGLES, b, f"$f^{s}$, simulated", rows=halves[b])
-                for b, s in enumerate("+-")
-            ),
-            *(spec.Rule("x", edge, dashes=":") for edge in (-LIMIT, LIMIT)),
-        ],
-        spec.Axis("angle of the load from the vertical (degrees)", -52, 52),
-        spec.Axis(rms, None, 6 * curves.max(), log=True),
-        legend="upper center",
-        columns=2,
-    )  # fmt: skip
-    table = {
+    drawn, (axes,) = panels("a", COLUMN, 2.6)
+    for b, branch in enumerate("+-"):
+        axes.plot(fine, curves[b], color=f"C{b}", label=f"$f^{branch}$, exact")
+    for b, branch in enumerate("+-"):
+        own = slice(b * count, (b + 1) * count)
+        name = f"$f^{branch}$, simulated"
+        points(axes, ANGLES, found.band.value[own], b, name, found.bars[:, own])
+    for edge in (-LIMIT, LIMIT):
+        axes.axvline(edge, color="0.6", ls=":", lw=0.7, zorder=0.5)
+    axes.set(xlabel="angle of the load from the vertical (degrees)", xlim=(-52, 52), yscale="log")
+    axes.set_ylabel(r"$\sigma_f/\langle f\rangle$, r.m.s. over layers")
+    axes.set_ylim(top=6 * curves.max())
+    axes.legend(loc="upper center", ncols=2)
+    rows = {
         "angle_deg": [*ANGLES, *ANGLES],
         "branch": [*"+" * count, *"-" * count],
         "t": [ratio(angle) for angle in (*ANGLES, *ANGLES)],
-        **found.columns(),
     }
-    return spec.Figure(
-        spec.Picture([panel], 2.6),
-        tables={"figureB2": table},
-        facts=of_ensembles(o, PAPER_STD, height=HEIGHT) | found.fact(),
-        comparisons=[found],
-    )
+    return compared(drawn, "figureB2", o, [found], rows, height=HEIGHT, relative_std=PAPER_STD)

@@ -13,12 +13,14 @@ response is that of a single walker: at each split it takes either ray and the s
 f/cos θ, which keeps ⟨f n_y⟩ exactly.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from ..arithmetic.systems import Array
+from .packings import Table
 
 SPLITTING_ANGLE = np.radians(20)
 RAYS = 200_000
@@ -29,43 +31,13 @@ BINS = np.linspace(-4, 4, 101)
 class Profile:
     """The mean response at depth H: density over x/H, for a splitting length λ.
 
-    ``base`` and ``surface`` are the vertical forces that arrive, in units of the load, ``balance``
-    their difference, which is 1; each with its standard error.
+    ``balance`` is the vertical force that arrives at the base less that at the surface, in units of
+    the load, which is 1; with its standard error.
     """
 
     splits: float  # H/λ
-    edges: Array
     density: Array
-    base: tuple[float, float]
-    surface: tuple[float, float]
     balance: tuple[float, float]
-
-    @property
-    def name(self) -> str:
-        """What a legend calls it."""
-        return rf"$H={self.splits:g}\,\lambda$"
-
-    def rows(self) -> list[dict[str, Any]]:
-        """Give one row a bin."""
-        return [
-            {"depth_over_splitting_length": self.splits, "x_low": low, "x_high": high, "density": p}
-            for low, high, p in zip(
-                self.edges[:-1].tolist(),
-                self.edges[1:].tolist(),
-                self.density.tolist(),
-                strict=True,
-            )
-        ]
-
-    def facts(self) -> dict[str, Any]:
-        """Where the vertical force went."""
-        return {
-            "depth_over_splitting_length": self.splits,
-            "at_base": self.base[0],
-            "at_surface": self.surface[0],
-            "base_minus_surface": self.balance[0],
-            "standard_error": self.balance[1],
-        }
 
 
 def walk(
@@ -105,18 +77,35 @@ def walk(
 def profile(splits: float, tilt: float, seed: int, rays: int = RAYS) -> Profile:
     """Estimate the mean response at the base, depth H = ``splits`` λ."""
     end, at_base, force = walk(splits, tilt, SPLITTING_ANGLE, rays, seed)
-
-    def mean(values: Array) -> tuple[float, float]:
-        return float(values.mean()), float(values.std() / np.sqrt(rays))
-
-    weight = np.where(at_base, force, 0.0)
-    density, _ = np.histogram(end, BINS, weights=weight)
-    up = np.where(at_base, 0.0, force)
-    return Profile(
-        splits, BINS, density / rays / np.diff(BINS), mean(weight), mean(up), mean(weight - up)
-    )
+    density, _ = np.histogram(end, BINS, weights=np.where(at_base, force, 0.0))
+    net = np.where(at_base, force, -force)
+    balance = float(net.mean()), float(net.std() / np.sqrt(rays))
+    return Profile(splits, density / rays / np.diff(BINS), balance)
 
 
 def profiles(tilt: float, seed: int) -> tuple[Profile, ...]:
     """Responses from shallow (two peaks, along the cone) to deep (one, broad)."""
     return tuple(profile(splits, tilt, seed) for splits in (0.5, 2, 8))
+
+
+def table(found: Sequence[Profile]) -> Table:
+    """Give one row a bin."""
+    return {
+        "depth_over_splitting_length": np.repeat([one.splits for one in found], len(BINS) - 1),
+        "x_low": np.tile(BINS[:-1], len(found)),
+        "x_high": np.tile(BINS[1:], len(found)),
+        "density": np.concatenate([one.density for one in found]),
+    }
+
+
+def draw(axes: Axes, found: Sequence[Profile], slope: float) -> None:
+    """Draw responses over the horizontal position, and the cone of the packing, at ±``slope``."""
+    for c, (one, dashes) in enumerate(zip(found, ("-", (0, (5, 2)), (0, (1, 1.2))), strict=True)):
+        name = rf"$H={one.splits:g}\,\lambda$"
+        axes.stairs(one.density, BINS, color=f"C{c}", ls=dashes, lw=1, label=name)
+    for side, label in ((-slope, None), (slope, "the packing's cone")):
+        axes.axvline(side, color="0.6", ls=(0, (1, 1.5)), lw=0.7, zorder=0.5, label=label)
+    axes.set(xlabel="horizontal position $x/H$", xlim=(-3, 3))
+    axes.set_ylabel(r"mean response $H\,p(x)\,/\,f^{\rm load}$")
+    axes.set_ylim(bottom=0)
+    axes.legend(loc="upper center", title="double Y")

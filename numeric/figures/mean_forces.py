@@ -1,7 +1,7 @@
 """Figure B5: how the mean contact force departs from that of the ordered packing, at order σ².
 
-Simulated are exact, nonlinear packings, each solved to first order as well (``shifts``). The curves
-are Eqs. B5 and B6.
+Simulated are exact, nonlinear packings, each solved to first order as well (``band_of_shift``). The
+curves are Eqs. B5 and B6.
 """
 
 from fractions import Fraction
@@ -12,20 +12,36 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
-from . import specification as spec
-from .packings import Options, by_layer, moments, of_ensembles, planned
-from .shifts import STD, columns, cosine, facts, shift
+from .packings import (
+    Comparison,
+    Made,
+    Medium,
+    Options,
+    band_of_shift,
+    compared,
+    moments,
+    planned,
+    table,
+)
+from .style import GREY, PAGE, RELATIVE_HEIGHT, curve, panels, points
 
 HEIGHT = 12
+STD = 1e-3
+"""σ/r: what is of order σ⁴ is a share (M^(3/2) σ/r)², 0.002 for M = 12, of the shift or so."""
 SPACINGS = (Fraction(12, 5), Fraction(3))
 """s in units of r: φ = 7/25, where forces fall below z = φ; −1/8, where all rise but at j = 1."""
 LOADS = {
     "surface": ("B5", SurfaceLoad, closed_forms.surface_mean_shift),
     "bulk": ("B6", BulkLoad, closed_forms.bulk_mean_shift),
 }
-CASES = list(product(SPACINGS, LOADS))
+CASES = list(product(LOADS, SPACINGS))
 BULK = slice(2, HEIGHT - 1)
 """Layers of Eqs. B5 and B6; those beside base and surface have values of their own."""
+
+
+def cosine(spacing: Fraction) -> float:
+    """φ of a spacing in units of r."""
+    return float(Medium(spacing).phi)
 
 
 def theory(load: str, height: int, spacing: Fraction) -> Array:
@@ -40,7 +56,7 @@ def leading(load: str, z: Array, phi: float) -> Array:
     return np.asarray(rising / ((1 - phi**2) * (1 + phi)))
 
 
-def simulated(o: Options, spacing: Fraction, load: str) -> spec.Comparison:
+def simulated(o: Options, load: str, spacing: Fraction) -> Comparison:
     """Solve all packings exactly and to first order."""
     number, loaded, _ = LOADS[load]
     where = f"{load} load, s = {float(spacing):g} r"
@@ -50,51 +66,30 @@ def simulated(o: Options, spacing: Fraction, load: str) -> spec.Comparison:
             "profile", height=HEIGHT, seed=o.seed, std=STD,
             realisations=o.realisations, geometry=geometry, spacing=spacing, load=loaded(),
         )  # fmt: skip
-        return moments(ensemble, o.notice, f"figure B5, {where}, {geometry}", by_layer)[0]
+        return moments(ensemble, o.notice, f"figure B5, {where}, {geometry}")[0]
 
-    exact = theory(load, HEIGHT, spacing)
-    return shift(f"{where}: Eq. {number}", changed, exact, o.seed)
-
-
-def panel(load: str, found: list[spec.Comparison]) -> spec.Panel:
-    """Shifts over M, a colour a spacing."""
-    z, fine = np.arange(HEIGHT) / HEIGHT, np.linspace(0, 1, 201)
-    phis = [cosine(spacing) for spacing in SPACINGS]
-    return spec.Panel(
-        [
-            spec.Line(name=f"exact at $M={HEIGHT}$"),
-            spec.Line(name=r"$M\to\infty$", dashes="--"),
-            *(spec.Line(fine, leading(load, fine, phi), c, "--") for c, phi in enumerate(phis)),
-            *(
-                one.drawn(z, c, rf"$\phi={phi:g}$, simulated", unit=HEIGHT, bulk=BULK)
-                for c, (one, phi) in enumerate(zip(found, phis, strict=True))
-            ),
-            spec.Rule("y", 0),
-        ],
-        spec.RELATIVE_HEIGHT,
-        spec.Axis(
-            r"$(\langle f\rangle/f_{0}-1)\,/\,[M(\sigma_{\delta r}/r)^2]$"
-            if load == "surface"
-            else ""
-        ),
-        title=f"{load} load",
-        legend="upper left",
-    )
+    found = band_of_shift(changed, STD**2, o.seed)
+    return Comparison(f"{where}: Eq. {number}", found, theory(load, HEIGHT, spacing))
 
 
-def figure(o: Options) -> spec.Figure:
-    """Shifts of the mean under both loads, at two spacings."""
+def figure(o: Options) -> Made:
+    """Shifts of the mean over M under both loads, at two spacings."""
     found = [simulated(o, *case) for case in CASES]
-    layers = [(load, float(s), cosine(s), j) for s, load in CASES for j in range(HEIGHT)]
-    return spec.Figure(
-        spec.Picture([panel("surface", found[::2]), panel("bulk", found[1::2])], 2.6, page=True,
-                share="y"),
-        tables={"figureB5": spec.table("load spacing phi j", layers) | columns("shift", found)},
-        facts=of_ensembles(o, STD, height=HEIGHT) | facts(found),
-        words=[
-            f"{one.verdict()}; without any shift it would be "
-            f"{one.deviation(np.zeros(HEIGHT)):.1f}"
-            for one in found
-        ],
-        comparisons=found,
-    )  # fmt: skip
+    z, fine = np.arange(HEIGHT) / HEIGHT, np.linspace(0, 1, 201)
+    drawn, axes = panels("ab", PAGE, 2.6, sharey=True)
+    for panel, load, own in zip(axes, LOADS, (found[:2], found[2:]), strict=True):
+        panel.axhline(0, color="0.6", lw=0.7, zorder=0.5)
+        panel.plot([], [], color=GREY, label=f"exact at $M={HEIGHT}$")
+        panel.plot([], [], "--", color=GREY, label=r"$M\to\infty$")
+        for c, (one, phi) in enumerate(zip(own, map(cosine, SPACINGS), strict=True)):
+            panel.plot(fine, leading(load, fine, phi), "--", color=f"C{c}")
+            curve(panel, z, one.theory / HEIGHT, BULK, c)
+            name = rf"$\phi={phi:g}$, simulated"
+            points(panel, z, one.band.value / HEIGHT, c, name, one.bars / HEIGHT)
+        panel.set(xlabel=RELATIVE_HEIGHT, xlim=(0, 1), title=f"{load} load")
+        panel.legend(loc="upper left")
+    shift = r"$(\langle f\rangle/f_{0}-1)\,/\,[M(\sigma_{\delta r}/r)^2]$"
+    axes[0].set_ylabel(shift)
+    layers = [(load, float(s), cosine(s), j) for load, s in CASES for j in range(HEIGHT)]
+    rows = table("load spacing phi j", layers)
+    return compared(drawn, "figureB5", o, found, rows, height=HEIGHT, relative_std=STD)

@@ -1,7 +1,7 @@
 """Figure B9: the mean response to a point load at order σ²: a plateau inside of the cone.
 
-Simulated are exact, nonlinear packings, each solved to first order as well, whose mean response is
-that of the ordered packing: the difference shows the mean at order σ². Curves are Eq. B9.
+Simulated are exact, nonlinear packings, each solved to first order as well (``band_of_shift``),
+whose mean response is that of the ordered packing. Curves are Eq. B9.
 """
 
 from fractions import Fraction
@@ -11,9 +11,19 @@ import numpy as np
 from ..arithmetic.systems import Array
 from ..mechanics.problem import Solved
 from ..scene.sections import PointLoad
-from . import specification as spec
-from .packings import Options, forces_of, gathered, of_ensembles, planned
-from .shifts import STD, columns, cosine, facts, shift
+from .mean_forces import STD, cosine
+from .packings import (
+    Comparison,
+    Made,
+    Options,
+    band_of_shift,
+    compared,
+    forces_of,
+    gathered,
+    planned,
+    table,
+)
+from .style import COLUMN, GREY, curve, panels, points
 
 APEX, LAYER = 8, 2
 SPACINGS = (Fraction(11, 5), Fraction(3))
@@ -40,11 +50,10 @@ def beside(answer: Solved, number: int) -> tuple[Array]:
     change = forces_of(answer).change
     # row m holds what lies below the beads of layer m: l − m + 1 of them, from the left
     plus, minus = (side[LAYER + 1].reshape(number, -1) for side in (change.plus, change.minus))
-    assert plus.shape[1] == REACH, plus.shape
     return (np.asarray((plus[:, 1:] + minus[:, ::-1][:, 1:]) / 2),)
 
 
-def simulated(o: Options, spacing: Fraction) -> spec.Comparison:
+def simulated(o: Options, spacing: Fraction) -> Comparison:
     """Solve all packings exactly and to first order."""
     where, ordered = f"s = {float(spacing):g} r", 1 / (2 * np.sqrt((1 + cosine(spacing)) / 2))
 
@@ -56,37 +65,26 @@ def simulated(o: Options, spacing: Fraction) -> spec.Comparison:
         what = f"figure B9, {where}, {geometry}"
         return gathered(ensemble, o.notice, what, beside)[0]
 
-    return shift(f"{where}: Eq. B9", changed, theory(spacing), o.seed, ordered)
+    found = band_of_shift(changed, ordered * STD**2, o.seed)
+    return Comparison(f"{where}: Eq. B9", found, theory(spacing))
 
 
-def figure(o: Options) -> spec.Figure:
+def figure(o: Options) -> Made:
     """The mean response in one layer between the legs of the cone, at two spacings."""
     found = [simulated(o, spacing) for spacing in SPACINGS]
-    panel = spec.Panel(
-        [
-            spec.Line(name="exact second order"),
-            *(
-                one.drawn(
-                    OFFSETS, c, rf"$\phi={cosine(spacing):g}$, simulated", bulk=slice(1, None)
-                )
-                for c, (one, spacing) in enumerate(zip(found, SPACINGS, strict=True))
-            ),
-            spec.Rule("y", 0),
-            *(spec.Rule("x", leg, dashes=":") for leg in (-REACH, REACH)),
-        ],
-        spec.Axis(r"$i-k$ of a contact $f^{+}$ inside of the cone"),
-        spec.Axis(r"$2n_y\langle f^{+}\rangle\,/\,[f^{\rm load}(\sigma_{\delta r}/r)^2]$", -2.3, 3),
-        legend="upper center",
-    )
+    drawn, (axes,) = panels("a", COLUMN, 2.6)
+    axes.axhline(0, color="0.6", lw=0.7, zorder=0.5)
+    for leg in (-REACH, REACH):
+        axes.axvline(leg, color="0.6", ls=":", lw=0.7, zorder=0.5)
+    axes.plot([], [], color=GREY, label="exact second order")
+    for c, (one, spacing) in enumerate(zip(found, SPACINGS, strict=True)):
+        curve(axes, OFFSETS, one.theory, slice(1, None), c)
+        name = rf"$\phi={cosine(spacing):g}$, simulated"
+        points(axes, OFFSETS, one.band.value, c, name, one.bars)
+    axes.set(xlabel=r"$i-k$ of a contact $f^{+}$ inside of the cone", ylim=(-2.3, 3))
+    mean = r"$2n_y\langle f^{+}\rangle\,/\,[f^{\rm load}(\sigma_{\delta r}/r)^2]$"
+    axes.set_ylabel(mean)
+    axes.legend(loc="upper center")
     places = [(float(s), cosine(s), int(offset)) for s in SPACINGS for offset in OFFSETS]
-    return spec.Figure(
-        spec.Picture([panel], 2.6),
-        tables={"figureB9": spec.table("spacing phi offset", places) | columns("mean", found)},
-        facts=of_ensembles(o, STD, apex=APEX, layer=LAYER) | facts(found),
-        words=[
-            f"{one.verdict()}; without any mean it would be "
-            f"{one.deviation(np.zeros(len(OFFSETS))):.1f}"
-            for one in found
-        ],
-        comparisons=found,
-    )
+    rows = table("spacing phi offset", places)
+    return compared(drawn, "figureB9", o, found, rows, apex=APEX, layer=LAYER, relative_std=STD)

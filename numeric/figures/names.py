@@ -6,32 +6,23 @@ from typing import NamedTuple
 class Entry(NamedTuple):
     """A figure: its files, what it shows, the module that makes it.
 
-    ``realisations``: packings of each ensemble by default; 0 where it draws none. ``tables``:
-    CSV files but for one of the name of its images.
+    ``realisations``: packings of each ensemble by default; 0 where it draws none.
     """
 
     file: str
     title: str
     module: str
     realisations: int = 0
-    tables: tuple[str, ...] = ()
 
 
 FIGURES = {
     "1": Entry("figure1", "Notation, and a disordered packing over the ordered one", "notation"),
-    "2": Entry(
-        "figure2", "Diffusion of geometry and of forces", "diffusion", 0,
-        ("figure2_geometry", "figure2_forces"),
-    ),
-    "3": Entry(
-        "figure3", "Theory against exact simulation, surface load", "comparison", 400,
-        ("figure3_q_model",),
-    ),
+    "2": Entry("figure2", "Diffusion of geometry and of forces", "diffusion"),
+    "3": Entry("figure3", "Theory against exact simulation, surface load", "comparison", 400),
     "4": Entry(
-        "figure4", "Mean and fluctuation of the response to an isolated load", "point_load", 4000,
-        ("figure4_cuts", "figure4_double_y"),
+        "figure4", "Mean and fluctuation of the response to an isolated load", "point_load", 4000
     ),
-    "pf": Entry("pf", "P(f) against the Gaussian", "distribution", 4000, ("pf_tests",)),
+    "pf": Entry("pf", "P(f) against the Gaussian", "distribution", 4000),
     "chains": Entry("chains", "Force chains", "chains"),
     "B2": Entry(
         "figureB2", "Fluctuation of the forces under a load at an angle", "directions", 400
@@ -47,11 +38,15 @@ FIGURES = {
     "B13": Entry("figureB13", "Diffusion of forces in packings of spheres", "spheres", 100),
 }  # fmt: skip
 
+KINDS = ("png", "svg", "pdf")
+"""What figures are written as."""
 OF_ENSEMBLES = tuple(name for name, one in FIGURES.items() if one.realisations)
 HEIGHTS = (8, 32, 128)
 """Of figure 3."""
 LEAST_REALISATIONS = 16
 MODELS = {"q-model": "3", "double-y": "4"}
 """What may be drawn beside which figure."""
+OF_MODELS = {"q-model": "figure3_q_model", "double-y": "figure4_double_y"}
+"""Their own CSV files."""
 OWN_SPACING, OWN_STD = ("2", "3", "4", "pf", "chains"), ("3", "4", "pf", "chains")
 """Figures of packings whose spacing, and σ/r but in figure 2, can be chosen."""

@@ -1,7 +1,8 @@
 """Figure B7: how the mean force of N neighbours fluctuates, for one branch and for beads.
 
 Simulated are exact, nonlinear packings under a surface load; curves are Eqs. B7 and B8, exact to
-first order, in the N that they are for, and what independent contacts would have.
+first order, in the N that they are for, what independent contacts would have, and what falls as
+1/N.
 """
 
 import numpy as np
@@ -10,11 +11,24 @@ from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
 from ..mechanics.problem import Solved
-from . import specification as spec
-from .packings import PAPER, PAPER_STD, PHI, Options, band_of_roots, gathered, of_ensembles, planned
+from .packings import (
+    PAPER,
+    PAPER_STD,
+    PHI,
+    Comparison,
+    Made,
+    Options,
+    band_of_roots,
+    compared,
+    gathered,
+    planned,
+    table,
+)
+from .style import COLUMN, GREY, label_logarithmic, panels, points
 
 HEIGHT, LAYER = 32, 16
 WINDOWS = (1, 2, 3, 5, 8, 14)
+NAMES = ("contacts of one branch", "beads, vertical force")
 
 
 def contacts(count: int) -> float:
@@ -51,44 +65,32 @@ def window_means(answer: Solved, number: int) -> tuple[Array]:
     return (np.stack([square.mean(axis=1) for square in each], axis=1),)
 
 
-def simulated(o: Options) -> spec.Comparison:
+def simulated(o: Options) -> Comparison:
     """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
     ensemble = planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
     (square,) = gathered(ensemble, o.notice, "figure B7", window_means)
     exact = [form(N) for form in (contacts, beads) for N in WINDOWS]
     what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
-    return spec.Comparison(what, band_of_roots(square, o.seed), np.sqrt(exact))
+    return Comparison(what, band_of_roots(square, o.seed), np.sqrt(exact))
 
 
-def figure(o: Options) -> spec.Figure:
+def figure(o: Options) -> Made:
     """σ of the mean over N, on logarithmic axes."""
     found, every, count = simulated(o), np.array(WINDOWS), len(WINDOWS)
-    halves = slice(0, count), slice(count, None)
-    names = ("contacts of one branch", "beads, vertical force")
-    panel = spec.Panel(
-        [
-            *(
-                (
-                    spec.Line(every, found.theory[halves[b]], b, name=name),
-                    found.points(every, b, rows=halves[b]),
-                )
-                for b, name in enumerate(names)
-            ),
-            spec.Line(
-                every, found.band.value[0] / np.sqrt(every), dashes=":",
-                name="independent contacts",
-            ),
-        ],
-        spec.Axis("number of neighbours $N$", log=True, ticks=(1, 2, 5, 10)),
-        spec.Axis(r"$\sigma$ of the mean over $N$, relative", log=True),
-        legend="lower left",
-    )  # fmt: skip
-    windows = [(of, N) for of in ("contacts", "beads") for N in WINDOWS]
-    columns = found.columns("sigma_")
-    exact = {"sigma_exact_first_order": found.theory}
-    return spec.Figure(
-        spec.Picture([panel], 2.6),
-        tables={"figureB7": spec.table("of N", windows) | columns | exact},
-        facts=of_ensembles(o, PAPER_STD, height=HEIGHT, layer=LAYER) | found.fact(),
-        comparisons=[found],
+    drawn, (axes,) = panels("a", COLUMN, 2.6)
+    for b, name in enumerate(NAMES):
+        own = slice(b * count, (b + 1) * count)
+        axes.plot(every, found.theory[own], color=f"C{b}", label=name)
+        points(axes, every, found.band.value[own], b, error=found.bars[:, own])
+    one = found.theory[0]
+    axes.plot(every, one / np.sqrt(every), ":", color=GREY, label="independent contacts")
+    axes.plot(every[2:], 0.7 * one / every[2:], "--", color=GREY, lw=0.7, label=r"$\propto 1/N$")
+    axes.set(xscale="log", yscale="log", xlabel="number of neighbours $N$")
+    axes.set_ylabel(r"$\sigma$ of the mean over $N$, relative")
+    label_logarithmic(axes.xaxis)
+    label_logarithmic(axes.yaxis)
+    axes.legend(loc="lower left")
+    rows = table("of N", [(of, N) for of in ("contacts", "beads") for N in WINDOWS])
+    return compared(
+        drawn, "figureB7", o, [found], rows, height=HEIGHT, layer=LAYER, relative_std=PAPER_STD
     )

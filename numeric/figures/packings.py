@@ -1,34 +1,31 @@
-"""Ensembles for figures: planned, and solved batch after batch by the engine."""
+"""Ensembles for figures: planned, solved batch after batch by the engine, and held to theory."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import sqrt
-from typing import Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
 from ..mechanics.engine import packings
 from ..mechanics.problem import Solved
-from ..mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
+from ..mechanics.sweep import Forces, SolvedPacking
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity
 from ..scene.scene import Scene
-from ..scene.sections import (
-    Ask,
-    Disorder,
-    Effects,
-    Load,
-    Packing,
-    SurfaceLoad,
-)
+from ..scene.sections import Ask, Disorder, Effects, Load, Packing, SurfaceLoad
 from ..statistics.bands import Band, averaged, log_relative_std, simultaneous
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Notice = Callable[[str], None]
 """Told, now and then, what is being done."""
-
+Table = Mapping[str, Any]
+"""Columns of a CSV file by name, (rows,) each."""
 LEVEL = 0.99
 """Of all simultaneous bands."""
 
@@ -81,6 +78,68 @@ class Options:
         return Medium(self.spacing or usual.spacing, self.relative_std or usual.std)
 
 
+@dataclass(frozen=True)
+class Comparison:
+    """What was simulated, with its band, and what ``theory`` says, (L,); ``of``: in words."""
+
+    of: str
+    band: Band
+    theory: Array
+
+    def deviation(self, theory: Array | None = None) -> float:
+        """Largest deviation of this theory or another one, in half-widths: inside is ≤ 1."""
+        return self.band.deviation(self.theory if theory is None else theory)
+
+    def verdict(self) -> str:
+        """Say whether theory lies inside of the band."""
+        return f"{self.of} {self.band.verdict(self.deviation())}"
+
+    @property
+    def bars(self) -> Array:
+        """Lengths of error bars below and above what was simulated, (2, L)."""
+        low, high = self.band.limits
+        return np.array([self.band.value - low, high - self.band.value])
+
+
+@dataclass(frozen=True)
+class Made:
+    """A figure, its CSV files by name, verdicts and parameters, verdicts in words."""
+
+    figure: "Figure"
+    tables: Mapping[str, Table]
+    facts: Mapping[str, Any]
+    lines: Sequence[str]
+
+
+def compared(
+    figure: "Figure",
+    name: str,
+    o: Options,
+    found: Sequence[Comparison],
+    rows: Table,
+    **parameters: Any,
+) -> Made:
+    """Give a figure of ensembles beside theory; ``rows`` names the rows of its CSV file."""
+    columns: dict[str, list[Array]] = {
+        "simulated": [one.band.value for one in found],
+        "band_low": [one.band.limits[0] for one in found],
+        "band_high": [one.band.limits[1] for one in found],
+        "exact": [one.theory for one in found],
+    }
+    table = {**rows, **{key: np.concatenate(parts) for key, parts in columns.items()}}
+    verdicts = [
+        {"of": one.of, "inside": one.deviation() <= 1, "deviation_in_half_widths": one.deviation()}
+        for one in found
+    ]
+    facts = {**parameters, "realisations": o.realisations, "level": LEVEL, "comparisons": verdicts}
+    return Made(figure, {name: table}, facts, [one.verdict() for one in found])
+
+
+def table(names: str, rows: Sequence[Sequence[Any]]) -> Table:
+    """Give the columns of rows, by names with spaces between them."""
+    return dict(zip(names.split(), zip(*rows, strict=True), strict=True))
+
+
 def planned(
     quantity: Any,
     *,
@@ -127,6 +186,13 @@ def solved(
                 notice(f"{what}: realisation {chunk[-1] - realisations[0]} of {len(realisations)}")
 
 
+def one_packing(ensemble: Plan) -> tuple[SolvedPacking, Forces | None]:
+    """Solve the first realisation."""
+    answer = next(solved(ensemble, range(1)))[0]
+    assert answer.packing is not None
+    return answer.packing, answer.forces
+
+
 def gathered(
     ensemble: Plan,
     notice: Notice,
@@ -144,12 +210,13 @@ def moments(
     ensemble: Plan,
     notice: Notice,
     what: str,
-    over: Callable[[Array], Array],
     start: int = 0,
+    axes: tuple[int, ...] = (1, 3),
 ) -> tuple[Array, Array]:
     """Solve all realisations of a profile; give averages of g/F and of its square.
 
-    ``over`` takes (M, branches, realisations, contacts) to averages, (realisations, L).
+    They are taken over ``axes`` of arrays (M, branches, realisations, contacts), by default over
+    all contacts of a layer; shapes (realisations, L).
     """
     quantity, problem = ensemble.quantity, ensemble.problem
     assert isinstance(quantity, ContactQuantity)
@@ -157,51 +224,45 @@ def moments(
     def each(answer: Solved, number: int) -> tuple[Array, Array]:
         F, g = quantity.changes(problem, answer, number)
         change = (g / F[:, None]).reshape(problem.height, problem.dimension, number, -1)
-        return over(change), over(change**2)
+        return change.mean(axis=axes).T, (change**2).mean(axis=axes).T
 
     mean, square = gathered(ensemble, notice, what, each, start)
     return mean, square
 
 
-def by_layer(change: Array) -> Array:
-    """Average over all contacts of a layer; (realisations, M)."""
-    return np.asarray(change.mean(axis=3).mean(axis=1).T)
+def band(log: Array, influence: Array, seed: int) -> Band:
+    """Give the band of exp(log), (L,), from what each realisation adds to its error."""
+    return simultaneous(averaged(log, influence), LEVEL, seed)
+
+
+def band_of_spread(mean: Array, square: Array, seed: int) -> Band:
+    """Give the band of σ/⟨f⟩ (``log_relative_std``)."""
+    return band(*log_relative_std(mean, square), seed)
 
 
 def band_of_roots(squares: Array, seed: int) -> Band:
     """Give the band of root mean squares, of ``squares``, (realisations, L)."""
     mean = squares.mean(axis=0)
-    influence = (squares - mean) / mean / 2
-    return simultaneous(averaged(np.log(mean) / 2, influence), LEVEL, seed)
+    return band(np.log(mean) / 2, squares / mean / 2 - 0.5, seed)
 
 
-def band_of_spread(mean: Array, square: Array, seed: int) -> Band:
-    """Give the band of σ/⟨f⟩ (``log_relative_std``)."""
-    return simultaneous(averaged(*log_relative_std(mean, square)), LEVEL, seed)
+def band_of_shift(
+    changes: Callable[[Literal["exact", "first-order"]], Array], unit: float, seed: int
+) -> Band:
+    """Give the band of a mean at order σ²: exact packings less the same ones to first order.
+
+    The first-order change has mean zero and carries nearly all of the noise, so that the difference
+    shows a shift far smaller than the scatter of the forces. ``changes``: (realisations, L).
+    """
+    each = (changes("exact") - changes("first-order")) / unit
+    mean = each.mean(axis=0)
+    return simultaneous(averaged(mean, each - mean), LEVEL, seed, logarithmic=False)
 
 
 def forces_of(answer: Solved) -> Forces:
     """Give the forces of an ensemble that asked for them."""
     assert answer.forces is not None
     return answer.forces
-
-
-def impulses(plan: Plan) -> Solved:
-    """Solve to first order with δr = r on one bead at a time: the weights of δr/r in everything.
-
-    The first axis of all arrays runs over the beads of the region, base first.
-    """
-    ensemble = plan.problem
-    region = ensemble.region
-    unit = np.eye(region.beads)
-    edges = np.cumsum([row.count for row in region.rows])[:-1]
-    rho = tuple(np.split(unit, edges, axis=1))
-    with FLOAT64.active():
-        packing = deposit(ensemble.phi, region, rho, FLOAT64, linear=True)
-        strength = ensemble.load.strength(ensemble.n_x, FLOAT64)
-        loads = ensemble.load.on(ensemble.force_rows, strength, FLOAT64)
-        forces = sweep_down(packing, ensemble.force_rows, loads, linear=True)
-    return Solved(FLOAT64, packing, forces, None)
 
 
 def centres(packing: SolvedPacking, j: int) -> tuple[Array, Array, Array, Array]:
@@ -212,13 +273,3 @@ def centres(packing: SolvedPacking, j: int) -> tuple[Array, Array, Array, Array]
     y = np.full(len(x), 2 * j * ny)
     cp, cm = packing.c.plus[j], packing.c.minus[j]
     return x, y, x + (cp - cm) / (2 * nx), y + (cp + cm) / (2 * ny)
-
-
-def of_ensembles(o: Options, std: float, **parameters: Any) -> dict[str, Any]:
-    """Give the facts of a figure that draws ensembles."""
-    return {
-        **parameters,
-        "realisations": o.realisations,
-        "relative_std": std,
-        "simultaneous_level": LEVEL,
-    }

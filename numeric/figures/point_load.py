@@ -12,30 +12,42 @@ from math import asin
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 
 from ..arithmetic.systems import Array
-from ..closed_forms import bead_response, contact_response
+from ..closed_forms import bead_response, contact_response, response
 from ..mechanics.problem import Solved
 from ..planning.plan import Plan
 from ..quantities import response as quantities
 from ..scene.sections import PointLoad
-from ..statistics.bands import averaged, simultaneous
-from . import specification as spec
-from .double_y import Profile, profiles
-from .elements import cone
-from .packings import LEVEL, Medium, Options, gathered, of_ensembles, planned
+from . import double_y
+from .beads import draw_cone
+from .packings import (
+    LEVEL,
+    Comparison,
+    Made,
+    Medium,
+    Options,
+    Table,
+    band_of_roots,
+    compared,
+    gathered,
+    planned,
+)
+from .style import GREY, PAGE, panels, points
 
 APEX = 24  # the loaded bead is (0, APEX)
 MEDIUM = Medium(std=1e-4)  # far below M*
 CUTS = (18, 12, 6, 0)
+ALONE = 6
+"""The cut on which one contact is drawn, too."""
 SITES = [(i, j) for j in range(APEX) for i in range(-(APEX - j), APEX - j + 1, 2)]
 """The beads of the cone, legs included, layer by layer from the base up."""
 COLUMN, LAYER = np.array(SITES).T
 LEG = np.abs(COLUMN) == APEX - LAYER
 ORDERED = np.where(LEG, 0.5, 0.0)
 """The mean in the ordered packing."""
-ON_CUTS = np.concatenate([np.flatnonzero(j == LAYER) for j in CUTS])
-VARIANCE = r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2$"
+ON_CUTS = np.flatnonzero(np.isin(LAYER, CUTS))
 
 
 @dataclass(frozen=True)
@@ -47,17 +59,18 @@ class Response:
     ensemble. ``cuts`` compares σ on the beads of ``ON_CUTS``.
     """
 
-    medium: Medium
     variance: Array
     one_contact: Array
     printed: Array
     mean: Array
     standard_error: Array
     simulated: Array
-    cuts: spec.Comparison
+    cuts: Comparison
 
-    def table(self) -> spec.Table:
+    def table(self) -> Table:
         """One row a bead."""
+        low, high = (np.full(len(SITES), "", dtype=object) for _ in range(2))
+        low[ON_CUTS], high[ON_CUTS] = (edge**2 for edge in self.cuts.band.limits)
         return {
             "i": COLUMN,
             "j": LAYER,
@@ -65,16 +78,13 @@ class Response:
             "mean_ordered": ORDERED,
             "mean_simulated": self.mean,
             "mean_standard_error": self.standard_error,
-            "variance_exact_first_order": self.variance,
+            "variance_exact": self.variance,
             "variance_printed": np.where(LEG, "", self.printed.astype(object)),
             "variance_simulated": self.simulated,
             "variance_upper_plus_contact": self.one_contact,
+            "band_low": low,
+            "band_high": high,
         }
-
-    def below_apex_over_base(self, variance: Array) -> float:
-        """Variance below the apex over that at the base, beside the legs and in the middle."""
-        below, base = variance[APEX - 2 == LAYER], variance[LAYER == 1]
-        return float(below[1] / base[len(base) // 2])
 
 
 def simulated(o: Options) -> Response:
@@ -91,20 +101,16 @@ def simulated(o: Options) -> Response:
     phi, square = medium.phi, change.var(axis=0) / medium.std**2
     exact = np.array([bead_response(i, j, 0, APEX, phi, 1, 1) for i, j in SITES], dtype=float)
     one = [float(contact_response(i, j, 0, APEX, "+", phi, 1, 1)) for i, j in SITES]
-    cut = np.take(change, ON_CUTS, axis=1) / medium.std
-    variance = cut.var(axis=0)
-    influence = (cut - cut.mean(axis=0)) ** 2 / (2 * variance) - 0.5
-    band = simultaneous(averaged(np.log(variance) / 2, influence), LEVEL, o.seed)
+    off = (change - change.mean(axis=0))[:, ON_CUTS] / medium.std
     what = f"apex l = {APEX}: exact first-order fluctuation"
     return Response(
-        medium=medium,
         variance=exact,
         one_contact=np.array(one),
-        printed=1.5 / float(1 - phi**2) ** 2 * (APEX + LAYER),
+        printed=np.array([float(response(APEX, j, phi, 1, 1)) for _, j in SITES]),
         mean=ORDERED + change.mean(axis=0),
         standard_error=medium.std * np.sqrt(square / (o.realisations - 1)),
         simulated=square,
-        cuts=spec.Comparison(what, band, np.sqrt(exact[ON_CUTS])),
+        cuts=Comparison(what, band_of_roots(off**2, o.seed), np.sqrt(exact[ON_CUTS])),
     )
 
 
@@ -115,104 +121,74 @@ def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
     *_, contacts = quantity.both(ensemble.problem, answer, number)
     found, at = [], 0
     for row in ensemble.problem.force_rows[1:]:
-        plus, minus = contacts[:, at : at + row.count], contacts[:, at + row.count :]
-        nothing = np.zeros((number, 1))
-        found.append(
-            np.concatenate((plus, nothing), axis=1)
-            + np.concatenate((nothing, minus[:, : row.count]), axis=1)
-        )
+        both = np.zeros((number, row.count + 1))
+        both[:, :-1] += contacts[:, at : at + row.count]
+        both[:, 1:] += contacts[:, at + row.count : at + 2 * row.count]
+        found.append(both)
         at += 2 * row.count
     return tuple(found)
 
 
-def figure(o: Options) -> spec.Figure:
+def figure(o: Options) -> Made:
     """Maps of mean and fluctuation, line cuts, and the double Y where it is asked for."""
-    found = simulated(o)
-    low, high = (edge**2 for edge in found.cuts.band.limits)
-    order = np.argsort(ON_CUTS)  # as the other file has them
-    cuts = {name: np.asarray(column)[ON_CUTS[order]] for name, column in found.table().items()}
-    cuts |= {"band_low": low[order], "band_high": high[order]}
-    double_y = profiles(asin(found.medium.n_x), o.seed) if "double-y" in o.models else ()
-    side = "bottom" if double_y else "right"
-    centres = np.stack([2 * float(found.medium.n_x) * COLUMN, 2 * found.medium.n_y * LAYER], axis=1)
-    apex = (0.0, 2 * found.medium.n_y * APEX)
+    found, medium = simulated(o), o.medium(MEDIUM)
+    models = double_y.profiles(asin(medium.n_x), o.seed) if "double-y" in o.models else ()
+    if models:
+        drawn, axes = panels("ab;cd", PAGE, 4.7, height_ratios=(1, 1.05))
+    else:
+        drawn, axes = panels("ac;bc", PAGE, 3.4, width_ratios=(0.85, 1.1))
+    step = np.array([2 * float(medium.n_x), 2 * medium.n_y])
     highest = float(found.variance[APEX - 2 == LAYER][1])
-    panels = [
-        cone(centres, found.mean, apex, r"$\langle p\rangle\,/\,f^{\rm load}$", side, 0.5),
-        cone(centres, found.variance, apex, r"$\sigma^2(p)$, unit of (c)", side, highest),
-        _cuts(found),
-    ]
-    tables = {"figure4": found.table(), "figure4_cuts": cuts}
-    facts: dict[str, Any] = {
-        **of_ensembles(o, found.medium.std, apex=APEX, spacing_over_r=float(found.medium.spacing)),
-        **found.cuts.fact(),
-        "exact_first_order_inside": found.cuts.deviation() <= 1,
-        "variance_below_apex_over_base_exact": found.below_apex_over_base(found.variance),
-        "variance_below_apex_over_base_printed": found.below_apex_over_base(found.printed),
+    for panel, shades, most, label in (
+        (axes[0], found.mean, 0.5, r"$\langle p\rangle\,/\,f^{\rm load}$"),
+        (axes[1], found.variance, highest, r"$\sigma^2(p)$, unit of (c)"),
+    ):
+        apex, location = (0.0, APEX * step[1]), "bottom" if models else "right"
+        centres = np.array(SITES) * step
+        draw_cone(panel, centres, shades, apex, most, location=location, label=label)
+    _draw_cuts(axes[2], found)
+    drawn.legend(*axes[2].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+    parameters: dict[str, Any] = {
+        "apex": APEX,
+        "spacing_over_r": float(medium.spacing),
+        "relative_std": medium.std,
     }
-    picture = spec.Picture(panels, 3.4, page=True, mosaic="ac;bc", columns=(0.85, 1.1))
-    if double_y:
-        panels.append(_double_y(double_y, found.medium))
-        picture = spec.Picture(panels, 4.7, page=True, mosaic="ab;cd", rows=(1, 1.05))
-        own = [row for one in double_y for row in one.rows()]
-        tables["figure4_double_y"] = spec.table(" ".join(own[0]), [row.values() for row in own])
-        facts["double_y"] = [one.facts() for one in double_y]
-    return spec.Figure(picture, tables, facts, [found.cuts])
+    made = compared(drawn, "figure4", o, [found.cuts], {}, **parameters)
+    tables = {"figure4": found.table()}
+    if models:
+        double_y.draw(axes[3], models, float(medium.n_x) / medium.n_y)
+        tables["figure4_double_y"] = double_y.table(models)
+    return Made(drawn, tables, made.facts, made.lines)
 
 
-def _cuts(found: Response) -> spec.Panel:
-    elements: list[spec.Element] = []
-    low, high = (edge**2 for edge in found.cuts.band.limits)
+def _draw_cuts(axes: Axes, found: Response) -> None:
+    """Draw variances over the horizontal position, layer by layer."""
+    low, high = np.zeros(len(SITES)), np.zeros(len(SITES))
+    low[ON_CUTS], high[ON_CUTS] = (edge**2 for edge in found.cuts.band.limits)
     for c, j in enumerate(CUTS):
-        here, band = j == LAYER, j == LAYER[ON_CUTS]
-        printed = float(found.printed[here][0])
-        x, exact = COLUMN[here] / APEX, found.variance[here]
-        inside, reach = slice(1, -1), 1 - j / APEX
-        for rows in (inside, slice(0, 1), slice(-1, None)):
-            elements += [
-                spec.Area(x[rows], low[band][rows], high[band][rows], c, 0.2),
-                spec.Line(x[rows], exact[rows], c),
-            ]
-        elements += [
-            spec.Points(x, found.simulated[here], c, size=2.6),
-            spec.Line([-reach, reach], [printed, printed], "black", "--", width=0.8),
-            spec.Words(reach, printed, f"$j={j}$", c, ("left", "center"), (3, -1)),
-        ]
-    lower = CUTS[2]
-    own = (lower == LAYER) & ~LEG
-    elements += [
-        spec.Words(0, 5, "legs of the cone", "0.3"),
-        spec.Line(name="exact first order"),
-        spec.Line(name="Eq. (16), printed", colour="black", dashes="--"),
-        spec.Points(name="simulated", size=2.6),
-        spec.Area(name=f"{LEVEL:.0%} band of all", alpha=0.2),
-        spec.Line(COLUMN[own] / APEX, found.one_contact[own], 2, ":", f"one contact, $j={lower}$"),
-    ]
-    return spec.Panel(
-        elements,
-        spec.Axis("horizontal position $i/l$", -1.08, 1.4),
-        spec.Axis(VARIANCE, 0),
-        legend="below",
-        columns=5,
-    )
-
-
-def _double_y(found: tuple[Profile, ...], medium: Medium) -> spec.Panel:
-    dashes, slope = ("-", (0, (5, 2)), (0, (1, 1.2))), float(medium.n_x) / medium.n_y
-    return spec.Panel(
-        [
-            *(
-                spec.Line(
-                    np.repeat(one.edges, 2), np.pad(np.repeat(one.density, 2), 1), c, dashes[c],
-                    one.name, 1.0,
-                )
-                for c, one in enumerate(found)
-            ),
-            spec.Rule("x", -slope, dashes=(0, (1, 1.5))),
-            spec.Rule("x", slope, dashes=(0, (1, 1.5)), name="the packing's cone"),
-        ],
-        spec.Axis("horizontal position $x/H$", -3, 3),
-        spec.Axis(r"mean response $H\,p(x)\,/\,f^{\rm load}$", 0),
-        legend="upper center",
-        legend_title="double Y",
+        here, inside, colour = j == LAYER, (j == LAYER) & ~LEG, f"C{c}"
+        x, legs = COLUMN / APEX, here & LEG
+        axes.fill_between(x[inside], low[inside], high[inside], color=colour, alpha=0.2, lw=0)
+        axes.vlines(x[legs], low[legs], high[legs], color=colour, alpha=0.2, lw=3)
+        axes.plot(x[inside], found.variance[inside], color=colour)
+        axes.plot(x[legs], found.variance[legs], "_", color=colour, ms=7, mew=0.9)
+        points(axes, x[here], found.simulated[here], c, ms=2.6)
+        reach, printed = 1 - j / APEX, float(found.printed[here][0])
+        axes.plot([-reach, reach], [printed, printed], "k--", lw=0.8)
+        axes.annotate(
+            f"$j={j}$", (reach, printed), (3, -1), textcoords="offset points", color=colour,
+            va="center", fontsize=7.5,
+        )  # fmt: skip
+    axes.text(0, 5, "legs of the cone", color="0.3", size=7.5, ha="center", va="center")
+    axes.plot([], [], color=GREY, label="exact to first order")
+    axes.plot([], [], "k--", label="Eq. (16), printed")
+    points(axes, [], [], 0, "simulated", ms=2.6)
+    axes.fill_between([], [], color=GREY, alpha=0.2, lw=0, label=f"{LEVEL:.0%} band of all")
+    own = (LAYER == ALONE) & ~LEG
+    axes.plot(
+        COLUMN[own] / APEX, found.one_contact[own], ":", color=f"C{CUTS.index(ALONE)}",
+        label=f"one contact, $j={ALONE}$",
     )  # fmt: skip
+    axes.set(xlabel="horizontal position $i/l$", xlim=(-1.08, 1.4))
+    axes.set_ylabel(r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2$")
+    axes.set_ylim(bottom=0)

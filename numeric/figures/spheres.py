@@ -4,99 +4,74 @@ Simulated are exact, nonlinear packings of W = 2M by 2M beads a layer, which see
 curves are Eqs. B13 and B14, exact to first order at finite M, and their leading orders.
 """
 
-from typing import NamedTuple
-
 import numpy as np
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
-from . import specification as spec
-from .packings import PAPER_STD, PHI, Options, band_of_spread, moments, of_ensembles, planned
+from .packings import (
+    PAPER_STD,
+    PHI,
+    Comparison,
+    Made,
+    Options,
+    band_of_spread,
+    compared,
+    moments,
+    planned,
+    table,
+)
+from .style import COLUMN, GREY, RELATIVE_HEIGHT, panels, points
 
-
-class Case(NamedTuple):
-    """A load, and the height of the packings under it."""
-
-    load: str
-    height: int
-
-    @property
-    def z(self) -> Array:
-        """Relative heights of its layers."""
-        return np.arange(self.height) / self.height
-
-
-CASES = (Case("surface", 8), Case("surface", 16), Case("bulk", 16))
+CASES = (("surface", 8), ("surface", 16), ("bulk", 16))
 LOADS = {"surface": ("B13", SurfaceLoad), "bulk": ("B14", BulkLoad)}
 
 
-def exact(case: Case) -> Array:
+def exact(load: str, M: int) -> Array:
     """σ_f/⟨f⟩ by layer, to first order at finite M (Eqs. B13 and B14); shape (M,)."""
-    bulk = case.load == "bulk"
-    form = (
-        closed_forms.bulk_variance_of_spheres if bulk else closed_forms.surface_variance_of_spheres
-    )
-    M = case.height
+    form = getattr(closed_forms, f"{load}_variance_of_spheres")
     return np.sqrt([float(form(M, j, float(PHI), PAPER_STD, 1.0)) for j in range(M)])
 
 
 def leading(load: str, z: Array) -> Array:
     """The leading orders over M^(3/2)."""
-    surface, bulk = (
-        closed_forms.surface_diffusion_of_spheres,
-        closed_forms.bulk_diffusion_of_spheres,
-    )
-    form = bulk if load == "bulk" else surface
+    form = getattr(closed_forms, f"{load}_diffusion_of_spheres")
     return np.sqrt([form(1, at, float(PHI), PAPER_STD, 1.0) for at in z])
 
 
-def over_contacts(change: Array) -> Array:
-    """Average over all contacts of a layer at once; (realisations, M)."""
-    return np.asarray(change.mean(axis=(1, 3)).T)
-
-
-def simulated(o: Options, place: int, case: Case) -> spec.Comparison:
+def simulated(o: Options, place: int) -> Comparison:
     """Simulate a case, each on radii of its own."""
-    M, (number, load) = case.height, LOADS[case.load]
+    load, M = CASES[place]
+    number, loaded = LOADS[load]
     ensemble = planned(
-        "profile", height=M, seed=o.seed, realisations=o.realisations, load=load(), dimension=3
+        "profile", height=M, seed=o.seed, realisations=o.realisations, load=loaded(), dimension=3
     )  # fmt: skip
-    what = f"{case.load} load, M = {M}"
-    found = moments(ensemble, o.notice, f"figure B13, {what}", over_contacts, place << 32)
-    return spec.Comparison(f"{what}: Eq. {number}", band_of_spread(*found, o.seed), exact(case))
+    what = f"{load} load, M = {M}"
+    found = moments(ensemble, o.notice, f"figure B13, {what}", place << 32)
+    return Comparison(f"{what}: Eq. {number}", band_of_spread(*found, o.seed), exact(load, M))
 
 
-def figure(o: Options) -> spec.Figure:
+def figure(o: Options) -> Made:
     """Points with bands, the exact curves, and the leading orders, over M^(3/2)."""
-    found = [simulated(o, place, case) for place, case in enumerate(CASES)]
-    fine, unit = np.linspace(0, 1, 101), [PAPER_STD * case.height**1.5 for case in CASES]
-    panel = spec.Panel(
-        [
-            spec.Line(name="exact at finite $M$"),
-            spec.Line(name=r"$M\to\infty$", dashes="--"),
-            *(
-                one.drawn(case.z, c, f"{case.load}, $M={case.height}$", unit=unit[c])
-                for c, (case, one) in enumerate(zip(CASES, found, strict=True))
-            ),
-            *(spec.Line(fine, leading(load, fine) / PAPER_STD, dashes="--") for load in LOADS),
-        ],
-        spec.RELATIVE_HEIGHT,
-        spec.Axis(r"$M^{-3/2}\,(\sigma_f/\langle f\rangle)\,/\,(\sigma_{\delta r}/r)$", 0),
-        legend="upper right",
-    )
-    layers = [(*case, j, z) for case in CASES for j, z in enumerate(case.z.tolist())]
-    printed = [leading(case.load, case.z) * case.height**1.5 for case in CASES]
-    return spec.Figure(
-        spec.Picture([panel], 2.8),
-        tables={
-            "figureB13": spec.table("load M j z", layers)
-            | spec.stacked([one.columns() for one in found])
-            | {"printed": np.concatenate(printed)}
-        },
-        facts={
-            **of_ensembles(o, PAPER_STD, cases=[case._asdict() for case in CASES]),
-            "largest_deviation_in_half_widths": [one.deviation() for one in found],
-        },
-        comparisons=found,
-    )
+    found, fine = [simulated(o, place) for place in range(len(CASES))], np.linspace(0, 1, 101)
+    drawn, (axes,) = panels("a", COLUMN, 2.8)
+    axes.plot([], [], color=GREY, label="exact at finite $M$")
+    axes.plot([], [], "--", color=GREY, label=r"$M\to\infty$")
+    for c, ((load, M), one) in enumerate(zip(CASES, found, strict=True)):
+        z, unit = np.arange(M) / M, PAPER_STD * M**1.5
+        axes.plot(z, one.theory / unit, color=f"C{c}")
+        name = f"{load}, $M={M}$, simulated"
+        points(axes, z, one.band.value / unit, c, name, one.bars / unit)
+    for load in LOADS:
+        axes.plot(fine, leading(load, fine) / PAPER_STD, "--", color=GREY)
+    axes.set(xlabel=RELATIVE_HEIGHT, xlim=(0, 1))
+    axes.set_ylabel(r"$M^{-3/2}\,(\sigma_f/\langle f\rangle)\,/\,(\sigma_{\delta r}/r)$")
+    axes.set_ylim(bottom=0)
+    axes.legend(loc="upper right")
+    layers = [
+        (load, M, j, j / M, printed)
+        for load, M in CASES
+        for j, printed in enumerate((leading(load, np.arange(M) / M) * M**1.5).tolist())
+    ]
+    rows = table("load M j z printed", layers)
+    return compared(drawn, "figureB13", o, found, rows, relative_std=PAPER_STD)

@@ -1,73 +1,42 @@
-"""How all figures look, and how they become files, the same bytes whenever they are made.
+"""How all figures look (``house.mplstyle``), and how they become files. Needs matplotlib.
 
-Widths are those of a journal: one column or two. Colours (Okabe and Ito's palette) can be told
-apart by the colour-blind, and each comes with its own marker or line style, for print in grey.
-Fonts are those that matplotlib brings along. Needs matplotlib (the extra ``plots``).
+Each colour comes with its own marker or line style, for print in grey. Importing this module raises
+``MissingLibraryError`` where there is no matplotlib (the extra ``plots``).
 """
 
 import io
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from pathlib import Path
 from typing import Any
 
-import matplotlib as mpl
-from matplotlib.axes import Axes
-from matplotlib.backend_bases import RendererBase
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.figure import Figure
-from PIL import Image
-from PIL.PngImagePlugin import PngInfo
+from ..arithmetic.errors import MissingLibraryError
+from ..arithmetic.systems import Array
+
+try:
+    from matplotlib import style
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.backend_bases import RendererBase
+    from matplotlib.container import ErrorbarContainer
+    from matplotlib.figure import Figure
+    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+except ModuleNotFoundError as error:
+    raise MissingLibraryError(
+        "figures need matplotlib, which is missing; pip install 'force-diffusion[plots]'"
+    ) from error
 
 COLUMN, PAGE = 3.4, 7.0  # inches
-DPI = 300
-BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = (
-    "#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9",
-)  # fmt: skip
-_COLOURS = (BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY)
-_MARKERS = ("o", "s", "^", "D", "v", "P")
-_RC: dict[Any, Any] = {
-    "font.family": "STIXGeneral",
-    "mathtext.fontset": "stix",
-    "font.size": 8,
-    "axes.labelsize": 8.5,
-    "axes.titlesize": 8.5,
-    "legend.fontsize": 7.5,
-    "xtick.labelsize": 7.5,
-    "ytick.labelsize": 7.5,
-    "axes.linewidth": 0.6,
-    "lines.linewidth": 1.0,
-    "xtick.direction": "in",
-    "ytick.direction": "in",
-    "xtick.top": True,
-    "ytick.right": True,
-    "xtick.major.width": 0.6,
-    "ytick.major.width": 0.6,
-    "xtick.major.size": 3,
-    "ytick.major.size": 3,
-    "legend.frameon": False,
-    "legend.handlelength": 1.8,
-    "legend.labelspacing": 0.3,
-    "legend.borderaxespad": 0.6,
-    "axes.unicode_minus": True,
-    "savefig.dpi": DPI,
-    "svg.hashsalt": "force-diffusion",
-    "pdf.fonttype": 42,
-}
+MARKERS = "os^DvP"
+"""Of the series C0, C1, ..."""
+GREY = "0.35"
+"""Of keys that stand for all colours."""
+RELATIVE_HEIGHT = "relative height $z=j/M$"
 
 
-def series(number: int) -> tuple[str, str]:
-    """Give colour and marker of the n-th series."""
-    return _COLOURS[number % len(_COLOURS)], _MARKERS[number % len(_MARKERS)]
-
-
-@contextmanager
-def house_style() -> Iterator[None]:
-    """Leave out what a user's own matplotlibrc says."""
-    defaults = dict[Any, Any](mpl.rcParamsDefault)
-    for key in [key for key in defaults if key.startswith("backend")]:
-        del defaults[key]
-    with mpl.rc_context(defaults | _RC):
-        yield
+def house_style() -> AbstractContextManager[None]:
+    """Draw in the house style, whatever a user's own matplotlibrc says."""
+    return style.context(Path(__file__).with_name("house.mplstyle"), after_reset=True)
 
 
 class HouseFigure(Figure):
@@ -80,56 +49,75 @@ class HouseFigure(Figure):
 
     def _repr_png_(self) -> bytes:
         painted = io.BytesIO()
-        self.savefig(painted, format="png", dpi=DPI / 2)
+        self.savefig(painted, format="png", dpi=150)
         return painted.getvalue()
 
 
-def figure(width: float, height: float) -> Figure:
-    """Start a figure; sizes in inches."""
-    made = HouseFigure(figsize=(width, height), layout="constrained")
-    FigureCanvasAgg(made)
-    return made
+def panels(
+    mosaic: str, width: float, height: float, **layout: Any
+) -> tuple[HouseFigure, list[Axes]]:
+    """Start a figure of so many inches; give its panels, with letters where there are several.
+
+    ``mosaic``: "ab" side by side, "a;b" one above the other; ``layout`` as ``subplot_mosaic`` has
+    it.
+    """
+    figure = HouseFigure(figsize=(width, height))
+    found = figure.subplot_mosaic(mosaic, **layout)
+    axes = [found[letter] for letter in sorted(found)]
+    if len(axes) > 1:
+        for letter, panel in zip("abcdef", axes, strict=False):
+            panel.set_title(f"({letter})", loc="left")
+    return figure, axes
 
 
-def letter(panels: Sequence[Axes]) -> None:
-    """Name panels (a), (b), … above their upper left corners."""
-    for axes, name in zip(panels, "abcdef", strict=False):
-        axes.set_title(f"({name})", loc="left", pad=4)
+def points(
+    axes: Axes, x: Any, y: Any, series: int, label: str = "", error: Any = None, **look: Any
+) -> ErrorbarContainer:
+    """Draw what was found, with error bars: half-widths, or those below and above."""
+    drawn = axes.errorbar(
+        x, y, error, fmt=MARKERS[series], color=f"C{series}", elinewidth=0.7, zorder=2.5,
+        label=label or None, **look,
+    )  # fmt: skip
+    drawn.lines[0].set_clip_on(not len(x))  # markers on an axis are drawn in full, bars end there
+    return drawn
+
+
+def curve(axes: Axes, x: Array, y: Array, bulk: slice, series: int) -> None:
+    """Draw a curve through the bulk, and a dash wherever beside it a place has its own value."""
+    axes.plot(x[bulk], y[bulk], color=f"C{series}")
+    for at in set(range(len(x))).difference(range(len(x))[bulk]):
+        axes.plot(x[at], y[at], "_", color=f"C{series}", ms=7, mew=0.9, clip_on=False)
+
+
+def label_logarithmic(axis: Axis) -> None:
+    """Label 1, 2, 5, 10, … where powers of ten alone would say too little."""
+    low, high = axis.get_view_interval()
+    if high < 1000 * low:
+        axis.set_major_locator(LogLocator(10, (1, 2, 5)))
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(NullFormatter())
+
+
+def powers_of_ten(axis: Axis) -> None:
+    """Name the ticks of an axis along which lie log10 of numbers that may be no floats."""
+    axis.set_major_locator(MaxNLocator(8, integer=True))
+    axis.set_major_formatter(lambda power, _: f"$10^{{{power:g}}}$")
 
 
 def images(
-    draw: Callable[[], Figure], name: str, title: str, command: str, kinds: Sequence[str]
+    figure: Figure, name: str, title: str, command: str, kinds: Sequence[str]
 ) -> dict[str, bytes]:
-    """Draw it as "png", "svg" and "pdf"; each holds the command, none a date."""
+    """Save it as "png", "svg" and "pdf", the same bytes each time: they hold no date."""
     about = {"Title": title, "Description": command}
     metadata: dict[str, dict[str, Any]] = {
+        "png": about,
         "svg": {**about, "Date": None},
         "pdf": {"Title": title, "Subject": command, "CreationDate": None},
     }
     files = {}
     with house_style():
-        drawn = draw()
-        drawn.set_dpi(DPI)
-        drawn.draw_without_rendering()  # finds the place of every panel,
-        drawn.set_layout_engine(None)  # the same in all files
         for kind in kinds:
             file = io.BytesIO()
-            if kind == "png":
-                _png(drawn, about, file)
-            else:
-                drawn.savefig(file, format=kind, metadata=metadata[kind])
+            figure.savefig(file, format=kind, metadata=metadata[kind])
             files[f"{name}.{kind}"] = file.getvalue()
     return files
-
-
-def _png(drawn: Figure, about: dict[str, str], file: io.BytesIO) -> None:
-    """Lines and letters have few colours: a palette makes the file a third as large."""
-    painted = io.BytesIO()
-    drawn.savefig(painted, format="rgba")
-    size = drawn.canvas.get_width_height()  # with the dots per inch of ``images``
-    words = PngInfo()
-    for key, value in about.items():
-        words.add_text(key, value)
-    image = Image.frombytes("RGBA", size, painted.getvalue()).convert("RGB")
-    image = image.quantize(256, dither=Image.Dither.NONE)
-    image.save(file, format="png", optimize=True, pnginfo=words, dpi=(DPI, DPI))

@@ -31,14 +31,6 @@ class Estimate:
         """Standard errors of the logarithms, shape (L,)."""
         return np.asarray(np.sqrt(np.diag(self.covariance)))
 
-    def __sub__(self, other: "Estimate") -> "Estimate":
-        """Difference of independent estimates."""
-        return Estimate(
-            self.log - other.log,
-            self.covariance + other.covariance,
-            min(self.freedom, other.freedom),
-        )
-
 
 def averaged(log: Array, influence: Array) -> Estimate:
     """Estimate from what each of n realisations adds to the error, shape (n, L), to first order."""

@@ -4,13 +4,17 @@ Colour and marker tell ways apart, lines join the digits of one family of arithm
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from itertools import groupby
 from typing import Any
 
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
 from ..arithmetic.errors import printable
-from ..figures import specification as spec
+from ..figures.style import GREY, PAGE, panels, points, powers_of_ten
 from .rows import Reference, Way
 
 # Decades of error beyond which the axis is one of √digits.
@@ -24,51 +28,44 @@ SERIES = {
     "exact finite-M formula": 3,
     "printed asymptotic formula": 4,
 }
-DASHES: Mapping[str, tuple[str, Any]] = {
-    "float64": ("float64", "-"),
-    "mpmath": ("mpmath", (0, (5, 2))),
-    "arb balls": ("arb balls", (0, (1, 1.2))),
-}
+DASHES = {"float64": "-", "mpmath": (0, (5, 2)), "arb balls": (0, (1, 1.2))}
 
 
-def picture(
+def figure(
     title: str, ways: Sequence[Way], reference: Reference, sampling_floor: Decimal | None
-) -> spec.Picture:
+) -> Figure:
     """Draw log10 of error against log10 of seconds; digits may lie beyond a float's range."""
     rows = [row for row in ways if row.error and not _in_vain(row, ways)]
-    floor = [float(sampling_floor.log10())] if sampling_floor else []
-    powers = [float(row.error.log10()) for row in rows]
-    y_name = "measured error / largest |change|"
-    stretched = max(powers, default=0) - min(powers, default=0) > WIDE
-    y_axis = spec.powers_of_ten(y_name, powers + floor)
-    if stretched:  # the few digits of hardware get as much room as the many of big numbers
-        low, high = _root(1.15 * min(powers)), _root(max(*powers, 0) + 1)
-        ticks = {_root(power): f"$10^{{{power}}}$" for power in POWERS if _root(power) >= low}
-        y_axis = spec.Axis(f"{y_name}, spaced by √digits", low, high, ticks=ticks)
-    places = {
-        row: (math.log10(row.seconds), _root(power) if stretched else power)
-        for row, power in zip(rows, powers, strict=True)
-    }
-    x_axis = spec.powers_of_ten(
-        "processor time (s): median; thin: from the fastest to the slowest run",
-        [x for x, _ in places.values()],
-    )
+    places = {row: (math.log10(row.seconds), float(row.error.log10())) for row in rows}
+    drawn, (axes,) = panels("a", PAGE, 4.6)
+    for line in lines(rows):
+        _draw(axes, line, places)
+    if sampling_floor:
+        level = float(sampling_floor.log10())
+        axes.axhline(level, color="0.3", ls=":", lw=0.7, label="standard error of sampling")
+    _explain(axes, rows)
+    powers_of_ten(axes.xaxis)
+    powers_of_ten(axes.yaxis)
+    powers = [power for _, power in places.values()]
+    if max(powers, default=0) - min(powers, default=0) > WIDE:
+        # the few digits of hardware get as much room as the many of big numbers
+        axes.set_yscale("function", functions=(_root, lambda y: np.sign(y) * y**2))
+        axes.set_yticks([power for power in POWERS if power >= 1.15 * min(powers)])
+        axes.yaxis.set_major_formatter(lambda power, _: f"$10^{{{power:g}}}$")
+        axes.set_ylim(1.15 * min(powers), max(*powers, 0) + 1)
+    else:
+        axes.margins(y=0.1)
+    _name(axes, places)
     name = printable(title).replace("$", r"\$")  # no formula
-    panel = spec.Panel(
-        [
-            *(list(_drawn(line, places)) for line in lines(rows)),
-            list(_names(places, x_axis, y_axis)),
-            list(_keys(rows)),
-            [spec.Rule("y", level, ":", "0.3", "standard error of sampling") for level in floor],
-        ],
-        x_axis, y_axis, title=f"{name}; reference {reference.kind}, radius {reference.radius:.1e}",
-        legend="below", columns=3,
-    )  # fmt: skip
-    return spec.Picture([panel], 4.6, page=True)
+    axes.set_title(f"{name}; reference {reference.kind}, radius {reference.radius:.1e}")
+    axes.set_xlabel("processor time (s): median; thin: from the fastest to the slowest run")
+    axes.set_ylabel("measured error / largest |change|")
+    drawn.legend(loc="outside lower center", ncols=3)
+    return drawn
 
 
-def _root(power: float) -> float:
-    return math.copysign(math.sqrt(abs(power)), power)
+def _root(power: Any) -> Any:
+    return np.sign(power) * np.sqrt(np.abs(power))
 
 
 def _in_vain(row: Way, rows: Sequence[Way]) -> bool:
@@ -96,51 +93,50 @@ def lines(rows: Sequence[Way]) -> list[list[Way]]:
     return [list(line) for _, line in groupby(ordered, joined)]
 
 
-def _drawn(line: list[Way], places: Mapping[Way, tuple[float, float]]) -> Iterator[spec.Element]:
+def _draw(axes: Axes, line: list[Way], places: Mapping[Way, tuple[float, float]]) -> None:
     """Draw a line, its points, and how their times scatter."""
-    series, dashes = SERIES[line[0].way], DASHES[_family(line[0])][1]
-    xs, ys = zip(*(places[row] for row in line), strict=True)
+    series = SERIES[line[0].way]
     if len(line) > 1:
-        yield spec.Line(xs, ys, series, dashes)
+        axes.plot(
+            *zip(*(places[row] for row in line), strict=True), color=f"C{series}",
+            ls=DASHES[_family(line[0])],
+        )  # fmt: skip
     for row in line:
         x, y = places[row]
         spread = math.log10(row.seconds_min), math.log10(row.seconds_max)
-        yield spec.Line(spread, (y, y), series, width=0.3)
-        yield spec.Points([x], [y], series, size=4, filled=row.pareto)
+        axes.plot(spread, (y, y), color=f"C{series}", lw=0.3)
+        points(axes, [x], [y], series, ms=4, mfc=f"C{series}" if row.pareto else "white")
 
 
-def _names(
-    places: Mapping[Way, tuple[float, float]], x_axis: spec.Axis, y_axis: spec.Axis
-) -> Iterator[spec.Words]:
+def _name(axes: Axes, places: Mapping[Way, tuple[float, float]]) -> None:
     """Name the points of the front, and the sizes of ensembles, but where names would overlap.
 
     Names stand to the lower left, where by its definition nothing lies beside the front.
     """
-    (left, right), (low, high) = ((axis.low or 0, axis.high or 0) for axis in (x_axis, y_axis))
     taken: list[tuple[float, float, int]] = []
-    for row, (x, y) in places.items():
+    for row, at in places.items():
         side = 1 if row.way == "Monte Carlo, exact" else -1
+        x, y = axes.transAxes.inverted().transform(axes.transData.transform(at))
         if (row.pareto or row.realisations) and not any(
-            side == other
-            and abs(x - a) < 0.09 * (right - left)
-            and abs(y - b) < 0.04 * (high - low)
-            for a, b, other in taken
+            side == other and abs(x - a) < 0.09 and abs(y - b) < 0.04 for a, b, other in taken
         ):
             taken.append((x, y, side))
-            align = "left" if side > 0 else "right", "top"
-            yield spec.Words(x, y, _short(row), SERIES[row.way], align, (4 * side, 0), 7)
+            axes.annotate(
+                _short(row), at, (4 * side, 0), textcoords="offset points", fontsize=7,
+                color=f"C{SERIES[row.way]}", ha="left" if side > 0 else "right", va="top",
+            )  # fmt: skip
 
 
-def _keys(rows: Sequence[Way]) -> Iterator[spec.Element]:
+def _explain(axes: Axes, rows: Sequence[Way]) -> None:
     """Explain markers, then lines, then what is filled."""
     for way, series in SERIES.items():
         if any(row.way == way for row in rows):
-            yield spec.Points(series=series, name=way, size=4)
+            points(axes, [], [], series, way, ms=4)
     joined = {_family(line[0]) for line in lines(rows) if len(line) > 1}
-    for family, (name, dashes) in DASHES.items():
+    for family, dashes in DASHES.items():
         if family in joined and len(joined) > 1:
-            yield spec.Line(dashes=dashes, name=name)
-    yield spec.Points(name="filled: Pareto front", size=4, filled=True)
+            axes.plot([], [], color=GREY, ls=dashes, label=family)
+    points(axes, [], [], 0, "filled: Pareto front", ms=4, mfc="C0")
 
 
 def _short(row: Way) -> str:

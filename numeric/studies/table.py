@@ -7,10 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from .. import tables
 from ..arithmetic.systems import Array
-from ..figures.library import drawn
-from ..figures.specification import Picture
 from ..planning.plan import Skipped
-from .cost_plot import picture
 from .rows import Reference, Way
 
 if TYPE_CHECKING:
@@ -75,17 +72,17 @@ class CostStudy:
         }
         return [row | common for row in data["rows"]]
 
-    def picture(self, title: str = "") -> Picture:
-        """Say what is drawn: error against time, both logarithmic."""
-        name = f"{title}: {self.quantity}" if title else self.quantity
-        return picture(name, self.ways, self.reference, self.sampling_floor)
-
     def plot(self, title: str = "") -> "Figure":
         """Draw error against time, both logarithmic, with the Pareto front named.
 
         Needs matplotlib (the extra ``plots``). Raises ``MissingLibraryError``.
         """
-        return drawn(self.picture(title))
+        from ..figures.style import house_style  # first: it says what to install
+        from .cost_plot import figure
+
+        name = f"{title}: {self.quantity}" if title else self.quantity
+        with house_style():
+            return figure(name, self.ways, self.reference, self.sampling_floor)
 
     def __str__(self) -> str:
         """Give the table; * marks the Pareto front."""

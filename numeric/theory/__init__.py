@@ -1,1 +1,1 @@
-"""Where the theory holds: M* and the fraction of tensile contacts."""
+"""Where the theory holds: M* and how many contacts are expected to pull."""

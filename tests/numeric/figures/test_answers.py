@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric import closed_forms
-from force_diffusion.numeric.figures.library import MissingLibraryError
+from force_diffusion.numeric.arithmetic.errors import MissingLibraryError
 
 import force_diffusion as fd
 
 pytest.importorskip("matplotlib")
-from force_diffusion.numeric.figures import drawing, specification
+from force_diffusion.numeric.figures import beads as looks
 from matplotlib.collections import LineCollection, PatchCollection
 from matplotlib.colors import to_rgba
 from matplotlib.container import ErrorbarContainer
@@ -86,10 +86,10 @@ def test_chains_are_as_thick_as_forces_and_tension_has_its_colour() -> None:
     assert (forces < 0).any()
     pressing, pulling = lines(outcome.plot())
     assert len(pulling.get_segments()) == (forces < 0).sum()
-    assert to_rgba(drawing.PULLING) in map(tuple, pulling.get_colors())
-    widths = np.array(pressing.get_linewidths()) / specification.WIDEST
+    assert to_rgba(looks.PULLING) in map(tuple, pulling.get_colors())
+    widths = np.array(pressing.get_linewidths()) / looks.WIDEST
     expected = forces[forces >= 0] / abs(forces).max()
-    assert widths == pytest.approx(np.maximum(expected, 0.05 / specification.WIDEST))
+    assert widths == pytest.approx(np.maximum(expected, 0.05 / looks.WIDEST))
     # each line is a contact of the ordered lattice, of length 2 r, also at the edges of the strip
     ends = np.array([*pressing.get_segments(), *pulling.get_segments()])
     assert np.hypot(*(ends[:, 1] - ends[:, 0]).T) == pytest.approx(2.0)
@@ -102,6 +102,9 @@ def test_a_point_load_near_the_edge_has_one_cone() -> None:
     beads, _ = (c for c in figure.axes[0].collections if isinstance(c, PatchCollection))
     centres = np.array([path.get_extents().get_points().mean(axis=0) for path in beads.get_paths()])
     shades = np.asarray(beads.get_array())
+    figure.draw_without_rendering()
+    greys = np.asarray(beads.get_facecolor())[:, 0]
+    assert greys[np.argmax(shades)] < 0.5 < greys[np.argmin(np.abs(shades))]  # white is nothing
     assert len(shades) == M * (M + 3) // 2  # l − j + 1 beads on layer j
     assert sum(centres[:, 0]) == pytest.approx(0)
     vertical = outcome.arrays["vertical"]
@@ -222,6 +225,7 @@ def test_one_contact_has_no_figure() -> None:
 
 def test_a_missing_library_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     outcome = scene("profile").run()
+    monkeypatch.delitem(sys.modules, "force_diffusion.numeric.figures.style")
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     with pytest.raises(MissingLibraryError, match=r"force-diffusion\[plots\]") as caught:
         outcome.plot()

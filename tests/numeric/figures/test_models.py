@@ -68,7 +68,7 @@ def test_a_defect_of_no_angle_changes_nothing() -> None:
 def test_the_response_turns_from_two_peaks_to_a_broad_one() -> None:
     def shares(splits: float) -> tuple[float, float]:
         found = double_y.profile(splits, TILT, seed=4, rays=100_000)
-        middle = np.abs(found.edges[:-1] + found.edges[1:]) / 2
+        middle = np.abs(double_y.BINS[:-1] + double_y.BINS[1:]) / 2
         whole = found.density.sum()
         cone = np.abs(middle - 1.134) < 0.1
         return float(found.density[cone].sum() / whole), float(

@@ -8,7 +8,6 @@ from typing import Any
 import flint
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
-from force_diffusion.numeric.figures.specification import Points
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
 from force_diffusion.numeric.studies import timing
@@ -243,20 +242,18 @@ def test_a_clock_that_did_not_tick_tells_a_time(monkeypatch: pytest.MonkeyPatch)
     assert study.plot("of a still clock").axes
 
 
-def test_the_picture_has_all_of_the_front_within_its_axes() -> None:
+def test_the_plot_has_all_of_the_front_within_its_axes() -> None:
     found = cost(scene(basic(2, 4)))
-    (panel,) = found.picture("a scene").panels
-    elements = [
-        one for part in panel.elements for one in (part if isinstance(part, list) else [part])
-    ]
-    points = [one for one in elements if isinstance(one, Points) and len(one.x)]
-    assert sum(one.filled for one in points) == sum(way.pareto for way in found.ways)
-    for one in points:
-        for axis, (value,) in ((panel.x, one.x), (panel.y, one.y)):
-            assert axis.low is not None
-            assert axis.high is not None
-            assert axis.low < value < axis.high
-            assert axis.ticks
+    (axes,) = found.plot("a scene").axes
+    marks = [one.lines[0] for one in axes.containers if len(one.lines[0].get_xdata())]
+    filled = [mark for mark in marks if mark.get_markerfacecolor() != "white"]
+    assert len(filled) == sum(way.pareto for way in found.ways)
+    for mark in marks:
+        for (low, high), (value,) in (
+            (axes.get_xlim(), mark.get_xdata()),
+            (axes.get_ylim(), mark.get_ydata()),
+        ):
+            assert low < value < high
 
 
 @pytest.mark.parametrize("std", ["=1e-100", "=1e-160", "=1e-290", "=1e-299"])
