@@ -25,7 +25,7 @@ import force_diffusion as fd
 from .cli import command_line
 from .guard import about, say
 from .output import Output, Overwrite, out_option
-from .shared import Json, images, noticing, sourced, warn
+from .shared import Json, noticing, sourced, warn
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure
@@ -159,7 +159,6 @@ def figures(
             )
     import force_diffusion.numeric.figures.style  # noqa: F401  or leave before anything is solved
 
-    seed = 1 if seed is None else seed
     command = command_line()
     stems = [scenes.get(name) or FIGURES[name].file for name in wanted]
     if len(set(stems)) < len(stems):
@@ -168,13 +167,13 @@ def figures(
             param_hint="WHICH",
         )
     possible = {*scenes.values(), *(one.file for one in FIGURES.values())}
-    tables = {*possible, *OF_MODELS.values()}
-    names = [name for stem in possible for name in (*images(stem), f"{stem}.json")]
-    folder = Output(out, [*names, *(f"{table}.csv" for table in tables)], overwrite)
+    of_models = [f"{table}.csv" for table in OF_MODELS.values()]
+    own_files = (f"{stem}.{kind}" for stem in possible for kind in (*KINDS, "json", "csv"))
+    folder = Output(out, [*own_files, *of_models], overwrite)
     with noticing() as notice:
         data, files = _made(
             wanted, command, beside or [], own, **({} if chosen is None else {"heights": chosen}),
-            realisations=realisations, seed=seed, notice=notice,
+            realisations=realisations, seed=1 if seed is None else seed, notice=notice,
         )  # fmt: skip
     folder.write(files)
     if as_json:
