@@ -1,15 +1,13 @@
 """The memory that a scene takes, and what is refused as too much."""
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 
-from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..lattice.layers import Region, Rows
 from ..mechanics.engine import chunk_size, worth_compiling
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
-from ..scene.scene import Scene, check
+from ..scene.scene import Scene
 from ..scene.sections import SceneError
 
 # Bytes of a bead of balls, a packing whose rows are listed, and a line of a file; measured, rounded
@@ -93,49 +91,15 @@ def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
     Of the height, the width and the realisations the largest is named.
     """
     if needed > limit:
-        key, value = sizes(scene)[0]
+        packing = scene.packing
+        sizes = {
+            "packing.height": packing.height,
+            "packing.width": packing.width or 0,
+            "ask.realisations": scene.ask.realisations,
+        }
+        key = max(sizes, key=sizes.__getitem__)
         needs = f"this scene would need about {size(needed)} of memory"
-        raise TooLargeError(key, value, f"{needs} and {size(limit)} may be used")
-
-
-def sizes(scene: Scene) -> list[tuple[str, int]]:
-    """Give what says how large a scene is, the largest number first."""
-    packing = scene.packing
-    found = [("packing.height", packing.height), ("packing.width", packing.width or 0)]
-    found.append(("ask.realisations", scene.ask.realisations))
-    return sorted(found, key=lambda one: -one[1])
-
-
-def fitting(scene: Scene, planned: Callable[[Scene], object]) -> str:
-    """Say which smaller height, width or number of realisations fits, with two digits.
-
-    ``planned`` raises ``ForceDiffusionError`` for a scene that does not fit.
-    """
-
-    def fits(name: str, value: int) -> bool:
-        section, _, key = name.partition(".")
-        changed = getattr(scene, section).model_copy(update={key: value})
-        other = scene.model_copy(update={section: changed})
-        try:
-            check(other)
-            planned(other)
-        except ForceDiffusionError:
-            return False
-        return True
-
-    packing = scene.packing
-    for name, asked in sizes(scene):
-        low = 1 if name != "packing.width" or packing.allow_images else packing.height + 1
-        high = asked
-        if high <= low or not fits(name, low):
-            continue
-        while high - low > max(1, low // 50):
-            middle = math.isqrt(low * high) if low < high // 4 else (low + high) // 2
-            low, high = (middle, high) if fits(name, middle) else (low, middle)
-        power = 10 ** max(len(str(low)) - 2, 0)
-        short = low // power * power
-        return f"; {name} = {short if fits(name, short) else low} would fit"
-    return ""
+        raise TooLargeError(key, sizes[key], f"{needs} and {size(limit)} may be used")
 
 
 def size(number: int) -> str:

@@ -26,7 +26,7 @@ from ..quantities.base import Quantity
 from ..scene.scene import Scene
 from ..scene.sections import SceneError
 from ..theory.expected import critical_height
-from .memory import TooLargeError, fitting, memory, refuse_beads, refuse_memory
+from .memory import memory, refuse_beads, refuse_memory
 from .plan import Plan, Skipped
 from .sources import beyond_floats, load_of, radii_of
 
@@ -61,26 +61,19 @@ def plan(
         raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
     limit = _free(int(monotonic()), free_memory) if memory_limit is None else memory_limit
 
-    def planned(scene: Scene) -> Plan:
-        quantities = quantities_of(scene)
-        problem, skipped = _problem(scene, quantities, limit, text=text)
-        error = expected(FLOAT64, quantities, problem)
-        reason = why_balls(scene, problem, error, tolerance, certified=certified)
-        system: NumberSystem = FLOAT64
-        if reason:
-            system = Balls(_bits(problem, tolerance))
-            error = expected(system, quantities, problem)
-        needed = memory(quantities, problem, system, text=text)
-        refuse_memory(scene, needed, limit)
-        return Plan(
-            scene, quantities, problem, tolerance, system, reason, error, needed, tuple(skipped)
-        )
-
-    try:
-        return planned(scene)
-    except TooLargeError as refused:
-        said = f"{refused.allowed}{fitting(scene, planned)}"
-        raise TooLargeError(refused.key, refused.value, said) from None
+    quantities = quantities_of(scene)
+    problem, skipped = _problem(scene, quantities, limit, text=text)
+    error = expected(FLOAT64, quantities, problem)
+    reason = why_balls(scene, problem, error, tolerance, certified=certified)
+    system: NumberSystem = FLOAT64
+    if reason:
+        system = Balls(_bits(problem, tolerance))
+        error = expected(system, quantities, problem)
+    needed = memory(quantities, problem, system, text=text)
+    refuse_memory(scene, needed, limit)
+    return Plan(
+        scene, quantities, problem, tolerance, system, reason, error, needed, tuple(skipped)
+    )
 
 
 def in_balls(made: Plan, reason: str) -> Plan:

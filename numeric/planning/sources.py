@@ -2,10 +2,7 @@
 
 from fractions import Fraction
 
-import numpy as np
-
 from ..arithmetic.decimals import short
-from ..arithmetic.systems import Array
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
 from ..lattice.layers import Naming, Rows
@@ -14,8 +11,8 @@ from ..scene.files import TableError, read_array, read_loads, read_radii
 from ..scene.scene import Scene
 from ..scene.sections import GivenRadii
 
-# Powers of two by which a unit of length may differ from r.
-FARTHEST_UNIT = 100
+# Units of length of an array by which r may differ from 1.
+FARTHEST_UNIT = Fraction(10**100)
 # δr/r may be as small as this; where it meets a load or a unit of length, their product a bit less.
 LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)
 # Sums over a packing (i up to 2^60) must stay below 1e308.
@@ -39,23 +36,6 @@ def load_of(scene: Scene) -> LoadSpec:
     return LoadSpec(load.kind, top, naming.row, load.angle_deg, at, single, d)
 
 
-def _of_array(values: Array, origin: Fraction, radius: Fraction) -> ArrayRadii:
-    """Take an array in units of length near r, where it is far from 1.
-
-    The errors that float64 carries of δr/r would underflow beside a radius of 1e-300. A power of
-    two changes no digit.
-    """
-    power = radius.denominator.bit_length() - radius.numerator.bit_length()
-    if abs(power) > FARTHEST_UNIT:
-        with np.errstate(all="ignore"):
-            scaled = np.ldexp(values, power)
-            exact = np.array_equal(np.ldexp(scaled, -power), values)
-        if exact:
-            unit = Fraction(2) ** power
-            return ArrayRadii(scaled, origin * unit, radius * unit)
-    return ArrayRadii(values, origin, radius)
-
-
 def radii_of(scene: Scene, rows: Rows) -> Radii:
     """Give the radii of the beads of ``rows``; without rows, of all. Raises ``TableError``."""
     disorder, packing = scene.disorder, scene.packing
@@ -64,7 +44,7 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
     if isinstance(disorder, GivenRadii):
         values = disorder.values.reshape(-1, packing.height + 1, naming.row or 0)
         origin = packing.radius if disorder.delta_r is None else Fraction(0)
-        return _of_array(values, origin, packing.radius)
+        return ArrayRadii(values, origin, packing.radius)
     if disorder.file is None:
         assert disorder.relative_std is not None
         return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, naming.row)
@@ -77,7 +57,7 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
                 f"packing.radius is {short(packing.radius)}: is it in another unit?"
             )
         values = values.reshape(1, packing.height + 1, -1)
-        return _of_array(values, packing.radius, packing.radius)
+        return ArrayRadii(values, packing.radius, packing.radius)
 
     def needed(site: Site) -> bool:
         i, j = site
@@ -104,10 +84,15 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
 def beyond_floats(scene: Scene, radii: Radii, load: LoadSpec) -> bool:
     """Say whether float64 would overflow, or round a change that is asked for to zero.
 
-    A change is about δr/r times the load, or times the unit of length.
+    A change is about δr/r times the load, or times the unit of length. Errors of given radii are
+    products of these.
     """
-    spread = radii.least if isinstance(radii, MeasuredRadii) else radii.relative_std()
-    units = [scene.packing.radius if "positions" in scene.ask.quantities else Fraction(1)]
+    packing, spread = scene.packing, radii.relative_std()
+    if isinstance(radii, MeasuredRadii):
+        spread = radii.least
+    if isinstance(radii, ArrayRadii) and not 1 / FARTHEST_UNIT <= packing.radius <= FARTHEST_UNIT:
+        return True
+    units = [packing.radius if "positions" in scene.ask.quantities else Fraction(1)]
     if scene.ask.quantities != ("positions",):
         units += [scene.load.magnitude]
         sizes = (max(map(abs, force)) for force in load.single.values())

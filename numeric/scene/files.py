@@ -4,11 +4,9 @@ import csv
 import math
 import re
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from fractions import Fraction
 from io import TextIOWrapper
 from pathlib import Path
-from typing import TextIO
 
 from ..arithmetic.decimals import parse, short
 from ..arithmetic.errors import ForceDiffusionError
@@ -20,7 +18,7 @@ from .sections import radii_array
 
 Bead = tuple[int, ...]
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)
-LONGEST_LINE = 20_000  # characters; a number has at most 5000
+LARGEST = 2**31  # bytes of a table; 10^8 beads
 MOST = 10**100  # of δr/r: gaps between beads are measured in float64, which holds their squares
 FARTHEST = 2**50  # r: beyond, float64 tells no beads apart
 
@@ -29,64 +27,42 @@ class TableError(ForceDiffusionError, ValueError):
     """A radii or loads file can't be used; the message names the file, line and bead."""
 
 
-@contextmanager
-def _named(key: str) -> Iterator[None]:
-    """Put the scene's key before what is wrong with its file."""
-    try:
-        yield
-    except TableError as error:
-        raise TableError(f"{key}: {error}") from None
-
-
 Row = tuple[str, list[str], list[str]]
 """Where it stands, the header that it stands under, and what it says."""
 
 
-def _rows(path: Path, *headers: list[str]) -> Iterator[Row]:
+def _rows(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
+    name = f"{key}: {path.name}"
     try:
-        with opened(path) as raw, TextIOWrapper(raw, encoding="utf-8-sig", newline="") as file:
-            reader = csv.reader(_lines(path, file), strict=True)
-            first = next(reader, None)
-            header = [name.strip() for name in first or ()]
+        with (
+            opened(path, LARGEST) as raw,
+            TextIOWrapper(raw, encoding="utf-8-sig", newline="") as file,
+        ):
+            reader = csv.reader(file, strict=True)
+            header = [column.strip() for column in next(reader, ())]
             if header not in headers:
                 allowed = " or ".join(map(",".join, headers))
-                raise TableError(f"{path.name}: the first line must be {allowed}")
-            for row in reader:
-                if not row:
-                    continue
-                where = f"{path.name}, line {reader.line_num}"
+                raise TableError(f"{name}: the first line must be {allowed}")
+            for row in filter(None, reader):
+                where = f"{name}, line {reader.line_num}"
                 if len(row) != len(header):
                     raise TableError(f"{where}: {len(row)} values where {len(header)} are expected")
                 yield where, header, row
     except ForeignFileError as error:
-        raise TableError(f"{path}: {error}") from None
+        raise TableError(f"{key}: {path}: {error}") from None
     except (UnicodeDecodeError, csv.Error) as error:
-        raise TableError(f"{path.name}: is no CSV text in UTF-8 ({error})") from None
-
-
-def _lines(path: Path, file: TextIO) -> Iterator[str]:
-    """Give the lines; one without end must not fill the memory."""
-    number = 0
-    while line := file.readline(LONGEST_LINE + 1):
-        number += 1
-        if len(line) > LONGEST_LINE:
-            raise TableError(
-                f"{path.name}, line {number}: a line has at most {LONGEST_LINE} characters"
-            )
-        yield line
+        raise TableError(f"{name}: is no CSV text in UTF-8 ({error})") from None
 
 
 def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Bead, list[Fraction]]:
     """Read a bead (i, j) or (p, q, j), and the numbers after it."""
-    count, coordinates = header.index("j") + 1, []
+    count = header.index("j") + 1
     for name, text in zip(header[:count], row, strict=False):
         if not _WHOLE.fullmatch(text.strip()):
             shown = text if len(text) <= 40 else text[:40] + "…"
-            raise TableError(
-                f"{where}: {name} = {shown!r} must be a whole number of at most 18 digits"
-            )
-        coordinates.append(int(text))
-    bead = tuple(coordinates)
+            allowed = "must be a whole number of at most 18 digits"
+            raise TableError(f"{where}: {name} = {shown!r} {allowed}")
+    bead = tuple(map(int, row[:count]))
     return bead, _numbers(f"{where}: bead {bead}", header[count:], row[count:])
 
 
@@ -141,7 +117,6 @@ def _site(where: str, bead: Bead, width: int | None, height: int) -> Site:
     return (columns[0], j) if len(columns) == 1 else site_of(bead, end)
 
 
-@_named("disorder.file")
 def read_radii(
     path: Path,
     *,
@@ -162,7 +137,7 @@ def read_radii(
     names = bead_names(dimension)
     headers = [[*names, "delta_r"], [*names, "r"]] + [["x", "y", "r"]] * (dimension == 2)
     bead: Bead
-    for where, header, row in _rows(path, *headers):
+    for where, header, row in _rows("disorder.file", path, *headers):
         if header[0] == "x":
             x, y, delta = _numbers(where, header, row)
             bead = _on_lattice(where, x, y, radius=radius, spacing=spacing, width=width)
@@ -186,39 +161,38 @@ def read_radii(
     if beads is not None and len(rho) < beads * (height + 1):
         every = ((i, j) for j in range(height + 1) for i in full_layer(j, beads).sites())
         bead = Naming(dimension, width).bead(next(one for one in every if one not in rho))
-        raise TableError(f"{path.name}: bead {bead} is missing")
+        raise TableError(f"disorder.file: {path.name}: bead {bead} is missing")
     if abs(mean := math.fsum(map(float, rho.values())) / max(len(rho), 1)) > 0.5:
         raise TableError(
-            f"{path.name}: the mean radius is {1 + mean:.3g} times packing.radius = "
+            f"disorder.file: {path.name}: the mean radius is {1 + mean:.3g} times packing.radius = "
             f"{short(radius)}: is it in another unit, or are radii listed as delta_r, not as r?"
         )
     return rho
 
 
-@_named("disorder.file")
 def read_array(path: Path, shape: tuple[int | None, ...]) -> Array:
     """Read radii from a NumPy file (.npy) of the packing's ``shape``, layer 0 first, as float64.
 
     Raises ``TableError``.
     """
+    name = f"disorder.file: {path.name}"
     if None in shape:
-        raise TableError(f"{path.name}: an array needs packing.width: a slab has no last column")
+        raise TableError(f"{name}: an array needs packing.width: a slab has no last column")
     try:
         values = read_numbers(path)
     except ForeignFileError as error:
-        raise TableError(f"{path}: {error}") from None
+        raise TableError(f"disorder.file: {path}: {error}") from None
     if values.shape != shape:
         raise TableError(
-            f"{path.name}: an array of shape {values.shape}; the packing has {shape[0]} layers, "
+            f"{name}: an array of shape {values.shape}; the packing has {shape[0]} layers, "
             f"base included, of {' × '.join(map(str, shape[1:]))} beads"
         )
     try:
         return radii_array(values)
     except ValueError as error:
-        raise TableError(f"{path.name}: {error}") from None
+        raise TableError(f"{name}: {error}") from None
 
 
-@_named("load.file")
 def read_loads(
     path: Path, *, magnitude: Fraction, width: int | None, height: int, dimension: int = 2
 ) -> dict[Site, tuple[Fraction, ...]]:
@@ -228,7 +202,7 @@ def read_loads(
     """
     loads: dict[Site, tuple[Fraction, ...]] = {}
     header = [*bead_names(dimension), *(f"f{axis}" for axis in axis_names(dimension))]
-    for where, _, row in _rows(path, header):
+    for where, _, row in _rows("load.file", path, header):
         bead, force = _parsed(where, header, row)
         site = _site(where, bead, width, height)
         if site in loads:

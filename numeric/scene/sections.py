@@ -6,7 +6,7 @@ that Python prints for it.
 
 import difflib
 import operator
-from collections.abc import Iterator
+import textwrap
 from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
@@ -28,10 +28,8 @@ class SceneError(ForceDiffusionError, ValueError):
 
     def __init__(self, key: str, value: object, allowed: str) -> None:
         """Say all three."""
-        shown = _shown(value)
-        super().__init__(
-            f"{key} = {shown}: {allowed}" if value is not None else f"{key}: {allowed}"
-        )
+        shown = "" if value is None else f" = {_shown(value)}"
+        super().__init__(f"{textwrap.shorten(key, 200, placeholder='…')}{shown}: {allowed}")
         self.key, self.value, self.allowed = key, value, allowed
 
 
@@ -103,9 +101,6 @@ else:
     Layers = Annotated[list[Whole], _listed]
 
 
-MOST = 10**40  # as long as numbers are shown in full
-
-
 class Section(BaseModel):
     """A section: unknown keys are errors, types are not converted, nothing changes afterwards.
 
@@ -124,23 +119,23 @@ class Section(BaseModel):
         except ValidationError as error:
             raise explained(error, type(self), values) from None
 
-    def __repr_args__(self) -> "Iterator[tuple[str | None, Any]]":
-        for name, value in super().__repr_args__():
-            yield name, _Shortly(value) if isinstance(value, Fraction) and _long(value) else value
-
-
-def _long(value: Fraction) -> bool:
-    return max(abs(value.numerator), value.denominator) > MOST
-
-
-class _Shortly:
-    """A number of thousands of digits, as ``repr`` shows it."""
-
-    def __init__(self, value: Fraction) -> None:
-        self.value = value
-
     def __repr__(self) -> str:
-        return short(self.value)
+        said = {name: getattr(self, name) for name in type(self).model_fields}
+        shown = [
+            f"{name}={_brief(value)}"
+            for name, value in said.items()
+            if name in self.model_fields_set and value is not None
+        ]
+        return f"{type(self).__name__}({', '.join(shown)})"
+
+
+def _brief(value: object) -> str:
+    """Show a value by at most 200 characters."""
+    if isinstance(value, Fraction):
+        return short(value)
+    if isinstance(value, np.ndarray):
+        return f"an array of shape {value.shape}"
+    return textwrap.shorten(repr(value), 200, placeholder="…")
 
 
 class Packing(Section):
@@ -178,15 +173,9 @@ class Disorder(Section):
 
     section = "disorder"
     kind: Literal["uniform", "normal", "two-point", "file"]
-    relative_std: Number | None = None
+    relative_std: Number | None = Field(default=None, ge=0)
     seed: Whole = Field(default=0, ge=0, lt=2**64)
     file: str | None = None
-
-    def __init__(self, /, **values: Any) -> None:
-        """Check also the sign of the deviation."""
-        super().__init__(**values)
-        if self.relative_std is not None and self.relative_std < 0:
-            raise SceneError("disorder.relative_std", self.relative_std, "must not be negative")
 
 
 def _refuse_infinite(values: Array) -> None:

@@ -1,18 +1,14 @@
 """The memory that a plan predicts holds for every question: measured in processes of their own."""
 
 import json
-import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
-from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
 
-from tests.numeric.scenes import basic, planned, scene
+from tests.numeric.scenes import basic, planned
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is in bytes of Linux")
 
@@ -90,41 +86,3 @@ def test_what_is_too_large_is_named(sizes: dict[str, int], key: str) -> None:
     sections["packing"]["allow_images"] = True
     with pytest.raises(SceneError, match=f"{key}: this scene would need about .* of memory"):
         planned(sections)
-
-
-FITTING: list[dict[str, Any]] = [
-    {"packing": {"height": 1999, "width": 2002}},
-    {"packing": {"height": 10, "width": 10**9}},
-    {"packing": {"height": 9_999_999, "width": 9, "allow_images": True}},
-    {"packing": {"height": 10, "width": 3000, "dimension": 3}},
-    {"packing": {"height": 9999}, "ask": {"quantity": "contact", "at": [0, 0, "+"]}},
-    {"ask": {"quantity": "contact_forces", "realisations": 10**8}},
-    {
-        "packing": {"height": 300, "width": 400},
-        "ask": {"quantity": "profile", "tolerance": "=1e-30"},
-    },
-]
-
-
-@pytest.mark.parametrize("changes", FITTING)
-@pytest.mark.parametrize("limit", [2 * 10**8, 4 * 10**8])
-def test_the_size_that_is_said_to_fit_does(changes: dict[str, Any], limit: int) -> None:
-    sections = {**basic(10, 12), **changes}
-    with pytest.raises(SceneError, match="may be used; ") as refused:
-        plan(scene(sections), memory_limit=limit)
-    section, key, value = re.findall(r"; (\w+)\.(\w+) = (\d+) would fit$", str(refused.value))[0]
-    fitting, larger = (
-        scene({**sections, section: sections[section] | {key: size}})
-        for size in (int(value), int(value) + max(int(value) // 4, 1))
-    )
-    assert plan(fitting, memory_limit=limit).memory <= limit
-    with pytest.raises(SceneError):
-        plan(larger, memory_limit=limit)
-
-
-def test_of_radii_of_a_file_no_other_size_is_named(tmp_path: Path) -> None:
-    np.save(tmp_path / "radii.npy", np.ones((101, 201)))
-    sections = basic(100, 201)
-    sections["disorder"] = {"kind": "file", "file": "radii.npy"}
-    with pytest.raises(SceneError, match=r"may be used$"):
-        plan(scene(sections, tmp_path), memory_limit=10**8)

@@ -94,7 +94,7 @@ def test_wrong_types_for_a_figure(wrong: dict[str, Any]) -> None:
 
 def test_a_huge_number_can_be_shown() -> None:
     assert "radius=1e+4999" in repr(fd.Packing(height=4, width=9, radius=10**4999))
-    assert "radius=Fraction(5, 2)" in repr(fd.Packing(height=4, width=9, radius=2.5))
+    assert "radius=2.5" in repr(fd.Packing(height=4, width=9, radius=2.5))
 
 
 def test_a_file_that_is_no_scene_is_named(tmp_path: Path, capsys: Any) -> None:

@@ -37,7 +37,7 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("packing", "hieght", 4, 'did you mean "height"'),
     ("disorder", "kind", "unifrom", 'did you mean "uniform"'),
     ("disorder", "kind", "gaussian", 'did you mean "normal"'),
-    ("disorder", "relative_std", "=-1e-3", "negative"),
+    ("disorder", "relative_std", "=-1e-3", "at least 0"),
     ("disorder", "relative_std", "=0.58", "radius ≤ 0"),
     ("disorder", "seed", -1, "at least 0"),
     ("disorder", "seed", 2**64, "less than"),
@@ -79,7 +79,7 @@ def test_errors_name_the_key_and_what_is_allowed(
         ("packing", "radius", "-0.0", "greater than 0"),
         ("packing", "height", "3e0", "whole number, written without point or exponent"),
         ("packing", "allow_images", "1.50", "boolean"),
-        ("disorder", "relative_std", "-1E-3", "negative"),
+        ("disorder", "relative_std", "-1E-3", "at least 0"),
         ("ask", "tolerance", "0", "between 0 and 1"),
         ("ask", "tolerance", "0.000", "between 0 and 1"),
         ("load", "at", '"+"', "a bead, [i, j]"),
@@ -101,7 +101,7 @@ def test_values_are_shown_as_they_were_written(
 
 
 def test_a_negative_spread_is_refused_at_once() -> None:
-    with pytest.raises(SceneError, match=r"^disorder.relative_std = -1: must not be negative$"):
+    with pytest.raises(SceneError, match=r"^disorder.relative_std = -1: must be at least 0$"):
         Disorder(kind="normal", relative_std=-1)
 
 
@@ -314,8 +314,6 @@ def test_endless_files_are_refused_at_once(tmp_path: Path) -> None:
         large.write_bytes(content)
         with pytest.raises(SceneError, match=says):
             read_scene(large)
-    with pytest.raises(TableError, match="line 2: a line has at most"):
-        planned(radii_file(tmp_path, "i,j,delta_r\n" + "0" * 100_000), tmp_path)
 
 
 keys = st.sampled_from(
