@@ -34,8 +34,8 @@ def neighbours(height: int) -> Iterator[At]:
 
 
 def pairs(height: int) -> Iterator[At]:
-    """A contact, and the one p places to its right."""
-    return ({**at, p: apart} for at in layers(height) for apart in range(-3, 4))
+    """A contact, and the one k places to its right."""
+    return ({**at, k: apart} for at in layers(height) for apart in range(-3, 4))
 
 
 def two_layers(height: int) -> Iterator[At]:
