@@ -17,9 +17,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.figures import style
 from matplotlib.figure import Figure
+from measuring import csv_text
 
 import force_diffusion as fd
 

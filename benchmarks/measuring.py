@@ -1,6 +1,8 @@
 """What benchmarks share: tasks that take turns, lines with targets, and the program around them."""
 
 import argparse
+import csv
+import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import median
@@ -80,3 +82,13 @@ def program(
             print(line, flush=True)
             missed += not line.met
     return 1 if missed else 0
+
+
+def csv_text(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Write rows as CSV, under the keys of the first."""
+    text = io.StringIO()
+    if rows:
+        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+    return text.getvalue()

@@ -19,14 +19,13 @@ from typing import Any
 
 import flint
 import numpy as np
-from force_diffusion.derivations.export.tables import csv_text
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, NumberSystem, from_floats
 from force_diffusion.numeric.figures import style
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
 from matplotlib.figure import Figure
-from measuring import in_turn
+from measuring import csv_text, in_turn
 
 import force_diffusion as fd
 

@@ -20,6 +20,8 @@ from .numeric.ensemble.store import read_store as read_store
 from .numeric.figures.catalogue import PaperFigure as PaperFigure
 from .numeric.figures.catalogue import figure as figure
 from .numeric.planning.plan import Plan as Plan
+from .numeric.run.cost import CostStudy as CostStudy
+from .numeric.run.cost import cost as cost
 from .numeric.run.outcome import Outcome as Outcome
 from .numeric.run.running import Scene as Scene
 from .numeric.run.running import read_scene as read_scene
@@ -36,5 +38,3 @@ from .numeric.scene.sections import Packing as Packing
 from .numeric.scene.sections import PointLoad as PointLoad
 from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
-from .numeric.studies.cost import cost as cost
-from .numeric.studies.table import CostStudy as CostStudy

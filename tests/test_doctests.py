@@ -21,7 +21,7 @@ LONG = {
         "derivations.api.derived",
         "derivations.api.equation",
         "numeric.figures.catalogue",
-        "numeric.studies.cost",
+        "numeric.run.cost",
     )
 }
 

@@ -32,7 +32,7 @@ COMMANDS = {
     "explain": ("scenes.explain", "Say what 'run' would do, and why."),
     "cost": (
         "scenes.cost",
-        "Measure what accuracy costs: every way to answer a scene, its error beside its time.",
+        "Measure what accuracy costs: error and seconds of one packing, in each arithmetic.",
     ),
     "ensemble": (
         "ensemble.ensemble",

@@ -16,12 +16,11 @@ from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 import force_diffusion as fd
 
 from ..export.answers import Format, files_of, names_of
-from ..export.tables import csv_text
 from .cli import command_line
 from .guard import about as named
-from .guard import in_range, say
+from .guard import in_range, say, tell
 from .output import Output, Overwrite, out_option
-from .shared import Json, Quiet, Written, checked, drawn, images, noticing, show, sourced, warn
+from .shared import Json, Quiet, Written, checked, drawn, images, show, sourced, warn
 from .sweep import Seed, Settings, name_of, variants
 
 if TYPE_CHECKING:
@@ -160,31 +159,40 @@ def _answer(
 
 def cost(
     scene: Annotated[Path, _scene("cost")],
+    seconds: Annotated[
+        float,
+        typer.Option(metavar="S", help="Time for all; what takes longer is estimated."),
+    ] = 20,
     out: Annotated[Path | None, out_option("the study as CSV, JSON and a plot")] = None,
     as_json: Json = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Measure what accuracy costs: every way to answer a scene, its error beside its time."""
+    """Measure what accuracy costs: error and seconds of one packing, in each arithmetic."""
+    from force_diffusion.numeric.run.cost import HEAD
     from force_diffusion.numeric.scene.scene import source_of
 
     command = command_line()
     folder = Output(out, ["cost.json", "cost.csv", *images("cost")], overwrite) if out else None
-    with named(scene.name), noticing() as notice:
+    head = iter([HEAD])
+
+    def say_row(way: object) -> None:
+        if not as_json:
+            say("\n".join([*head, str(way)]))
+
+    with named(scene.name):
         read = fd.read_scene(scene)
-        found = fd.cost(read, notice)
+        found = fd.cost(read, seconds, say_row)
     source = sourced(source_of(read), scene, None)
-    data = json.dumps({"command": command, "source": source, **found.data()}, indent=2)
+    data = {"command": command, "source": source, **found.data()}
     if folder:
-        title = printable(scene.stem)
-        plot = partial(found.plot, title)
-        folder.write(
-            {
-                "cost.json": data + "\n",
-                "cost.csv": csv_text([{**row, "command": command} for row in found.listed()]),
-                **drawn(plot, "cost", f"Cost of accuracy: {title}", command),
-            }
-        )
-    print(data if as_json else found)
+        title = f"Cost of accuracy: {printable(scene.stem)}"
+        plots = drawn(partial(found.plot, title), "cost", title, command)
+        text = json.dumps(data, indent=2) + "\n"
+        folder.write({"cost.json": text, "cost.csv": found.csv(command), **plots})
+    if as_json:
+        print(json.dumps(data, indent=2))
+    for name, why in found.skipped.items():
+        tell(f"{name}: {why}")
 
 
 def _solved(planned: "Plan", scene: Path, quiet: bool) -> "Outcome":

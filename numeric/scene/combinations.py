@@ -131,12 +131,6 @@ TABLE = (
         'has no figure: ask for "profile" or "histogram", or of discs for "contact_forces", '
         '"positions" or "response"',
     ),
-    Refusal(
-        "`cost`, spheres",
-        {"command": ("cost",), "dimension": _SPHERES},
-        "packing.dimension",
-        "must be 2: ways are compared for discs",
-    ),
 )
 _DRAWN = ("uniform", "normal", "two-point")
 _Beside = tuple[tuple[str, str, tuple[str, ...]], ...]
@@ -185,9 +179,9 @@ PLAIN: dict[str, Any] = {
 def refusal(**features: Any) -> Refusal | None:
     """Give the first row that refuses what has these features, the others being plain.
 
-    >>> refusal(command="cost", dimension=3).why
-    'must be 2: ways are compared for discs'
-    >>> refusal(command="ensemble", dimension=3) is None
+    >>> refusal(command="ensemble", tolerance=True).key
+    'ask.tolerance'
+    >>> refusal(command="cost", dimension=3) is None
     True
     """
     quantity = features.get("quantity", PLAIN["quantity"])

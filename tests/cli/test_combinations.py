@@ -194,7 +194,7 @@ def test_the_help_says_what_the_table_does(
     for quantity in QUANTITIES:
         assert (f'"{quantity}"' in shown) == (quantity in answered(command))
     limit = {
-        "cost": "not of spheres or contacts that open",
+        "cost": "not of contacts that open",
         "figures": 'of spheres for "profile" or "histogram"',
     }
     assert limit.get(command, "") in shown

@@ -127,10 +127,7 @@ def test_the_slab_is_advice_in_two_dimensions_alone(dimension: Any, ends: str) -
         )
 
 
-def test_studies_and_other_plots_refuse_three_dimensions() -> None:
-    asked = scene("profile", height=2, width=6)
-    with pytest.raises(fd.SceneError, match=r"packing.dimension = 3: must be 2"):
-        fd.cost(asked)
+def test_other_plots_refuse_three_dimensions() -> None:
     with pytest.raises(fd.SceneError, match='has no figure: ask for "profile" or "histogram"'):
         scene(height=2, width=6).run().plot()
 

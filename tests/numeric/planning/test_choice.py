@@ -11,10 +11,10 @@ from force_diffusion.numeric.arithmetic.systems import FLOAT64, midpoint
 from force_diffusion.numeric.planning import sources
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import in_balls
+from force_diffusion.numeric.quantities.answer import answer
 from force_diffusion.numeric.run import run
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene.sections import SceneError
-from force_diffusion.numeric.studies import distances
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -47,7 +47,8 @@ def reference(sections: dict[str, dict[str, Any]]) -> Outcome:
 
 def recounted(bins: list[dict[str, Any]], plan: Plan) -> list[int]:
     """Count the true changes into the printed bins; of realisations that are alike, all of them."""
-    table = distances.answer(plan, plan.system, range(plan.problem.realisations))
+    realisations = range(plan.problem.realisations)
+    table = answer(plan.quantities, plan.problem, realisations, plan.system).table
     values = [midpoint(value) for value in table.numbers["change"]]
     edges = [(Fraction(row["low"]), Fraction(row["high"])) for row in bins]
     alike = (plan.scene.ask.realisations or 1) // plan.problem.realisations

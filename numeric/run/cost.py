@@ -1,0 +1,340 @@
+"""What accuracy costs: seconds and error of one packing of a scene, in each arithmetic.
+
+Errors are relative to the largest |change| of the answer, and are distances from balls, which
+enclose it. What would take too long is extrapolated from fewer layers.
+"""
+
+import csv
+import io
+from collections.abc import Callable, Iterator
+from dataclasses import asdict, dataclass, replace
+from decimal import ROUND_CEILING, Context, Decimal
+from fractions import Fraction
+from functools import cached_property
+from time import process_time
+from typing import TYPE_CHECKING, Any
+
+import flint
+import numpy as np
+
+from .. import tables
+from ..accuracy import ToleranceError
+from ..arithmetic.errors import ForceDiffusionError, UndecidedError, printable
+from ..arithmetic.systems import Array, Balls, BigFloat, as_ball, largest_of
+from ..mechanics.problem import Route
+from ..mechanics.sweep import NotStandingError, UnbuildableError
+from ..planning.plan import Plan
+from ..planning.planner import plan
+from ..quantities.answer import answer
+from ..scene.scene import refuse
+from ..scene.sections import Ask, Disorder, Load, SceneError
+from .running import Scene, run
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+# Of balls the digits that they certify; of mpmath those of each number.
+DIGITS = {"float64": (16,), "balls": (15, 30, 100), "mpmath": (30,)}
+# The first packing that is timed has so many layers.
+FEW = 4
+# Runs that take less are repeated, and the quickest counts.
+SHORT, RUNS = 0.2, 3
+# Of a run in which the processor's clock did not tick.
+TICK = 1e-6
+FAILURES = (
+    UnbuildableError, NotStandingError, UndecidedError, ToleranceError, SceneError, ArithmeticError
+)  # fmt: skip
+MEASURED, CERTIFIED, STATED, ESTIMATED = "measured", "certified", "stated", "estimated"
+HEAD = f"{'way':<9}{'digits':>6}  {'error':<10}{'':<10}{'seconds':>10}  relative cost"
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way to the answer: an arithmetic, and its decimal digits.
+
+    ``error`` is relative to the largest |change|. It is "measured" (the distance from balls),
+    "certified" (the radius of balls), "stated" (of float64, where balls take too long) or
+    "estimated" (as is meant to be reached). ``seconds`` are those of the processor;
+    ``relative_cost`` is in units of those of float64. ``extrapolated``: seconds are extrapolated
+    from fewer layers.
+    """
+
+    way: str
+    digits: int
+    error: Decimal
+    error_is: str
+    seconds: float
+    relative_cost: float
+    extrapolated: bool
+
+    def __str__(self) -> str:
+        mark = f"  {ESTIMATED}" if self.extrapolated else ""
+        return (
+            f"{self.way:<9}{self.digits:>6}  {short(self.error):<10}{self.error_is:<10}"
+            f"{self.seconds:>10.3g}  {self.relative_cost:>13.3g}{mark}"
+        )
+
+
+@dataclass(frozen=True)
+class CostStudy:
+    """What each way to an answer costs; ``skipped`` are those that fail, and why."""
+
+    quantity: str
+    ways: tuple[Way, ...]
+    skipped: dict[str, str]
+
+    def rows(self) -> list[tables.Row]:
+        """One row a way, ready for a data frame; errors below 1e-323 read 0."""
+        return [tables.plain(asdict(way)) for way in self.ways]
+
+    @cached_property
+    def arrays(self) -> dict[str, Array]:
+        """The columns of ``rows``, each of shape (rows,)."""
+        return tables.columns_of(self.rows())
+
+    def data(self) -> dict[str, Any]:
+        """Give it as JSON can hold it; errors are decimal strings."""
+        rows = [
+            asdict(way)
+            | {"error": short(way.error)}
+            | {name: float(f"{getattr(way, name):.4g}") for name in ("seconds", "relative_cost")}
+            for way in self.ways
+        ]
+        relative = "the largest |change| of the answer"
+        return {
+            "quantity": self.quantity,
+            "errors_relative_to": relative,
+            "rows": rows,
+            "skipped": self.skipped,
+        }
+
+    def csv(self, command: str) -> str:
+        """Write the rows as CSV, each with the command that made them."""
+        rows = [row | {"command": command} for row in self.data()["rows"]]
+        text = io.StringIO()
+        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+        return text.getvalue()
+
+    def plot(self, title: str = "") -> "Figure":
+        """Draw error over time, both logarithmic; needs matplotlib (the extra ``plots``)."""
+        from ..figures.style import PAGE, HouseFigure, house_style
+
+        with house_style():
+            figure = HouseFigure(figsize=(PAGE, 3.4))
+            axes = figure.subplots()
+            for name, marker in zip(DIGITS, "os^", strict=True):
+                ways = [way for way in self.ways if way.way == name]
+                seconds, errors = [w.seconds for w in ways], [float(w.error) for w in ways]
+                (line,) = axes.loglog(seconds, errors, ":", label=name)
+                for way in ways:
+                    face = "none" if way.extrapolated else line.get_color()
+                    at, color = (way.seconds, float(way.error)), line.get_color()
+                    axes.plot(*at, marker, color=color, markerfacecolor=face)
+                    axes.annotate(f" {way.digits} digits", at, va="bottom")
+            axes.set_xlabel("seconds of the processor (hollow: estimated from fewer layers)")
+            axes.set_ylabel("error / largest |change|")
+            axes.set_title(printable(title or self.quantity).replace("$", r"\$"))
+            axes.margins(x=0.15)
+            axes.legend()
+            figure.tight_layout()
+        return figure
+
+    def __str__(self) -> str:
+        """Give the table."""
+        failed = [f"{name}: {why}" for name, why in self.skipped.items()]
+        return "\n".join([HEAD, *map(str, self.ways), *failed])
+
+    def _repr_html_(self) -> str:
+        """Show the table in a notebook."""
+        return tables.html_table(self.data()["rows"], [])
+
+
+def cost(
+    scene: Scene, seconds: float = 20, progress: Callable[[Way], None] = lambda way: None
+) -> CostStudy:
+    """Measure what accuracy costs: error and seconds of one packing, in each arithmetic.
+
+    These are float64, balls that certify 15, 30 and 100 digits, and mpmath. All of it takes about
+    so many ``seconds``; what would take longer is extrapolated from fewer layers. ``progress`` is
+    called with each way as soon as it is known. Raises ``SceneError`` where nothing changes, and
+    what is raised where a packing can't be built.
+
+    >>> import force_diffusion as fd
+    >>> scene = fd.Scene(
+    ...     packing=fd.Packing(height=3, width=6),
+    ...     disorder=fd.Disorder(kind="uniform", relative_std=1e-6, seed=1),
+    ...     ask=fd.Ask(quantity="contact_forces"),
+    ... )
+    >>> for way in fd.cost(scene).ways:
+    ...     print(way.way, way.digits, way.error < 10 ** (2 - way.digits), way.error_is)
+    float64 16 True measured
+    balls 15 True certified
+    balls 30 True certified
+    balls 100 True certified
+    mpmath 30 True measured
+    """
+    if not isinstance(scene, Scene):
+        raise TypeError(
+            f"cost takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
+        )
+    refuse("cost", scene)
+    if not 0 < seconds < 1e9:
+        raise SceneError("seconds", seconds, "must be a positive number")
+    ask = scene.ask.model_copy(update={"realisations": 1, "tolerance": None, "certified": False})
+    study = _Study(scene.model_copy(update={"ask": ask}), process_time() + seconds)
+    ways = []
+    for way in study.ways():
+        ways.append(way)
+        progress(way)
+    if not ways:
+        raise next(iter(study.failures.values()))
+    skipped = {name: str(error) for name, error in study.failures.items()}
+    return CostStudy(str(scene.ask.quantity), tuple(ways), skipped)
+
+
+@dataclass(frozen=True)
+class _Timed:
+    """A run: its seconds, and what was found, None where it was one of fewer layers."""
+
+    seconds: float
+    numbers: Array | None
+    stated: float
+
+
+class _Study:
+    """One packing in each arithmetic, until the processor's time ``end``."""
+
+    def __init__(self, scene: Scene, end: float) -> None:
+        self.scene, self.end = scene, end
+        self.plan = plan(scene, Fraction(1, 10), certified=True)
+        self.failures: dict[str, ForceDiffusionError | ArithmeticError] = {}
+        self.true: tuple[Array, Balls] | None = None
+        if self.plan.problem.route == Route.ORDERED:
+            self._refuse_zero()
+
+    def _refuse_zero(self) -> None:
+        why = "every change is exactly zero here: there is nothing that errors could be relative to"
+        raise SceneError("ask.quantity", self.scene.ask.quantity, why)
+
+    def ways(self) -> Iterator[Way]:
+        """Give each way, that of float64 as soon as balls tell its error."""
+        every = [(name, digits) for name, all_ in DIGITS.items() for digits in all_]
+        waiting: list[tuple[str, int, _Timed]] = []
+        unit = None
+        for place, (name, digits) in enumerate(every):
+            allowed = max(self.end - process_time(), 0) / (len(every) - place)
+            try:
+                timed = self._timed(name, digits, allowed)
+            except FAILURES as error:
+                self.failures[f"{name}, {digits} digits"] = error
+                continue
+            unit = timed.seconds if unit is None else unit
+            waiting.append((name, digits, timed))
+            if self.true is not None or name == "mpmath":
+                yield from (self._way(*one, unit) for one in waiting)
+                waiting = []
+        yield from (self._way(*one, unit or 1) for one in waiting)
+
+    def _way(self, name: str, digits: int, timed: _Timed, unit: float) -> Way:
+        error, kind = Decimal(10) ** -digits, ESTIMATED
+        if timed.numbers is not None and name == "balls":
+            error, kind = self._error(timed.numbers), CERTIFIED
+        elif timed.numbers is not None and self.true is not None:
+            error, kind = self._error(timed.numbers), MEASURED
+        elif timed.numbers is not None and name == "float64":
+            error, kind = Decimal(timed.stated), STATED
+        relative = timed.seconds / unit
+        return Way(name, digits, error, kind, timed.seconds, relative, timed.numbers is None)
+
+    def _error(self, found: Array) -> Decimal:
+        """Bound the largest distance from balls, over the largest number; of balls, their radius.
+
+        Raises ``SceneError`` where all of them are zero.
+        """
+        assert self.true is not None
+        true, system = self.true
+        with system.active():
+            largest = largest_of(ball.abs_lower() for ball in true)
+            if not largest > 0:
+                self._refuse_zero()
+            if isinstance(found[0], flint.arb):
+                off = largest_of(ball.rad() for ball in found)
+            else:
+                pairs = zip(found, true, strict=True)
+                off = largest_of((as_ball(one) - ball).abs_upper() for one, ball in pairs)
+            return _decimal(off / largest)
+
+    def _timed(self, name: str, digits: int, allowed: float) -> _Timed:
+        """Run a packing of more and more layers, and the whole one if it takes what is allowed."""
+        height, beads = self.scene.packing.height, self.plan.problem.region.beads
+        layers = FEW
+        while layers < height:
+            small = _planned(_smaller(self.plan, layers), name, digits)
+            found = _run(small, name, digits)
+            whole = found.seconds * beads / small.problem.region.beads
+            if whole <= allowed:
+                break
+            if 4 * found.seconds > allowed:
+                return replace(found, seconds=whole, numbers=None)
+            layers *= 2
+        found = _run(_planned(self.scene, name, digits), name, digits)
+        if name == "balls":
+            assert found.numbers is not None
+            self.true = found.numbers, Balls(4 * digits + 200)
+        return found
+
+
+def _planned(scene: Scene, name: str, digits: int) -> Plan:
+    if name == "float64":
+        return plan(scene)
+    return plan(scene, Fraction(1, 10**digits), certified=True)
+
+
+def _run(planned: Plan, name: str, digits: int) -> _Timed:
+    """Time some runs, the first of which may load what the others need."""
+    spent: list[float] = []
+    while not spent or (len(spent) < RUNS and sum(spent) < SHORT):
+        start = process_time()
+        if name == "mpmath":
+            table = answer(planned.quantities, planned.problem, [0], BigFloat(digits)).table
+            stated = 0.0
+        else:
+            found = run(planned)
+            table, stated = found.table, float(found.accuracy.error_bound)
+        spent.append(max(process_time() - start, TICK))
+    numbers = np.concatenate([table.numbers[column] for column in table.small])
+    return _Timed(min(spent), numbers, stated)
+
+
+def _smaller(whole: Plan, layers: int) -> Scene:
+    """Give a scene of fewer layers, whose beads take as long, whatever their radii and load are."""
+    scene = whole.scene
+    ask = Ask(quantity="positions" if scene.ask.quantity == "positions" else "contact_forces")
+    if scene.packing.width is None:
+        ask = Ask(quantity="contact", at=(0, 0, "+"))
+    std = whole.problem.radii.relative_std()
+    return Scene(
+        packing=scene.packing.model_copy(update={"height": layers, "allow_images": True}),
+        disorder=Disorder(kind="uniform", relative_std=std),
+        load=Load(angle_deg=scene.load.angle_deg),
+        effects=scene.effects,
+        ask=ask,
+    )
+
+
+def _decimal(value: Any) -> Decimal:
+    """Round an arb up; a Decimal's exponent has no end where a float's has."""
+    up = Decimal(value.upper().str(20, radius=False)) * (1 + Decimal("1e-18"))
+    return Context(prec=5, rounding=ROUND_CEILING).create_decimal(up)
+
+
+def short(value: Decimal) -> str:
+    """Print an error to three digits, rounded up.
+
+    >>> short(Decimal("1.23456E-337")), short(Decimal(0))
+    ('1.24e-337', '0')
+    """
+    up = Context(prec=3, rounding=ROUND_CEILING).create_decimal(value)
+    return f"{up:.2e}" if value else "0"

@@ -1,1 +1,0 @@
-"""What accuracy costs: every way to answer a scene, its error beside its time."""

@@ -1,0 +1,209 @@
+"""What accuracy costs: what the rows say; nothing here depends on how long anything takes."""
+
+import json
+from decimal import Decimal
+from fractions import Fraction
+from typing import Any
+
+import flint
+import pytest
+from force_diffusion.numeric.accuracy import ToleranceError
+from force_diffusion.numeric.arithmetic.systems import midpoint
+from force_diffusion.numeric.mechanics.sweep import UnbuildableError
+from force_diffusion.numeric.run import cost as module
+from force_diffusion.numeric.run.cost import CostStudy, Way, short
+from force_diffusion.numeric.scene.sections import SceneError
+
+import force_diffusion as fd
+from tests.numeric.scenes import basic, scene
+
+EVERY = [("float64", 16), ("balls", 15), ("balls", 30), ("balls", 100), ("mpmath", 30)]
+
+
+@pytest.fixture(autouse=True)
+def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(module, "SHORT", 0)
+
+
+def names(found: CostStudy) -> list[tuple[str, int]]:
+    return [(way.way, way.digits) for way in found.ways]
+
+
+SCENES: dict[str, dict[str, dict[str, Any]]] = {
+    "contacts": basic(5, 12),
+    "images": basic(7, 3) | {"packing": {"height": 7, "width": 3, "allow_images": True}},
+    "profile": basic(5, 12, quantity="profile", realisations=8),
+    "histogram": basic(5, 12, quantity="histogram", tolerance="=1e-20"),
+    "positions": basic(5, 12, quantity="positions"),
+    "first order": basic(5, 12) | {"effects": {"geometry": "first-order"}},
+    "point load": basic(5, 12) | {"load": {"kind": "point", "at": [1, 5]}},
+    "slab": basic(5, 12, quantity="contact", at=[1, 1, "-"]) | {"packing": {"height": 6}},
+    "spheres": basic(3, 5) | {"packing": {"height": 3, "width": 5, "dimension": 3}},
+}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_errors_are_those_of_the_digits(name: str) -> None:
+    asked = scene(SCENES[name])
+    found = fd.cost(asked)
+    assert names(found) == EVERY
+    assert not found.skipped
+    for way in found.ways:
+        assert 0 < way.error < Decimal(10) ** (2 - way.digits)
+        assert way.error_is == ("certified" if way.way == "balls" else "measured")
+        assert not way.extrapolated
+        assert way.seconds > 0
+        assert way.relative_cost == pytest.approx(way.seconds / found.ways[0].seconds)
+        assert max(map(len, str(way).splitlines())) <= 80
+
+
+def test_the_error_of_float64_is_that_of_its_numbers() -> None:
+    """Beside 100 digits; balls of the row's reference are closer than its last digit."""
+    asked = scene(basic(5, 12))
+    true = asked.run(Fraction(1, 10**100), certified=True)
+    near = asked.run()
+    exact = [midpoint(ball) for ball in true.table.numbers["change"]]
+    rounded = map(float, near.arrays["change"])
+    off = max(abs(Fraction(a) - b) for a, b in zip(rounded, exact, strict=True))
+    meant = float(off / max(map(abs, exact)))
+    assert float(fd.cost(asked).ways[0].error) == pytest.approx(meant, rel=1e-3)
+
+
+@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "profile"])
+@pytest.mark.parametrize("spheres", [False, True])
+def test_what_takes_too_long_is_extrapolated(quantity: str, spheres: bool) -> None:
+    sections = basic(40, 10, quantity=quantity)
+    sections["packing"] |= {"allow_images": True} | ({"dimension": 3} if spheres else {})
+    found = fd.cost(scene(sections), seconds=1e-6)
+    assert names(found) == EVERY
+    for way in found.ways:
+        assert way.extrapolated
+        assert way.error_is == "estimated"
+        assert way.error == Decimal(10) ** -way.digits
+        assert "estimated" in str(way)
+        assert len(str(way)) <= 80
+
+
+def test_extrapolated_seconds_are_those_of_the_beads(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = scene(basic(40, 12) | {"packing": {"height": 40, "width": 12, "allow_images": True}})
+    layers: list[int] = []
+
+    def timed(planned: Any, name: str, digits: int) -> module._Timed:
+        layers.append(planned.problem.height)
+        beads = planned.problem.region.beads
+        numbers = module.np.array([flint.arb(1)])
+        return module._Timed(1e-3 * beads, numbers, 0.0)
+
+    monkeypatch.setattr(module, "_run", timed)
+    found = fd.cost(asked, seconds=0.4)
+    assert [way.extrapolated for way in found.ways] == [True] * 5
+    assert [way.seconds for way in found.ways] == pytest.approx([0.001 * 12 * 41] * 5)
+    assert set(layers) == {4, 8}  # 16 would take more than its share
+    layers.clear()
+    found = fd.cost(asked, seconds=3)
+    assert not any(way.extrapolated for way in found.ways)
+    assert set(layers) == {4, 40}
+
+
+def test_where_balls_take_too_long_the_error_of_float64_is_stated(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    taken = module._Study._timed
+
+    def slow_balls(study: Any, name: str, digits: int, allowed: float) -> Any:
+        return taken(study, name, digits, 100 if name == "float64" else 0)
+
+    monkeypatch.setattr(module._Study, "_timed", slow_balls)
+    asked = scene(basic(6, 14))
+    found = fd.cost(asked)
+    assert [way.error_is for way in found.ways] == ["stated", *["estimated"] * 4]
+    assert float(found.ways[0].error) == asked.run().accuracy.error_bound
+
+
+def test_what_fails_is_told_and_the_others_are_measured(monkeypatch: pytest.MonkeyPatch) -> None:
+    run = module._run
+
+    def failing(planned: Any, name: str, digits: int) -> Any:
+        if name == "float64" or digits == 100:
+            raise ToleranceError("no luck")
+        return run(planned, name, digits)
+
+    monkeypatch.setattr(module, "_run", failing)
+    found = fd.cost(scene(basic(3, 8)))
+    assert names(found) == [EVERY[1], EVERY[2], EVERY[4]]
+    assert found.skipped == {"float64, 16 digits": "no luck", "balls, 100 digits": "no luck"}
+    assert found.ways[0].relative_cost == 1
+    assert "no luck" in str(found)
+
+
+def test_rows_come_as_they_are_known() -> None:
+    seen: list[Way] = []
+    found = fd.cost(scene(basic(3, 8)), progress=seen.append)
+    assert tuple(seen) == found.ways
+
+
+@pytest.mark.parametrize("change", [{"disorder": {}}, {"effects": {"geometry": "ordered"}}])
+def test_without_any_change_there_is_nothing_to_measure(change: dict[str, Any]) -> None:
+    sections = {k: v for k, v in (basic() | change).items() if v}
+    with pytest.raises(SceneError, match="exactly zero"):
+        fd.cost(scene(sections))
+
+
+def test_a_contact_that_no_load_reaches() -> None:
+    sections = basic(5, 20, quantity="contact", at=[21, 1, "+"])
+    with pytest.raises(SceneError, match="exactly zero"):
+        fd.cost(scene(sections | {"load": {"kind": "point", "at": [1, 3]}}))
+
+
+def test_a_packing_that_can_not_be_built() -> None:
+    sections = basic(5, 12)
+    sections["disorder"] = {"kind": "normal", "relative_std": "=0.5", "seed": 1}
+    with pytest.raises(UnbuildableError):
+        fd.cost(scene(sections))
+
+
+@pytest.mark.parametrize("seconds", [0, -1, float("nan"), float("inf")])
+def test_a_time_that_is_none(seconds: float) -> None:
+    with pytest.raises(SceneError, match=r"seconds = .*positive"):
+        fd.cost(scene(basic()), seconds)
+
+
+def test_disorder_that_float64_can_not_hold() -> None:
+    sections = basic(3, 8)
+    sections["disorder"] |= {"relative_std": "=1e-400"}
+    found = fd.cost(scene(sections))
+    assert names(found) == EVERY[1:]
+    assert "1e-300" in found.skipped["float64, 16 digits"]
+
+
+@pytest.mark.parametrize("std", ["1e-200", "1e-5"])
+def test_rows_data_and_arrays_say_the_same(std: str) -> None:
+    sections = basic(3, 8)
+    sections["disorder"] |= {"relative_std": f"={std}"}
+    found = fd.cost(scene(sections))
+    data = json.loads(json.dumps(found.data()))
+    assert len(data["rows"]) == len(found.rows()) == len(found.ways)
+    for way, row, printed in zip(found.ways, found.rows(), data["rows"], strict=True):
+        assert list(row) == list(printed)
+        assert printed["error"] == short(way.error)
+        assert Decimal(printed["error"]) >= way.error
+        assert printed["seconds"] == pytest.approx(way.seconds, rel=1e-3)
+    assert found.arrays["seconds"].tolist() == [way.seconds for way in found.ways]
+    assert found._repr_html_().count("<tr>") == 1 + len(found.ways)
+    assert len(str(found).splitlines()) == 1 + len(found.ways) + len(found.skipped)
+
+
+def test_the_plot_shows_every_way() -> None:
+    pytest.importorskip("matplotlib")
+    ways = (
+        Way("float64", 16, Decimal("1e-16"), "measured", 0.01, 1, False),
+        Way("balls", 100, Decimal("1e-100"), "estimated", 50, 5000, True),
+    )
+    figure = CostStudy("profile", ways, {}).plot("$name")
+    (axes,) = figure.axes
+    low, high = axes.get_ylim()
+    assert low < 1e-100
+    assert high > 1e-16
+    assert [text.get_text() for text in axes.texts] == [" 16 digits", " 100 digits"]
+    assert axes.get_title() == r"\$name"
+    figure.canvas.draw()
