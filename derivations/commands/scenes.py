@@ -4,7 +4,6 @@ import json
 import sys
 from collections.abc import Callable
 from contextlib import AbstractContextManager, ExitStack, nullcontext
-from functools import partial
 from pathlib import Path
 from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
@@ -159,10 +158,7 @@ def _answer(
 
 def cost(
     scene: Annotated[Path, _scene("cost")],
-    seconds: Annotated[
-        float,
-        typer.Option(metavar="S", help="Time for all; what takes longer is estimated."),
-    ] = 20,
+    seconds: Annotated[float, typer.Option(help="Time for all; longer ways are estimated.")] = 20,
     out: Annotated[Path | None, out_option("the study as CSV, JSON and a plot")] = None,
     as_json: Json = False,
     overwrite: Overwrite = False,
@@ -186,7 +182,7 @@ def cost(
     data = {"command": command, "source": source, **found.data()}
     if folder:
         title = f"Cost of accuracy: {printable(scene.stem)}"
-        plots = drawn(partial(found.plot, title), "cost", title, command)
+        plots = drawn(lambda: found.plot(title), "cost", title, command)
         text = json.dumps(data, indent=2) + "\n"
         folder.write({"cost.json": text, "cost.csv": found.csv(command), **plots})
     if as_json:
