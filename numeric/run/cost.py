@@ -138,7 +138,6 @@ class CostStudy:
             axes.set_title(printable(title or self.quantity).replace("$", r"\$"))
             axes.margins(x=0.15)
             axes.legend()
-            figure.tight_layout()
         return figure
 
     def __str__(self) -> str:
