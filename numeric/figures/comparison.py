@@ -17,20 +17,8 @@ from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..planning.plan import Plan
 from ..theory.expected import critical_height
-from .packings import (
-    LEVEL,
-    PAPER,
-    Comparison,
-    Made,
-    Medium,
-    Notice,
-    Options,
-    band_of_spread,
-    compared,
-    moments,
-    planned,
-    table,
-)
+from . import packings
+from .packings import LEVEL, PAPER, Comparison, Made, Medium, Notice, Options
 from .q_model import weight_variance
 from .style import COLUMN, GREY, PAGE, RELATIVE_HEIGHT, panels, points
 
@@ -43,12 +31,12 @@ def averages(
 ) -> tuple[Array, Array]:
     """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
     ensemble = _ensemble(M, len(realisations), seed, medium)
-    return moments(ensemble, notice, f"figure 3, M = {M}", realisations.start)
+    return packings.moments(ensemble, notice, f"figure 3, M = {M}", realisations.start)
 
 
 def _ensemble(M: int, realisations: int, seed: int, medium: Medium) -> Plan:
     """Plan packings of W = 2M: then no exact force sees an image."""
-    return planned(
+    return packings.planned(
         "profile", height=M, seed=seed, realisations=realisations, std=medium.std,
         spacing=medium.spacing,
     )  # fmt: skip
@@ -66,9 +54,8 @@ def simulated(M: int, o: Options) -> Comparison:
     """Simulate one height."""
     start, medium = M << 32, o.medium()  # heights share no radii
     found = averages(M, range(start, start + o.realisations), o.seed, o.notice, medium)
-    return Comparison(
-        f"M = {M}: exact finite-M curve", band_of_spread(*found, o.seed), curves(M, medium)[0]
-    )
+    band, (exact, _) = packings.band_of_spread(*found, o.seed), curves(M, medium)
+    return Comparison(f"M = {M}: exact finite-M curve", band, exact)
 
 
 def figure(o: Options) -> Made:
@@ -88,15 +75,15 @@ def figure(o: Options) -> Made:
     layers = [
         (M, j, j / M, printed) for M in o.heights for j, printed in enumerate(curves(M, medium)[1])
     ]
-    made = compared(
-        drawn, "figure3", o, found, table("height j z printed", layers),
+    made = packings.compared(
+        drawn, "figure3", o, found, packings.table("height j z printed", layers),
         spacing_over_r=float(medium.spacing), relative_std=medium.std, critical_height=critical,
     )  # fmt: skip
     if not q_model:
         return made
     _draw_q_model(axes[2], o.heights)
     loads = [(M, *row) for M in o.heights for row in enumerate(weight_variance(M).tolist())]
-    own = {"figure3_q_model": table("height depth weight_variance", loads)}
+    own = {"figure3_q_model": packings.table("height depth weight_variance", loads)}
     return Made(drawn, {**made.tables, **own}, made.facts, made.lines)
 
 

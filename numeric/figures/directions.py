@@ -11,18 +11,8 @@ import numpy as np
 
 from .. import closed_forms
 from ..scene.sections import SurfaceLoad
-from .packings import (
-    N_X,
-    PAPER_STD,
-    PHI,
-    Comparison,
-    Made,
-    Options,
-    band_of_spread,
-    compared,
-    moments,
-    planned,
-)
+from . import packings
+from .packings import N_X, PAPER_STD, PHI, Comparison, Made, Options
 from .style import COLUMN, panels, points
 
 HEIGHT = 24
@@ -51,18 +41,18 @@ def simulated(o: Options) -> Comparison:
     """Simulate all angles, each on radii of its own: f⁺ at all of them, then f⁻."""
     found = []
     for place, angle in enumerate(ANGLES):
-        ensemble = planned(
+        ensemble = packings.planned(
             "profile", height=HEIGHT, seed=o.seed, realisations=o.realisations,
             load=SurfaceLoad(angle_deg=Fraction(angle)),
         )  # fmt: skip
         what = f"figure B2, {angle} degrees"
-        found.append(moments(ensemble, o.notice, what, place << 32, axes=(0, 3)))
+        found.append(packings.moments(ensemble, o.notice, what, place << 32, axes=(0, 3)))
     mean, square = (
         np.stack(parts, axis=2).reshape(o.realisations, -1) for parts in zip(*found, strict=True)
     )
     exact = np.array([theory(angle) for angle in ANGLES]).T.ravel()
     what = f"M = {HEIGHT}, {len(ANGLES)} angles, both branches: Eq. B2"
-    return Comparison(what, band_of_spread(mean, square, o.seed), exact)
+    return Comparison(what, packings.band_of_spread(mean, square, o.seed), exact)
 
 
 def figure(o: Options) -> Made:
@@ -88,4 +78,6 @@ def figure(o: Options) -> Made:
         "branch": [*"+" * count, *"-" * count],
         "t": [ratio(angle) for angle in (*ANGLES, *ANGLES)],
     }
-    return compared(drawn, "figureB2", o, [found], rows, height=HEIGHT, relative_std=PAPER_STD)
+    return packings.compared(
+        drawn, "figureB2", o, [found], rows, height=HEIGHT, relative_std=PAPER_STD
+    )

@@ -12,17 +12,8 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
-from .packings import (
-    Comparison,
-    Made,
-    Medium,
-    Options,
-    band_of_shift,
-    compared,
-    moments,
-    planned,
-    table,
-)
+from . import packings
+from .packings import Comparison, Made, Medium, Options
 from .style import GREY, PAGE, RELATIVE_HEIGHT, curve, panels, points
 
 HEIGHT = 12
@@ -62,13 +53,13 @@ def simulated(o: Options, load: str, spacing: Fraction) -> Comparison:
     where = f"{load} load, s = {float(spacing):g} r"
 
     def changed(geometry: str) -> Array:
-        ensemble = planned(
+        ensemble = packings.planned(
             "profile", height=HEIGHT, seed=o.seed, std=STD,
             realisations=o.realisations, geometry=geometry, spacing=spacing, load=loaded(),
         )  # fmt: skip
-        return moments(ensemble, o.notice, f"figure B5, {where}, {geometry}")[0]
+        return packings.moments(ensemble, o.notice, f"figure B5, {where}, {geometry}")[0]
 
-    found = band_of_shift(changed, STD**2, o.seed)
+    found = packings.band_of_shift(changed, STD**2, o.seed)
     return Comparison(f"{where}: Eq. {number}", found, theory(load, HEIGHT, spacing))
 
 
@@ -91,5 +82,5 @@ def figure(o: Options) -> Made:
     shift = r"$(\langle f\rangle/f_{0}-1)\,/\,[M(\sigma_{\delta r}/r)^2]$"
     axes[0].set_ylabel(shift)
     layers = [(load, float(s), cosine(s), j) for load, s in CASES for j in range(HEIGHT)]
-    rows = table("load spacing phi j", layers)
-    return compared(drawn, "figureB5", o, found, rows, height=HEIGHT, relative_std=STD)
+    rows = packings.table("load spacing phi j", layers)
+    return packings.compared(drawn, "figureB5", o, found, rows, height=HEIGHT, relative_std=STD)

@@ -11,18 +11,9 @@ import numpy as np
 from ..arithmetic.systems import Array
 from ..mechanics.problem import Solved
 from ..scene.sections import PointLoad
+from . import packings
 from .mean_forces import STD, cosine
-from .packings import (
-    Comparison,
-    Made,
-    Options,
-    band_of_shift,
-    compared,
-    forces_of,
-    gathered,
-    planned,
-    table,
-)
+from .packings import Comparison, Made, Options
 from .style import COLUMN, GREY, curve, panels, points
 
 APEX, LAYER = 8, 2
@@ -47,7 +38,7 @@ def theory(spacing: Fraction) -> Array:
 
 def beside(answer: Solved, number: int) -> tuple[Array]:
     """Changes of f⁺ inside of the cone, averaged with their mirror images; (number, l − j − 1)."""
-    change = forces_of(answer).change
+    change = packings.forces_of(answer).change
     # row m holds what lies below the beads of layer m: l − m + 1 of them, from the left
     plus, minus = (side[LAYER + 1].reshape(number, -1) for side in (change.plus, change.minus))
     return (np.asarray((plus[:, 1:] + minus[:, ::-1][:, 1:]) / 2),)
@@ -58,14 +49,14 @@ def simulated(o: Options, spacing: Fraction) -> Comparison:
     where, ordered = f"s = {float(spacing):g} r", 1 / (2 * np.sqrt((1 + cosine(spacing)) / 2))
 
     def changed(geometry: str) -> Array:
-        ensemble = planned(
+        ensemble = packings.planned(
             "response", height=APEX, width=None, seed=o.seed, std=STD, geometry=geometry,
             load=PointLoad(at=(0, APEX)), realisations=o.realisations, spacing=spacing,
         )  # fmt: skip
         what = f"figure B9, {where}, {geometry}"
-        return gathered(ensemble, o.notice, what, beside)[0]
+        return packings.gathered(ensemble, o.notice, what, beside)[0]
 
-    found = band_of_shift(changed, ordered * STD**2, o.seed)
+    found = packings.band_of_shift(changed, ordered * STD**2, o.seed)
     return Comparison(f"{where}: Eq. B9", found, theory(spacing))
 
 
@@ -86,5 +77,7 @@ def figure(o: Options) -> Made:
     axes.set_ylabel(mean)
     axes.legend(loc="upper center")
     places = [(float(s), cosine(s), int(offset)) for s in SPACINGS for offset in OFFSETS]
-    rows = table("spacing phi offset", places)
-    return compared(drawn, "figureB9", o, found, rows, apex=APEX, layer=LAYER, relative_std=STD)
+    rows = packings.table("spacing phi offset", places)
+    return packings.compared(
+        drawn, "figureB9", o, found, rows, apex=APEX, layer=LAYER, relative_std=STD
+    )

@@ -11,19 +11,8 @@ from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
 from ..mechanics.problem import Solved
-from .packings import (
-    PAPER,
-    PAPER_STD,
-    PHI,
-    Comparison,
-    Made,
-    Options,
-    band_of_roots,
-    compared,
-    gathered,
-    planned,
-    table,
-)
+from . import packings
+from .packings import PAPER, PAPER_STD, PHI, Comparison, Made, Options
 from .style import COLUMN, GREY, label_logarithmic, panels, points
 
 HEIGHT, LAYER = 32, 16
@@ -67,11 +56,11 @@ def window_means(answer: Solved, number: int) -> tuple[Array]:
 
 def simulated(o: Options) -> Comparison:
     """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
-    ensemble = planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
-    (square,) = gathered(ensemble, o.notice, "figure B7", window_means)
+    ensemble = packings.planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
+    (square,) = packings.gathered(ensemble, o.notice, "figure B7", window_means)
     exact = [form(N) for form in (contacts, beads) for N in WINDOWS]
     what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
-    return Comparison(what, band_of_roots(square, o.seed), np.sqrt(exact))
+    return Comparison(what, packings.band_of_roots(square, o.seed), np.sqrt(exact))
 
 
 def figure(o: Options) -> Made:
@@ -90,7 +79,7 @@ def figure(o: Options) -> Made:
     label_logarithmic(axes.xaxis)
     label_logarithmic(axes.yaxis)
     axes.legend(loc="lower left")
-    rows = table("of N", [(of, N) for of in ("contacts", "beads") for N in WINDOWS])
-    return compared(
+    rows = packings.table("of N", [(of, N) for of in ("contacts", "beads") for N in WINDOWS])
+    return packings.compared(
         drawn, "figureB7", o, [found], rows, height=HEIGHT, layer=LAYER, relative_std=PAPER_STD
     )

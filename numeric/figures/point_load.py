@@ -20,20 +20,9 @@ from ..mechanics.problem import Solved
 from ..planning.plan import Plan
 from ..quantities import response as quantities
 from ..scene.sections import PointLoad
-from . import double_y
+from . import double_y, packings
 from .beads import draw_cone
-from .packings import (
-    LEVEL,
-    Comparison,
-    Made,
-    Medium,
-    Options,
-    Table,
-    band_of_roots,
-    compared,
-    gathered,
-    planned,
-)
+from .packings import LEVEL, Comparison, Made, Medium, Options, Table
 from .style import GREY, PAGE, panels, points
 
 APEX = 24  # the loaded bead is (0, APEX)
@@ -90,11 +79,11 @@ class Response:
 def simulated(o: Options) -> Response:
     """Evaluate the closed forms, and simulate."""
     medium = o.medium(MEDIUM)
-    ensemble = planned(
+    ensemble = packings.planned(
         "response", height=APEX, width=None, seed=o.seed, std=medium.std, spacing=medium.spacing,
         load=PointLoad(at=(0, APEX)), realisations=o.realisations,
     )  # fmt: skip
-    (change,) = gathered(
+    (change,) = packings.gathered(
         ensemble, o.notice, "figure 4",
         lambda answer, number: (np.concatenate(vertical(ensemble, answer, number), axis=1),),
     )  # fmt: skip
@@ -110,7 +99,7 @@ def simulated(o: Options) -> Response:
         mean=ORDERED + change.mean(axis=0),
         standard_error=medium.std * np.sqrt(square / (o.realisations - 1)),
         simulated=square,
-        cuts=Comparison(what, band_of_roots(off**2, o.seed), np.sqrt(exact[ON_CUTS])),
+        cuts=Comparison(what, packings.band_of_roots(off**2, o.seed), np.sqrt(exact[ON_CUTS])),
     )
 
 
@@ -153,7 +142,7 @@ def figure(o: Options) -> Made:
         "spacing_over_r": float(medium.spacing),
         "relative_std": medium.std,
     }
-    made = compared(drawn, "figure4", o, [found.cuts], {}, **parameters)
+    made = packings.compared(drawn, "figure4", o, [found.cuts], {}, **parameters)
     tables = {"figure4": found.table()}
     if models:
         double_y.draw(axes[3], models, float(medium.n_x) / medium.n_y)

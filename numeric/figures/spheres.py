@@ -9,18 +9,8 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
-from .packings import (
-    PAPER_STD,
-    PHI,
-    Comparison,
-    Made,
-    Options,
-    band_of_spread,
-    compared,
-    moments,
-    planned,
-    table,
-)
+from . import packings
+from .packings import PAPER_STD, PHI, Comparison, Made, Options
 from .style import COLUMN, GREY, RELATIVE_HEIGHT, panels, points
 
 CASES = (("surface", 8), ("surface", 16), ("bulk", 16))
@@ -43,12 +33,13 @@ def simulated(o: Options, place: int) -> Comparison:
     """Simulate a case, each on radii of its own."""
     load, M = CASES[place]
     number, loaded = LOADS[load]
-    ensemble = planned(
+    ensemble = packings.planned(
         "profile", height=M, seed=o.seed, realisations=o.realisations, load=loaded(), dimension=3
     )  # fmt: skip
     what = f"{load} load, M = {M}"
-    found = moments(ensemble, o.notice, f"figure B13, {what}", place << 32)
-    return Comparison(f"{what}: Eq. {number}", band_of_spread(*found, o.seed), exact(load, M))
+    found = packings.moments(ensemble, o.notice, f"figure B13, {what}", place << 32)
+    band = packings.band_of_spread(*found, o.seed)
+    return Comparison(f"{what}: Eq. {number}", band, exact(load, M))
 
 
 def figure(o: Options) -> Made:
@@ -73,5 +64,5 @@ def figure(o: Options) -> Made:
         for load, M in CASES
         for j, printed in enumerate((leading(load, np.arange(M) / M) * M**1.5).tolist())
     ]
-    rows = table("load M j z printed", layers)
-    return compared(drawn, "figureB13", o, found, rows, relative_std=PAPER_STD)
+    rows = packings.table("load M j z printed", layers)
+    return packings.compared(drawn, "figureB13", o, found, rows, relative_std=PAPER_STD)

@@ -10,7 +10,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-from force_diffusion.numeric.figures import catalogue, comparison
+from force_diffusion.numeric.figures import catalogue, packings
 from PIL import Image
 
 from force_diffusion.__main__ import main
@@ -138,12 +138,12 @@ def test_heights_that_cannot_be_built(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Far above M* beads no longer find a rest: here at a disorder that no option can ask for."""
-    planned = comparison.planned
+    planned = packings.planned
 
     def rougher(*words: Any, **choices: Any) -> Any:
         return planned(*words, **{**choices, "std": 0.3})
 
-    monkeypatch.setattr(comparison, "planned", rougher)
+    monkeypatch.setattr(packings, "planned", rougher)
     out = tmp_path / "out"
     status, printed, err = call(capsys, 3, "--heights", "40", "--realisations", 16, "--out", out)
     assert (status, printed) == (2, "")
