@@ -37,7 +37,6 @@ _POWER = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\d+))")
 _STAR = re.compile(r"(?<=[A-Za-z])\*")
 _ROOT = re.compile(r"√(?:(\d+|[^\W\d_])|\(([^()]*)\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
-_FLOAT = re.compile(r"(?<![A-Za-z0-9.])(\d(?:\.\d+)?)e([+-]\d+)(?![A-Za-z0-9])")
 # In LaTeX, where a bracket is in the words beside a formula.
 _CLOSED_LATE = re.compile(r"\$([^$]+)\$\)")
 _OPENED_EARLY = re.compile(r"\(\$([^$]+)\$")
@@ -81,11 +80,6 @@ def _character(character: str) -> str:
     return _MATHS.get(character, unknown)
 
 
-def _power_of_ten(found: re.Match[str]) -> str:
-    factor = "" if float(found[1]) == 1 else rf"{found[1]} \cdot "
-    return f"{factor}10^{{{int(found[2])}}}"
-
-
 def _set_mathematics(word: str) -> str:
     word = word.replace("\\", r"\backslash ").replace("^^", r"\wedge \wedge ")
     for special in "%#&{}$":
@@ -96,7 +90,7 @@ def _set_mathematics(word: str) -> str:
     word = _ROOT.sub(
         lambda root: rf"\sqrt{{{root[1] or root[2]}}}", _RUN.sub(_run, _INDEXED.sub(_lowered, word))
     )
-    word = "".join(map(_character, _FLOAT.sub(_power_of_ten, word)))
+    word = "".join(map(_character, word))
     word = _FORCE.sub(r"\\mathbf{F}", word)
     word = _RECIPROCAL.sub(r"\\mathbf{b}", _VECTOR.sub(r"\\hat{\\mathbf{n}}", word))
     return _NAMES.sub(r"\\operatorname{\1}", word)

@@ -98,10 +98,6 @@ def test_no_power_or_root_of_the_words_is_left_open(number: int | str) -> None:
         assert r"\surd" not in written, written
 
 
-def test_powers_of_ten_are_set_as_such() -> None:
-    assert prose_latex("1e-14, 2.5e+03") == r"$10^{-14}$, $2.5 \cdot 10^{3}$"
-
-
 def sentences() -> Iterator[str]:
     for number in modules():
         derivation = load(number)
