@@ -33,17 +33,14 @@ def figure_of(
     """
     from .style import house_style  # first: it says what to install
 
-    quantity = plan.quantity.name
     refuse("figures", plan.scene)
     from .answers_drawing import DRAWN
 
-    if quantity not in DRAWN:
-        raise SceneError("ask.quantity", quantity, "there is no figure of it")
     if not len(next(iter(columns.values()), [])):
-        raise SceneError("ask.quantity", quantity, "the answer has no rows to be drawn")
+        raise SceneError("ask.quantity", plan.quantity.name, "the answer has no rows to be drawn")
     _check_sizes(plan, columns)
     with house_style():
-        return DRAWN[quantity](plan, columns, errors, network)
+        return DRAWN[plan.quantity.name](plan, columns, errors, network)
 
 
 def _check_sizes(plan: Plan, columns: Mapping[str, Array]) -> None:
