@@ -4,21 +4,20 @@
 it serves the benchmarks only.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
-from force_diffusion.numeric.arithmetic.carried import CARRYING
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, NumberSystem
-from force_diffusion.numeric.disorder.radii import DrawnRadii, rows_of
+from force_diffusion.numeric.disorder.radii import DrawnRadii, beads_of
 from force_diffusion.numeric.lattice.layers import Region, whole
+from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.sweep import (
     Forces,
-    Loads,
     SolvedPacking,
     deposit,
     sweep_down,
@@ -41,59 +40,43 @@ class Problem:
         """All beads."""
         return whole(self.width, self.height)
 
-    def radii(self, system: NumberSystem = FLOAT64) -> Sequence[Array]:
-        """δr/r, layer by layer; the same numbers in every system."""
+    def radii(self, system: NumberSystem = FLOAT64) -> Any:
+        """δr/r, (1, beads); the same numbers in every system."""
         source = DrawnRadii("uniform", self.relative_std, SEED, self.width)
         with system.active():
-            return rows_of(source, self.region.rows, range(1), system)
+            return beads_of(source, self.region.rows, range(1), system)
 
-    def loads(self, system: NumberSystem = FLOAT64) -> Loads:
-        """The surface load."""
+    def ordered(self, system: NumberSystem = FLOAT64) -> Any:
+        """The ordered forces of the surface load."""
         spec = LoadSpec("surface", self.height, self.width)
         with system.active():
-            return spec.on(self.region.rows, spec.strength(self.n_x, system), system)
+            return spec.ordered(self.region.rows, spec.strength(self.n_x, system), system)
 
     def solver(self, system: NumberSystem = FLOAT64) -> Callable[[], tuple[SolvedPacking, Forces]]:
-        """Give a function that solves it from the radii, by NumPy."""
-        region, rho, loads = self.region, self.radii(system), self.loads(system)
+        """Give a function that solves it from the radii."""
+        region, rho, F = self.region, self.radii(system), self.ordered(system)
         phi = cosine(self.n_x)
 
         def solve() -> tuple[SolvedPacking, Forces]:
             with system.active():
                 solved = deposit(phi, region, rho, system)
-                return solved, sweep_down(solved, region.rows, loads)
+                return solved, sweep_down(solved, region.rows, F)
 
         return solve
 
-    def compiled(
-        self, *, again: bool = False, carried: bool = False
-    ) -> Callable[[], tuple[SolvedPacking, Forces]]:
-        """Give a function that solves it by compiled loops; ``again``: in memory that stays."""
-        from force_diffusion.numeric.mechanics.passes import Deposition, Descent
-        from force_diffusion.numeric.mechanics.sweeps import tell
 
-        region, phi = self.region, cosine(self.n_x)
-        rho = np.zeros((1, 1 + carried, region.beads))
-        rho[:, 0] = np.concatenate(self.radii(), axis=-1)
-        loads = self.loads(CARRYING if carried else FLOAT64)
+def by_numpy(solve: Callable[[], Any]) -> Callable[[], Any]:
+    """Let NumPy sweep, as where numba is not installed."""
 
-        def parts() -> tuple[Deposition, Descent]:
-            descent = Descent(region, region.rows, loads, carried=carried)
-            return Deposition(phi, region, carried=carried), descent
+    def solved() -> Any:
+        before = sweep.loops
+        sweep.loops = lambda: None
+        try:
+            return solve()
+        finally:
+            sweep.loops = before
 
-        ready = parts() if again else None
-
-        def solve() -> tuple[SolvedPacking, Forces]:
-            deposition, descent = ready or parts()
-            block = deposition(rho)
-            assert block is not None
-            g = descent(block)
-            found = tell(phi, deposition, rho, descent, g)
-            assert found.packing is not None
-            assert found.forces is not None
-            return found.packing, found.forces
-
-        return solve
+    return solved
 
 
 @dataclass(frozen=True)

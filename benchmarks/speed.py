@@ -19,10 +19,14 @@ from typing import Any
 
 import numpy as np
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, BigFloat, as_floats
+from force_diffusion.numeric.lattice.layers import whole
+from force_diffusion.numeric.mechanics.loads import LoadSpec
+from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.problem import axes
+from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 from force_diffusion.numeric.planning.planner import initial_bits
 from measuring import Line, in_turn, program
-from peers import Problem, changes, directions, force_balance, stacked
+from peers import Problem, by_numpy, changes, directions, force_balance, stacked
 
 import force_diffusion as fd
 
@@ -35,7 +39,8 @@ def forces() -> Iterator[Line]:
     from scipy.sparse.linalg import spsolve
 
     problem = Problem(HEIGHT, WIDTH)
-    numpy, compiled = problem.solver(), problem.compiled()
+    compiled = problem.solver()
+    numpy = by_numpy(compiled)
     solved, found = numpy()
     n = axes(problem.n_x, FLOAT64)
     reference = as_floats(stacked(problem.solver(Balls(106))()[1]))
@@ -67,13 +72,24 @@ LARGE = (5, 6, 7)
 
 
 def large() -> Iterator[Line]:
-    """Time and memory by the number of beads, each in a process of its own."""
+    """Time and memory by the number of beads, each in a process of its own, and loops loaded."""
+    per_bead = {}
     for power in LARGE:
-        probe = [sys.executable, __file__, "--probe", f"10^{power}"]
-        done = subprocess.run(probe, check=True, capture_output=True, text=True)
-        seconds, most = map(float, done.stdout.split())
-        yield Line(f"profile of 10^{power} beads", 1e9 * seconds / 10**power, " ns per bead")
+        seconds, most = map(float, _probed(f"10^{power}").split())
+        per_bead[power] = seconds / 10**power
+        yield Line(f"profile of 10^{power} beads", 1e9 * per_bead[power], " ns per bead")
         yield Line("  memory, the interpreter included", most / 1e6, " MB")
+    ratio = per_bead[LARGE[-1]] / per_bead[LARGE[0]]
+    yield Line(f"10^{LARGE[-1]} beads / 10^{LARGE[0]}, time a bead", ratio, "", "<", 1.5)
+
+
+def _probed(name: str, **environment: str) -> str:
+    """Give what a probe prints, in a process of its own."""
+    probe = [sys.executable, __file__, "--probe", name]
+    done = subprocess.run(
+        probe, check=True, capture_output=True, text=True, env=os.environ | environment
+    )
+    return done.stdout
 
 
 def probe_large(power: int) -> str:
@@ -84,6 +100,7 @@ def probe_large(power: int) -> str:
         disorder=fd.Disorder(kind="uniform", relative_std=1e-8, seed=1),
         ask=fd.Ask(quantity="profile"),
     )
+    scene.model_copy(update={"packing": fd.Packing(height=5, width=9)}).run()
     start = process_time()
     scene.run()
     seconds = process_time() - start
@@ -93,7 +110,12 @@ def probe_large(power: int) -> str:
 
 
 def digits() -> Iterator[Line]:
-    """50 certified digits with balls, against mpmath."""
+    """30 and 50 certified digits with balls, against mpmath."""
+    radii = Problem(16, 34, Fraction(1, 10**4)).radii().reshape(17, 34)
+    asked = {"spacing": 3, "radius": 1, "tolerance": 1e-30, "certified": True}
+    tasks = {"solve": lambda: fd.solve(1 + radii, **asked).change}
+    spent = in_turn(tasks, 9, process_time, min)["solve"]
+    yield Line("solve, 30 certified digits, 16 × 34", 1e3 * spent, " ms", "<", 30)
     problem = Problem(32, 66)
     bits = initial_bits(Fraction(1, 10**50), problem.height)
     balls, floats = Balls(bits), BigFloat(int(bits * 0.30103))
@@ -105,112 +127,73 @@ def digits() -> Iterator[Line]:
     yield Line(
         "balls, 32 × 66: certified relative error of change", radius / largest, "", "<", 1e-50
     )
-    spent = in_turn({"balls": solve, "mpmath": problem.solver(floats)}, 3)
-    yield Line("mpmath sweep / balls, 32 × 66", spent["mpmath"] / spent["balls"])
-
-
-def _sphere_tasks(height: int, width: int) -> tuple[int, dict[str, Callable[[], Any]]]:
-    """Give the beads of a packing of spheres, and who deposits and balances it."""
-    from force_diffusion.numeric.mechanics.passes import Deposition, Descent
-    from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
-
-    scene = fd.Scene(
-        packing=fd.Packing(height=height, width=width, dimension=3, allow_images=True),
-        disorder=fd.Disorder(kind="uniform", relative_std=1e-6, seed=1),
-        ask=fd.Ask(quantity="profile"),
-    )
-    problem = scene.explain().problem
-    region, rows = problem.region, problem.region.rows
-    loads = problem.load.on(rows, problem.load.strength(problem.n_x, FLOAT64), FLOAT64)
-    radii = [problem.radii.row(row, [0], FLOAT64) for row in rows]
-    deposition, descent = Deposition(problem.phi, region), Descent(region, rows, loads)
-    rho = np.concatenate(radii)[None, None]
-
-    def numpy() -> Any:
-        with FLOAT64.active():
-            packing = deposit(problem.phi, region, radii, FLOAT64)
-            return sweep_down(packing, rows, loads)
-
-    def fast() -> Any:
-        block = deposition(rho)
-        assert block is not None
-        return descent(block)
-
-    return region.beads, {"NumPy": numpy, "fast": fast}
+    both = in_turn({"balls": solve, "mpmath": problem.solver(floats)}, 3)
+    yield Line("mpmath sweep / balls, 32 × 66", both["mpmath"] / both["balls"])
 
 
 def spheres() -> Iterator[Line]:
-    """Packings of spheres, deposited and balanced: by NumPy, and compiled in memory that stays."""
-    for height, width in ((20, 10), (60, 64), (30, 200)):
-        beads, tasks = _sphere_tasks(height, width)
-        spent = in_turn(tasks, 9, process_time, min)
-        for name, seconds in spent.items():
-            target = ("<", 50) if name == "fast" and height > 20 else ("", 0)
-            what = f"{name}, {height} × {width} × {width}"
-            yield Line(what, 1e9 * seconds / beads, " ns per bead", *target)
-        yield Line("  NumPy / fast", spent["NumPy"] / spent["fast"], "", ">", 3)
+    """Packings of spheres, deposited and balanced by NumPy."""
+    for height, width in ((20, 10), (60, 64)):
+        region = whole(width**2, height, 3)
+        spec = LoadSpec("surface", height, width**2, dimension=3)
+        F = spec.ordered(region.rows, spec.strength(Fraction(3, 4), FLOAT64), FLOAT64)
+        rho = np.random.default_rng(1).uniform(-1e-6, 1e-6, (1, region.beads))
+
+        def solve(region: Any = region, rho: Any = rho, F: Any = F) -> None:
+            with FLOAT64.active():
+                sweep_down(deposit(cosine(Fraction(3, 4)), region, rho, FLOAT64), region.rows, F)
+
+        spent = in_turn({"NumPy": solve}, 5, process_time, min)["NumPy"]
+        what = f"spheres, {height} × {width} × {width}"
+        yield Line(what, 1e9 * spent / region.beads, " ns per bead")
+
+
+SIZES = ((8, 16), (64, 128), (256, 512))
 
 
 def solving() -> Iterator[Line]:
-    """What a user calls, errors, gaps and arrays included, against parts of it and SuperLU."""
+    """What a user calls, errors, gaps and arrays included, of new radii each time; and SuperLU.
+
+    In a process of its own that has imported all, and called nothing yet.
+    """
+    for height, width in SIZES:
+        first, solve, peer = map(float, _probed(f"{height} × {width}").split())
+        yield Line(f"solve, {height} × {width}, the first call", 1e3 * first, " ms")
+        target = ("<", 0.5) if height == 8 else ("", 0)
+        yield Line("  later ones", 1e3 * solve, " ms", *target)
+        target = (">", 5) if height == 256 else ("", 0)
+        yield Line("  SuperLU / the first call", peer / first, "", *target)
+        yield Line("  SuperLU / later ones", peer / solve)
+
+
+def probe_solve(height: int, width: int) -> str:
+    """Seconds of the first call of a process, of later ones, and of SuperLU on a ready matrix."""
     from scipy import sparse
     from scipy.sparse.linalg import splu
 
-    for height, width in ((8, 16), (64, 128), (256, 512)):
-        problem = Problem(height, width, Fraction(1, 10**4))
-        radii = 1 + np.stack(problem.radii())
-        packing, _ = problem.solver()()
-        n = axes(problem.n_x, FLOAT64)
-        system = force_balance(directions(packing, n))
-        matrix = sparse.csc_matrix(
-            (system.values, (system.rows, system.columns)), shape=(len(system.right),) * 2
-        )
-        tasks: dict[str, Callable[[], Any]] = {
-            "solve": lambda radii=radii: fd.solve(radii, spacing=3, radius=1).force,
-            "sweep": problem.compiled(again=True),
-            "sweep with errors": problem.compiled(again=True, carried=True),
-            "SuperLU": lambda matrix=matrix, system=system: splu(
-                matrix, permc_spec="NATURAL"
-            ).solve(system.right),
-        }
-        peer = tasks.pop("SuperLU")
-        spent = in_turn(tasks, 31, process_time, min)
-        # each right after the other, which empties the caches
-        cold = in_turn({"solve": tasks["solve"], "SuperLU": peer}, 7, process_time, min)
-        for name, seconds in spent.items():
-            yield Line(f"{name}, {height} × {width}", 1e3 * seconds, " ms")
-        over = spent["solve"] - spent["sweep"]
-        if height == 8:
-            yield Line("  solve less sweep", 1e3 * over, " ms", "<", 0.5)
-        else:
-            yield Line("  solve / sweep", spent["solve"] / spent["sweep"], "", "<", 6)
-        target = (">", 5) if height == 256 else ("", 0)
-        yield Line(f"SuperLU, {height} × {width}", 1e3 * cold["SuperLU"], " ms")
-        yield Line("  solve after it, caches emptied", 1e3 * cold["solve"], " ms")
-        yield Line("  SuperLU / that", cold["SuperLU"] / cold["solve"], "", *target)
+    problem, solve = Problem(height, width, Fraction(1, 10**4)), fd.solve
+    radii = np.random.default_rng(1).uniform(1 - 1e-4, 1 + 1e-4, (17, height + 1, width))
+    packing, _ = by_numpy(problem.solver())()
+    system = force_balance(directions(packing, axes(problem.n_x, FLOAT64)))
+    matrix = sparse.csc_matrix(
+        (system.values, (system.rows, system.columns)), shape=(len(system.right),) * 2
+    )
+    spent = []
+    for one in radii:
+        start = process_time()
+        solve(one, spacing=3).force  # noqa: B018 - an attribute that is calculated
+        spent.append(process_time() - start)
+    start = process_time()
+    for _ in range(3):
+        splu(matrix, permc_spec="NATURAL").solve(system.right)
+    return f"{spent[0]} {np.median(spent[1:])} {(process_time() - start) / 3}"
 
 
 def first() -> Iterator[Line]:
-    """The first call on a machine, which compiles, and the first of a process."""
-    probe = [sys.executable, __file__, "--probe", "first call"]
+    """The first call on a machine, which compiles."""
     with tempfile.TemporaryDirectory() as folder:
-        environment = os.environ | {"XDG_CACHE_HOME": folder}
-        for name, target in (("on a machine: compiling", 3), ("of a process: loading", 0.7)):
-            done = subprocess.run(
-                probe, check=True, capture_output=True, text=True, env=environment
-            )
-            yield Line(f"first call {name}", float(done.stdout), " s", "<", target)
-
-
-def probe_first() -> float:
-    """Seconds of the processor of the first call that takes compiled loops, less the second."""
-    radii = 1 + np.random.default_rng(1).uniform(-1e-4, 1e-4, (401, 600))
-    spent = []
-    for _ in range(2):
-        start = process_time()
-        fd.solve(radii, spacing=3, radius=1)
-        spent.append(process_time() - start)
-    return spent[0] - spent[1]
+        seconds = float(_probed("8 × 16", XDG_CACHE_HOME=folder).split()[0])
+    yield Line("first call on a machine: compiling", seconds, " s", "<", 15)
 
 
 def running() -> Iterator[Line]:
@@ -261,6 +244,7 @@ if __name__ == "__main__":
             f"Forces of a packing of {HEIGHT} layers of {WIDTH} beads, σ/r = 1e-6, surface load;\n"
             "errors are relative to the largest |change|.",
             PARTS,
-            {"first call": probe_first} | {f"10^{n}": partial(probe_large, n) for n in LARGE},
+            {f"{m} × {w}": partial(probe_solve, m, w) for m, w in SIZES}
+            | {f"10^{n}": partial(probe_large, n) for n in LARGE},
         )
     )

@@ -2,11 +2,8 @@
 
 import signal
 from collections import defaultdict
-from typing import Any
 
 import pytest
-from force_diffusion.numeric.mechanics import engine
-from force_diffusion.numeric.mechanics.engine import worth_compiling
 from hypothesis import HealthCheck, settings
 
 # Each run draws anew; a failure is replayed from .hypothesis, or with what is printed beside it.
@@ -81,20 +78,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         left_out |= {item for place, item in enumerate(every) if place not in kept}
     config.hook.pytest_deselected(items=list(left_out))
     items[:] = [item for item in items if item not in left_out]
-
-
-@pytest.fixture(autouse=True)
-def _without_history(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A process that has swept much takes compiled loops for small packings, too.
-
-    They state other errors, by some 1e-4 of them. A test must not hang on which ones went before.
-    """
-
-    def without(*of: Any, before: int = 0, **how: Any) -> bool:
-        del before
-        return worth_compiling(*of, **how)
-
-    monkeypatch.setattr(engine, "worth_compiling", without)
 
 
 @pytest.fixture

@@ -25,7 +25,7 @@ from random import Random
 import answers
 import commands
 import files
-from force_diffusion.numeric.mechanics import engine, kernels
+from force_diffusion.numeric.mechanics import loops, physicality, sweep
 
 ENOUGH = 2  # seconds after which a case is interrupted, as by Ctrl-C
 PATIENCE = 60  # seconds in which it has to end then
@@ -56,7 +56,8 @@ def tried(seed: int, number: int, folder: Path) -> Ended:
     warnings.simplefilter("error")
     warnings.simplefilter("ignore", ResourceWarning)  # of fonts, which matplotlib's library leaves
     random = Random(f"{seed} {number}")
-    engine.COMPILED_FROM = random.choice([1, engine.COMPILED_FROM])
+    if random.random() < 0.5:  # as without numba
+        sweep.loops = physicality.loops = lambda: None
     kind = random.choices(list(KINDS), [often for often, _ in KINDS.values()])[0]
     try:
         found = KINDS[kind][1](random, folder)
@@ -107,8 +108,7 @@ def main() -> int:
         import_module(f"force_diffusion.{name}")
     for name in ("run", "figures", "ensemble"):
         commands.said([name, "--help"])
-    for dimension in (2, 3):
-        kernels.kernels(dimension)
+    loops.loops()
     end, wrong = time.monotonic() + options.seconds, 0
     statuses: defaultdict[str, Counter[int]] = defaultdict(Counter)
     for number in count() if options.case is None else [options.case]:

@@ -1,13 +1,12 @@
 """Numbers in float64 that carry their rounding error along: true ≈ value + error.
 
-Errors are signed, and of first order.
-
-The error of every operation is known exactly, by two-sum and by a product's residual (Dekker, or a
-fused multiply-add), and is added to what the operands carry along. What is left out are products
-of two errors. Values are those of plain float64, to the bit.
+Errors are signed, and of first order. The error of every operation is known exactly, by two-sum and
+by a product's residual (Dekker's, or by a fused multiply-add where this is compiled), and is added
+to what the operands carry along. What is left out are products of two errors. Values are those of
+plain float64, to the bit.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -20,90 +19,119 @@ from .systems import FLOAT64, Array, midpoint
 _SPLIT = 2.0**27 + 1
 
 
-def residual(a: Any, b: Any, product: Any) -> Any:
-    """Give a b − product exactly, ``product`` being a b rounded (Dekker): arrays or floats."""
-    a_high, b_high = a * _SPLIT, b * _SPLIT
-    a_high, b_high = a_high - (a_high - a), b_high - (b_high - b)
-    a_low, b_low = a - a_high, b - b_high
-    return ((a_high * b_high - product) + a_high * b_low + a_low * b_high) + a_low * b_low
-
-
 class Carried:
-    """A value and its error (None: it has none), both arrays, numbers, or names of a recording."""
+    """A value and its error, both arrays or both numbers."""
 
     __slots__ = ("error", "value")
     __array_ufunc__ = None  # NumPy leaves operations with its arrays to us
 
-    def __init__(self, value: Any, error: Any = None) -> None:
+    def __init__(self, value: Any, error: Any) -> None:
         """Both alike."""
         self.value, self.error = value, error
 
     def __add__(self, other: Any) -> "Carried":
-        other = _carried(other)
-        a, b = self.value, other.value
-        found = a + b
-        part = found - a
-        own = (a - (found - part)) + (b - part)
-        return Carried(found, _sum(own, _sum(self.error, other.error)))
+        return added(self, carried(other))
 
     def __sub__(self, other: Any) -> "Carried":
-        other = _carried(other)
-        a, b = self.value, other.value
-        found = a - b
-        part = found - a
-        own = (a - (found - part)) - (b + part)
-        return Carried(found, _sum(own, _difference(self.error, other.error)))
+        return subtracted(self, carried(other))
 
     def __mul__(self, other: Any) -> "Carried":
-        if _shifts(other):
-            return Carried(self.value * other, _product(self.error, other))
-        other = _carried(other)
-        a, b = self.value, other.value
-        found = a * b
-        along = _sum(_product(other.error, a), _product(self.error, b))
-        return Carried(found, _sum(_left(a, b, found), along))
+        return multiplied(self, carried(other))
 
     def __truediv__(self, other: Any) -> "Carried":
-        if _shifts(other):
-            return Carried(self.value / other, _product(self.error, 1 / other))
-        other = _carried(other)
-        a, b = self.value, other.value
-        found = a / b
-        off = _sum(-_left_of_quotient(found, b, a), self.error)
-        return Carried(found, _difference(off, _product(other.error, found)) / b)
+        return divided(self, carried(other))
 
     def __neg__(self) -> "Carried":
-        return Carried(-self.value, None if self.error is None else -self.error)
+        return Carried(-self.value, -self.error)
 
     def __radd__(self, other: Any) -> "Carried":
-        return Carried(other).__add__(self)
+        return added(carried(other), self)
 
     def __rsub__(self, other: Any) -> "Carried":
-        return Carried(other).__sub__(self)
+        return subtracted(carried(other), self)
 
     def __rmul__(self, other: Any) -> "Carried":
-        return self.__mul__(other)
+        return multiplied(carried(other), self)
 
     def __rtruediv__(self, other: Any) -> "Carried":
-        return Carried(other).__truediv__(self)
+        return divided(carried(other), self)
+
+    def __getitem__(self, at: Any) -> "Carried":
+        return Carried(self.value[at], self.error[at])
+
+    def __setitem__(self, at: Any, other: Any) -> None:
+        other = carried(other)
+        self.value[at], self.error[at] = other.value, other.error
 
     def __len__(self) -> int:
         return len(self.value)
 
     def __iter__(self) -> "Iterator[Carried]":
-        pairs = zip(self.value.tolist(), self.error.tolist(), strict=True)
-        return (Carried(value, error) for value, error in pairs)
+        return map(Carried, self.value, self.error)
 
-    def sqrt(self) -> "Carried":
-        """Square root."""
-        found = _sqrt(self.value)
-        off = _sum(-_left_of_quotient(found, found, self.value), self.error)
-        return Carried(found, off / (found + found))
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """That of the values."""
+        found: tuple[int, ...] = np.shape(self.value)
+        return found
 
     @property
     def nearest(self) -> Any:
         """The value with its error, rounded."""
         return self.value + self.error
+
+
+def carried(number: Any) -> Any:
+    """Take a number without an error as one whose error is 0."""
+    return number if isinstance(number, Carried) else Carried(number, 0.0)
+
+
+def residual(a: Any, b: Any, product: Any) -> Any:
+    """Give a b − product exactly, where ``product`` is near a b."""
+    a_high, b_high = a * _SPLIT, b * _SPLIT
+    a_high, b_high = a_high - (a_high - a), b_high - (b_high - b)
+    a_low, b_low = a - a_high, b - b_high
+    near = a * b
+    off = ((a_high * b_high - near) + a_high * b_low + a_low * b_high) + a_low * b_low
+    return (near - product) + off
+
+
+def added(x: Any, y: Any) -> Carried:
+    """Give x + y."""
+    found = x.value + y.value
+    part = found - x.value
+    own = (x.value - (found - part)) + (y.value - part)
+    return Carried(found, own + (x.error + y.error))
+
+
+def subtracted(x: Any, y: Any) -> Carried:
+    """Give x − y."""
+    found = x.value - y.value
+    part = found - x.value
+    own = (x.value - (found - part)) - (y.value + part)
+    return Carried(found, own + (x.error - y.error))
+
+
+def multiplied(x: Any, y: Any) -> Carried:
+    """Give x y."""
+    found = x.value * y.value
+    along = x.error * y.value + y.error * x.value
+    return Carried(found, residual(x.value, y.value, found) + along)
+
+
+def divided(x: Any, y: Any) -> Carried:
+    """Give x/y."""
+    found = x.value / y.value
+    off = x.error - residual(found, y.value, x.value)
+    return Carried(found, (off - y.error * found) / y.value)
+
+
+def sqrt(x: Any) -> Any:
+    """Give a square root, of numbers of any system or of arrays of them."""
+    if not isinstance(x, Carried):
+        return np.sqrt(x)
+    found = np.sqrt(x.value)
+    return Carried(found, (x.error - residual(found, found, x.value)) / (found + found))
 
 
 def scalar(value: Fraction) -> Carried:
@@ -112,45 +140,6 @@ def scalar(value: Fraction) -> Carried:
     if not np.isfinite(near):
         return Carried(near, 0.0)
     return Carried(near, float(FLOAT64.number(value - Fraction(near))))
-
-
-def _carried(value: Any) -> Carried:
-    return value if isinstance(value, Carried) else Carried(value)
-
-
-def _shifts(value: Any) -> bool:
-    """Whether a factor is a power of two, which makes no error."""
-    return isinstance(value, int) and value > 0 and value & (value - 1) == 0
-
-
-def _sum(a: Any, b: Any) -> Any:
-    return b if a is None else a if b is None else a + b
-
-
-def _difference(a: Any, b: Any) -> Any:
-    return a if b is None else -b if a is None else a - b
-
-
-def _product(error: Any, factor: Any) -> Any:
-    return None if error is None else error * factor
-
-
-def _left(a: Any, b: Any, product: Any) -> Any:
-    fused = getattr(a, "residual", None) or getattr(b, "residual", None)
-    return residual(a, b, product) if fused is None else fused(a, b, product)
-
-
-def _left_of_quotient(a: Any, b: Any, near: Any) -> Any:
-    """Give a b − near exactly, where a b is near enough that this has no more than 53 bits."""
-    fused = getattr(a, "residual", None)
-    if fused is not None:
-        return fused(a, b, near)
-    product = a * b
-    return (product - near) + residual(a, b, product)
-
-
-def _sqrt(value: Any) -> Any:
-    return value.sqrt() if hasattr(value, "sqrt") else np.sqrt(value)
 
 
 @dataclass(frozen=True)
@@ -165,9 +154,7 @@ class Carrying:
         """Round a rational, and keep what that lost."""
         return scalar(value)
 
-    def scalar(self, value: Fraction) -> Carried:
-        """Give the same as ``number``."""
-        return scalar(value)
+    scalar = number
 
     def from_float(self, value: float) -> Carried:
         """Give an exact number."""
@@ -177,13 +164,9 @@ class Carrying:
         """Round the midpoint, and keep what that lost."""
         return scalar(midpoint(value))
 
-    def sqrt(self, values: Any) -> Any:
-        """Square roots."""
-        return values.sqrt()
-
-    def root(self, value: Fraction) -> Carried:
+    def root(self, value: Fraction) -> Any:
         """Give the square root of a rational."""
-        return scalar(value).sqrt()
+        return sqrt(scalar(value))
 
     def signs(self, values: Any) -> tuple[Array, Array]:
         """Look at the values."""
@@ -200,12 +183,8 @@ class Carrying:
     def array(self, values: Iterable[Fraction]) -> Any:
         """Round rationals, and keep what that lost."""
         found = [scalar(value) for value in values]
-        return self.column(found)
-
-    def column(self, values: Sequence[Carried]) -> Any:
-        """Give an array of numbers."""
-        return Carried(np.array([v.value for v in values], dtype=np.float64),
-                       np.array([v.error for v in values], dtype=np.float64))  # fmt: skip
+        return Carried(np.array([v.value for v in found], dtype=np.float64),
+                       np.array([v.error for v in found], dtype=np.float64))  # fmt: skip
 
     def active(self) -> AbstractContextManager[None]:
         """Silence floating-point warnings."""

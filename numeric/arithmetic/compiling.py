@@ -1,160 +1,239 @@
-"""How loops are compiled: every operation rounded by itself, as NumPy rounds it.
+"""Functions as they stand, compiled by numba for this processor, and kept on disk as machine code.
 
-No fast-math, and LLVM is not given leave to fuse a product with a sum, so that compiled numbers are
-those of NumPy to the bit. Import it only where work repays loading the compiler (half a second).
+What is kept is called without numba, which takes long to load: llvmlite alone puts it into memory.
+Every operation is rounded by itself, as NumPy rounds it: no fast-math, and LLVM is not given leave
+to fuse a product with a sum. Numbers lie behind pointers. The name of the file is made from all
+sources that the code comes from, the versions of what compiled it, and the processor.
 """
 
-from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
-from functools import lru_cache
-from itertools import pairwise
+# mypy: disable-error-code="untyped-decorator, name-defined, misc"
+
+import ctypes
+import hashlib
+import operator
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from functools import lru_cache, partial
+from importlib import import_module
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any, TypeVar, cast
+from typing import Any
 
-import llvmlite.binding
-import numba
-from numba.extending import intrinsic
-
-from .machine import cores, user_cache
-
-Function = TypeVar("Function", bound=Callable[..., Any])
-OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
-
+from . import carried
+from .machine import user_cache
 
 CODES = user_cache() or Path(__file__).parent / "__pycache__"
-"""Where recorded code lies, and beside it what was compiled of it."""
+"""Where machine code lies."""
 
-# Rows never overlap, but LLVM has to check; it gives up vectorising at 8 comparisons by default.
-llvmlite.binding.set_option("force-diffusion", "--runtime-memory-check-threshold=512")
+# LLVM takes several beads at a time only where it may check that what is written is not read.
+_CHECKS = ("--runtime-memory-check-threshold=2000", "--vectorize-memory-check-threshold=2000")
+_KINDS = {
+    "number": ctypes.c_int64,
+    "offset": ctypes.c_int64,
+    "whole": ctypes.c_void_p,
+    "word": ctypes.c_void_p,
+    "float": ctypes.c_void_p,
+}
+Function = Callable[..., Any]
 
 
-def compiled(function: Function) -> Function:
-    """Compile at the first call; keep the machine code on disk where a folder can be written.
+def stamp(functions: Sequence[Function]) -> str:
+    """Give a hash of all that the machine code of functions comes from."""
+    from llvmlite import binding
 
-    A compiled function calls only those of its own file: the copy on disk is made anew where that
-    file has changed, and no other is looked at.
+    files = {function.__code__.co_filename for function in functions}
+    texts = [Path(one).read_bytes() for one in sorted({*files, __file__, carried.__file__})]
+    features = binding.get_host_cpu_features().flatten()
+    made = [version("numba"), version("llvmlite"), binding.get_host_cpu_name(), features]
+    return hashlib.sha256(b"\0".join([*texts, *map(str.encode, made)])).hexdigest()[:24]
+
+
+def compiled(
+    entries: Sequence[tuple[Function, Sequence[str]]], called: Sequence[Function]
+) -> list[Callable[..., int]] | None:
+    """Give functions compiled, which return whole numbers; None where numba is not installed.
+
+    Each of the ``entries`` is a function and the kinds of its arguments: a whole "number", a
+    pointer to "whole" ones, to a "word" of 64 bits or a "float", an "offset", which is a tuple of
+    one whole number, or in its place "none", an empty tuple, which is not passed. ``called`` are
+    functions of Python that these call, directly or not.
     """
     try:
-        return cast(Function, numba.njit(cache=True, **OPTIONS)(function))
-    except RuntimeError:  # no place to write to
-        return cast(Function, numba.njit(**OPTIONS)(function))
+        from llvmlite import binding
+
+        name = stamp([*called, *(function for function, _ in entries)])
+    except (ImportError, PackageNotFoundError):
+        return None
+    binding.initialize_native_target()
+    binding.initialize_native_asmprinter()
+    target = binding.Target.from_default_triple().create_target_machine(
+        cpu=binding.get_host_cpu_name(),
+        features=binding.get_host_cpu_features().flatten(),
+        opt=3,
+        jit=True,
+    )
+    path = CODES / f"{name}.o"
+    try:
+        code = path.read_bytes()
+    except OSError:
+        if sys.stderr is not None and sys.stderr.isatty():
+            print("compiling for this machine, once: about 10 s", file=sys.stderr, flush=True)
+        code = target.emit_object(_made(entries, called))
+        _put(path, code)
+    engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target)
+    engine.add_object_file(binding.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    return [_callable(engine, f"f{k}", kinds) for k, (_, kinds) in enumerate(entries)]
 
 
-def inner(function: Function) -> Function:
-    """Compile a function that compiled ones of its own file call, and nobody else.
+def _callable(engine: Any, name: str, kinds: Sequence[str]) -> Callable[..., int]:
+    """Call machine code as numba lays it out: first where the result goes, and an exception."""
+    types = [_KINDS[kind] for kind in kinds if kind != "none"]
+    kind = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, *types)
+    function = kind(engine.get_function_address(name))
 
-    Kept on disk is what calls it, of which it has become a part.
-    """
-    return cast(Function, numba.njit(**OPTIONS | {"no_cpython_wrapper": True})(function))
+    def call(*arguments: Any) -> int:
+        found = ctypes.c_int64()
+        function(ctypes.addressof(found), None, *arguments)
+        return found.value
 
-
-def _borrowed_code(typing: Any, array: Any) -> Any:
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        given = context.make_array(signature.args[0])(context, builder, arguments[0])
-        given.meminfo, given.parent = given.meminfo.type(None), given.parent.type(None)
-        return given._getvalue()
-
-    return array(array), code
+    call.engine = engine  # type: ignore[attr-defined]  # it owns the code
+    return call
 
 
-borrowed: Any = intrinsic(_borrowed_code)
-"""The same array without an owner, for compiled functions: nobody counts who looks at its parts.
-
-Counting costs as much as thirty beads for each run of them. The caller must hold the array.
-"""
-
-
-def _fma_code(typing: Any, a: Any, b: Any, c: Any) -> Any:
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        return builder.fma(*arguments)
-
-    return numba.float64(numba.float64, numba.float64, numba.float64), code
+def _put(path: Path, content: bytes) -> None:
+    """Write a file, all of it or nothing, where that is possible."""
+    with suppress(OSError):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        handle, made = tempfile.mkstemp(dir=path.parent)
+        with open(handle, "wb") as file:
+            file.write(content)
+        os.replace(made, path)
 
 
-fma: Any = intrinsic(_fma_code)
-"""a b + c, rounded once."""
+def _made(entries: Sequence[tuple[Function, Sequence[str]]], called: Sequence[Function]) -> Any:
+    """Compile functions, and give them as one module of LLVM, named f0, f1, …"""
+    from llvmlite import binding
 
-
-def _scope(builder: Any, name: str) -> Any:
-    """Name a class of numbers that share no memory with those of another name."""
-    domain = builder.module.add_metadata(["force-diffusion"])
-    return builder.module.add_metadata([name, domain])
-
-
-def _address(context: Any, builder: Any, kind: Any, array: Any, index: Any) -> Any:
-    return builder.gep(context.make_array(kind)(context, builder, array).data, [index])
-
-
-def _taken_code(typing: Any, array: Any, index: Any) -> Any:
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        number = builder.load(_address(context, builder, signature.args[0], *arguments))
-        scopes = builder.module.add_metadata([_scope(builder, "taken")])
-        number.set_metadata("alias.scope", scopes)
-        return number
-
-    return numba.float64(array, numba.int64), code
-
-
-def _placed_code(typing: Any, array: Any, index: Any, value: Any, number: Any) -> Any:
-    own, most = number.literal_value, 64
-
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        place = _address(context, builder, signature.args[0], *arguments[:2])
-        stored = builder.store(arguments[2], place)
-        names = ["taken", *(f"placed {k}" for k in range(most) if k != own)]
-        others = [_scope(builder, name) for name in names]
-        scopes = builder.module.add_metadata([_scope(builder, f"placed {own}")])
-        stored.set_metadata("alias.scope", scopes)
-        stored.set_metadata("noalias", builder.module.add_metadata(others))
-        return context.get_dummy_value()
-
-    return numba.void(array, numba.int64, numba.float64, number), code
-
-
-def _pitch_code(typing: Any, array: Any) -> Any:
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        given = context.make_array(signature.args[0])(context, builder, arguments[0])
-        stride = builder.extract_value(given.strides, 0)
-        return builder.sdiv(stride, stride.type(8))
-
-    return numba.int64(array), code
-
-
-def _alone_code(typing: Any) -> Any:
-    def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        builder.function.attributes.add("noinline")
-        return context.get_dummy_value()
-
-    return numba.void(), code
-
-
-taken: Any = intrinsic(_taken_code)
-"""Number ``index`` of a flat array, in a function that puts nothing there."""
-
-placed: Any = intrinsic(prefer_literal=True)(_placed_code)
-"""Put a number at ``index`` of a flat array, where nothing is taken, nor under another ``number``.
-
-Told so, LLVM takes several beads at a time without comparing all addresses for each run of them.
-"""
-
-pitch: Any = intrinsic(_pitch_code)
-"""How many numbers the rows of an array lie apart."""
-
-alone: Any = intrinsic(_alone_code)
-"""Keep a function by itself: what it takes, the next call may put."""
+    numba: Any = import_module("numba")
+    extending: Any = import_module("numba.extending")
+    for option in _CHECKS:
+        binding.set_option("force-diffusion", option)
+    _register_carried()
+    for function in called:
+        extending.register_jitable(forceinline=True, error_model="numpy")(function)
+    kinds = {
+        "number": numba.int64,
+        "offset": numba.types.UniTuple(numba.int64, 1),
+        "none": numba.types.Tuple(()),
+        "whole": numba.types.CPointer(numba.int64),
+        "word": numba.types.CPointer(numba.uint64),
+        "float": numba.types.CPointer(numba.float64),
+    }
+    modules = []
+    for k, (function, of) in enumerate(entries):
+        signature = numba.int64(*(kinds[kind] for kind in of))
+        made = numba.njit(
+            signature, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
+        )(function)
+        (result,) = made.overloads.values()
+        module = binding.parse_assembly(result.library.get_llvm_str())
+        module.get_function(result.fndesc.mangled_name).name = f"f{k}"
+        modules.append(module)
+    for module in modules[1:]:
+        modules[0].link_in(module)
+    return modules[0]
 
 
 @lru_cache(maxsize=1)
-def _pool(threads: int) -> ThreadPoolExecutor:
-    return ThreadPoolExecutor(threads)
+def _register_carried() -> None:
+    """Teach numba the numbers of ``carried``, by the very functions of that module."""
+    numba: Any = import_module("numba")
+    cgutils: Any = import_module("numba.core.cgutils")
+    of: Any = import_module("numba.extending")
+    types, float64, intrinsic = numba.types, numba.float64, of.intrinsic
 
+    class CarriedType(types.Type):
+        pass
 
-def on_all_cores(function: Callable[[slice], bool], batch: int) -> bool:
-    """Call a compiled ``function`` for parts of a batch, one a core; say whether all are true."""
-    if batch == 1 or (threads := cores()) == 1:
-        return function(slice(0, batch))
-    parts = min(batch, threads)
-    cuts = [batch * part // parts for part in range(parts + 1)]
-    others = [_pool(threads).submit(function, slice(*cut)) for cut in pairwise(cuts[1:])]
-    own = function(slice(0, cuts[1]))
-    return all([own, *(other.result() for other in others)])
+    kind = CarriedType("Carried")
+    number = CarriedType, types.Float, types.Integer
+    options = {"forceinline": True, "error_model": "numpy"}
+    implementing = partial(of.overload, jit_options=options, strict=False)
+
+    @of.register_model(CarriedType)
+    class Model(of.models.StructModel):
+        def __init__(self, manager: Any, kind: Any) -> None:
+            super().__init__(manager, kind, [("value", float64), ("error", float64)])
+
+    for name in ("value", "error"):
+        of.make_attribute_wrapper(CarriedType, name, name)
+
+    @of.type_callable(carried.Carried)
+    def typer(context: Any) -> Any:
+        return lambda value, error: kind
+
+    @of.lower_builtin(carried.Carried, float64, float64)
+    def construct(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+        made = cgutils.create_struct_proxy(kind)(context, builder)
+        made.value, made.error = arguments
+        return made._getvalue()
+
+    @intrinsic
+    def fma(typing: Any, a: Any, b: Any, c: Any) -> Any:
+        return float64(float64, float64, float64), lambda _, builder, __, all_: builder.fma(*all_)
+
+    @intrinsic
+    def root(typing: Any, x: Any) -> Any:
+        def code(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            kinds = [arguments[0].type]
+            return builder.call(builder.module.declare_intrinsic("llvm.sqrt", kinds), arguments)
+
+        return float64(float64), code
+
+    @implementing(carried.residual)
+    def residual(a: Any, b: Any, product: Any) -> Any:
+        return lambda a, b, product: fma(a, b, -product)
+
+    @implementing(carried.carried)
+    def as_carried(x: Any) -> Any:
+        if isinstance(x, CarriedType):
+            return lambda number: number
+        return lambda number: carried.Carried(float(number), 0.0)
+
+    @implementing(carried.sqrt)
+    def sqrt(x: Any) -> Any:
+        if not isinstance(x, CarriedType):
+            return lambda x: root(x)  # noqa: PLW0108 - numba takes functions of Python
+
+        def with_error(x: Any) -> Any:
+            found = root(x.value)
+            off = x.error - fma(found, found, -x.value)
+            return carried.Carried(found, off / (found + found))
+
+        return with_error
+
+    @implementing(operator.neg)
+    def negative(x: Any) -> Any:
+        if isinstance(x, CarriedType):
+            return lambda x: carried.Carried(-x.value, -x.error)
+        return None
+
+    def register(operation: Any, function: Function) -> None:
+        of.register_jitable(**options)(function)
+        as_one = carried.carried
+
+        @implementing(operation)
+        def operated(x: Any, y: Any) -> Any:
+            both = isinstance(x, number) and isinstance(y, number)
+            if not both or CarriedType not in (type(x), type(y)):
+                return None
+            return lambda x, y: function(as_one(x), as_one(y))
+
+    register(operator.add, carried.added)
+    register(operator.sub, carried.subtracted)
+    register(operator.mul, carried.multiplied)
+    register(operator.truediv, carried.divided)

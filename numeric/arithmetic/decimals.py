@@ -39,7 +39,8 @@ def exact(value: object) -> Fraction:
         kinds = ": whole, a Fraction, a Decimal or a float of 64 bits"
         raise ValueError(f"must be a number{kinds if hasattr(value, '__float__') else ''}")
     found = Fraction(int(value.numerator), int(value.denominator))
-    if abs(found) >= _MOST or found.denominator >= _MOST**2:
+    long = max(found.numerator.bit_length(), found.denominator.bit_length()) > MOST_DIGITS
+    if long and (abs(found) >= _MOST or found.denominator >= _MOST**2):
         raise ValueError(f"must have at most {MOST_DIGITS} digits")
     return found
 

@@ -19,7 +19,6 @@ import numpy as np
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import (
-    FLOAT64,
     Array,
     NumberSystem,
     array,
@@ -27,11 +26,10 @@ from ..arithmetic.systems import (
     like_array,
     zeros,
 )
-from ..lattice.layers import Layer, Stack
+from ..lattice.layers import Layer, Rows
+from .compiled import OFFSET, drawn
 from .normal import normal_deviates
 
-# Columns of a slab may be negative; counters must not be.
-OFFSET = 2**62
 # Rows with a radius below r/1000 are looked through bead by bead.
 NEARLY = Fraction(999, 1000)
 
@@ -296,22 +294,18 @@ def _product(factor: int, values: Array) -> tuple[Array, Array]:
     return f1 * v1 + (middle >> half) + (cross >> half), values * np.uint64(factor)
 
 
-def rows_of(
-    radii: Radii,
-    layers: Sequence[Layer],
-    realisations: Sequence[int],
-    system: NumberSystem,
-) -> Sequence[Any]:
-    """Give δr/r of several rows, one array a row; rows of equal length lie in one block."""
-    rows = []
-    block = None
-    if system is FLOAT64 and len({layer.count for layer in layers}) == 1:
-        batch = (len(realisations),) if len(realisations) > 1 else ()
-        block = np.empty((*batch, len(layers), layers[0].count))
-    for n, layer in enumerate(layers):
-        row = radii.row(layer, realisations, system)
-        if block is None:
-            rows.append(row)
-        else:
-            block[..., n, :] = row
-    return tuple(rows) if block is None else Stack(block)
+def beads_of(radii: Radii, layers: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
+    """Give δr/r of beads that lie row after row, (realisations, beads)."""
+    if isinstance(radii, ArrayRadii) and layers.are_whole(radii.values.shape[-1]):
+        return radii.layers(len(layers), realisations, system)
+    if isinstance(radii, DrawnRadii) and system.dtype is not object:
+        deviates = drawn(radii.kind, radii.seed, radii.width, layers, realisations)
+        if deviates is not None and float(radii.std) * deviates.min(initial=0) > -NEARLY:
+            return from_floats(system, deviates) * system.scalar(radii.std)
+    rows = [radii.row(layer, realisations, system) for layer in layers]
+    found: Any = zeros(system, len(realisations), sum(layer.count for layer in layers))
+    at = 0
+    for layer, row in zip(layers, rows, strict=True):
+        found[:, at : at + layer.count] = row
+        at += layer.count
+    return found

@@ -260,7 +260,7 @@ def _solved(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
     """Solve packings; those that can't be built are found by halving."""
     problem = replace(m.problem, realisations=len(numbers))
     try:
-        packings = engine.packings(problem, numbers, FLOAT64, any_number=True, copied=True)
+        packings = engine.packings(problem, numbers, FLOAT64)
         yield from [_measured(m, solved, some) for solved, some in packings]
     except TROUBLE:
         if len(numbers) > 1:

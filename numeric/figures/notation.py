@@ -28,7 +28,7 @@ def beads(o: Options) -> Table:
     packing, _ = one_packing(planned("positions", height=HEIGHT, width=WIDTH, seed=o.seed, std=STD))
     found = []
     for j, layer in enumerate(packing.region.rows):
-        columns = (layer.sites(), *centres(packing, j), 1 + packing.rho[j])
+        columns = (layer.sites(), *centres(packing, j), packing.radii[j])
         for i, *numbers in zip(*columns, strict=True):
             if i in SHOWN:
                 found.append((i, j, *map(float, numbers)))

@@ -168,6 +168,10 @@ class Rows(Sequence[Layer]):
         """How many there are."""
         return int(self.counts.sum())
 
+    def are_whole(self, width: int) -> bool:
+        """Say whether each is the whole layer of a periodic packing."""
+        return bool(((self.counts == width) & (self.firsts == self.layers % 2)).all())
+
     @property
     def lasts(self) -> Array:
         """The largest i of each row."""
@@ -306,8 +310,7 @@ class Region:
     @cached_property
     def is_whole(self) -> bool:
         """Whether it is all of a periodic packing, up to its highest layer."""
-        full = (self.rows.counts == self.width) & (self.rows.firsts == self.rows.layers % 2)
-        return self.width is not None and bool(full.all())
+        return self.width is not None and self.rows.are_whole(self.width)
 
 
 def _itself(values: Array) -> Array:
@@ -346,17 +349,26 @@ def closed_below(j: Array, first: Array, last: Array, width: int | None) -> Rows
     return Rows.between(left[::-1] + j, right[::-1] - j, width)
 
 
-class Stack(LazyRows[Array]):
-    """Rows of equal length in one ``block``, (…, rows, beads).
+class ByRow(Sequence[Any]):
+    """Numbers of beads that lie row after row, (…, beads), by row.
 
-    >>> rows = Stack(np.arange(6).reshape(3, 2))
-    >>> len(rows), rows[-1].tolist(), [row.tolist() for row in rows[:2]]
-    (3, [4, 5], [[0, 1], [2, 3]])
+    >>> rows = ByRow(np.arange(5), np.array([0, 2, 5]))
+    >>> len(rows), rows[-1].tolist(), [row.tolist() for row in rows]
+    (2, [2, 3, 4], [[0, 1], [2, 3, 4]])
     """
 
-    def __init__(self, block: Array) -> None:
-        self.block = block
-        super().__init__(block.shape[-2], lambda j: np.asarray(block[..., j, :]))
+    def __init__(self, values: Any, starts: Array) -> None:
+        """``starts``: the number of each row's first bead, and that of all beads."""
+        self.values, self.starts = values, starts.tolist()
+
+    def __len__(self) -> int:
+        return len(self.starts) - 1
+
+    def __getitem__(self, j: Any) -> Any:
+        if isinstance(j, slice):
+            return [self[k] for k in range(len(self))[j]]
+        j = range(len(self))[j]
+        return self.values[..., self.starts[j] : self.starts[j + 1]]
 
 
 def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: Any = None) -> Array:

@@ -4,6 +4,7 @@ F_load = −(L⁺ n⁺ + L⁻ n⁻), so that in the ordered packing a load adds 
 same orientation straight below it. A vertical unit load has L⁺ = L⁻ = 1/(2 n_y).
 """
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -11,13 +12,13 @@ from functools import cached_property
 from typing import Any
 
 import flint
+import numpy as np
 
-from ..arithmetic.carried import Carrying
-from ..arithmetic.systems import Balls, NumberSystem, zeros
-from ..lattice.branch import Branch, Site, per_direction
-from ..lattice.layers import Region, Rows
+from ..arithmetic.systems import Array, Balls, NumberSystem, from_floats, zeros
+from ..lattice.branch import Branch, Site
+from ..lattice.layers import Rows
 from .local import level, vertical_square
-from .sweep import Forces, Loads, straight_down
+from .sweep import starts_above
 
 Components = tuple[Any, ...]
 
@@ -36,55 +37,6 @@ def components(force: Sequence[Any], n_x: Any, up: Any) -> Components:
         size = n_x * (2 if k == 1 else flint.arb(12).sqrt())
         found = [of - h * part / size if h else of for of, h in zip(found, row, strict=True)]
     return tuple(found)
-
-
-def on_rows(
-    loads: Mapping[tuple[int, int], Components],
-    rows: Rows,
-    width: int | None,
-    system: NumberSystem,
-    dimension: int = 2,
-) -> Loads:
-    """Put the loads of single beads {(i, j): (L^a)} on the rows; beads outside are left out."""
-    found: dict[int, dict[int, Components]] = {}
-    for (i, j), load in loads.items():
-        if j >= len(rows):
-            continue
-        q = (i - rows[j].first) // 2
-        if width is not None:
-            q %= width
-        if 0 <= q < rows[j].count:
-            on = found.setdefault(j, {})
-            on[q] = tuple(a + b for a, b in zip(on[q], load, strict=True)) if q in on else load
-
-    def row(j: int, a: int) -> Any:
-        if j not in found:
-            return None
-        return placed({q: load[a] for q, load in found[j].items()}, rows[j].count, system)
-
-    return per_direction([tuple(row(j, a) for j in range(len(rows))) for a in range(dimension)])
-
-
-def placed(values: Mapping[int, Any], count: int, system: NumberSystem) -> Any:
-    """Give an array that is zero but for some values."""
-    if isinstance(system, Carrying):
-        none = system.number(Fraction(0))
-        return system.column([values.get(q, none) for q in range(count)])
-    row = zeros(system, count)
-    for q, value in values.items():
-        row[q] = value
-    return row
-
-
-def on_layers(load: Components, rows: Rows, layers: range, system: NumberSystem) -> Loads:
-    """Put the same load on every bead of some layers (surface: only M; bulk: all)."""
-
-    def along(share: Any) -> tuple[Any, ...]:
-        return tuple(
-            zeros(system, row.count) + share if j in layers else None for j, row in enumerate(rows)
-        )
-
-    return per_direction([along(share) for share in load])
 
 
 def _exact(system: NumberSystem) -> Balls:
@@ -150,14 +102,63 @@ class LoadSpec:
         sin, cos = flint.arb.sin_cos_pi_fmpq(angle)
         return sin, cos
 
-    def on(self, rows: Rows, strength: Strength, system: NumberSystem) -> Loads:
-        """Put the load on the beads of ``rows`` (layers 0 … top)."""
-        if self.kind == "file":
-            return on_rows(strength.single, rows, self.width, system, self.dimension)
-        if self.at is not None:
-            return on_rows({self.at: strength.unit}, rows, self.width, system, self.dimension)
-        layers = range(len(rows)) if self.kind == "bulk" else range(self.height, len(rows))
-        return on_layers(strength.unit, rows, layers, system)
+    def _singly(self, strength: Strength) -> Mapping[Site, Components]:
+        """Give the loads of single beads."""
+        return strength.single if self.at is None else {self.at: strength.unit}
+
+    def on(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
+        """Give (L^a) of the beads of ``rows`` (layers 0 … top), (d, beads)."""
+        found = zeros(system, self.dimension, rows.beads)
+        ends = np.cumsum(rows.counts)
+        if self.loaded is None:
+            first = 0 if self.kind == "bulk" else int(ends[-1] - rows.counts[-1])
+            for a, share in enumerate(strength.unit):
+                found[a, first:] = share
+            return found
+        for site, load in self._singly(strength).items():
+            layers, columns = self._below(site, 0, rows)
+            if len(layers) and layers[0] == site[1]:
+                for a, share in enumerate(load):
+                    found[a, ends[site[1]] - rows.counts[site[1]] + columns[0]] += share
+        return found
+
+    def ordered(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
+        """Give the ordered forces below the beads of ``rows`` above the base, (d, beads).
+
+        A load goes straight down, along each direction by itself.
+        """
+        starts = starts_above(rows)
+        found = zeros(system, self.dimension, int(starts[-1]))
+        if self.loaded is None:
+            times = np.ones(len(rows))
+            if self.kind == "bulk":
+                times = self.height - rows.layers + 1.0
+            times = times.repeat(np.diff(starts))
+            for a, share in enumerate(strength.unit):
+                found[a] = from_floats(system, times) * share
+            return found
+        for site, load in self._singly(strength).items():
+            for a, share in enumerate(load):
+                layers, columns = self._below(site, a, rows)
+                at = (starts[layers] + columns)[layers > 0]
+                found[a, at] = found[a, at] + share
+        return found
+
+    def _below(self, site: Site, a: int, rows: Rows) -> tuple[Array, Array]:
+        """Give layers and columns of the beads of ``rows`` from a site straight down −e_a."""
+        i, j = site
+        down = np.arange(min(j + 1, len(rows)) if j < len(rows) else 0)
+        layers = j - down
+        if self.dimension == 2:
+            columns = (i + (2 * a - 1) * down - rows.firsts[layers]) // 2
+            if self.width is not None:
+                columns %= self.width
+        else:
+            side = math.isqrt(self.width or 0)
+            p, q = divmod((i - j % 2) // 2, side)
+            columns = (p - down * (a == 0)) % side * side + (q - down * (a == 1)) % side
+        there = (columns >= 0) & (columns < rows.counts[layers])
+        return layers[there], columns[there]
 
     @cached_property
     def _by_diagonal(self) -> dict[tuple[int, int], list[Site]]:
@@ -198,31 +199,3 @@ class LoadSpec:
             pair = strength.single[site] if self.kind == "file" else strength.unit
             total = total + pair[which]
         return total
-
-    def ordered_forces(
-        self, region: Region, rows: Rows, strength: Strength, system: NumberSystem
-    ) -> Forces:
-        """Give all ordered forces below the beads of ``rows``; changes are 0."""
-        d = len(strength.unit)
-        if self.kind in {"surface", "bulk"}:  # in closed form
-            times = [1 if self.kind == "surface" else self.height - j + 1 for j in range(len(rows))]
-            found = [
-                [zeros(system, row.count if j else 0) + share * times[j]
-                 for j, row in enumerate(rows)]
-                for share in strength.unit
-            ]  # fmt: skip
-        else:
-            down = straight_down(rows, region, self.on(rows, strength, system), system)
-            found = [
-                [down[j][a] if len(down[j][a]) or not j else zeros(system, row.count)
-                 for j, row in enumerate(rows)]
-                for a in range(d)
-            ]  # fmt: skip
-        changes = tuple(zeros(system, row.count if j else 0) for j, row in enumerate(rows))
-        return Forces(
-            system,
-            region,
-            rows,
-            per_direction([tuple(of) for of in found]),
-            per_direction([changes] * d),
-        )

@@ -1,9 +1,10 @@
 """One bead: how it rests on its d supports, what its contacts bear, its gap to another; d = 2, 3.
 
-The one source of all sweeps. Vectors are tuples of components, and components are what the caller
-calculates with: NumPy arrays of floats or of objects, numbers that carry their rounding errors
-(``arithmetic.carried``), or names, whose operations are recorded for the compiler
-(``arithmetic.recording``). Only +, −, ×, / and ``sqrt`` are used, and no decision is made.
+The one source of all sweeps, in +, −, ×, / and ``sqrt`` alone, without a decision. Vectors are
+tuples of components, and components are what the caller calculates with: NumPy arrays of floats or
+of objects (balls, mpmath), numbers that carry their rounding errors (``arithmetic.carried``), or
+where ``loops`` compiles these very functions, numbers of one bead. There each ``len`` is known
+beforehand, and of its two branches one is left.
 
 Base vectors n^1 … n^d have one mutual dot product φ; bead x rests on x − e_1 … x − e_d. A
 displacement is carried as c_a = n^a·δx: to first order each is a line sum of δr (Eqs. 2 and 3).
@@ -17,18 +18,17 @@ root has a form without cancellation. Every |p^a|²/4 is found as a sum of terms
 that no ordered value, and none of first order, is ever subtracted.
 """
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from fractions import Fraction
-from functools import reduce
 from itertools import combinations
-from operator import add, mul, sub
 from typing import Any, NamedTuple
+
+from ..arithmetic.carried import sqrt
 
 # Gaps smaller than this, in units of r, are below the rounding of float64.
 RESOLUTION = 1e-14
 
 Vector = tuple[Any, ...]
-Sqrt = Callable[[Any], Any]
 
 
 class Metric(NamedTuple):
@@ -37,11 +37,6 @@ class Metric(NamedTuple):
     phi: Any
     own: Any
     cross: Any
-
-    def raised(self, v: Vector) -> Vector:
-        """Turn n^a·v into v^a of v = Σ v^a n^a: multiply by the inverse of the Gram matrix."""
-        common = total(v) * self.cross
-        return tuple([x * self.own + common for x in v])
 
 
 def cosine(n_x: Fraction) -> Fraction:
@@ -68,55 +63,68 @@ def level(dimension: int) -> tuple[tuple[int, ...], ...]:
     return ((1, -1),) if dimension == 2 else ((1, 0, -1), (-1, 2, -1))
 
 
-def total(values: Iterable[Any]) -> Any:
-    """Add, from the first to the last."""
-    return reduce(add, values)
+def total(v: Any) -> Any:
+    """Add the components, from the first to the last."""
+    return v[0] + v[1] if len(v) == 2 else v[0] + v[1] + v[2]
 
 
-def dot(u: Vector, v: Vector) -> Any:
-    """Give the dot product of two vectors, one of them ``raised``."""
-    return reduce(add, map(mul, u, v))
-
-
-def plus(u: Vector, v: Vector) -> Vector:
+def plus(u: Any, v: Any) -> Any:
     """Add two vectors."""
-    return tuple(map(add, u, v))
+    if len(u) == 2:
+        return u[0] + v[0], u[1] + v[1]
+    return u[0] + v[0], u[1] + v[1], u[2] + v[2]
 
 
-def less(u: Vector, v: Vector) -> Vector:
+def less(u: Any, v: Any) -> Any:
     """Subtract two vectors."""
-    return tuple(map(sub, u, v))
+    if len(u) == 2:
+        return u[0] - v[0], u[1] - v[1]
+    return u[0] - v[0], u[1] - v[1], u[2] - v[2]
 
 
-def solved(
-    matrix: Sequence[Sequence[Any]], rights: Sequence[Sequence[Any]]
-) -> tuple[list[list[Any]], Any]:
-    """Solve (1 + matrix) x = right for each right side by elimination; give also the determinant.
+def times(u: Any, v: Any) -> Any:
+    """Multiply component by component."""
+    if len(u) == 2:
+        return u[0] * v[0], u[1] * v[1]
+    return u[0] * v[0], u[1] * v[1], u[2] * v[2]
 
-    A small matrix needs no pivoting.
-    """
-    size = len(matrix)
-    rows = [list(row) for row in matrix]
-    found = [list(right) for right in rights]
-    inverses = []
-    for k in range(size):
-        rows[k][k] = 1 + rows[k][k]
-        inverses.append(1 / rows[k][k])
-        for i in range(k + 1, size):
-            factor = rows[i][k] * inverses[k]
-            for x in found:
-                x[i] = x[i] - factor * x[k]
-            for c in range(k + 1, size):
-                rows[i][c] = rows[i][c] - factor * rows[k][c]
-    for x in found:
-        for k in reversed(range(size)):
-            for c in range(k + 1, size):
-                x[k] = x[k] - rows[k][c] * x[c]
-            x[k] = x[k] * inverses[k]
-    det = rows[0][0]
-    for k in range(1, size):
-        det = det * rows[k][k]
-    return found, det
+
+def scaled(v: Any, x: Any) -> Any:
+    """Multiply all components by a number."""
+    if len(v) == 2:
+        return v[0] * x, v[1] * x
+    return v[0] * x, v[1] * x, v[2] * x
+
+
+def over(v: Any, n: Any) -> Any:
+    """Divide all components by a whole number."""
+    if len(v) == 2:
+        return v[0] / n, v[1] / n
+    return v[0] / n, v[1] / n, v[2] / n
+
+
+def shifted(v: Any, x: Any) -> Any:
+    """Add a number to all components."""
+    if len(v) == 2:
+        return v[0] + x, v[1] + x
+    return v[0] + x, v[1] + x, v[2] + x
+
+
+def replaced(v: Any, a: Any, x: Any) -> Any:
+    """Give a vector with another component ``a``."""
+    if len(v) == 2:
+        return x if a == 0 else v[0], x if a == 1 else v[1]
+    return x if a == 0 else v[0], x if a == 1 else v[1], x if a == 2 else v[2]
+
+
+def raised(v: Any, m: Any) -> Any:
+    """Turn n^a·v into v^a of v = Σ v^a n^a: multiply by the inverse of the Gram matrix."""
+    return shifted(scaled(v, m.own), total(v) * m.cross)
+
+
+def dot(u: Any, v: Any) -> Any:
+    """Give the dot product of two vectors, one of them ``raised``."""
+    return total(times(u, v))
 
 
 class Rest(NamedTuple):
@@ -125,52 +133,85 @@ class Rest(NamedTuple):
     ``holds`` are positive where it can rest: first a discriminant, then measures of tilt.
     """
 
-    c: Vector
-    dn: tuple[Vector, ...]
-    holds: Vector
+    c: Any
+    dn: Any
+    holds: Any
 
 
-def rest(
-    under: Sequence[Vector], rho: Any, rho_under: Vector, m: Metric, sqrt: Sqrt, *, linear: bool
-) -> Rest:
-    """Rest a bead on its supports (Eqs. 2, 4 and 5, exact); to first order only if ``linear``.
+def rest(under: Any, rho: Any, rho_under: Any, m: Any) -> Any:
+    """Rest a bead on its supports (Eqs. 2, 4 and 5, exact).
 
     ``under[a]`` holds n^b·δx of the support x − e_a, ``rho`` and ``rho_under`` are δr/r of the bead
     and of its supports.
     """
-    d = len(under)
-    both = tuple(rho + of for of in rho_under)
-    own = tuple(under[a][a] for a in range(d))
-    if linear:
-        first = [m.raised(tuple(_across(a, both, own, under[a], both[a], m))) for a in range(d)]
-        return Rest(plus(own, both), tuple(tuple(x / 2 for x in v) for v in first), ())
-    more = tuple(x * x / 4 for x in both)
+    both = shifted(rho_under, rho)
+    more = over(times(both, both), 4)
     reach = plus(both, more)
-    last = d - 1
-    apart = [less(under[last], under[a]) for a in range(last)]  # p^a − p
-    tilts = [m.raised(u) for u in apart]
-    # p = guess − lift − A step, where lift is of second order; p_d = R^d − A by its own contact
-    guess = (*(reach[a] - apart[a][a] for a in range(last)), reach[last])
-    matrix = [[tilts[a][b] / 2 for b in range(last)] for a in range(last)]
-    second = [dot(t, plus(guess, tuple(x / 2 for x in u))) / 2
-              for t, u in zip(tilts, apart, strict=True)]  # fmt: skip
-    (lift, step), det = solved(matrix, (second, [1 - t[last] / 2 for t in tilts]))
-    start = (*(guess[a] - lift[a] for a in range(last)), guess[last])
-    up = m.raised(start)
-    size = dot(up, start)
-    along = m.raised((*step, 1))
+    guess, lift, step, det = _line(under, reach, m)  # p = guess − lift − A step
+    start = less(guess, lift)
+    size = dot(raised(start, m), start)
+    along = raised(step, m)
     half = 1 + dot(along, start) / 2
-    discriminant = half * half - dot(along, (*step, 1)) * size / 4
+    discriminant = half * half - dot(along, step) * size / 4
     square = size / (half + sqrt(discriminant)) / 2
-    squares = (*(lift[a] + square * step[a] for a in range(last)), square)
-    rise = less(reach, squares)
+    squares = plus(lift, scaled(step, square))
+    rise, second = less(reach, squares), less(more, squares)
+    if len(under) == 2:
+        own: Any = under[0][0], under[1][1]
+        x, y = less(own, under[0]), less(own, under[1])
+        dn: Any = (
+            _turn(0, plus(rise, x), both[0], second[0], m),
+            _turn(1, plus(rise, y), both[1], second[1], m),
+        )
+        return Rest(plus(own, rise), dn, (discriminant, det, step[0]))
+    own = under[0][0], under[1][1], under[2][2]
+    x, y, z = less(own, under[0]), less(own, under[1]), less(own, under[2])
+    dn = (
+        _turn(0, plus(rise, x), both[0], second[0], m),
+        _turn(1, plus(rise, y), both[1], second[1], m),
+        _turn(2, plus(rise, z), both[2], second[2], m),
+    )
+    return Rest(plus(own, rise), dn, (discriminant, det, step[0], step[1]))
+
+
+def _line(under: Any, reach: Any, m: Any) -> Any:
+    """Give guess, lift and step of p = guess − lift − A step, and a determinant, by Cramer's rule.
+
+    ``lift`` is of second order.
+    """
+    if len(under) == 2:
+        u = less(under[1], under[0])  # p^1 − p
+        t = raised(u, m)
+        det = 1 + t[0] / 2
+        guess: Any = reach[0] - u[0], reach[1]
+        lift = dot(t, plus(guess, over(u, 2))) / 2 / det
+        return guess, (lift, 0), ((1 - t[1] / 2) / det, 1), det
+    u, v = less(under[2], under[0]), less(under[2], under[1])
+    s, t = raised(u, m), raised(v, m)
+    guess = reach[0] - u[0], reach[1] - v[1], reach[2]
+    p, q = dot(s, plus(guess, over(u, 2))) / 2, dot(t, plus(guess, over(v, 2))) / 2
+    x, y = 1 - s[2] / 2, 1 - t[2] / 2
+    a, b, c, d = 1 + s[0] / 2, s[1] / 2, t[0] / 2, 1 + t[1] / 2
+    det = a * d - b * c
+    lifts = (d * p - b * q) / det, (a * q - c * p) / det, 0
+    return guess, lifts, ((d * x - b * y) / det, (a * y - c * x) / det, 1), det
+
+
+def _turn(a: Any, p: Any, both: Any, second: Any, m: Any) -> Any:
+    """Give δn^a of the contact along n^a, from n^b·p^a; n^a·(p^a − ρ^a n^a) is of second order."""
+    across = replaced(shifted(p, -(both * m.phi)), a, second)
+    return scaled(raised(across, m), 1 / (2 + both))
+
+
+def rest_linear(under: Any, rho: Any, rho_under: Any, m: Any) -> Rest:
+    """Rest a bead to first order."""
+    both = shifted(rho_under, rho)
+    own = tuple(under[a][a] for a in range(len(under)))
     dn = []
-    for a in range(d):
-        across = _across(a, rise, own, under[a], both[a], m)
-        across[a] = more[a] - squares[a]
-        inverse = 1 / (2 + both[a])
-        dn.append(tuple(x * inverse for x in m.raised(tuple(across))))
-    return Rest(plus(own, rise), tuple(dn), (discriminant, det, *step))
+    for a, of in enumerate(under):
+        across = replaced(shifted(plus(both, less(own, of)), -(both[a] * m.phi)), a, 0 * both[a])
+        dn.append(over(raised(across, m), 2))
+    return Rest(plus(own, both), tuple(dn), ())
 
 
 def nested(under: Sequence[Vector], rho_under: Vector, m: Metric) -> list[Any]:
@@ -184,72 +225,71 @@ def nested(under: Sequence[Vector], rho_under: Vector, m: Metric) -> list[Any]:
         apart = list(less(under[a], under[b]))
         apart[a], apart[b] = apart[a] - turn, apart[b] + turn
         sizes = rho_under[a] - rho_under[b]
-        found.append(sizes * sizes - dot(m.raised(tuple(apart)), tuple(apart)))
+        found.append(sizes * sizes - dot(raised(tuple(apart), m), tuple(apart)))
     return found
 
 
-def _across(a: int, rise: Vector, own: Vector, under: Vector, both: Any, m: Metric) -> list[Any]:
-    """Give n^b·(p^a − ρ^a n^a) of one contact; component ``a`` is left at zero."""
-    turned = both * m.phi
-    return [0 if b == a else rise[b] + (own[b] - under[b]) - turned for b in range(len(own))]
-
-
 class Balanced(NamedTuple):
-    """Changes g^a of the forces below a bead; what their sums lost; a determinant, not zero."""
+    """Changes g^a of the forces below a bead, and a determinant, not zero."""
 
-    g: Vector
-    lost: Vector
+    g: Any
     det: Any
 
 
-def balance(
-    above: Sequence[tuple[Any, Any, Vector, Any]],
-    F: Vector,
-    dn: Sequence[Vector],
-    *,
-    linear: bool,
-    compensated: bool,
-) -> Balanced:
+def balance(F_above: Any, g_above: Any, dn_above: Any, F: Any, dn: Any) -> Any:
     """Balance a bead (Eq. 6, exact): Σ g N (lower) = Σ g N + Σ F δn (upper) − Σ F δn (lower).
 
-    ``above[a]`` holds F, g, δn and what the sum of g lost, of the contact with x + e_a; ``F`` and
-    ``dn`` belong to the contacts below. All that is ordered, and the load, has dropped out by
-    itself. One force passes straight down through every layer: where sums are ``compensated``
-    (Knuth's two-sum), the next layer takes along what a rounding lost. To first order there is
-    nothing to invert (``linear``, Eqs. 7–11).
+    What is ``above`` belongs to the contacts with x + e_a, ``F`` and ``dn`` to those below. All
+    that is ordered, and the load, has dropped out by itself.
     """
-    d = len(F)
-    g = tuple(one[1] for one in above)
-    turn = turned([of if linear else of + change for of, change, _, _ in above],
-                   [one[2] for one in above])  # fmt: skip
-    if compensated:
-        turn = plus(turn, tuple(one[3] for one in above))
-    turn = less(turn, turned(F, dn))
-    det = None
-    if not linear:  # (1 + D) h = s, written for h − s, which is small of second order
-        small = turned(plus(g, turn), dn)
-        (away,), det = solved([[dn[a][b] for a in range(d)] for b in range(d)], (small,))
-        turn = less(turn, tuple(away))
-    found = plus(g, turn)
-    if not compensated:
-        return Balanced(found, (), det)
-    part = less(found, g)
-    return Balanced(found, plus(less(g, less(found, part)), less(turn, part)), det)
+    bearing = turned(plus(F_above, g_above), dn_above)
+    turn = less(bearing, turned(F, dn))
+    small = turned(plus(g_above, turn), dn)
+    away, det = _solved(dn, small)  # (1 + D) h = s, written for h − s, which is of second order
+    return Balanced(plus(g_above, less(turn, away)), det)
 
 
-def turned(forces: Sequence[Any], dn: Sequence[Vector]) -> Vector:
+def balance_linear(F_above: Any, g_above: Any, dn_above: Any, F: Any, dn: Any) -> Balanced:
+    """Balance a bead to first order (Eqs. 7–11): there is nothing to invert."""
+    return Balanced(plus(g_above, less(turned(F_above, dn_above), turned(F, dn))), None)
+
+
+def turned(forces: Any, dn: Any) -> Any:
     """Give Σ_a f_a δn^a."""
-    return tuple([dot(tuple(forces), of) for of in zip(*dn, strict=True)])
+    if len(dn) == 2:
+        return plus(scaled(dn[0], forces[0]), scaled(dn[1], forces[1]))
+    both = plus(scaled(dn[0], forces[0]), scaled(dn[1], forces[1]))
+    return plus(both, scaled(dn[2], forces[2]))
 
 
-def gap(
-    steps: Sequence[Any], square: Any, excess: Any, u: Vector, both: Any, m: Metric, sqrt: Sqrt
-) -> Any:
+def _solved(dn: Any, right: Any) -> Any:
+    """Solve Σ_a x_a (n^a + δn^a) = Σ_a right_a n^a by Cramer's rule; give also the determinant."""
+    if len(dn) == 2:
+        a, b = 1 + dn[0][0], 1 + dn[1][1]
+        det = a * b - dn[1][0] * dn[0][1]
+        x = b * right[0] - dn[1][0] * right[1]
+        y = a * right[1] - dn[0][1] * right[0]
+        return (x / det, y / det), det
+    u, v, w = replaced(dn[0], 0, 1 + dn[0][0]), replaced(dn[1], 1, 1 + dn[1][1]), dn[2]
+    w = replaced(w, 2, 1 + w[2])
+    of_u, of_v, of_w = _crossed(v, w), _crossed(w, u), _crossed(u, v)
+    det = dot(u, of_u)
+    return (dot(right, of_u) / det, dot(right, of_v) / det, dot(right, of_w) / det), det
+
+
+def _crossed(u: Any, v: Any) -> Any:
+    """Give the cross product of three components each."""
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+def gap(steps: Any, square: Any, excess: Any, u: Any, both: Any, m: Any) -> Any:
     """Give (|d|² − D²)/(|d| + D) of two beads, D the sum of their radii, without cancelling.
 
     ``steps`` is their distance on the lattice, in base vectors; ``square`` that of the ordered
     packing, and ``excess`` the same less 4, exact; ``u`` holds n^b·(δx − δx') and ``both`` the sum
     of the two δr.
     """
-    change = 4 * dot(tuple(steps), u) + dot(m.raised(u), u)
-    return (excess + (change - 4 * both - both * both)) / (sqrt(square + change) + (2 + both))
+    change = 4 * dot(steps, u) + dot(raised(u, m), u)
+    distance = square + change  # its square, which rounding may have made negative
+    near = distance * (distance > 0)
+    return (excess + (change - 4 * both - both * both)) / (sqrt(near) + (2 + both))

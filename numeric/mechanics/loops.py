@@ -1,214 +1,272 @@
-"""The loops around recorded kernels; ``kernels`` puts both into one file and compiles it.
+"""Packings of discs swept bead by bead: what numba compiles of ``local``, and the loops around it.
 
-Beads lie row after row, each quantity in one flat array. A *run* is as many neighbouring beads as
-have their neighbours side by side, too: a kernel works on it in place, several beads at a time.
-``D`` is the dimension. Where numbers carry their errors, these lie behind the values: first all
-quantities, then the errors of all, which are filled in once the values are.
+Beads lie row after row. Each quantity of a packing is in one flat array, ``pitch`` numbers behind
+the one before it; where numbers carry their errors, these lie so many numbers behind them as the
+last arguments say, tuples that are empty elsewhere. A *piece* of a row is as many neighbouring
+beads as have their neighbours side by side, too: the innermost loops work on it in place, several
+beads at a time. Nothing here is called but compiled.
 """
 
-from typing import TYPE_CHECKING, Any
+from functools import lru_cache
+from typing import Any, NamedTuple
 
-import numpy as np
-from force_diffusion.numeric.arithmetic.compiling import borrowed, compiled, inner
-from force_diffusion.numeric.arithmetic.systems import Array
+from ..arithmetic import compiling
+from ..arithmetic.carried import Carried
+from . import local
+from .local import Metric, balance, gap, rest
 
-if TYPE_CHECKING:
-    D, NONE, RESOLUTION, TOGETHER = 2, 32, 0.0, 512
-
-    def rest(rho: Array, block: Array, run: Array, m: Array) -> bool:
-        """Recorded from ``local.rest``."""
-
-    def balance(F: Array, block: Array, g: Array, lost: Array, run: Array, m: Array) -> bool:
-        """Recorded from ``local.balance``."""
-
-    def order_errors(F: Array, shares: Array, run: Array, m: Array) -> bool:
-        """Recorded from ``kernels``."""
-
-    def rest_errors(rho: Array, block: Array, run: Array, m: Array) -> bool:
-        """Recorded from ``defects``."""
-
-    def balance_errors(F: Array, block: Array, g: Array, run: Array, m: Array) -> bool:
-        """Recorded from ``defects``."""
-
-    def order(F: Array, shares: Array, run: Array, m: Array) -> bool:
-        """Recorded from ``kernels``."""
-
-    def gap(rho: Array, block: Array, gaps: Array, run: Array, m: Array) -> bool:
-        """Recorded from ``local.gap``."""
+INFINITY = float("inf")
 
 
-_ALL = 0x7FFF_FFFF_FFFF_FFFF  # all bits of a double but its sign
+def number(p: Any, i: Any, e: Any) -> Any:
+    """Take a number, and its error."""
+    if len(e) == 0:
+        return p[i]
+    return Carried(p[i], p[e[0] + i])
 
 
-@inner
-def _piece(at: int, n: int, own: int, link: Array, turn: Array) -> tuple[int, int]:
-    """Find where bead ``at`` of a layer has its neighbour, and how many after it have theirs there.
+def put(p: Any, i: Any, e: Any, x: Any) -> None:
+    """Put a number, and its error."""
+    if len(e) == 0:
+        p[i] = x
+    else:
+        p[i] = x.value
+        p[e[0] + i] = x.error
 
-    A layer has rows of ``own`` beads; ``link``: the neighbours' first bead, how many a row of them
-    has, by how many columns they are shifted, and after how many all begins anew (0: never).
-    ``turn`` says in which row they are. Gives −1 where there is none.
+
+def nearest(x: Any, e: Any) -> Any:
+    """Give a number without its error."""
+    if len(e) == 0:
+        return x
+    return x.value
+
+
+def metric_of(m: Any, e: Any) -> Any:
+    """Take what φ decides; errors lie behind it."""
+    if len(e) == 0:
+        return Metric(m[0], m[1], m[2])
+    return Metric(Carried(m[0], m[3]), Carried(m[1], m[4]), Carried(m[2], m[5]))
+
+
+def piece(at: Any, n: Any, count: Any, period: Any) -> Any:
+    """Find bead ``at`` of a row of ``count``, and how many of n beads from there lie side by side.
+
+    In a periodic packing (``period`` > 0) that may be an image. Gives −1 where no bead is.
     """
-    row = at // own
-    q = at - row * own
-    c, n = q + link[2], min(own - q, n)
-    if link[3] > 0:
-        c %= link[3]
-        n = min(n, link[3] - c)
-    if c < 0:
-        return -1, min(n, -c)
-    if c >= link[1]:
+    if period > 0:
+        at %= period
+        n = min(n, period - at)
+    if at < 0:
+        return -1, min(n, -at)
+    if at >= count:
         return -1, n
-    return link[0] + turn[row] * link[1] + c, min(n, link[1] - c)
+    return at, min(n, count - at)
 
 
-@compiled
-def runs(
-    layers: Array, links: Array, turns: Array, nothing: Array, most: int, found: Array
-) -> int:  # fmt: skip
-    """Cut layers into runs of at most ``most`` beads; say how many there are.
-
-    ``layers`` (layers, 3) has the beads, first bead and beads in a row of each; ``links`` (layers,
-    places, 4) and ``turns`` (places, rows of a layer) name the beads of each place. Where there are
-    none, ``nothing`` is where ``NONE`` zeros lie; if that is negative, a run is left out. Filled is
-    ``found``, (runs, places + 1), as far as it goes.
-    """
-    places, count = len(nothing), 0
-    run = found[len(found) - 1]  # one more than is told of
-    for j in range(len(layers)):
-        at = 0
-        while at < layers[j, 1]:
-            n, whole = min(layers[j, 1] - at, most), True
-            for k in range(places):
-                place, n = _piece(at, n, layers[j, 2], links[j, k], turns[k])
-                if place < 0:
-                    place, n = nothing[k], min(n, NONE)
-                    whole &= place >= 0
-                run[k] = place
-            at += n
-            if whole:
-                if count < len(found) - 1:
-                    for k in range(places):
-                        found[count, k] = run[k]
-                    found[count, places] = n
-                count += 1
-    return count
+def sound(x: Any, e: Any) -> Any:
+    """Say whether a number is positive, and finite."""
+    return (nearest(x, e) > 0) & (nearest(x, e) < INFINITY)
 
 
-@inner
-def _largest(words: Array, top: int) -> int:
-    """Give the largest of absolute values and ``top``, all as the bits of doubles."""
-    for i in range(len(words)):
-        top = max(top, words[i] & _ALL)
-    return top
+def rest_piece(
+    rho: Any, block: Any, pitch: Any, r: Any, own: Any, a: Any, b: Any, n: Any, m: Any,
+    e: Any, f: Any,
+) -> Any:  # fmt: skip
+    """Rest n beads on their supports a and b; say whether all can. Radii lie r further on."""
+    good = True
+    for q in range(n):
+        rho_own = number(rho, r + own + q, e)
+        found = rest(
+            (
+                (number(block, a + q, f), number(block, pitch + a + q, f)),
+                (number(block, b + q, f), number(block, pitch + b + q, f)),
+            ),
+            rho_own,
+            (number(rho, r + a + q, e), number(rho, r + b + q, e)),
+            m,
+        )
+        put(block, own + q, f, found.c[0])
+        put(block, pitch + own + q, f, found.c[1])
+        put(block, 2 * pitch + own + q, f, found.dn[0][0])
+        put(block, 3 * pitch + own + q, f, found.dn[0][1])
+        put(block, 4 * pitch + own + q, f, found.dn[1][0])
+        put(block, 5 * pitch + own + q, f, found.dn[1][1])
+        holds = found.holds
+        good &= sound(1 + rho_own, f) & sound(holds[0], f) & sound(holds[1], f)
+        good &= sound(holds[2], f)
+    return good
 
 
-@compiled
 def deposit(
-    rho: Array, block: Array, runs: Array, m: Array, words: Array, most: Array
-) -> bool:  # fmt: skip
-    """Deposit packings; say whether every bead rests.
+    rho: Any, block: Any, rows: Any, m: Any, batch: Any, layers: Any, period: Any, beads: Any,
+    pitch: Any, e: Any, f: Any,
+) -> int:  # fmt: skip
+    """Deposit packings; say whether every bead above the base rests.
 
-    ``rho`` is (packings, parts, beads); ``block``, (packings, parts (D + D²), …), has the c of the
-    lowest layer; filled in are those of all others, and behind them the δn of contacts below. The
-    places of ``runs``, the lowest layer first: the beads, and their supports. ``words`` are the
-    bits of the block, and ``most``, (packings, quantities), keeps the largest absolute values.
+    ``rho`` is (batch, beads), and ``block`` (batch, 6, pitch): c of the base is there, filled in
+    are c and δn of all others. ``rows`` (layers, 3): each row's first bead, how many there are, and
+    in which column of the row below its first bead has the support x − e₊.
     """
-    rho, block, words, most = borrowed(rho), borrowed(block), borrowed(words), borrowed(most)
+    good, metric = True, metric_of(m, f)
+    for k in range(batch):
+        p = 6 * k * pitch
+        r = k * beads - p
+        for j in range(1, layers):
+            below, under = p + rows[3 * j - 3], rows[3 * j - 2]
+            start, count, shift = p + rows[3 * j], rows[3 * j + 1], rows[3 * j + 2]
+            q = 0
+            while q < count:
+                a, n = piece(q + shift, count - q, under, period)
+                b, n = piece(q + shift + 1, n, under, period)
+                good &= rest_piece(
+                    rho, block, pitch, r, start + q, below + a, below + b, n, metric, e, f
+                )
+                q += n
+    return int(good)
+
+
+def balance_piece(
+    F: Any, block: Any, g: Any, size: Any, pitch: Any, k: Any, own: Any, here: Any, fa: Any,
+    ra: Any, fb: Any, rb: Any, n: Any, e: Any, f: Any, h: Any,
+) -> Any:  # fmt: skip
+    """Balance n beads below a and b; say whether all is in order. Changes lie k further on."""
     good = True
-    for k in range(len(rho)):
-        for r in range(len(runs)):
-            good &= rest(rho[k], block[k], runs[r], m)
-            if rho.shape[1] > 1:
-                rest_errors(rho[k], block[k], runs[r], m)
-            for q in range(most.shape[1]):
-                own = words[k, q, runs[r, 0] : runs[r, 0] + runs[r, -1]]
-                most[k, q] = _largest(own, most[k, q])
+    for q in range(n):
+        found = balance(
+            (number(F, fa + q, e), number(F, size + fb + q, e)),
+            (number(g, k + fa + q, h), number(g, k + size + fb + q, h)),
+            (
+                (number(block, 2 * pitch + ra + q, f), number(block, 3 * pitch + ra + q, f)),
+                (number(block, 4 * pitch + rb + q, f), number(block, 5 * pitch + rb + q, f)),
+            ),
+            (number(F, own + q, e), number(F, size + own + q, e)),
+            (
+                (number(block, 2 * pitch + here + q, f), number(block, 3 * pitch + here + q, f)),
+                (number(block, 4 * pitch + here + q, f), number(block, 5 * pitch + here + q, f)),
+            ),
+        )
+        put(g, k + own + q, h, found.g[0])
+        put(g, k + size + own + q, h, found.g[1])
+        good &= sound(found.det * found.det, f)
+        good &= (abs(nearest(found.g[0], f)) < INFINITY) & (abs(nearest(found.g[1], f)) < INFINITY)
     return good
 
 
-@compiled
-def straight_down(F: Array, shares: Array, runs: Array, m: Array) -> None:
-    """Carry loads straight down: fill in the ordered forces ``F``, (parts D, …) as ``shares``.
+def sweep_down(
+    F: Any, block: Any, g: Any, rows: Any, batch: Any, layers: Any, period: Any, nothing: Any,
+    size: Any, pitch: Any, e: Any, f: Any, h: Any,
+) -> int:  # fmt: skip
+    """Balance packings from the top down; say whether all is in order.
 
-    ``runs`` are those of ``sweep_down``.
+    ``F`` (2, size) are ordered forces, ``block`` is that of ``deposit``; filled is ``g``, (batch,
+    2, size). From ``nothing`` on both have zeros, as many as a row has beads. ``rows`` (layers, 7):
+    the first bead of a row among those that forces reach, and how many these are; the same of all
+    beads deposited; where among these the first of the former is; and in which column of either
+    row above its neighbour x + e₊ is.
     """
-    for r in range(len(runs)):
-        order(F, shares, runs[r], m)
-        if len(F) > D:
-            order_errors(F, shares, runs[r], m)
-
-
-@compiled
-def sweep_down(F: Array, block: Array, g: Array, lost: Array, runs: Array, m: Array) -> bool:
-    """Sweep packings down; say if all is in order.
-
-    ``F`` (parts D, …) are the ordered forces, ``block`` is that of ``deposit``; filled is ``g``,
-    (packings, parts D, …), alike. ``lost`` is for what the sums of a layer and the one above have
-    lost, which take turns. The places of ``runs``, the highest layer first: the beads
-    among those that forces reach, in the block, and where they lose; and of each upper bead these.
-    """
-    F, block, g, lost = borrowed(F), borrowed(block), borrowed(g), borrowed(lost)
     good = True
-    for k in range(len(g)):
-        for r in range(len(runs)):
-            good &= balance(F, block[k], g[k], lost, runs[r], m)
-            if len(F) > D:
-                balance_errors(F, block[k], g[k], runs[r], m)
-    return good
+    for k in range(batch):
+        p, c = 6 * k * pitch, 2 * k * size
+        for j in range(layers - 1, 0, -1):
+            row = 7 * j
+            start, count, region, wide = rows[row], rows[row + 1], rows[row + 2], rows[row + 3]
+            q = 0
+            while q < count:
+                here, n = piece(q + rows[row + 4], count - q, wide, period)
+                here += p + region
+                fa = fb = nothing
+                ra = rb = here
+                if j + 1 < layers:
+                    force, reached, bead, over = (
+                        rows[row + 7], rows[row + 8], p + rows[row + 9], rows[row + 10],
+                    )  # fmt: skip
+                    a, n = piece(q + rows[row + 5], n, reached, period)
+                    b, n = piece(q + rows[row + 5] - 1, n, reached, period)
+                    if a >= 0:
+                        fa, (x, n) = force + a, piece(q + rows[row + 6], n, over, period)
+                        ra = bead + x
+                    if b >= 0:
+                        fb, (x, n) = force + b, piece(q + rows[row + 6] - 1, n, over, period)
+                        rb = bead + x
+                good &= balance_piece(
+                    F, block, g, size, pitch, c, start + q, here, fa, ra, fb, rb, n, e, f, h
+                )
+                q += n
+            if count == 0:
+                break
+    return int(good)
 
 
-@compiled
-def settle(g: Array, words: Array, at: int, n: int, most: Array) -> None:
-    """Round numbers that carry their errors once, in place.
-
-    ``g`` is (packings, parts D, …). ``most``, (parts D,), keeps what was largest before.
-    """
-    g, words = borrowed(g), borrowed(words)
-    for k in range(len(g)):
-        for a in range(D):
-            for low in range(at, at + n, TOGETHER):
-                high = min(at + n, low + TOGETHER)
-                values, errors = g[k, a, low:high], g[k, a + D, low:high]
-                most[a] = _largest(words[k, a, low:high], most[a])
-                most[a + D] = _largest(words[k, a + D, low:high], most[a + D])
-                for i in range(high - low):
-                    values[i] += errors[i]
-
-
-@compiled
 def gaps(
-    rho: Array, block: Array, runs: Array, of_layer: Array, m: Array, smallest: float,
-    found: Array, gaps: Array, words: Array,
-) -> float:  # fmt: skip
-    """Measure the gaps of pairs of one kind; give the smallest, if it is below ``smallest``.
+    rho: Any, block: Any, found: Any, rows: Any, m: Any, batch: Any, layers: Any, rise: Any,
+    period: Any, beads: Any, pitch: Any,
+) -> int:  # fmt: skip
+    """Fill in the gaps of beads and those that lie so many steps on, where these are there.
 
-    ``rho`` (packings, 1, beads); the places of ``runs`` are both beads of a pair, ``of_layer``
-    has each layer's first run; ``m``: constants of the kernel. ``found``: the packing, both beads,
-    overlaps, gaps that are too close to tell, and gaps that are no number are counted there. Of
-    equal gaps the first is named: layer after layer, in each packing after packing. ``gaps``:
-    memory for those of one run, (1, beads and one); ``words`` are its bits.
+    ``found`` (batch, beads); ``rows`` (layers, 3): as for ``deposit``, but the column, in the row
+    that lies ``rise`` above, of the other bead. ``m``: of floats, then steps, square and excess.
     """
-    rho, block = borrowed(rho), borrowed(block)
-    values, spare = borrowed(gaps)[0], len(words) - 1
-    for j in range(len(of_layer) - 1):
-        for k in range(len(rho)):
-            for r in range(of_layer[j], of_layer[j + 1]):
-                gap(rho[k], block[k], gaps, runs[r], m)
-                over = close = odd = 0
-                least: Any = np.int64(_ALL)
-                for q in range(runs[r, -1]):
-                    value, word = values[q], words[q]
-                    over += value < -RESOLUTION
-                    close += abs(value) <= RESOLUTION
-                    odd += not value <= np.inf
-                    least = min(least, word ^ ((word >> 63) & _ALL))
-                words[spare] = least ^ ((least >> 63) & _ALL)
-                found[3] += over
-                found[4] += close
-                found[5] += odd
-                if values[spare] < smallest:
-                    smallest, place = values[spare], 0
-                    while values[place] != smallest:
-                        place += 1
-                    found[0], found[1], found[2] = k, runs[r, 0] + place, runs[r, 1] + place
-    return smallest
+    metric, steps = Metric(m[0], m[1], m[2]), (m[3], m[4])
+    for k in range(batch):
+        r, p = k * beads, 6 * k * pitch
+        for j in range(layers - rise):
+            start, count, shift = rows[3 * j], rows[3 * j + 1], rows[3 * j + 2]
+            other, over = rows[3 * (j + rise)], rows[3 * (j + rise) + 1]
+            q = 0
+            while q < count:
+                a, n = piece(q + shift, count - q, over, period)
+                if a >= 0:
+                    gap_piece(
+                        rho, block, found, pitch, r, p, start + q, other + a, n, metric, steps, m
+                    )
+                q += n
+    return 0
+
+
+def gap_piece(
+    rho: Any, block: Any, found: Any, pitch: Any, r: Any, p: Any, own: Any, a: Any, n: Any,
+    metric: Any, steps: Any, m: Any,
+) -> None:  # fmt: skip
+    """Fill in the gaps of n beads from ``own`` on, and as many from ``a`` on."""
+    for q in range(n):
+        u = (
+            block[p + a + q] - block[p + own + q],
+            block[p + pitch + a + q] - block[p + pitch + own + q],
+        )
+        both = rho[r + a + q] + rho[r + own + q]
+        found[r + own + q] = gap(steps, m[5], m[6], u, both, metric)
+
+
+_NUMBERS = ("float", "float", "whole", "float", *["number"] * 5)
+_FORCES = ("float", "float", "float", "whole", *["number"] * 6)
+_GAPS = ("float", "float", "float", "whole", "float", *["number"] * 6)
+
+
+class Loops(NamedTuple):
+    """What is compiled: without errors, and with them."""
+
+    deposit: Any
+    sweep_down: Any
+    deposit_carried: Any
+    sweep_down_carried: Any
+    gaps: Any
+
+
+@lru_cache(maxsize=1)
+def loops() -> Loops | None:
+    """Give the compiled loops; None where numba is not installed."""
+    own = number, put, nearest, metric_of, piece, sound, rest_piece, balance_piece, gap_piece
+    of_bead = (
+        local.total, local.plus, local.less, local.times, local.scaled, local.over, local.shifted,
+        local.replaced, local.raised, local.dot, local.turned, local._line, local._turn,
+        local._solved, rest, balance, gap,
+    )  # fmt: skip
+    entries: list[tuple[Any, tuple[str, ...]]] = [
+        (deposit, (*_NUMBERS, "none", "none")),
+        (sweep_down, (*_FORCES, "none", "none", "none")),
+        (deposit, (*_NUMBERS, "offset", "offset")),
+        (sweep_down, (*_FORCES, "offset", "offset", "offset")),
+        (gaps, _GAPS),
+    ]
+    made = compiling.compiled(entries, [*of_bead, *own])
+    return None if made is None else Loops(*made)

@@ -1,6 +1,6 @@
 """What is to be solved: beads, radii, loads, and by which theory."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
@@ -8,17 +8,15 @@ from functools import cached_property
 from math import isqrt
 from typing import Any
 
-import numpy as np
-
 from ..arithmetic.carried import NONE, Sizes
-from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import Radii
-from ..lattice.branch import Contact, PerBranch, Site, per_direction
-from ..lattice.layers import Layer, LazyRows, Region, Rows
+from ..lattice.branch import Contact, Site
+from ..lattice.layers import Layer, Region, Rows
 from ..lattice.regions import reached
 from .loads import LoadSpec
 from .local import cosine
-from .sweep import Forces, Memory, SolvedPacking
+from .sweep import Forces, SolvedPacking
 
 
 def axes(n_x: Fraction, system: NumberSystem) -> tuple[Any, Any]:
@@ -110,90 +108,38 @@ class Solved:
 
     def one(self, number: int) -> "Solved":
         """Give the ``number``-th realisation of those that were solved together."""
-        return self._at(number)
-
-    def some(self, of: slice) -> "Solved":
-        """Give some of those that were solved together; one alone has no axis of realisations."""
-        return self.one(of.start) if of.stop == of.start + 1 else self._at(of)
-
-    def _at(self, at: int | slice) -> "Solved":
-        def of(rows: Sequence[Any]) -> LazyRows[Any]:
-            def row(j: int) -> Any:
-                if isinstance(rows[j], tuple):
-                    return tuple(x[at] if x.size else x for x in rows[j])
-                return rows[j][at] if rows[j].size else rows[j]
-
-            return LazyRows(len(rows), row)
-
-        def each(values: PerBranch[Any]) -> PerBranch[Any]:
-            return per_direction([of(rows) for _, rows in values])
-
-        part = at if isinstance(at, slice) else slice(at, at + 1)
+        at = slice(number, number + 1)
         packing, forces = self.packing, self.forces
         if packing is not None:
-            memory = packing.memory
-            if memory is not None:
-                rho, block, most = memory.rho[part], memory.block[part], memory.most[part]
-                memory = Memory(rho, block, most)
-            packing = replace(
-                packing,
-                rho=of(packing.rho),
-                c=each(packing.c),
-                dn=each(packing.dn),
-                memory=memory,
-            )
+            packing = replace(packing, rho=packing.rho[at], block=packing.block[at])
         if forces is not None:
-            g = None if forces.g is None else forces.g[part]
-            forces = replace(forces, change=each(forces.change), g=g)
-        return Solved(self.system, packing, forces, self.single, self.sizes)
+            forces = replace(forces, g=forces.g[at])
+        return replace(self, packing=packing, forces=forces)
 
 
 def rounded(solved: Solved) -> Solved:
-    """Round numbers that carry their errors once."""
-
-    def near(values: Any) -> Any:
-        return tuple(map(near, values)) if isinstance(values, tuple) else values.nearest
-
-    def rows(values: Sequence[Any]) -> LazyRows[Any]:
-        return LazyRows(len(values), lambda j: near(values[j]))
-
-    def each(values: PerBranch[Any]) -> PerBranch[Any]:
-        return per_direction([rows(one) for _, one in values])
-
+    """Round numbers that carry their errors once, and say how large errors were."""
     packing, forces, single = solved.packing, solved.forces, solved.single
+    sizes = NONE
     if packing is not None:
-        packing = replace(
-            packing,
-            system=FLOAT64,
-            rho=rows(packing.rho),
-            c=each(packing.c),
-            dn=each(packing.dn),
+        block, d = packing.block, packing.region.dimension
+        sizes |= Sizes(_most(block.error[:, :d]), _most(block.error[:, d:]))
+        packing = SolvedPacking(
+            packing.phi, FLOAT64, packing.region, packing.rho.nearest, block.nearest
         )
     if forces is not None:
-        ordered, change = each(forces.ordered), each(forces.change)
-        forces = replace(forces, system=FLOAT64, ordered=ordered, change=change)
+        g, F = forces.g, forces.F
+        force = _most(F.value) + _most(g.value)
+        sizes |= Sizes(changed=_most(g.error), force=force)
+        forces = Forces(FLOAT64, forces.region, forces.rows, F.nearest, g.nearest)
     if single is not None:
-        single = near(tuple(single))
-    return Solved(FLOAT64, packing, forces, single, _sizes(solved))
+        errors = [abs(float(one.error)) for one in single]
+        force = max(abs(float(one.value)) for one in single)
+        sizes |= Sizes(max(errors), 0.0, max(errors), force)
+        single = single[0].nearest, single[1].nearest
+    return Solved(FLOAT64, packing, forces, single, sizes)
 
 
-def _sizes(solved: Any) -> Sizes:
-    """Give the largest errors, of rows of numbers that carry theirs."""
-
-    def most(rows: Iterable[Any]) -> float:
-        return max((float(np.abs(row).max(initial=0)) for row in rows), default=0.0)
-
-    packing, forces, single = solved.packing, solved.forces, solved.single
-    found = Sizes()
-    if packing is not None and packing.memory is None:
-        moved, turned = ([row for _, rows in v for row in rows] for v in (packing.c, packing.dn))
-        found |= Sizes(most(c.error for c in moved), most(x.error for dn in turned for x in dn))
-    if forces is not None:
-        below = [pair for j in range(len(forces.rows)) for pair in forces.below(j)]
-        # as compiled sweeps give it
-        force = most(F.value for _, F, _ in below) + most(g.nearest for _, _, g in below)
-        found |= Sizes(changed=most(g.error for _, _, g in below), force=force)
-    if single is not None:
-        errors = [abs(float(one.error or 0)) for one in single]
-        found |= Sizes(max(errors), 0.0, max(errors), max(abs(float(s.value)) for s in single))
-    return found
+def _most(values: Array) -> float:
+    """Give the largest absolute value."""
+    return float(max(values.max(initial=0), -values.min(initial=0)))

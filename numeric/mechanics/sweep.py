@@ -1,30 +1,28 @@
 """Packings and their forces, swept layer by layer: discs or spheres, any number system.
 
-The beads of a row are calculated with as arrays, by the one source in ``local``. ``kernels`` runs
-the same source compiled, bit for bit. Forces are in units of the load's magnitude, loads in
-components of the *supporting* direction: F_load = −Σ_a L^a n^a. A contact is indexed by its upper
-bead x, and has the lower bead x − e_a: in two dimensions ``plus`` below (i, j) is the paper's
-f⁺_(i−1, j−1), ``minus`` is f⁻_(i+1, j−1).
+The beads of a row are calculated with as arrays, by the one source in ``local``. Of discs in
+float64 ``loops`` compiles that source, where numba is installed. Forces are in units of the load's
+magnitude. A contact is indexed by its upper bead x, and has the lower bead x − e_a: in two
+dimensions ``plus`` below (i, j) is the paper's f⁺_(i−1, j−1), ``minus`` is f⁻_(i+1, j−1).
 """
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial
+from functools import cached_property, lru_cache, partial
 from typing import Any
 
 import numpy as np
 
-from ..arithmetic.carried import CARRYING, Carried
+from ..arithmetic.carried import Carried, Carrying
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
-from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
 from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
-from ..lattice.layers import Layer, Region, Rows, bead_of
-from . import defects
-from .local import balance, metric, nested, rest
-from .work import Work
+from ..lattice.layers import ByRow, Layer, Region, Rows, bead_of
+from .local import balance, balance_linear, metric, nested, rest, rest_linear
+from .loops import Loops, loops
 
 
 class UnbuildableError(ForceDiffusionError, ValueError):
@@ -62,58 +60,68 @@ def radii_named(region: Region) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class SolvedPacking:
-    """Beads at rest: per layer j, arrays over the beads of ``region.rows[j]``, units of r.
+    """Beads of some packings at rest, row after row as ``region`` has them, in units of r.
 
-    ``rho``: δr/r. ``c``: n^a·δx/r of each direction. ``dn[branch][j]`` (empty at j = 0): δn of the
-    contacts below along it, as the components of δn = Σ_b dn_b n^b. Arrays of a batch of packings
-    have a first axis more. ``memory``: all numbers in one block, where compiled loops made them.
+    ``rho``: δr/r, shape (packings, beads). ``block``, (packings, d + d², beads): c_a = n^a·δx/r of
+    each direction, then of the contact below along each the components of δn = Σ_b dn_b n^b, those
+    of the base 0. Row by row these are ``c[branch][j]`` and ``dn[branch][j]``, where a single
+    packing lacks the first axis.
     """
 
     phi: Fraction
     system: NumberSystem
     region: Region
-    rho: Sequence[Array]
-    c: PerBranch[Sequence[Array]]
-    dn: PerBranch[Sequence[tuple[Array, ...]]]
-    memory: "Memory | None" = None
+    rho: Any
+    block: Any
 
+    @property
+    def radii(self) -> Sequence[Any]:
+        """Radii of each row, in units of r."""
+        return ByRow(_of_one(1 + self.rho), self.region.starts)
 
-@dataclass(frozen=True)
-class Memory:
-    """What compiled loops fill: ``rho`` (batch, beads); ``block`` (batch, d + d², …), c and δn.
+    @cached_property
+    def c(self) -> PerBranch[Sequence[Any]]:
+        """n^a·δx/r of each row, (count,) or (packings, count)."""
+        d, starts = self.region.dimension, self.region.starts
+        return per_direction([ByRow(_of_one(self.block[:, a]), starts) for a in range(d)])
 
-    ``most``: how large each quantity of the block is at the most, (batch, d + d²).
-    """
+    @cached_property
+    def dn(self) -> PerBranch[Sequence[Any]]:
+        """The components of δn of the contacts below each row, (d, …, count)."""
+        d, starts = self.region.dimension, self.region.starts
 
-    rho: Array
-    block: Array
-    most: Array
+        def of(a: int) -> ByRow:
+            parts = self.block[:, d + a * d : 2 * d + a * d]
+            return ByRow(parts[0] if len(parts) == 1 else parts.swapaxes(0, 1), starts)
 
-
-Loads = PerBranch[tuple[Array | None, ...]]
-"""Loads on the beads of rows[j] (j = 0 … top): components L^a (units of the magnitude).
-
-Rows that carry no load may be None; shape of the others: (rows[j].count,).
-"""
+        return per_direction([of(a) for a in range(d)])
 
 
 @dataclass(frozen=True)
 class Forces:
-    """Contact forces below the beads of ``rows[j]`` (empty at j = 0), indexed by the upper bead.
+    """Contact forces below beads, by the upper bead, row after row of ``rows`` above the base.
 
-    ``ordered``: F^a, ``change``: g^a = f^a − F^a; per layer arrays of shape (count,), changes of a
-    batch of packings (…, count). ``F`` (d, …) and ``g`` (batch, d, …) hold all of compiled loops,
-    from the lowest row that forces reach on. ``hold``: it is known that none of them pulls.
+    ``F``, (d, beads): of the ordered packing; ``g``, (packings, d, beads): f^a − F^a. Row by row
+    these are ``ordered[branch][j]`` and ``change[branch][j]``, none at j = 0.
     """
 
     system: NumberSystem
     region: Region
     rows: Rows
-    ordered: PerBranch[Sequence[Array]]
-    change: PerBranch[Sequence[Array]]
-    F: Array | None = None
-    g: Array | None = None
-    hold: bool = False
+    F: Any
+    g: Any
+
+    @cached_property
+    def ordered(self) -> PerBranch[Sequence[Any]]:
+        """F^a of each row, (count,)."""
+        starts = starts_above(self.rows)
+        return per_direction([ByRow(self.F[a], starts) for a in range(len(self.F))])
+
+    @cached_property
+    def change(self) -> PerBranch[Sequence[Any]]:
+        """g^a of each row, (count,) or (packings, count)."""
+        starts = starts_above(self.rows)
+        return per_direction([ByRow(_of_one(self.g[:, a]), starts) for a in range(len(self.F))])
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
         """Give (branch, F, g) of the contacts below row j."""
@@ -125,190 +133,235 @@ class Forces:
         return self.region.contact_below(layer, branch, column)
 
 
+def _of_one(values: Any) -> Any:
+    """Leave out the axis of packings where there is one."""
+    return values[0] if len(values) == 1 else values
+
+
+def starts_above(rows: Rows) -> Array:
+    """Give the number of each row's first bead of those above the base; (rows + 1,)."""
+    counts = rows.counts.copy()
+    counts[:1] = 0
+    return np.concatenate(([0], np.cumsum(counts)))
+
+
 def deposit(
-    phi: Fraction,
-    region: Region,
-    rho: Sequence[Any],
-    system: NumberSystem,
-    work: Work | None = None,
-    *,
-    linear: bool = False,
+    phi: Fraction, region: Region, rho: Any, system: NumberSystem, *, linear: bool = False
 ) -> SolvedPacking:
     """Deposit beads layer by layer on the ordered base; to first order only if ``linear``.
 
-    ``phi`` is the dot product of any two base vectors.
-    ``rho[j]`` holds δr/r of the beads of ``region.rows[j]`` (shape (count,), or (…, count) for a
-    batch of packings). The caller activates ``system``. Raises ``UnbuildableError``, naming the
-    bead, where a radius is not
+    ``phi`` is the dot product of any two base vectors, ``rho`` (packings, beads) holds δr/r. The
+    caller activates ``system``. Raises ``UnbuildableError``, naming the bead, where a radius is not
     positive (or no number) or the supports are too far apart or too steep, and ``UndecidedError``
     where balls are too wide to tell.
     """
-    d, kind = region.dimension, "summed" if linear else "deposited"
+    block = None if linear else _compiled_deposit(phi, region, rho, system)
+    if block is None:
+        block = _deposited(phi, region, rho, system, linear=linear)
+    return SolvedPacking(phi, system, region, rho, block)
+
+
+def _deposited(
+    phi: Fraction, region: Region, rho: Any, system: NumberSystem, *, linear: bool
+) -> Any:
+    d, at = region.dimension, region.starts.tolist()
     m = metric(d, phi, system.scalar)
-    nothing = zeros(system, 0)
-    base = zeros(system, *_shape(rho[0]))
-    down = [region.step(a, -1) for a in range(d)]
-    c: list[tuple[Any, ...]] = [(base,) * d]
-    dn: list[tuple[tuple[Any, ...], ...]] = [((nothing,) * d,) * d]
+    block = zeros(system, len(rho), d + d * d, region.beads)
     layers = tuple(region.rows)
     for j, layer in enumerate(layers):
-        if work is not None:
-            work.did(kind, layer, _beads(rho[j]) // max(layer.count, 1))
+        own, below = slice(at[j], at[j + 1]), slice(at[j - 1], at[j])
+        radii = rho[:, own]
         if not linear:
-            _check_radii(rho[j], layer, region, system)
+            _check_radii(radii, layer, region, system)
         if not j:
             continue
-        looks = [region.look(layers[j - 1], layer, one) for one in down]
-        under = [tuple([_moved(look, v) for v in c[-1]]) for look in looks]
-        radii = tuple([_moved(look, rho[j - 1]) for look in looks])
-        if system is CARRYING and not linear:
-            found = defects.rest(under, rho[j], radii, m)
-        else:
-            found = rest(under, rho[j], radii, m, system.sqrt, linear=linear)
-        _check_rest(found.holds, layer, region, system, partial(nested, under, radii, m))
-        c.append(found.c)
-        dn.append(found.dn)
-
-    def turned(a: int) -> tuple[Any, ...]:
-        return tuple(row[a] for row in dn)
-
-    return SolvedPacking(
-        phi,
-        system,
-        region,
-        rho,
-        per_direction([tuple(row[a] for row in c) for a in range(d)]),
-        per_direction([turned(a) for a in range(d)]),
-    )
+        looks = [region.look(layers[j - 1], layer, region.step(a, -1)) for a in range(d)]
+        under = tuple(tuple(moved(look, block[:, b, below]) for b in range(d)) for look in looks)
+        rho_under = tuple(moved(look, rho[:, below]) for look in looks)
+        found = (rest_linear if linear else rest)(under, radii, rho_under, m)
+        _check_rest(found.holds, layer, region, system, partial(nested, under, rho_under, m))
+        for k, x in enumerate([*found.c, *(x for of in found.dn for x in of)]):
+            block[:, k, own] = x
+    return block
 
 
-def sweep_down(
-    packing: SolvedPacking,
-    rows: Rows,
-    loads: Loads,
-    *,
-    linear: bool = False,
-    work: Work | None = None,
-) -> Forces:
+def sweep_down(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool = False) -> Forces:
     """Carry loads down from the highest of ``rows`` through the beads of ``rows``.
 
     Exactly; or, with ``linear``, to first order: then forces are sums along the base vectors, and
     there is nothing to invert (Eqs. 6–11, for a packing that was deposited so).
 
-    ``rows[j]`` for j = 0 … top lie within the packing's region; ``loads`` belong to them. Beads
-    above or beside the rows pass no force on to them. The caller activates the number system.
-    Raises ``NotStandingError`` where contacts are parallel within the arithmetic.
+    ``rows[j]`` for j = 0 … top lie within the packing's region; ``F`` (d, beads) are the ordered
+    forces below them (``LoadSpec.ordered``). Beads above or beside the rows pass no force on to
+    them. The caller activates the number system. Raises ``NotStandingError`` where contacts are
+    parallel within the arithmetic.
     """
-    top, region, system = len(rows) - 1, packing.region, packing.system
-    d = region.dimension
-    compensated = system.dtype is not object
-    zero = zeros(system, 1)[0] if system is not CARRYING else 0.0
-    nothing = zeros(system, 0)
-    ordered: list[tuple[Any, ...]] = [(nothing,) * d] * (top + 1)
-    change: list[tuple[Any, ...]] = [(nothing,) * d] * (top + 1)
-    lost: tuple[Any, ...] = ()
-    dn = [rows_of for _, rows_of in packing.dn]
-    shares = [of for _, of in loads]
-    up = [region.step(a, 1) for a in range(d)]
+    g = None if linear else _compiled_balance(packing, rows, F)
+    if g is None:
+        g = _balanced(packing, rows, F, linear=linear)
+    return Forces(packing.system, packing.region, rows, F, g)
+
+
+def _balanced(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool) -> Any:
+    region, system, block = packing.region, packing.system, packing.block
+    d, top = region.dimension, len(rows) - 1
+    at, beads = starts_above(rows).tolist(), region.starts.tolist()
+    g = zeros(system, len(block), d, at[-1])
+    zero = 0.0 if isinstance(system, Carrying) else zeros(system, 1)[0]
     layers, deposited = tuple(rows), tuple(region.rows)
     for j in range(top, 0, -1):
-        layer = layers[j]
+        layer, own, here = layers[j], slice(at[j], at[j + 1]), slice(beads[j], beads[j + 1])
         if not layer.count:
             break
-        above: list[tuple[Any, Any, tuple[Any, ...], Any]] = []
-        for a in range(d):
-            if j == top:
-                none = zeros(system, layer.count)
-                above.append((none, none, (none,) * d, np.zeros(layer.count)))
-                continue
-            own = region.look(layers[j + 1], layer, up[a], zero)
-            packed = region.look(deposited[j + 1], layer, up[a], zero)
-            above.append(
-                (
-                    _moved(own, ordered[j + 1][a]),
-                    _moved(own, change[j + 1][a]),
-                    tuple([_moved(packed, v) for v in dn[a][j + 1]]),
-                    _moved(own, lost[a]) if compensated else None,
-                )
+        none = zeros(system, 1, layer.count)
+        above = [(none[0], none, (none,) * d) for _ in range(d)]
+        for a in range(d if j < top else 0):
+            force, bead = slice(at[j + 1], at[j + 2]), slice(beads[j + 1], beads[j + 2])
+            up = region.step(a, 1)
+            look = region.look(layers[j + 1], layer, up, zero)
+            packed = region.look(deposited[j + 1], layer, up, zero)
+            turns = (block[:, d + a * d + b, bead] for b in range(d))
+            above[a] = (
+                moved(look, F[a, force]),
+                moved(look, g[:, a, force]),
+                tuple(moved(packed, x) for x in turns),
             )
-        F = tuple(
-            above[a][0] if share[j] is None else above[a][0] + share[j]
-            for a, share in enumerate(shares)
+        part = partial(region.here, source=deposited[j], layer=layer)
+        dn = tuple(
+            tuple(moved(part, block[:, d + a * d + b, here]) for b in range(d)) for a in range(d)
         )
-        here = partial(region.here, source=deposited[j], layer=layer)
-        below = [tuple([_moved(here, x) for x in dn[a][j]]) for a in range(d)]
-        if system is CARRYING and not linear:
-            found = defects.balance(above, F, below)
-        else:
-            found = balance(above, F, below, linear=linear, compensated=compensated)
+        F_here = tuple(F[a, own] for a in range(d))
+        rule: Any = balance_linear if linear else balance
+        found = rule(*zip(*above, strict=True), F_here, dn)
         if not linear:
             check_standing(found.det, layer, region, system)
-        if work is not None:
-            work.did("balanced", layer, _beads(found.g[0]) // layer.count)
-        ordered[j], change[j], lost = F, found.g, found.lost
-    return Forces(
-        system,
-        region,
-        rows,
-        per_direction([tuple(row[a] for row in ordered) for a in range(d)]),
-        per_direction([tuple(row[a] for row in change) for a in range(d)]),
+        for a, change in enumerate(found.g):
+            g[:, a, own] = change
+    return g
+
+
+def spread(system: NumberSystem, *shape: int) -> Any:
+    """Give memory for float64, with or without errors; its last axis is not contiguous.
+
+    Quantities at distances that are multiples of 4096 bytes would compete for the same places of
+    the cache.
+    """
+
+    def made() -> Array:
+        *others, size = shape
+        end = size + (72 - size) % (512 if size > 512 else 64)
+        return np.empty((*others, end))[..., :size]
+
+    return Carried(made(), made()) if isinstance(system, Carrying) else made()
+
+
+def _address(values: Any) -> tuple[int, tuple[int, ...]]:
+    """Give where numbers lie in memory, and how far behind them their errors, as loops take it."""
+    if not isinstance(values, Carried):
+        return values.ctypes.data, ()
+    address = values.value.ctypes.data
+    return address, ((values.error.ctypes.data - address) // 8,)
+
+
+@lru_cache(maxsize=4)
+def _metric(phi: Fraction, system: NumberSystem) -> Array:
+    """Give what φ decides of discs, as ``loops`` takes it: errors behind the numbers."""
+    m = metric(2, phi, system.scalar)
+    if isinstance(system, Carrying):
+        return np.array([one.value for one in m] + [one.error for one in m])
+    return np.array(m)
+
+
+def shift_of(rows: Rows, sources: Rows, steps: tuple[int, ...]) -> Array:
+    """Say in which column of the row of ``sources`` so many steps on each row of discs begins.
+
+    Where there is none it is 0.
+    """
+    rise = sum(steps)
+    firsts = np.zeros(len(rows), np.int64)
+    here = np.arange(max(-rise, 0), min(len(rows), len(sources) - rise))
+    firsts[here] = rows.firsts[here] + steps[0] - steps[1] - sources.firsts[here + rise]
+    return firsts // 2
+
+
+@lru_cache(maxsize=4)
+def _supports(region: Region) -> Array:
+    """Give the rows of ``loops.deposit``. Raise ``LookupError`` where a support is lacking."""
+    rows, width = region.rows, region.width
+    shift = shift_of(rows, rows, (-1, 0))
+    counts, first = rows.counts, shift if width is None else shift % width
+    end = first[1:] + counts[1:] + 1
+    whole = counts[:-1] == (width or -1)
+    lacking = (counts[1:] > 0) & ~whole & ((first[1:] < 0) | (end > counts[:-1]))
+    if lacking.any():
+        j = int(np.argmax(lacking)) + 1
+        raise LookupError(f"layer {j - 1} lacks supports of layer {j}")
+    return np.stack([region.starts[:-1], counts, shift], axis=1)
+
+
+def _loops_of(region: Region, system: NumberSystem) -> Loops | None:
+    """Give the compiled loops for discs in float64, with or without errors, where numba is."""
+    floats = system is FLOAT64 or isinstance(system, Carrying)
+    return loops() if region.dimension == 2 and floats else None
+
+
+def _compiled_deposit(phi: Fraction, region: Region, rho: Any, system: NumberSystem) -> Any:
+    """Give the block of a packing of discs; None where not all beads rest, or nothing compiles."""
+    if (made := _loops_of(region, system)) is None:
+        return None
+    rows, m = _supports(region), _metric(phi, system)
+    block = spread(system, len(rho), 6, region.beads)
+    base = int(region.starts[1])
+    block[..., :base] = 0.0
+    if not system.signs(1 + rho[:, :base])[0].all():
+        return None
+    (radii, e), (where, f) = _address(rho), _address(block)
+    pitch = (block.value if f else block).strides[1] // 8
+    sizes = len(rho), len(rows), region.width or 0, region.beads, pitch
+    loop = made.deposit_carried if f else made.deposit
+    good = loop(radii, where, rows.ctypes.data, m.ctypes.data, *sizes, *e, *f)
+    return block if good else None
+
+
+@lru_cache(maxsize=4)
+def _reached(region: Region, rows: Rows) -> Array:
+    """Give the rows of ``loops.sweep_down``."""
+    near, deposited = starts_above(rows), region.rows[: len(rows)]
+    return np.stack(
+        [
+            near[:-1],
+            rows.counts,
+            region.starts[: len(rows)],
+            deposited.counts,
+            shift_of(rows, deposited, (0, 0)),
+            shift_of(rows, rows, (1, 0)),
+            shift_of(rows, deposited, (1, 0)),
+        ],
+        axis=1,
     )
 
 
-def straight_down(
-    rows: Sequence[Layer], region: Region, loads: Loads, system: NumberSystem
-) -> list[tuple[Any, ...]]:
-    """Give the ordered forces below each row: loads go straight down."""
-    d, top = region.dimension, len(rows) - 1
-    zero = zeros(system, 1)[0] if system is not CARRYING else 0.0
-    found: list[tuple[Any, ...]] = [(zeros(system, 0),) * d] * (top + 1)
-    for j in range(top, 0, -1):
-        layer = rows[j]
-        if not layer.count:
-            break
-        parts = []
-        for a, (_, share) in enumerate(loads):
-            F = zeros(system, layer.count)
-            if j < top:
-                look = region.look(rows[j + 1], layer, region.step(a, 1), zero)
-                F = _moved(look, found[j + 1][a])
-            parts.append(F if share[j] is None else F + share[j])
-        found[j] = tuple(parts)
-    return found
+def _compiled_balance(packing: SolvedPacking, rows: Rows, F: Any) -> Any:
+    """Give the changes of forces; None where not all is in order, or nothing compiles."""
+    region, system, block = packing.region, packing.system, packing.block
+    if (made := _loops_of(region, system)) is None:
+        return None
+    table, beads, widest = _reached(region, rows), F.shape[1], int(rows.counts.max(initial=0))
+    ordered, g = (spread(system, *n, 2, beads + widest) for n in ((), (len(block),)))
+    ordered[:, :beads], ordered[:, beads:], g[..., beads:] = F, 0.0, 0.0
+    (forces, e), (where, f), (changes, h) = map(_address, (ordered, block, g))
+    size, pitch = ((x.value if f else x).strides[-2] // 8 for x in (g, block))
+    sizes = len(block), len(rows), region.width or 0, beads, size, pitch
+    loop = made.sweep_down_carried if f else made.sweep_down
+    good = loop(forces, where, changes, table.ctypes.data, *sizes, *e, *f, *h)
+    return g[..., :beads] if good else None
 
 
-# A float64 force has no sign within so much of its layer's largest change.
-SIGNS = 2.0**-40
-
-
-def pulling(force: Any, change: Any, system: NumberSystem) -> tuple[Array, Array]:
-    """Tell contacts that surely pull and those whose sign is open; two boolean arrays.
-
-    Balls decide by their own radius. Hardware floats have none: there a force is taken as open
-    within 2^-40 of its layer's largest change, far above their measured error below M*.
-    """
-    if isinstance(force, Carried):
-        force, change = force.value, change.value
-    if system.dtype is object:
-        pulls, holds = system.signs(-force)
-        return pulls, ~(pulls | holds)
-    room = SIGNS * np.abs(change).max(initial=0)
-    return force < -room, (np.abs(force) <= room) & (force != 0)
-
-
-def _moved(function: Callable[[Array], Array], values: Any) -> Any:
+def moved(function: Callable[[Array], Array], values: Any) -> Any:
     """Look values up at other sites; those that carry errors with them."""
     if isinstance(values, Carried):
         return Carried(function(values.value), function(values.error))
     return function(values)
-
-
-def _shape(values: Any) -> tuple[int, ...]:
-    return tuple((values.value if isinstance(values, Carried) else values).shape)
-
-
-def _beads(values: Any) -> int:
-    return int((values.value if isinstance(values, Carried) else values).size)
 
 
 def _check_radii(rho: Any, layer: Layer, region: Region, system: NumberSystem) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..lattice.layers import Region, Rows
-from ..mechanics.engine import chunk_size, worth_compiling
+from ..mechanics.engine import chunk_size
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
 from ..scene.scene import Scene
@@ -12,14 +12,14 @@ from ..scene.sections import SceneError
 
 # Bytes of a bead of balls, a packing whose rows are listed, and a line of a file; measured, rounded
 # up. The rest is the interpreter with its libraries.
-BALL_BEAD, LISTED, FILE_LINE = 2200, 3500, 600
+BALL_BEAD, LISTED, FILE_LINE = 2200, 2700, 600
 # Bytes of a layer: in the plan, and while it is solved in memory.
 PLAN_LAYER, SOLVED_LAYER = 150, 750
 # What a row of the answer takes: its names, a number, and that as text.
 NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 190, 1300
 INTERPRETER = 85_000_000
-# The compiler that the extra ``fast`` brings, and what it leaves behind.
-COMPILED = 150_000_000
+# The library that holds compiled loops.
+COMPILED = 48_000_000
 
 
 def float_bead(dimension: int) -> int:
@@ -46,8 +46,8 @@ def memory(
     elif problem.route == Route.ORDERED and problem.dimension == 2:
         at_once = 0
     at_once += sum(quantity.gathered(region, together) for quantity in quantities)
-    compiler = COMPILED * worth_compiling(problem, system, carried=True)
-    return _bytes(quantities, region, at_once, n, system, text=text) + compiler
+    loops = COMPILED * (problem.route == Route.EXACT)
+    return _bytes(quantities, region, at_once, n, system, text=text) + loops
 
 
 def refuse_beads(quantities: Sequence[Quantity], beads: int, limit: int, *, text: bool) -> None:

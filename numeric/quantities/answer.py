@@ -107,7 +107,7 @@ def _solved(
     done = 0
     try:
         for solved, chunk in packings(
-            problem, realisations, system, work, physical, carried=carried, copied=True
+            problem, realisations, system, work, physical, carried=carried
         ):
             yield solved, chunk
             done += len(chunk)

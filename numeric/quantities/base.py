@@ -22,6 +22,7 @@ from ..lattice.layers import Block, LazyRows, Naming, Region, Rows, pick, standi
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route, Solved
+from ..mechanics.sweep import Forces
 from ..scene.scene import Scene
 from ..theory.expected import std_of_spheres, stds_of_discs
 
@@ -293,7 +294,8 @@ class ContactQuantity(Quantity):
         blocks = self.blocks(problem)
         load, rows = problem.load, problem.force_rows
         strength = load.strength(problem.n_x, FLOAT64)
-        forces = load.ordered_forces(problem.region, rows, strength, FLOAT64)
+        F = load.ordered(rows, strength, FLOAT64)
+        forces = Forces(FLOAT64, problem.region, rows, F, np.zeros((1, *F.shape)))
         found = contact_changes(Solved(FLOAT64, None, forces, None), blocks, 1)
         return [[Fraction(float(one)) for one in F] for _, F, _ in found]
 
@@ -366,7 +368,8 @@ def cartesian(
     nx, up = system.scalar(problem.n_x), slope(problem, system)
     found = []
     for k, row in enumerate(level(len(components)), 1):
-        along = total(v if h == 1 else h * v for h, v in zip(row, components, strict=True) if h)
+        parts = [v if h == 1 else h * v for h, v in zip(row, components, strict=True) if h]
+        along = total(parts)
         across = along if k == 1 else along * system.root(Fraction(1, 3))
         found.append(across * nx if raised else across / (2 * nx))
     rise = total(components)

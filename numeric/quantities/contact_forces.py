@@ -84,7 +84,7 @@ class ContactForces(ContactQuantity, Listed):
 def by_lower_bead(values: Array, width: int) -> Array:
     """Turn what belongs to contacts by their upper beads, (2, M W), into (M, W, 2) by the lower."""
     rows = values.reshape(2, -1, width)
-    found = np.empty((rows.shape[1], width, 2))
+    found = np.empty((rows.shape[1], width, 2), values.dtype)
     found[0::2, :, 0] = rows[0, 0::2]  # from an even layer up to the right: the same column
     found[1::2, :-1, 0], found[1::2, -1, 0] = rows[0, 1::2, 1:], rows[0, 1::2, 0]
     found[0::2, 1:, 1], found[0::2, 0, 1] = rows[1, 0::2, :-1], rows[1, 0::2, -1]

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats, zeros
-from ..disorder.radii import rows_of
+from ..disorder.radii import beads_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Rows, column, whole
 from ..mechanics.engine import solve
@@ -29,8 +29,8 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
     width = problem.width
     assert width is not None
     rows = whole(width, problem.height).rows
-    rho = rows_of(problem.radii, rows, [realisation], FLOAT64)
-    radii = np.concatenate([1 + row for row in rho])
+    (rho,) = beads_of(problem.radii, rows, [realisation], FLOAT64)
+    radii = 1 + rho
     nx, ny = (float(n) for n in axes(problem.n_x, FLOAT64))
     load = as_floats(loads(problem, FLOAT64))
     grains = Grains(np.zeros((len(radii), 2)), radii, 4 * nx * width, load, width)
@@ -130,11 +130,11 @@ def frame(problem: Problem, realisation: int, system: NumberSystem) -> Frame:
     """Give what is exactly known of a packing."""
     assert problem.width is not None
     rows = whole(problem.width, problem.height).rows
-    rho = rows_of(problem.radii, rows, [realisation], system)
+    (rho,) = beads_of(problem.radii, rows, [realisation], system)
     base = zeros(system, problem.width, 2)
     base[:, 0] = [system.number(4 * problem.n_x * q) for q in range(problem.width)]
     return Frame(
-        np.concatenate([1 + row for row in rho]),
+        1 + rho,
         base,
         system.number(4 * problem.n_x * problem.width),
         loads(problem, system),
@@ -158,11 +158,8 @@ def loads(problem: Problem, system: NumberSystem) -> Array:
     nx, ny = axes(problem.n_x, system)
     rows = whole(problem.width, problem.height).rows
     found = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
-    out = zeros(system, len(rows), problem.width, 2)
-    for j, (plus, minus) in enumerate(zip(found.plus, found.minus, strict=True)):
-        if plus is not None:
-            out[j, :, 0], out[j, :, 1] = (minus - plus) * nx, -(plus + minus) * ny
-    return out.reshape(-1, 2)
+    plus, minus = found
+    return np.stack([(minus - plus) * nx, -(plus + minus) * ny], axis=1)
 
 
 def _sites(rows: Rows) -> tuple[Array, Array]:

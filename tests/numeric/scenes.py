@@ -1,15 +1,29 @@
 """Small scenes for the tests, and strategies that draw them."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+import pytest
+from force_diffusion.numeric.mechanics import engine, physicality, sweep
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run import Scene, run
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene import reading
 from hypothesis import strategies as st
+
+
+@contextmanager
+def by_numpy() -> Iterator[None]:
+    """Let NumPy sweep, as where numba is not installed."""
+    with pytest.MonkeyPatch.context() as patch:
+        for module in (sweep, physicality):
+            patch.setattr(module, "loops", lambda: None)
+        patch.setattr(engine, "compiles", lambda *_: False)
+        yield
 
 
 def toml(sections: dict[str, dict[str, Any]]) -> str:

@@ -3,13 +3,13 @@
 What ``physical`` says against all pairs of the beads where they are said to be, one by one.
 """
 
+from contextlib import nullcontext
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run.running import run
@@ -17,6 +17,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
+from tests.numeric.scenes import by_numpy
 
 Array = np.ndarray[Any, Any]
 
@@ -153,10 +154,9 @@ def test_a_bead_that_overlaps_its_own_image(
 
 def tried(way: str, delta: Array, spacing: float) -> None:
     buildable(delta, spacing)
-    with pytest.MonkeyPatch.context() as patch:
-        if way == "compiled":
-            pytest.importorskip("numba")
-            patch.setattr(engine, "COMPILED_FROM", 1)
+    if way == "compiled":
+        pytest.importorskip("numba")
+    with by_numpy() if way == "numpy" else nullcontext():
         asked = scene(delta, spacing)
         made = plan(asked, Fraction(1, 10**20), certified=True) if way == "balls" else plan(asked)
         agree(made, delta, spacing)

@@ -13,7 +13,6 @@ from force_diffusion.numeric.arithmetic.systems import (
     FLOAT64,
     Array,
 )
-from force_diffusion.numeric.lattice.branch import PerAxis
 from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
@@ -64,13 +63,13 @@ def test_images_are_seen_where_a_wider_packing_differs(
 
     def asked(rows: list[Array]) -> Array:
         """Rows of the answer that tell most, by what they depend on."""
-        region, on = whole(wide**2, M, dimension=3), (None,) * M + (np.ones(wide**2),)
+        region = whole(wide**2, M, dimension=3)
         with FLOAT64.active():
-            flat = [row.reshape(-1) for row in rows]
+            flat = np.concatenate(rows).reshape(1, -1)
             placed = deposit(phi, region, flat, FLOAT64, linear=linear)
             if quantity == "positions":
                 return np.asarray([sum(abs(c[M][0]) for _, c in placed.c)])
-            forces = sweep_down(placed, region.rows, PerAxis(on, on, on), linear=linear)
+            forces = sweep_down(placed, region.rows, np.ones((3, M * wide**2)), linear=linear)
             return np.asarray([g[1][0] for _, g in forces.change])
 
     before = asked(rho)

@@ -1,5 +1,6 @@
 """Every question, by compiled loops and by NumPy: the stated error holds, and gaps are the same."""
 
+from contextlib import nullcontext
 from fractions import Fraction
 from itertools import product
 from typing import Any
@@ -20,7 +21,7 @@ from force_diffusion.numeric.run.running import run
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from tests.numeric.scenes import planned
+from tests.numeric.scenes import by_numpy, planned
 
 pytest.importorskip("numba")
 
@@ -142,14 +143,13 @@ def test_printing_takes_half_of_the_stated_error(value: float, ratio: float) -> 
 
 @pytest.mark.parametrize("name", ["profile", "spheres, profile"])
 def test_a_radius_that_is_not_positive_is_named_alike(
-    name: str, monkeypatch: pytest.MonkeyPatch
+    name: str,
 ) -> None:
     """Of spheres as (p, q, j), and not by the column in the row of W² beads."""
     made = planned(sections(name, kind="normal", relative_std="=0.45"))
     said = []
-    for threshold in (1, 10**9):
-        monkeypatch.setattr(engine, "COMPILED_FROM", threshold)
-        with pytest.raises(RadiusError) as found:
+    for way in (nullcontext, by_numpy):
+        with way(), pytest.raises(RadiusError) as found:
             run(made)
         said.append(str(found.value))
     assert said[0] == said[1]
@@ -159,30 +159,24 @@ def test_a_radius_that_is_not_positive_is_named_alike(
 @pytest.mark.long(sample=8)
 @pytest.mark.parametrize("std", ["=1e-3", "=1e-140", "=1e-160"])
 @pytest.mark.parametrize("name", CASES)
-def test_the_stated_error_does_not_depend_on_the_compiler(
-    name: str, std: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_the_stated_error_does_not_depend_on_the_compiler(name: str, std: str) -> None:
     found = []
-    for compiled in (True, False):
-        monkeypatch.setattr(engine, "compiles", lambda *_, compiled=compiled, **__: compiled)
-        engine._kept.last.clear()
-        outcome = run(planned(sections(name, relative_std=std)))
-        found.append((outcome.accuracy, outcome.data()["results"]))
+    for way in (nullcontext, by_numpy):
+        with way():
+            outcome = run(planned(sections(name, relative_std=std)))
+            found.append((outcome.accuracy, outcome.data()["results"]))
     assert found[0] == found[1]
 
 
 @pytest.mark.long(sample=12)
 @pytest.mark.parametrize("kind", ["uniform", "two-point"])
 @pytest.mark.parametrize("name", CASES)
-def test_gaps_by_compiled_loops_are_those_of_numpy(
-    name: str, kind: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_gaps_by_compiled_loops_are_those_of_numpy(name: str, kind: str) -> None:
     problem = planned(sections(name, kind=kind, relative_std="=0.02")).problem
     found = []
-    for threshold in (1, 10**9):
-        monkeypatch.setattr(engine, "COMPILED_FROM", threshold)
+    for way in (nullcontext, by_numpy):
         physical = Physicality()
-        with FLOAT64.active():
+        with FLOAT64.active(), way():
             for _ in engine.packings(problem, range(5), FLOAT64, Work(), physical):
                 pass
         found.append(physical)

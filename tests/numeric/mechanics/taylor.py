@@ -20,7 +20,7 @@ import numpy as np
 from force_diffusion.numeric.arithmetic.systems import Array, in_flint, midpoint, zeros
 from force_diffusion.numeric.lattice.branch import Branch
 from force_diffusion.numeric.lattice.layers import column, whole
-from force_diffusion.numeric.mechanics.loads import components, on_rows
+from force_diffusion.numeric.mechanics.loads import LoadSpec, Strength, components
 from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
 
@@ -183,18 +183,18 @@ def solve(
     system = Series(order)
     region = whole(width, height)
     with system.active():
-        rows = [zeros(system, width) for _ in range(height + 1)]
+        rho_of = zeros(system, 1, (height + 1) * width)
         for (i, j), value in rho.items():
             if not 0 <= j <= height:
                 raise ValueError(f"({i}, {j}) lies outside layers 0 … {height}")
-            rows[j][column(i, j, width)] = system.series([Fraction(0), value])
+            rho_of[0, j * width + column(i, j, width)] = system.series([Fraction(0), value])
         supported = {}
         for (i, j), (fx, fy) in loads.items():
             column(i, j, width)
             up, um = components((fx, fy), n_x, n_y)
-            supported[i, j] = (system.number(up), system.number(um))
-        packing = deposit(cosine(n_x), region, tuple(rows), system)
-        contact_forces = sweep_down(
-            packing, region.rows, on_rows(supported, region.rows, width, system)
-        )
+            supported[i, j] = (system.scalar(up), system.scalar(um))
+        packing = deposit(cosine(n_x), region, rho_of, system)
+        spec = LoadSpec("file", height, width, single=loads)
+        F = spec.ordered(region.rows, Strength((), supported), system)
+        contact_forces = sweep_down(packing, region.rows, F)
     return TaylorPacking(width, height, n_x, n_y, order, packing, contact_forces)

@@ -16,7 +16,7 @@ from force_diffusion.numeric.arithmetic.systems import (
     midpoint,
 )
 from force_diffusion.numeric.disorder.normal import cosine_of_turn, logarithm
-from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
+from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii, beads_of
 from force_diffusion.numeric.lattice.layers import Layer, column, whole
 from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.engine import solve
@@ -138,10 +138,10 @@ def test_first_order_sweep_is_the_first_taylor_coefficient(case: Case) -> None:
     spec = LoadSpec("file", case.height, case.width, single=case.loads)
     with system.active():
         radii = MeasuredRadii(rho, case.width)
-        rows = tuple(radii.row(layer, [0], system) for layer in region.rows)
-        loads = spec.on(region.rows, rational_strength(spec, case.n, system), system)
-        p = sweep.deposit(cosine(case.n[0]), region, rows, system, linear=True)
-        f = sweep_down(p, region.rows, loads, linear=True)
+        rho_of = beads_of(radii, region.rows, [0], system)
+        F = spec.ordered(region.rows, rational_strength(spec, case.n, system), system)
+        p = sweep.deposit(cosine(case.n[0]), region, rho_of, system, linear=True)
+        f = sweep_down(p, region.rows, F, linear=True)
     for i, j in sites(case.width, case.height):
         q = column(i, j, case.width)
         plus, minus = t.line_sums(i, j)
@@ -165,7 +165,7 @@ def rational_strength(spec: LoadSpec, n: tuple[Fraction, Fraction], system: Seri
     return Strength(
         (system.number(Fraction(0)), system.number(Fraction(0))),
         {
-            site: tuple(system.number(c) for c in components(force, *n))  # type: ignore[misc]
+            site: tuple(system.scalar(c) for c in components(force, *n))  # type: ignore[misc]
             for site, force in spec.single.items()
         },
     )
@@ -241,17 +241,17 @@ def test_an_unbuildable_packing_names_the_bead() -> None:
     for system in (Balls(128), BigFloat(30)):
         region = whole(3, 1)
         with system.active():
-            rows = tuple(MeasuredRadii(radii, 3).row(r, [0], system) for r in region.rows)
+            rho = beads_of(MeasuredRadii(radii, 3), region.rows, [0], system)
             with pytest.raises(sweep.UnbuildableError, match=r"\(1, 1\)"):
-                sweep.deposit(Fraction(-1, 8), region, rows, system)
+                sweep.deposit(Fraction(-1, 8), region, rho, system)
 
 
 @pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1.0, -1.5])
 @pytest.mark.parametrize("layer", [0, 1, 2])
 def test_a_radius_that_is_none_names_the_bead(wrong: float, layer: int) -> None:
     region = whole(4, 2)
-    rho = tuple(np.zeros(4) for _ in range(3))
-    rho[layer][2] = wrong
+    rho = np.zeros((1, 12))
+    rho[0, 4 * layer + 2] = wrong
     with (
         FLOAT64.active(),
         pytest.raises(sweep.UnbuildableError, match=rf"\({4 + layer % 2}, {layer}\)"),

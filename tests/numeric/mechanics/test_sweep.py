@@ -8,9 +8,8 @@ from typing import Any
 import mpmath
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.carried import CARRYING, Carried
+from force_diffusion.numeric.arithmetic.carried import CARRYING
 from force_diffusion.numeric.arithmetic.systems import BigFloat, NumberSystem, zeros
-from force_diffusion.numeric.lattice.branch import per_direction
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import local
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError, deposit, sweep_down
@@ -38,13 +37,14 @@ def column(columns: tuple[int, ...], layer: int, width: int) -> int:
 
 
 def solved(
-    region: Region, phi: Fraction, rho: list[Any], share: list[Fraction], system: NumberSystem
+    region: Region, phi: Fraction, rho: Any, share: list[Fraction], system: NumberSystem
 ) -> tuple[Any, Any]:
     with system.active():
         packing = deposit(phi, region, rho, system)
-        on = [(None,) * region.top + (zeros(system, region.rows[0].count) + system.number(x),)
-              for x in share]  # fmt: skip
-        return packing, sweep_down(packing, region.rows, per_direction(on))
+        F = zeros(system, len(share), region.beads - region.rows[0].count)
+        for a, x in enumerate(share):
+            F[a] = F[a] + system.number(x)
+        return packing, sweep_down(packing, region.rows, F)
 
 
 @given(CASES)
@@ -70,9 +70,10 @@ def test_positions_and_forces_are_those_of_first_principles(
         return values if bead[-1] == height else [mpmath.mpf(0)] * d
 
     system = BigFloat(50)
-    floats = [Carried(np.array([float(x) for x in row]), np.zeros(len(row))) for row in rows]
+    beads = [x for row in rows for x in row]
+    floats = CARRYING.from_floats(np.array([[float(x) for x in beads]]))
     try:
-        exact = solved(region, phi, [_row(system, row) for row in rows], share, system)
+        exact = solved(region, phi, _row(system, beads)[None], share, system)
         carried = solved(region, phi, floats, share, CARRYING)
         places = {key: plain.at((*key[:-1], key[-1] - sum(key[:-1]))) for key in drawn}
     except (UnbuildableError, ArithmeticError, ZeroDivisionError):
@@ -118,21 +119,21 @@ def test_a_bead_rests_on_its_supports(d: int) -> None:
 
     under = [tuple(row) for row in numbers(d, d)]
     rho, below = numbers(1)[0], tuple(numbers(d))
-    found = local.rest(under, rho, below, m, mp.sqrt, linear=False)
+    found = local.rest(tuple(under), rho, below, m)
     for a in range(d):
         p = local.less(found.c, under[a])
         both = rho + below[a]
-        square = local.dot(m.raised(p), p)
+        square = local.dot(local.raised(p, m), p)
         assert abs(p[a] + square / 4 - both - both * both / 4) < 1e-55
         # δn = (p − ρ n)/(2 + ρ), by its components along the base vectors
         lowered = [x + m.phi * (sum(found.dn[a]) - x) for x in found.dn[a]]
         for b in range(d):
             along = (p[b] - both * (1 if a == b else m.phi)) / (2 + both)
             assert abs(lowered[b] - along) < 1e-55
-    above = [(numbers(1)[0] + 1, numbers(1)[0], tuple(numbers(d)), None) for _ in range(d)]
+    above = [(numbers(1)[0] + 1, numbers(1)[0], tuple(numbers(d))) for _ in range(d)]
     F = tuple(one[0] + mp.mpf(1) for one in above)
-    borne = local.balance(above, F, found.dn, linear=False, compensated=False)
+    borne = local.balance(*zip(*above, strict=True), F, found.dn)
     for b in range(d):
         down = sum((F[a] + borne.g[a]) * ((1 if a == b else 0) + found.dn[a][b]) for a in range(d))
-        up = sum((f + g) * ((1 if a == b else 0) + dn[b]) for a, (f, g, dn, _) in enumerate(above))
+        up = sum((f + g) * ((1 if a == b else 0) + dn[b]) for a, (f, g, dn) in enumerate(above))
         assert abs(down - up - mp.mpf(1)) < 1e-55

@@ -69,7 +69,7 @@ def test_a_plan_says_gigabytes_where_it_takes_some() -> None:
             "ask": {"quantity": "histogram", "bins": 1_000_000},
         }
     )
-    assert "Memory: about 1.29 GB" in str(plan)
+    assert "Memory: about 1.33 GB" in str(plan)
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,222 @@
+"""The compiled loops against the same source on NumPy, and their machine code on disk."""
+
+import sys
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from force_diffusion.numeric.arithmetic.carried import CARRYING, Carried
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, Balls, as_floats, from_floats
+from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError, beads_of
+from force_diffusion.numeric.lattice.branch import Branch, Contact
+from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
+from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
+from force_diffusion.numeric.mechanics import physicality, sweep
+from force_diffusion.numeric.mechanics.sweep import (
+    Forces,
+    NotStandingError,
+    SolvedPacking,
+    UnbuildableError,
+    starts_above,
+)
+from hypothesis import assume, given
+from hypothesis import strategies as st
+
+from tests.numeric.scenes import by_numpy
+
+pytest.importorskip("numba")
+from force_diffusion.numeric.arithmetic import compiling
+from force_diffusion.numeric.disorder import compiled as drawing
+from force_diffusion.numeric.mechanics import local, loops
+
+# Between the directions at which beads of the ordered packing overlap.
+PHI = st.fractions(Fraction(-32, 100), Fraction(47, 100), max_denominator=10**6)
+
+
+@st.composite
+def regions(draw: st.DrawFn) -> tuple[Region, Rows]:
+    """A whole packing, or beads that decide something of a slab or strip."""
+    if draw(st.booleans()):
+        found = whole(draw(st.integers(1, 33)), draw(st.integers(1, 7)))
+        return found, found.rows
+    width = draw(st.none() | st.integers(1, 14))
+    top, i = draw(st.integers(1, 8)), draw(st.integers(-9, 9))
+    rows = downward_cone([(2 * i + top % 2, top)], width)
+    if draw(st.booleans()):
+        contact = Contact(2 * i, 0, draw(st.sampled_from(Branch)))
+        rows = contact_rows(contact, upward_cone(contact.upper, top, width), width)
+    return standing_on_base(rows, width), rows
+
+
+def solved(
+    phi: Fraction, region: Region, rho: Any, rows: Rows, F: Any, system: Any
+) -> tuple[SolvedPacking, Forces] | None:
+    """A packing and its forces; None where a bead can't rest or stand."""
+    with system.active():
+        try:
+            packing = sweep.deposit(phi, region, rho, system)
+            return packing, sweep.sweep_down(packing, rows, F)
+        except (UnbuildableError, NotStandingError):
+            return None
+
+
+def near(ours: Array, theirs: Array, room: float) -> bool:
+    """Whether numbers are alike but for so much of the largest."""
+    return bool(np.abs(ours - theirs).max(initial=0) <= room * np.abs(theirs).max(initial=0))
+
+
+@given(
+    PHI, regions(), st.integers(0, 2**32), st.integers(1, 3), st.sampled_from([1e-2, 1e-5, 1e-9])
+)
+def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
+    phi: Fraction, case: tuple[Region, Rows], seed: int, batch: int, size: float
+) -> None:
+    region, rows = case
+    rng = np.random.default_rng(seed)
+    rho = rng.uniform(-1, 1, (batch, region.beads)) * size
+    F = rng.uniform(-3, 3, (2, int(starts_above(rows)[-1])))
+    usual = solved(phi, region, rho, rows, F, FLOAT64)
+    carried = solved(
+        phi, region, CARRYING.from_floats(rho), rows, CARRYING.from_floats(F), CARRYING
+    )
+    with by_numpy():
+        same = solved(phi, region, rho, rows, F, FLOAT64)
+    assert (usual is None) == (same is None) == (carried is None)
+    assume(usual is not None)
+    assert usual is not None
+    assert same is not None
+    assert carried is not None
+    for ours, theirs in zip(usual, same, strict=True):
+        for name in ("block",) if isinstance(ours, SolvedPacking) else ("g",):
+            # LLVM and NumPy round alike
+            assert getattr(ours, name).tobytes() == getattr(theirs, name).tobytes()
+    assert physicality.gaps(usual[0]).smallest == physicality.gaps(same[0]).smallest
+    balls = Balls(200)
+    with balls.active():
+        exact = solved(phi, region, from_floats(balls, rho[:1]), rows, from_floats(balls, F), balls)
+        assert exact is not None
+        for one, true in ((carried[0].block, exact[0].block), (carried[1].g, exact[1].g)):
+            off = as_floats(true[0] - from_floats(balls, one.value[0]))
+            # what is left out: products of errors, and their own roundings
+            largest = np.abs(one.value[0]).max(initial=0)
+            room = 1e-12 * np.abs(off).max(initial=0) + 2.0**-90 * largest
+            assert np.abs(one.error[0] - off).max(initial=0) <= room
+
+
+@given(PHI, regions(), st.integers(0, 2**32))
+def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed: int) -> None:
+    region, rows = case
+    rng = np.random.default_rng(seed)
+    rho = rng.uniform(-1, 1, (2, region.beads)) * 10.0 ** rng.uniform(-9, -1)
+    found = solved(phi, region, rho, rows, np.zeros((2, int(starts_above(rows)[-1]))), FLOAT64)
+    assume(found is not None)
+    assert found is not None
+    ours = physicality.gaps(found[0])
+    with by_numpy():
+        assert ours == physicality.gaps(found[0])
+
+
+def test_machine_code_on_disk_follows_each_of_its_sources(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Another rest of a bead, another loop, another way to compile, another rule for errors."""
+    used = [local.rest, loops.deposit]
+    usual = compiling.stamp(used)
+    assert usual == compiling.stamp(used)
+    read = Path.read_bytes
+    for module in (local, loops, compiling, sys.modules[Carried.__module__]):
+        own = Path(str(module.__file__))
+
+        def changed(path: Path, own: Path = own) -> bytes:
+            return read(path) + (b"# new" if path == own else b"")
+
+        monkeypatch.setattr(Path, "read_bytes", changed)
+        assert compiling.stamp(used) != usual
+        monkeypatch.undo()
+
+
+def _twice(p: Any, n: Any) -> int:
+    for i in range(n):
+        p[i] = p[i] * 2.0
+    return int(n)
+
+
+@pytest.mark.long
+def test_what_was_compiled_is_taken_from_disk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(compiling, "CODES", tmp_path / "codes")
+    for made in (1, 1):
+        found = compiling.compiled([(_twice, ("float", "number"))], [])
+        assert found is not None
+        values = np.arange(3.0)
+        assert found[0](values.ctypes.data, 3) == 3
+        assert values.tolist() == [0, 2, 4]
+        assert len(list((tmp_path / "codes").iterdir())) == made
+        monkeypatch.setattr(compiling, "_made", None)  # nothing is compiled again
+
+
+@given(
+    st.sampled_from(["uniform", "normal", "two-point"]),
+    st.integers(0, 2**63 - 1),
+    st.lists(st.integers(0, 2**62), min_size=1, max_size=3),
+    st.lists(st.tuples(st.integers(-40, 40), st.integers(0, 40)), min_size=1, max_size=4),
+    st.none() | st.integers(40, 50),
+)
+def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
+    kind: str,
+    seed: int,
+    realisations: list[int],
+    rows: list[tuple[int, int]],
+    width: int | None,
+) -> None:
+    source = DrawnRadii(kind, Fraction(1, 10**6), seed, width)
+    layers = Rows([2 * i + j % 2 for j, (i, _) in enumerate(rows)], [n for _, n in rows])
+    for system in (FLOAT64, CARRYING):
+        parts = [source.row(layer, realisations, system) for layer in layers]
+        found = beads_of(source, layers, realisations, system)
+        for name in ("value", "error") if system is CARRYING else ("",):
+            usual = [
+                (getattr(one, name) if name else one).reshape(len(realisations), -1)
+                for one in parts
+            ]
+            ours = getattr(found, name) if name else found
+            assert ours.tobytes() == np.concatenate(usual, axis=-1).tobytes()
+
+
+def test_a_drawn_radius_that_is_not_positive_is_named() -> None:
+    source = DrawnRadii("normal", Fraction(1, 3), 5, 40)
+    with pytest.raises(RadiusError, match="the drawn radius is -"):
+        beads_of(source, whole(40, 9).rows, [3, 4], FLOAT64)
+
+
+def test_products_of_words_are_exact() -> None:
+    ends = [0, 1, 2**32 - 1, 2**32, 2**63, 2**64 - 1]
+    drawn = np.random.default_rng(3).integers(0, 2**64, (200, 2), dtype=np.uint64, endpoint=False)
+    with np.errstate(over="ignore"):
+        for a, b in [(a, b) for a in ends for b in ends] + [(int(a), int(b)) for a, b in drawn]:
+            high, low = drawing.product(np.uint64(a), np.uint64(b))
+            assert (int(high) << 64) + int(low) == a * b
+
+
+def test_without_numba_numpy_sweeps(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "llvmlite", None)
+    assert compiling.compiled([(_twice, ("float", "number"))], []) is None
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_forces_go_straight_down_below_a_load(side: int) -> None:
+    from force_diffusion.numeric.mechanics.loads import LoadSpec, Strength
+
+    height, width = 9, 3  # layers enough for a diagonal to go round
+    region = whole(width, height)
+    row = {(2 * q + height % 2, height): (1.0 + q, 0.0)[:: -1 if side else 1] for q in range(width)}
+    load = LoadSpec("file", height, width, single=dict.fromkeys(row, (0, 1)))
+    F = load.ordered(region.rows, Strength((), row), FLOAT64).reshape(2, height, width)
+    for j in range(1, height + 1):
+        for q in range(width):  # what bears on (i, j) came down from (i ± (M − j), M)
+            i = 2 * q + j % 2 + (height - j) * (-1 if side else 1)
+            assert F[side, j - 1, q] == 1 + (i - height % 2) // 2 % width
+    assert not F[1 - side].any()
