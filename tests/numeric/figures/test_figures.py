@@ -58,13 +58,11 @@ def impulses(plan: Plan) -> Solved:
     """
     ensemble = plan.problem
     region = ensemble.region
-    edges = np.cumsum([row.count for row in region.rows])[:-1]
-    rho = tuple(np.split(np.eye(region.beads), edges, axis=1))
     with FLOAT64.active():
-        packing = deposit(ensemble.phi, region, rho, FLOAT64, linear=True)
+        packing = deposit(ensemble.phi, region, np.eye(region.beads), FLOAT64, linear=True)
         strength = ensemble.load.strength(ensemble.n_x, FLOAT64)
-        loads = ensemble.load.on(ensemble.force_rows, strength, FLOAT64)
-        forces = sweep_down(packing, ensemble.force_rows, loads, linear=True)
+        F = ensemble.load.ordered(ensemble.force_rows, strength, FLOAT64)
+        forces = sweep_down(packing, ensemble.force_rows, F, linear=True)
     return Solved(FLOAT64, packing, forces, None)
 
 
