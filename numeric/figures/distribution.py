@@ -42,13 +42,17 @@ class Sample:
 
     def verdict(self) -> str:
         """Say what the tests find."""
-        equal = "≤" if self.anderson <= LEAST_P else "="
         return (
             f"{self.kind} radii, M = {self.height}: "
             f"{'the tests reject' if self.rejected else 'no test rejects'} the Gaussian "
-            f"(Kolmogorov–Smirnov p = {self.smirnov:.2g}, Anderson–Darling p {equal} "
-            f"{self.anderson:.2g})"
+            f"(Kolmogorov–Smirnov {in_words(self.smirnov)}, "
+            f"Anderson–Darling {in_words(self.anderson)})"
         )
+
+
+def in_words(p: float) -> str:
+    """Give a p-value, none below what simulated tests can tell."""
+    return f"p ≤ {LEAST_P:g}" if p <= LEAST_P else f"p = {p:.2g}"
 
 
 def p_values(deviates: Array, seed: int) -> tuple[float, float]:
@@ -122,11 +126,5 @@ def _draw(axes: Axes, one: Sample, c: int) -> None:
     points(axes, middle, counts[some] / unit, c, name, np.sqrt(counts[some]) / unit)
     axes.set(xlim=(-4, 4), yscale="log", ylim=(8e-5, 1))
     axes.set(xlabel=r"$(f-\langle f\rangle)\,/\,\sigma_f$", ylabel=r"$\sigma_f\,P(f)$")
-    tests = f"Kolmogorov–Smirnov {_p(one.smirnov)}\nAnderson–Darling {_p(one.anderson)}"
+    tests = f"Kolmogorov–Smirnov {in_words(one.smirnov)}\nAnderson–Darling {in_words(one.anderson)}"
     axes.legend(loc="lower center", title=tests)  # below the curve
-
-
-def _p(value: float) -> str:
-    if value <= LEAST_P:
-        return rf"$p\leq{LEAST_P:g}$"
-    return f"$p={value:.2f}$" if value >= 0.01 else f"$p={value:.3f}$"

@@ -13,8 +13,8 @@ response is that of a single walker: at each split it takes either ray and the s
 f/cos θ, which keeps ⟨f n_y⟩ exactly.
 """
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -25,19 +25,6 @@ from .packings import Table
 SPLITTING_ANGLE = np.radians(20)
 RAYS = 200_000
 BINS = np.linspace(-4, 4, 101)
-
-
-@dataclass(frozen=True)
-class Profile:
-    """The mean response at depth H: density over x/H, for a splitting length λ.
-
-    ``balance`` is the vertical force that arrives at the base less that at the surface, in units of
-    the load, which is 1; with its standard error.
-    """
-
-    splits: float  # H/λ
-    density: Array
-    balance: tuple[float, float]
 
 
 def walk(
@@ -74,35 +61,34 @@ def walk(
     return end, at_base, force
 
 
-def profile(splits: float, tilt: float, seed: int, rays: int = RAYS) -> Profile:
-    """Estimate the mean response at the base, depth H = ``splits`` λ."""
+def profile(splits: float, tilt: float, seed: int, rays: int = RAYS) -> Array:
+    """Estimate the mean response at the base, H = ``splits`` λ: density over x/H in ``BINS``."""
     end, at_base, force = walk(splits, tilt, SPLITTING_ANGLE, rays, seed)
     density, _ = np.histogram(end, BINS, weights=np.where(at_base, force, 0.0))
-    net = np.where(at_base, force, -force)
-    balance = float(net.mean()), float(net.std() / np.sqrt(rays))
-    return Profile(splits, density / rays / np.diff(BINS), balance)
+    return np.asarray(density / rays / np.diff(BINS))
 
 
-def profiles(tilt: float, seed: int) -> tuple[Profile, ...]:
-    """Responses from shallow (two peaks, along the cone) to deep (one, broad)."""
-    return tuple(profile(splits, tilt, seed) for splits in (0.5, 2, 8))
+def profiles(tilt: float, seed: int) -> dict[float, Array]:
+    """Responses by H/λ from shallow (two peaks, along the cone) to deep (one, broad)."""
+    return {splits: profile(splits, tilt, seed) for splits in (0.5, 2, 8)}
 
 
-def table(found: Sequence[Profile]) -> Table:
+def table(found: Mapping[float, Array]) -> Table:
     """Give one row a bin."""
     return {
-        "depth_over_splitting_length": np.repeat([one.splits for one in found], len(BINS) - 1),
+        "depth_over_splitting_length": np.repeat(list(found), len(BINS) - 1),
         "x_low": np.tile(BINS[:-1], len(found)),
         "x_high": np.tile(BINS[1:], len(found)),
-        "density": np.concatenate([one.density for one in found]),
+        "density": np.concatenate(list(found.values())),
     }
 
 
-def draw(axes: Axes, found: Sequence[Profile], slope: float) -> None:
+def draw(axes: Axes, found: Mapping[float, Array], slope: float) -> None:
     """Draw responses over the horizontal position, and the cone of the packing, at ±``slope``."""
-    for c, (one, dashes) in enumerate(zip(found, ("-", (0, (5, 2)), (0, (1, 1.2))), strict=True)):
-        name = rf"$H={one.splits:g}\,\lambda$"
-        axes.stairs(one.density, BINS, color=f"C{c}", ls=dashes, lw=1, label=name)
+    looks: Any = ("-", (0, (5, 2)), (0, (1, 1.2)))
+    for c, (splits, dashes) in enumerate(zip(found, looks, strict=True)):
+        name = rf"$H={splits:g}\,\lambda$"
+        axes.stairs(found[splits], BINS, color=f"C{c}", ls=dashes, lw=1, label=name)
     for side, label in ((-slope, None), (slope, "the packing's cone")):
         axes.axvline(side, color="0.6", ls=(0, (1, 1.5)), lw=0.7, zorder=0.5, label=label)
     axes.set(xlabel="horizontal position $x/H$", xlim=(-3, 3))

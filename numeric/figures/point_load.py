@@ -121,7 +121,7 @@ def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
 def figure(o: Options) -> Made:
     """Maps of mean and fluctuation, line cuts, and the double Y where it is asked for."""
     found, medium = simulated(o), o.medium(MEDIUM)
-    models = double_y.profiles(asin(medium.n_x), o.seed) if "double-y" in o.models else ()
+    models = double_y.profiles(asin(medium.n_x), o.seed) if "double-y" in o.models else {}
     if models:
         drawn, axes = panels("ab;cd", PAGE, 4.7, height_ratios=(1, 1.05))
     else:

@@ -155,7 +155,7 @@ def test_heights_that_cannot_be_built(
 @pytest.mark.parametrize(
     ("option", "value", "ends"),
     [
-        ("--relative-std", -0.01, "must not be negative"),
+        ("--relative-std", -0.01, "must be at least 0"),
         ("--relative-std", 0.9, "would reach a radius ≤ 0"),
         ("--spacing", 5, "or beads of the ordered packing overlap"),
     ],
