@@ -168,6 +168,10 @@ class Carrying:
         """Give the square root of a rational."""
         return sqrt(scalar(value))
 
+    def sqrt(self, values: Any) -> Any:
+        """Give square roots."""
+        return sqrt(values)
+
     def signs(self, values: Any) -> tuple[Array, Array]:
         """Look at the values."""
         return FLOAT64.signs(values.value)

@@ -9,11 +9,12 @@ from math import isqrt
 from typing import Any
 
 from ..arithmetic.carried import NONE, Sizes
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem
+from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import Radii
 from ..lattice.branch import Contact, Site
 from ..lattice.layers import Layer, Region, Rows
 from ..lattice.regions import reached
+from . import sweep
 from .loads import LoadSpec
 from .local import cosine
 from .sweep import Forces, SolvedPacking
@@ -119,27 +120,11 @@ class Solved:
 
 def rounded(solved: Solved) -> Solved:
     """Round numbers that carry their errors once, and say how large errors were."""
-    packing, forces, single = solved.packing, solved.forces, solved.single
-    sizes = NONE
-    if packing is not None:
-        block, d = packing.block, packing.region.dimension
-        sizes |= Sizes(_most(block.error[:, :d]), _most(block.error[:, d:]))
-        packing = SolvedPacking(
-            packing.phi, FLOAT64, packing.region, packing.rho.nearest, block.nearest
-        )
-    if forces is not None:
-        g, F = forces.g, forces.F
-        force = _most(F.value) + _most(g.value)
-        sizes |= Sizes(changed=_most(g.error), force=force)
-        forces = Forces(FLOAT64, forces.region, forces.rows, F.nearest, g.nearest)
-    if single is not None:
-        errors = [abs(float(one.error)) for one in single]
-        force = max(abs(float(one.value)) for one in single)
-        sizes |= Sizes(max(errors), 0.0, max(errors), force)
-        single = single[0].nearest, single[1].nearest
-    return Solved(FLOAT64, packing, forces, single, sizes)
-
-
-def _most(values: Array) -> float:
-    """Give the largest absolute value."""
-    return float(max(values.max(initial=0), -values.min(initial=0)))
+    if solved.packing is not None:
+        packing, forces, sizes = sweep.rounded(solved.packing, solved.forces)
+        return Solved(FLOAT64, packing, forces, None, sizes)
+    assert solved.single is not None
+    errors = [abs(float(one.error)) for one in solved.single]
+    force = max(abs(float(one.value)) for one in solved.single)
+    single = solved.single[0].nearest, solved.single[1].nearest
+    return Solved(FLOAT64, None, None, single, Sizes(max(errors), 0.0, max(errors), force))

@@ -8,14 +8,14 @@ dimensions ``plus`` below (i, j) is the paper's f⁺_(i−1, j−1), ``minus`` i
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, lru_cache, partial
 from typing import Any
 
 import numpy as np
 
-from ..arithmetic.carried import Carried, Carrying
+from ..arithmetic.carried import Carried, Carrying, Sizes
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
 from ..disorder.radii import RadiusError
@@ -131,6 +131,26 @@ class Forces:
     def contact(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
         """Name the contact below a bead of a row."""
         return self.region.contact_below(layer, branch, column)
+
+
+def rounded(packing: SolvedPacking, forces: Forces | None) -> tuple[Any, Any, Sizes]:
+    """Round numbers that carry their errors once, in place; say how large the errors were."""
+    d, block = packing.region.dimension, packing.block
+    sizes = Sizes(_most(block.error[:, :d]), _most(block.error[:, d:]))
+    block.value[...] += block.error
+    packing = replace(packing, system=FLOAT64, rho=packing.rho.nearest, block=block.value)
+    if forces is not None:
+        g = forces.g
+        force = _most(forces.F.value) + _most(g.value)
+        sizes |= Sizes(changed=_most(g.error), force=force)
+        g.value[...] += g.error
+        forces = replace(forces, system=FLOAT64, F=forces.F.nearest, g=g.value)
+    return packing, forces, sizes
+
+
+def _most(values: Array) -> float:
+    """Give the largest absolute value."""
+    return float(max(values.max(initial=0), -values.min(initial=0)))
 
 
 def _of_one(values: Any) -> Any:

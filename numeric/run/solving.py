@@ -1,7 +1,7 @@
 """Contact forces and positions for radii of one's own, as arrays."""
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -11,12 +11,20 @@ from typing import Any
 
 import numpy as np
 
-from ..accuracy import Accuracy
-from ..arithmetic.systems import Array, as_floats
-from ..lattice.branch import axis_names
+from ..accuracy import CARRIED, Accuracy
+from ..arithmetic.carried import CARRYING
+from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.systems import FLOAT64, Array, as_floats
+from ..disorder.radii import ArrayRadii
+from ..lattice.branch import Contact, axis_names
+from ..lattice.layers import whole
+from ..mechanics.loads import LoadSpec
+from ..mechanics.local import cosine
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
-from ..planning.planner import plan
+from ..mechanics.sweep import deposit, rounded, sweep_down
+from ..planning.plan import Plan
+from ..planning.planner import PRINTED, UNIT, plan
 from ..scene.scene import Scene
 from ..scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
 from .outcome import Outcome
@@ -39,14 +47,30 @@ class Solution:
     ``forces.decimals()`` and ``positions.decimals()`` write every digit that is known.
     """
 
-    forces: Outcome
-    """The run behind the forces: plan, error, rows and decimals."""
-    scene: Scene
+    sections: Mapping[str, Any]
+    tolerance: Fraction | None = None
+    only_certified: bool = False
+    found: "_Found | None" = None
+
+    @cached_property
+    def scene(self) -> Scene:
+        """The scene that would be answered so."""
+        return Scene(**self.sections)
+
+    @cached_property
+    def plan(self) -> Plan:
+        """What is done for the forces, method and expected error."""
+        return plan(self.scene, self.tolerance, certified=self.only_certified, text=False)
+
+    @cached_property
+    def forces(self) -> Outcome:
+        """The run behind the forces: plan, error, rows and decimals; made when first asked for."""
+        return run(self.plan)
 
     @property
     def sees_images(self) -> bool:
         """Whether some bead bears on another by two ways around the period."""
-        return self.forces.plan.sees_images
+        return self.plan.sees_images
 
     @property
     def force(self) -> Array:
@@ -54,12 +78,12 @@ class Solution:
 
         Compressive forces are positive. Of spheres (3, M, W, W): axis, layer j, p and q.
         """
-        return self._contacts("force")
+        return self._contacts("force") if self.found is None else self.found.force
 
     @property
     def change(self) -> Array:
         """Each force less its value in the ordered packing, found without cancelling."""
-        return self._contacts("change")
+        return self._contacts("change") if self.found is None else self.found.change
 
     @property
     def position(self) -> Array:
@@ -74,7 +98,7 @@ class Solution:
     @property
     def accuracy(self) -> Accuracy:
         """The error of the forces, relative to the largest change, and how it is known."""
-        return self.forces.accuracy
+        return self.forces.accuracy if self.found is None else self.found.accuracy
 
     @property
     def error(self) -> float:
@@ -92,13 +116,13 @@ class Solution:
 
         ``physical.smallest_gap`` is in the unit of the radii.
         """
-        return self.forces.physical
+        return self.forces.physical if self.found is None else self.found.physical
 
     @cached_property
     def positions(self) -> Outcome:
         """The run behind the positions and their ``accuracy``, made when first asked for."""
         ask = self.scene.ask.model_copy(update={"quantity": "positions"})
-        made = self.forces.plan
+        made = self.plan if self.found is not None else self.forces.plan
         scene = self.scene.model_copy(update={"ask": ask})
         certified = made.tolerance is not None and made.certified
         return run(plan(scene, made.tolerance, certified=certified, text=False))
@@ -139,6 +163,85 @@ class Solution:
         return str(self.forces)
 
     __repr__ = __str__
+
+
+@dataclass(frozen=True)
+class _Found:
+    """Forces and changes as ``Solution`` has them, their error, and what is physical."""
+
+    force: Array
+    change: Array
+    accuracy: Accuracy
+    physical: Physicality
+
+
+# Beads that are solved at once, without a plan; and what needs no care beside float64.
+AT_ONCE = 2_000_000
+USUAL, SMALL = (Fraction(1, 10**100), 10**100), 1e-140
+
+
+def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
+    """Solve packings under loads on layers; None for what is out of the ordinary, or can't be."""
+    d, shape, r, s = packing.dimension, given.values.shape, packing.radius, packing.s
+    layers, width = shape[-d], shape[-1]
+    usual = all(USUAL[0] < x < USUAL[1] for x in (r, s, load.magnitude))
+    apart = 4 * r**2 < s**2 < (8 + Fraction(8, d)) * r**2
+    mean = float(given.values.mean()) - float(r if given.delta_r is None else 0)
+    on_layers = load.kind in {"surface", "bulk"} and not load.angle_deg
+    if not (usual and apart and abs(mean) <= r / 2 and on_layers):
+        return None
+    if given.values.size > AT_ONCE:
+        return None
+    n_x, row = s / (4 * r), width ** (d - 1)
+    region, spec = whole(row, layers - 1, d), LoadSpec(load.kind, layers - 1, row, dimension=d)
+    origin = r if given.delta_r is None else Fraction(0)
+    radii = ArrayRadii(given.values.reshape(-1, layers, row), origin, r)
+    realisations = range(len(radii.values))
+    physical = Physicality(looks_at=realisations)
+    with FLOAT64.active():
+        rho = radii.layers(layers, realisations, CARRYING)
+        try:
+            deposited = deposit(cosine(n_x), region, rho, CARRYING)
+            F = spec.ordered(region.rows, spec.strength(n_x, CARRYING), CARRYING)
+            balanced = sweep_down(deposited, region.rows, F)
+        except ForceDiffusionError:
+            return None
+        solved, forces, sizes = rounded(deposited, balanced)
+        physical.look_at_gaps(solved)
+        physical.look_at_forces(forces)
+        largest, unseen = float(np.abs(forces.g).max()), sizes.unseen(layers - 1)[0]
+        change, force = forces.g, forces.g + forces.F
+        if load.magnitude != 1:
+            magnitude = FLOAT64.scalar(load.magnitude)
+            change, force = change * magnitude, force * magnitude
+    if not (largest > SMALL and sizes.moved + unseen < math.inf):
+        return None
+    roundings = 1 if load.magnitude == 1 else 3
+    bound = PRINTED * (roundings * float(UNIT) + 2 * unseen / largest) * (1 + 1e-15)
+    if physical.smallest_gap is not None:
+        physical.smallest_gap = float(Fraction(physical.smallest_gap) * r)
+    if isinstance(physical.first_tensile, Contact):
+        home = physical.first_tensile.i % (2 * width)
+        physical.first_tensile = physical.first_tensile._replace(i=home)
+    below = (*shape[:-d], layers - 1, *shape[1 - d :])
+    return _Found(
+        _by_lower_bead(force, d, below),
+        _by_lower_bead(change, d, below),
+        Accuracy(bound, False, FLOAT64.name, CARRIED),
+        physical,
+    )
+
+
+def _by_lower_bead(values: Array, d: int, shape: tuple[int, ...]) -> Array:
+    """Turn what belongs to contacts by their upper beads, (packings, d, beads), into ``shape``."""
+    found = values.reshape(*shape[:-d], d, *shape[-d:])
+    rows = np.moveaxis(found, -d - 1, 0)
+    if d == 2:  # (i + 1, j + 1) is of the same column where j is even, (i − 1, j + 1) where odd
+        rows[0][..., 1::2, :] = np.roll(rows[0][..., 1::2, :], -1, -1)
+        rows[1][..., 0::2, :] = np.roll(rows[1][..., 0::2, :], 1, -1)
+    else:
+        rows[0][...], rows[1][...] = np.roll(rows[0], -1, -2), np.roll(rows[1], -1, -1)
+    return found
 
 
 @contextmanager
@@ -246,18 +349,22 @@ def solve(
     if radius is None:
         radius = Fraction(float(given.values.mean())) if delta_r is None else 1
     with _named_as_here():
-        scene = Scene(
-            packing=Packing(
-                height=layers - 1,
-                width=shape[-1],
-                dimension=dimension,
-                radius=radius,
-                spacing=spacing,
-                allow_images=allow_images,
-            ),
-            disorder=given,
-            load=SurfaceLoad() if load is None else load,
-            ask=Ask(quantity="contact_forces", realisations=batch[0] if batch else 1),
+        packing = Packing(
+            height=layers - 1,
+            width=shape[-1],
+            dimension=dimension,
+            radius=radius,
+            spacing=spacing,
+            allow_images=allow_images,
         )
+        load = SurfaceLoad() if load is None else load
+        ask = Ask(quantity="contact_forces", realisations=batch[0] if batch else 1)
+        sections = {"packing": packing, "disorder": given, "load": load, "ask": ask}
+        if tolerance is None and (found := _directly(given, packing, load)) is not None:
+            return Solution(sections, found=found)
+        scene = Scene(**sections)
     asked = None if tolerance is None else read_tolerance(tolerance)
-    return Solution(run(plan(scene, asked, certified=certified, text=False)), scene)
+    solution = Solution(sections, asked, certified)
+    forces = run(plan(scene, asked, certified=certified, text=False))
+    vars(solution).update(scene=scene, plan=forces.plan, forces=forces)
+    return solution
