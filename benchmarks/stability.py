@@ -25,6 +25,7 @@ from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.planner import plan
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 from measuring import csv_text, in_turn
 
 import force_diffusion as fd
@@ -161,8 +162,9 @@ def drawn(rows: list[Any], enclosed: list[Any]) -> Figure:
                 lost.annotate(words, last, va="center", color=f"C{series}", fontsize=7.5)
     errors.set(xlabel="σ/r", ylabel="error / largest |change|", ylim=(-18.8, 14.8))
     errors.set_title("float64: largest error of the contact forces")
-    style.powers_of_ten(errors.xaxis)
-    style.powers_of_ten(errors.yaxis)
+    for axis in (errors.xaxis, errors.yaxis):  # along which lie logarithms
+        axis.set_major_locator(MaxNLocator(8, integer=True, steps=(1, 2, 5, 10)))
+        axis.set_major_formatter(lambda power, _: f"$10^{{{power:g}}}$")
     lost.set(xscale="log", yscale="log", xlim=(3.4, 4100), ylabel="bits", ylim=(4, None))
     lost.set(xlabel="layers $M$ (strips of 16 beads a layer)", title="balls: bits lost in all")
     errors.legend()

@@ -20,7 +20,7 @@ try:
     from matplotlib.backend_bases import RendererBase
     from matplotlib.container import ErrorbarContainer
     from matplotlib.figure import Figure
-    from matplotlib.ticker import LogLocator, MaxNLocator, NullFormatter
+    from matplotlib.ticker import LogLocator, NullFormatter
 except ModuleNotFoundError as error:
     raise MissingLibraryError(
         "figures need matplotlib, which is missing; pip install 'force-diffusion[plots]'"
@@ -96,12 +96,6 @@ def label_logarithmic(axis: Axis) -> None:
         axis.set_major_locator(LogLocator(10, (1, 2, 5)))
         axis.set_major_formatter("{x:g}")
         axis.set_minor_formatter(NullFormatter())
-
-
-def powers_of_ten(axis: Axis) -> None:
-    """Name the ticks of an axis along which lie log10 of numbers that may be no floats."""
-    axis.set_major_locator(MaxNLocator(8, integer=True))
-    axis.set_major_formatter(lambda power, _: f"$10^{{{power:g}}}$")
 
 
 def images(
