@@ -107,7 +107,8 @@ def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
     """Give the change of p by layer 0 … l − 1, shapes (number, l − j + 1): beads of the cone."""
     quantity = ensemble.quantity
     assert isinstance(quantity, quantities.Response)
-    *_, contacts = quantity.both(ensemble.problem, answer, number)
+    _, changes = quantity.changes(ensemble.problem, answer, number)
+    contacts = changes[len(changes) // 2 :, :, 0].T  # behind the forces
     found, at = [], 0
     for row in ensemble.problem.force_rows[1:]:
         both = np.zeros((number, row.count + 1))

@@ -1,37 +1,28 @@
 """The response to a point load."""
 
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats, zeros
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
 from ..lattice.branch import Direction
 from ..lattice.layers import Layer, Region, pick
 from ..mechanics.problem import Problem, Route, Solved
-from ..statistics.moments import Moments, Scatter, unit_near
-from .base import (
-    ContactQuantity,
-    Gatherer,
-    Table,
-    contact_changes,
-    joined,
-    slope,
-)
+from .base import Table, contact_changes, joined, slope
+from .statistics import Merged, Statistics
 
 # Bytes of a number of one realisation while standard errors are made; measured.
 SCATTERED = 56
 
 
-class Response(ContactQuantity):
+class Response(Merged):
     """The contacts within a point load's cone: one packing, or mean and std over realisations.
 
     ``vertical`` is the vertical component of the contact force, f N_y.
     """
 
     name = "response"
-    merged = True
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """The contacts below each bead of the cone."""
@@ -45,10 +36,6 @@ class Response(ContactQuantity):
         several = realisations if realisations > 1 else 0
         return 2 * self.answer_rows(region, 1) * several * SCATTERED
 
-    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
-        """Start with no realisation."""
-        return _Responses(self, problem, system)
-
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the contacts twice: by their force, then by its vertical component."""
         contacts = super().labels(problem)
@@ -57,59 +44,19 @@ class Response(ContactQuantity):
         return {**labels, "component": ["force"] * count + ["vertical"] * count}
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
-        """Give F, shape (groups, 1), and g, (groups, realisations, 1); of both components."""
-        _, F, g, vertical = self.both(problem, solved, realisations)
-        ny = slope(problem, solved.system)
-        F, g = np.concatenate([F, F * ny]), np.concatenate([g, vertical], axis=1)
-        return F[:, None], g.T[:, :, None]
-
-    def one(
-        self,
-        problem: Problem,
-        system: NumberSystem,
-        contacts: dict[str, Array],
-        F: Array,
-        g: Array,
-        vertical: Array,
-    ) -> Table:
-        """Give the rows of one packing, from what ``both`` gave."""
-        F_y = F * slope(problem, system)
-        return Table(
-            contacts,
-            {
-                "force": F + g[0],
-                "change": g[0],
-                "vertical": F_y + vertical[0],
-                "vertical_change": vertical[0],
-            },
-            ("change", "vertical_change"),
-        )
-
-    def both(
-        self, problem: Problem, solved: Solved, realisations: int
-    ) -> tuple[dict[str, Array], Array, Array, Array]:
-        """Give the contacts, F, g and the change of the vertical component f N_y.
-
-        Shapes: (contacts,), (realisations, contacts) and the same.
-        """
-        assert solved.forces is not None
-        blocks = self.blocks(problem)
+        """Give F, shape (groups, 1), and g, (groups, realisations, 1): forces, then f N_y."""
         system = solved.system
-        ny = slope(problem, system)
-        parts = contact_changes(solved, blocks, realisations)
-        verticals = []
-        for (branch, row), F, g in parts:
+        ny, nothing = slope(problem, system), zeros(system, realisations, 0)
+        changes, verticals, ordered = [nothing], [nothing], []
+        for (branch, row), F, g in contact_changes(solved, self.blocks(problem), realisations):
             tilt = self.tilt(solved, branch, row)
             f = F + (g if problem.route == Route.EXACT else 0)
+            ordered.append(F)
+            changes.append(g)
             verticals.append((g + f * tilt.reshape(-1, row.count)) * ny)
-        contacts = self.naming.contacts([block for block, _, _ in parts])
-        nothing = zeros(system, realisations, 0)
-        return (
-            contacts,
-            joined(system, [F for _, F, _ in parts]),
-            np.concatenate([nothing, *(g for _, _, g in parts)], axis=1),
-            np.concatenate([nothing, *verticals], axis=1),
-        )
+        F = joined(system, ordered)
+        g = np.concatenate([*changes, *verticals], axis=1)
+        return np.concatenate([F, F * ny])[:, None], g.T[:, :, None]
 
     def tilt(self, solved: Solved, branch: Direction, row: Layer) -> Array:
         """Give N_y/n_y − 1 of the contacts below a row."""
@@ -125,54 +72,25 @@ class Response(ContactQuantity):
         ny = Fraction(float(slope(problem, FLOAT64)))
         return forces + [force * ny for force in forces]
 
-
-class _Responses(Gatherer):
-    def __init__(self, quantity: Response, problem: Problem, system: NumberSystem) -> None:
-        self.quantity, self.problem, self.system = quantity, problem, system
-        self.moments = Moments(unit_near(problem.radii.relative_std()))
-        self.scatter = Scatter()
-        self.last: tuple[dict[str, Array], Array, Array, Array] | None = None
-
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Take in realisations, one after the other."""
-        self.last = self.quantity.both(self.problem, solved, len(realisations))
-        if self.problem.realisations > 1:
-            both = np.concatenate(self.last[2:], axis=1)
-            for one in both:
-                self.moments.add(one[None])
-            self.scatter.add(*_squared(both))
-
-    def table(self) -> Table:
+    def table(self, problem: Problem, system: NumberSystem, found: Statistics) -> Table:
         """One row a contact."""
-        assert self.last is not None
-        if self.problem.realisations == 1:
-            return self.quantity.one(self.problem, self.system, *self.last)
-        contacts, F, *_ = self.last
-        ny = slope(self.problem, self.system)
-        half = len(F)
-        mean, std = self.moments.average(), self.moments.std(self.system)
-        of_mean, of_std = self.scatter.errors()
-        return Table(
-            contacts,
-            {
-                "force_mean": F + mean[:half],
-                "force_mean_change": mean[:half],
-                "force_std": std[:half],
-                "vertical_mean": F * ny + mean[half:],
-                "vertical_mean_change": mean[half:],
-                "vertical_std": std[half:],
-            },
-            ("force_mean_change", "force_std", "vertical_mean_change", "vertical_std"),
-            {
-                "force_mean_change": of_mean[:half],
-                "force_std": of_std[:half],
-                "vertical_mean_change": of_mean[half:],
-                "vertical_std": of_std[half:],
-            },
-        )
-
-
-def _squared(values: Array) -> tuple[Array, Array]:
-    with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
-        floats = as_floats(values)
-        return floats, floats**2
+        contacts = self.naming.contacts(self.blocks(problem))
+        half = len(found.mean) // 2
+        force, vertical = slice(half), slice(half, None)
+        if problem.realisations == 1:
+            numbers = {}
+            for name, change, part in (
+                ("force", "change", force),
+                ("vertical", "vertical_change", vertical),
+            ):
+                numbers[name] = found.ordered[part] + found.mean[part]
+                numbers[change] = found.mean[part]
+            return Table(contacts, numbers, ("change", "vertical_change"))
+        numbers, errors = {}, {}
+        for name, part in (("force", force), ("vertical", vertical)):
+            numbers[f"{name}_mean"] = found.ordered[part] + found.mean[part]
+            numbers[f"{name}_mean_change"] = found.mean[part]
+            numbers[f"{name}_std"] = found.std[part]
+            errors[f"{name}_mean_change"] = found.mean_error[part]
+            errors[f"{name}_std"] = found.std_error[part]
+        return Table(contacts, numbers, tuple(errors), errors)

@@ -65,7 +65,7 @@ def test_it_is_drawn_with_the_gaussians_of_these_layers() -> None:
         ({"layers": [6]}, "must be layers of lower beads below the load, from 0 to 5"),
         ({"layers": []}, "one layer or several"),
         ({"layers": [1, 1]}, "each once"),
-        ({"layers": [0], "at": (0, 0, "+")}, "one contact lies in one layer"),
+        ({"layers": [0], "at": (0, 0, "+")}, "asks for one place"),
         ({"layers": [0], "load": fd.PointLoad(at=(0, 4))}, None),
         ({"layers": [4], "load": fd.PointLoad(at=(0, 4))}, "from 0 to 3"),
     ],

@@ -286,9 +286,13 @@ def test_beads_above_a_quarter_of_the_period_are_no_answer(radius: float) -> Non
         own({(2, 1): radius - 1}, width=3, spacing=2.5).run()
 
 
-def test_a_load_that_lifts_beads_off_is_never_an_answer() -> None:
+def test_a_load_that_lifts_beads_off_is_never_an_answer(tmp_path: Path) -> None:
+    scene = strip(load=fd.Load(kind="file", file="loads.csv"))
+    M, W = scene.packing.height, scene.packing.width or 0
+    rows = [f"{i},{M},0,1" for i in range(M % 2, 2 * W, 2)]
+    (tmp_path / "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows]))
     with pytest.raises((UnfinishedError, ToleranceError)):
-        strip(load=fd.SurfaceLoad(angle_deg=180)).run()
+        scene.model_copy(update={"folder": tmp_path}).run()
 
 
 def test_programs_end_at_the_most_that_a_scene_allows() -> None:
