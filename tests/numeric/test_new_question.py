@@ -12,7 +12,6 @@ from force_diffusion.numeric.lattice.layers import Region
 from force_diffusion.numeric.mechanics.problem import Problem, Solved
 from force_diffusion.numeric.quantities.base import Gatherer, Quantity, Table, column
 from force_diffusion.numeric.run import run
-from force_diffusion.numeric.scene.sections import SceneError
 
 from tests.numeric.scenes import basic, planned
 
@@ -95,9 +94,3 @@ def test_a_new_question_is_answered_in_every_dimension_and_arithmetic(
     allowed = Fraction(tolerance[1:]) if tolerance else Fraction(1, 10**13)  # hundreds of roundings
     for j, mean in found.items():
         assert abs(mean - true[j]) <= allowed * max(true.values())
-
-
-def test_without_a_drawing_it_is_said_so() -> None:
-    outcome = run(planned(basic(quantity="profile")))
-    with pytest.raises(SceneError, match="there is no figure of it"):
-        outcome.plot()

@@ -363,7 +363,6 @@ def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene() -> None:
     for found, gap in zip((wide, small), gaps, strict=True):  # one name, one unit
         assert found.physical is not None
         assert found.physical.smallest_gap == gap
-        assert f"smallest gap {gap:.6g}," in str(found)
 
 
 @pytest.mark.parametrize("width", [1, 2, 3, 7])
