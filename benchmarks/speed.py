@@ -214,7 +214,7 @@ def running() -> Iterator[Line]:
 
         def written() -> Any:
             found = run()
-            return files_of(found, found.data(rows=False), Format.CSV)
+            return files_of([found], found.data(rows=False), Format.CSV)
 
         def planned() -> Any:
             return fd.read_scene(path).explain()

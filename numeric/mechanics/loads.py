@@ -133,9 +133,9 @@ class LoadSpec:
             times = np.ones(len(rows))
             if self.kind == "bulk":
                 times = self.height - rows.layers + 1.0
-            times = times.repeat(np.diff(starts))
+            row = np.arange(len(rows)).repeat(np.diff(starts))
             for a, share in enumerate(strength.unit):
-                found[a] = from_floats(system, times) * share
+                found[a] = (from_floats(system, times) * share)[row]
             return found
         for site, load in self._singly(strength).items():
             for a, share in enumerate(load):

@@ -19,13 +19,14 @@ from typing import Any
 
 import numpy as np
 
+from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import AxisContact, Contact, directions
 from ..lattice.layers import Layer
 from . import local
 from .local import RESOLUTION
 from .loops import loops
-from .sweep import Forces, SolvedPacking, shift_of, starts_above
+from .sweep import Forces, SolvedPacking, metric_array, shift_of, starts_above
 
 PHYSICAL = "check that it is physical"
 Steps = tuple[int, ...]
@@ -236,17 +237,17 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
     """Give the gaps of beads and those so many steps on, (packings, beads); inf where none is."""
     region, rho, block, rise = packing.region, packing.rho, packing.block, sum(steps)
     d, square = region.dimension, square_of(packing.phi, steps)
-    m = local.metric(d, packing.phi, FLOAT64.scalar)
     found = np.full(rho.shape, math.inf)
     rows, starts = region.rows, region.starts
     if d == 2 and (made := loops()) is not None:
         table = np.stack([starts[:-1], rows.counts, shift_of(rows, rows, steps)], axis=1)
+        m = metric_array(packing.phi, CARRYING)[:3]  # its numbers without their errors
         constants = np.array([*m, *steps, float(square), float(square - 4)])
         sizes = len(rho), len(rows), rise, region.width or 0, region.beads, block.strides[1] // 8
         arrays = (one.ctypes.data for one in (rho, block, found, table, constants))
         made.gaps(*arrays, *sizes)
         return found
-    layers = tuple(rows)
+    layers, metric = tuple(rows), local.metric(d, packing.phi, FLOAT64.scalar)
     for j in range(max(region.top + 1 - rise, 0)):
         own = slice(starts[j], starts[j + 1])
         over = slice(starts[j + rise], starts[j + rise + 1])
@@ -257,7 +258,7 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
         u = tuple(look(block[:, a, over]) - block[:, a, own] for a in range(d))
         both = look(rho[:, over]) + rho[:, own]
         with FLOAT64.active():
-            gap = local.gap(steps, float(square), float(square - 4), u, both, m)
+            gap = local.gap(steps, float(square), float(square - 4), u, both, metric)
         found[:, own] = np.where(known, gap, math.inf)
     return found
 

@@ -284,7 +284,7 @@ def _address(values: Any) -> tuple[int, tuple[int, ...]]:
 
 
 @lru_cache(maxsize=4)
-def _metric(phi: Fraction, system: NumberSystem) -> Array:
+def metric_array(phi: Fraction, system: NumberSystem) -> Array:
     """Give what φ decides of discs, as ``loops`` takes it: errors behind the numbers."""
     m = metric(2, phi, system.scalar)
     if isinstance(system, Carrying):
@@ -329,7 +329,7 @@ def _compiled_deposit(phi: Fraction, region: Region, rho: Any, system: NumberSys
     """Give the block of a packing of discs; None where not all beads rest, or nothing compiles."""
     if (made := _loops_of(region, system)) is None:
         return None
-    rows, m = _supports(region), _metric(phi, system)
+    rows, m = _supports(region), metric_array(phi, system)
     block = spread(system, len(rho), 6, region.beads)
     base = int(region.starts[1])
     block[..., :base] = 0.0
