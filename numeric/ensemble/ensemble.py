@@ -19,14 +19,13 @@ from operator import index
 from pathlib import Path
 from typing import SupportsIndex
 
-from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError, NotReachedError
+from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.machine import cores, memory_limit, take_one_core
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
 from ..scene.reading import read_scene
 from ..scene.scene import Scene, program_version
-from ..scene.sections import SceneError
 from ..statistics.confidence import looks
 from .result import Ensemble
 from .store import Store, StoreFailedError, description
@@ -101,24 +100,22 @@ def ensemble(
         scene = read_scene(Path(scene), Scene)
     if not isinstance(scene, Scene):
         raise TypeError(f"ensemble takes a scene or the path of one, not {type(scene).__name__}")
-    size = _size(scene, realisations)
-    until = None if until is None else _share("until", until, "0.01")
-    confidence = _share("confidence", confidence, "0.95")
+    size = _size(scene.ask.realisations if realisations is None else realisations)
+    until = None if until is None else _number("until", until)
+    confidence = _number("confidence", confidence)
     if store is not None and not isinstance(store, str | Path):
         raise ArgumentError("store", store, "must be the name of a file")
-    m = measurement(scene, reach=None if reach is None else _number("reach", reach))
+    m = measurement(scene, reach=None if reach is None else _number("reach", reach, 1e300))
     own = None if executor is not None else _executor(m, size, workers)
     opened = None if store is None else Store(Path(store), description(m))
     try:
         solved = own or executor
         assert solved is not None
         return _joined(m, size, solved, opened, until, confidence, progress)
-    except (BrokenExecutor, CancelledError) as error:
+    except (BrokenExecutor, CancelledError, MemoryError) as error:
         raise WorkersError(
             f"a worker died, perhaps for want of memory ({error}): use fewer.{_kept(opened)}"
         ) from None
-    except MemoryError:
-        raise NotReachedError(f"the memory is full: use fewer workers.{_kept(opened)}") from None
     except (WorkersError, StoreFailedError) as error:
         raise type(error)(f"{error}.{_kept(opened)}") from None
     except KeyboardInterrupt as interrupt:
@@ -229,32 +226,17 @@ def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
     return ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent)
 
 
-def _size(scene: Scene, realisations: int | None) -> int:
-    allowed = f"an ensemble has from 2 to {MOST} packings"
-    if realisations is None:
-        if not 2 <= scene.ask.realisations <= MOST:
-            more = f"{allowed}; say how many here or with realisations (--realisations N)"
-            raise SceneError("ask.realisations", scene.ask.realisations, more)
-        return scene.ask.realisations
+def _size(realisations: object) -> int:
     if not isinstance(realisations, SupportsIndex) or not 2 <= index(realisations) <= MOST:
+        allowed = f"an ensemble has from 2 to {MOST} packings; say how many (--realisations N)"
         raise ArgumentError("realisations", realisations, allowed)
     return index(realisations)
 
 
-def _number(name: str, value: object) -> float:
-    if not isinstance(value, Real):
-        raise ArgumentError(name, value, "must be a number")
-    try:
-        return float(value)
-    except OverflowError:
-        raise ArgumentError(name, "a number", "must be one that float64 holds") from None
-
-
-def _share(name: str, value: object, such_as: str) -> float:
-    number = _number(name, value)
-    if not 0 < number < 1:
-        raise ArgumentError(name, f"{number:g}", f"must lie between 0 and 1, such as {such_as}")
-    return number
+def _number(name: str, value: object, below: float = 1) -> float:
+    if not isinstance(value, Real) or not 0 < value < below:
+        raise ArgumentError(name, value, f"must be a number between 0 and {below:g}")
+    return float(value)
 
 
 def _kept(store: Store | None) -> str:

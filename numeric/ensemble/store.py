@@ -59,42 +59,42 @@ class Store:
     """An open store; ``held`` are its blocks, all of which have been checked."""
 
     def __init__(self, path: Path, ensemble: dict[str, Any] | None = None) -> None:
-        """Open a store, or make one; without an ``ensemble`` whatever it holds, and no new one.
+        """Open a store; without an ``ensemble`` one that exists, whatever it holds.
 
-        Raises ``StoreError`` for a file that is damaged, of another kind, scene or version.
+        A new one is made with its first block. Raises ``StoreError`` for a file that is damaged, of
+        another kind, scene or version.
         """
-        self.path = path
-        _refuse_foreign(path, may_be_new=ensemble is not None)
+        self.path, self.ensemble, self.held = path, ensemble or {}, set[Block]()
+        exists = _is_ours(path)
+        if ensemble is None and not exists:
+            raise StoreError(f"{path}: there is no such store")
         with _reading(path):
             self._database = sqlite3.connect(
                 path.absolute(), timeout=PATIENCE, isolation_level=None
             )
         try:
-            with _reading(path):
-                self.ensemble = self._described(ensemble)
-                self.held = set(self._checked())
-                if self.ensemble != ensemble and ensemble is not None:
-                    self._take_over(ensemble)
+            if exists:
+                with _reading(path):
+                    self._read()
         except BaseException:
             self._database.close()
             raise
+        if ensemble not in (None, self.ensemble):
+            self._database.close()
+            raise StoreError(
+                f"{path} holds another ensemble: {_difference(self.ensemble, ensemble or {})}. "
+                "Give another name for this one"
+            )
 
-    def _described(self, ensemble: dict[str, Any] | None) -> dict[str, Any]:
-        """Say what it holds; a new file is made to hold this ensemble."""
-        with self._database as database:
-            database.execute("BEGIN IMMEDIATE" if ensemble else "BEGIN")
-            if ensemble and not database.execute("SELECT * FROM sqlite_master").fetchone():
-                for table in _TABLES:
-                    database.execute(table)
-                database.execute(f"PRAGMA application_id = {APPLICATION}")
-                database.execute("INSERT INTO ensemble VALUES (?)", (_text(ensemble),))
-            if database.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
-                raise ValueError("the database is not in order")
-            (text,) = database.execute("SELECT description FROM ensemble").fetchone() or ("null",)
-        found = json.loads(text)
-        if not isinstance(found, dict):
+    def _read(self) -> None:
+        """Look what it holds, and check it."""
+        if self._database.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
+            raise ValueError("the database is not in order")
+        (text,) = self._database.execute("SELECT description FROM ensemble").fetchone() or ("[]",)
+        self.ensemble = json.loads(text)
+        if not isinstance(self.ensemble, dict):
             raise ValueError("it does not say what it holds")
-        return found
+        self.held = set(self._checked())
 
     def _checked(self) -> Iterator[Block]:
         rows = self._database.execute("SELECT first, stop, content, checksum FROM blocks")
@@ -106,16 +106,6 @@ class Store:
     def _checksum(self, block: Block, content: bytes) -> str:
         head = f"{_text(self.ensemble)} {block}".encode()
         return hashlib.sha256(head + content).hexdigest()
-
-    def _take_over(self, ensemble: dict[str, Any]) -> None:
-        """Take the place of an ensemble that failed before it had anything to keep."""
-        if self.held:
-            raise StoreError(
-                f"{self.path} holds another ensemble: {_difference(self.ensemble, ensemble)}. "
-                "Give another name for this one"
-            )
-        self.ensemble = ensemble
-        self._database.execute("UPDATE ensemble SET description = ?", (_text(ensemble),))
 
     @property
     def realisations(self) -> int:
@@ -134,7 +124,14 @@ class Store:
         content = sums.to_bytes()
         row = (*block, content, self._checksum(block, content))
         try:
-            self._database.execute("INSERT OR REPLACE INTO blocks VALUES (?, ?, ?, ?)", row)
+            with self._database as database:
+                database.execute("BEGIN IMMEDIATE")
+                if not database.execute("SELECT * FROM sqlite_master").fetchone():
+                    for table in _TABLES:
+                        database.execute(table)
+                    database.execute(f"PRAGMA application_id = {APPLICATION}")
+                    database.execute("INSERT INTO ensemble VALUES (?)", (_text(self.ensemble),))
+                database.execute("INSERT OR REPLACE INTO blocks VALUES (?, ?, ?, ?)", row)
         except sqlite3.Error as error:
             raise StoreFailedError(
                 f"{self.path} can't be written to ({error}): make room, or move it to another place"
@@ -205,24 +202,23 @@ def together(blocks: Iterable[Block]) -> list[Block]:
     return found
 
 
-def _refuse_foreign(path: Path, *, may_be_new: bool) -> None:
-    """Refuse what is plainly no store of ours, before SQLite looks at it."""
+def _is_ours(path: Path) -> bool:
+    """Tell a store from a new file, before SQLite looks at it. Raises ``StoreError`` for others."""
     try:
         if path.exists() and not path.is_file():
             raise StoreError(f"{path} is no ordinary file: give another name")
         if not path.exists() or not path.stat().st_size:
-            if not may_be_new:
-                raise StoreError(f"{path}: there is no such store")
-            return
+            return False
         with path.open("rb") as file:
             head = file.read(100)
     except OSError as error:
         raise StoreError(f"{path} can't be read: {error.strerror}") from None
-    ours = head.startswith(b"SQLite format 3\x00")
-    if not ours or int.from_bytes(head[68:72], "big") != APPLICATION:
-        raise StoreError(
-            f"{path} is not the store of an ensemble, and is left as it is: give another name"
-        )
+    magic = head.startswith(b"SQLite format 3\x00")
+    if magic and int.from_bytes(head[68:72], "big") == APPLICATION:
+        return True
+    raise StoreError(
+        f"{path} is not the store of an ensemble, and is left as it is: give another name"
+    )
 
 
 @contextmanager

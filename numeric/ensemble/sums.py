@@ -136,7 +136,7 @@ def measurement(scene: Scene, *, reach: float | None = None) -> Measurement:
         return made
     reach = _usual_reach(made) if reach is None else reach / float(scene.load.magnitude)
     if not 0 < reach < 1e300:
-        raise ArgumentError("reach", reach, "must be a positive number below 1e300")
+        raise ArgumentError("reach", reach, "in units of the load, must lie between 0 and 1e300")
     bins = ask.bins or DEFAULT_BINS
     edges = tuple(float(Fraction(reach) * (2 * k - bins) / bins) for k in range(bins + 1))
     if len(set(edges)) <= bins:
