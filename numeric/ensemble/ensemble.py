@@ -234,7 +234,7 @@ def _size(realisations: object) -> int:
 
 
 def _number(name: str, value: object, below: float = 1) -> float:
-    if not isinstance(value, Real) or not 0 < value < below:
+    if not isinstance(value, Real) or not 0 < float(value) < below:
         raise ArgumentError(name, value, f"must be a number between 0 and {below:g}")
     return float(value)
 

@@ -88,7 +88,7 @@ class Store:
 
     def _read(self) -> None:
         """Look what it holds, and check it."""
-        if self._database.execute("PRAGMA quick_check(1)").fetchone() != ("ok",):
+        if self._database.execute("PRAGMA integrity_check(1)").fetchone() != ("ok",):
             raise ValueError("the database is not in order")
         (text,) = self._database.execute("SELECT description FROM ensemble").fetchone() or ("[]",)
         self.ensemble = json.loads(text)
@@ -116,7 +116,7 @@ class Store:
         """Read the sums of a block that is held."""
         query = "SELECT content FROM blocks WHERE first = ? AND stop = ?"
         with _reading(self.path):
-            (content,) = self._database.execute(query, block).fetchone()
+            (content,) = self._database.execute(query, block).fetchone() or (b"",)
             return from_bytes(content, m)
 
     def put(self, block: Block, sums: Sums) -> None:
