@@ -57,11 +57,18 @@ def holds_to_first_order(equation: sympy.Eq, drawn: Drawn, places: Iterable[At])
     """What is left is of order ε², at every place."""
     for at in places:
         sizes = left_beside(equation, drawn, at)
-        assert falls(sizes, 2), f"{dict(at)}: {[mp.nstr(one, 5) for one in sizes]} is left"
+        assert falls(sizes, 2), f"{differ(at, sizes)}, which does not fall as ε²"
 
 
 def is_identity(equation: sympy.Eq, drawn: Drawn, places: Iterable[At]) -> None:
     """Nothing is left, at every place and at both strengths."""
     for at in places:
         sizes = left_beside(equation, drawn, at)
-        assert max(sizes) <= ROUNDING, f"{dict(at)}: {[mp.nstr(one, 5) for one in sizes]} is left"
+        assert max(sizes) <= ROUNDING, f"{differ(at, sizes)}, and must not differ at all"
+
+
+def differ(at: At, sizes: Iterable[Number], small: tuple[Number, Number] = STRENGTHS) -> str:
+    """Where, and by how much, the two sides of an equation differ."""
+    place = ", ".join(f"{symbol} = {value}" for symbol, value in at.items())
+    by, strengths = (" and ".join(mp.nstr(one, 3) for one in two) for two in (sizes, small))
+    return f"at {place} both sides differ by {by} for ε = {strengths}"

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 import force_diffusion as fd
 from tests.properties.drawn import FEWER, Geometry, exactly, geometries, lengths
 from tests.properties.moments import CHANGES, DIFFERENCE_ROUNDING, At, Slab, moment, read
-from tests.properties.orders import falls
+from tests.properties.orders import differ, falls
 from tests.properties.packing import Number, mp
 
 Places = Callable[[int], Iterator[At]]
@@ -125,9 +125,8 @@ def test_closed_forms_are_moments_of_packings(
             at = {M: height, **place, sigma: exactly(sd)}
             value = stated_value(stated, slab, at)
             sizes = [abs(moment(slab, stated.statistic, at, change) - value) for change in CHANGES]
-            shown = [mp.nstr(size, 5) for size in sizes]
             assert falls(sizes, 2, CHANGES, DIFFERENCE_ROUNDING), (
-                f"{at}: {mp.nstr(value, 5)} is off by {shown}"
+                f"{differ(at, sizes, CHANGES)}, where {mp.nstr(value, 5)} is stated"
             )
 
 

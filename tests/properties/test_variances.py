@@ -61,7 +61,10 @@ def is_the_leading_order(
             sizes.append(abs(left - right) / mp.mpf(top) ** power)
         smaller = tuple(1 / mp.mpf(scale) for scale in HEIGHTS)
         shown = [mp.nstr(size, 5) for size in sizes]
-        assert falls(sizes, 1, smaller), f"of M^{power} is left at M = {HEIGHTS}: {shown}"
+        assert falls(sizes, 1, smaller), (
+            f"at z = {height} both sides differ by {' and '.join(shown)} times M^{power} "
+            f"for M = 1e8 and 1e10, which does not fall as 1/M"
+        )
 
     return check
 
@@ -114,11 +117,13 @@ def is_the_general_form(equation: sympy.Eq, systems: tuple[System, System]) -> N
             left, right = (numbers(geometry).read(side, at) for side in equation.args)
             quotients.append(left / right)
         one, other = quotients
-        assert min(quotients) > 0
         # the next order of either side, and M* is a whole number: together less than 5/M (an
         # exponent that is another by one half is a factor of two)
-        shown = [mp.nstr(one, 5) for one in quotients]
-        assert abs(other / one - 1) < mp.mpf(5) / systems[0][0], f"{load} load, {shown}"
+        shown = [mp.nstr(quotient, 5) for quotient in quotients]
+        assert min(quotients) > 0, f"{load} load: left over right is {' and '.join(shown)}"
+        assert abs(other / one - 1) < mp.mpf(5) / systems[0][0], (
+            f"{load} load: left over right is {' and '.join(shown)}, which is not constant"
+        )
 
 
 def unit_height(geometry: Geometry, load: str, sd: Number) -> int:

@@ -59,7 +59,9 @@ def leaves_out_order_two(equation: sympy.Eq, line: Line) -> None:
         )
         sizes.append(abs(d - 3 * c + 3 * b - a))
     shown = [mp.nstr(size, 5) for size in sizes]
-    assert falls(sizes, 2, CHANGES, DIFFERENCE_ROUNDING), f"third differences {shown}"
+    assert falls(sizes, 2, CHANGES, DIFFERENCE_ROUNDING), (
+        f"third differences {shown} of what is left out must vanish"
+    )
 
 
 FIXED = [(GEOMETRY, Fraction(5, 3), contacts(*line)) for line in LINES]
