@@ -1,10 +1,15 @@
 """Eqs. 4 and 5: how contacts turn."""
 
+from fractions import Fraction
+from pathlib import Path
+
+import pytest
 import sympy
 from force_diffusion.symbolic.symbols import i, j
 from hypothesis import given
 
 from tests.properties.drawn import Drawn, fixed_packing, packings, solved
+from tests.properties.mutants import mutants
 from tests.properties.orders import STRENGTHS, falls, holds_to_first_order, printed
 from tests.properties.packing import dot
 
@@ -38,3 +43,18 @@ def test_the_change_of_a_direction_is_at_right_angles_to_it(drawn: Drawn) -> Non
             planes = [solved(drawn, epsilon) for epsilon in STRENGTHS]
             along = [abs(dot(one.quantity(name, a, b), one.packing.base[c])) for one in planes]
             assert falls(along, 2)
+
+
+GUIDE = Path(__file__).parents[2] / "docs" / "guides" / "properties.md"
+
+
+def test_the_guide_shows_what_a_changed_sign_of_eq_4_gives() -> None:
+    (line,) = printed(4)
+    (changed,) = (
+        one.equation for one in mutants(line) if one.change == "sign of −δr_(i+j,0) flipped"
+    )
+    one = Fraction(1)
+    smallest = Drawn(Fraction(0), 1, 2, one, (1, 0, 0), "surface", one, (0, 2))
+    with pytest.raises(AssertionError) as failed:
+        of_each_contact(changed, smallest)
+    assert f"AssertionError: {str(failed.value).splitlines()[0]}\n" in GUIDE.read_text("utf-8")
