@@ -107,7 +107,7 @@ DERIVATION = Derivation(
     domain=ABOVE,
     steps=steps,
     remarks=(
-        "The printed formula is for j ≥ 1. At j = 0 its empty sums leave 2δr_(i,0)(b⁺ + b⁻), "
+        "Erratum: the printed formula is for j ≥ 1. At j = 0 its empty sums leave 2δr_(i,0)(b⁺ + b⁻), "
         "while the base is fixed: δx_(i,0) = 0 is a condition of its own.",
     ),
 )

@@ -41,7 +41,9 @@ def to_first_order(carried: sympy.Matrix) -> sympy.Matrix:
     system = sympy.Matrix([[1, phi + epsilon * nu_minus], [phi + epsilon * nu_plus, 1]])
     forces = system.LUsolve(carried)  # its pivots are 1 and, at ε = 0, 1 − φ²
     at_zero, slope = forces.subs(epsilon, 0), forces.diff(epsilon).subs(epsilon, 0)
-    return (at_zero + slope).applyfunc(sympy.factor)
+    return (at_zero + slope).applyfunc(
+        lambda one: sympy.expand(sympy.cancel(one * (1 - phi**2))) / (1 - phi**2)
+    )
 
 
 @cache

@@ -48,7 +48,7 @@ def steps() -> Steps:
         "Each Δ holds one radius with the weight 2 and two with the weight −1: its square sum is "
         "6. Those of Eq. 12 lie in different layers and share no radius. With its prefactor, the "
         "variance of its right-hand side is",
-        equation(KEPT, times(eq12.PREFACTOR**2, sigma**2, WEIGHTS)),
+        equation(KEPT, times(layers.UNIT, WEIGHTS)),
         moment(),
         definitions={KEPT: Variance(eq12.PRINTED.rhs)},
     )
@@ -122,7 +122,7 @@ DERIVATION = Derivation(
         "layer": layers.closed_form(RELATIVE_VARIANCE, MEANING, eq11.LOADED, eq11.in_radii)
     },
     remarks=(
-        "The limit is taken at fixed z. A fixed number of layers below the surface the "
+        "Erratum: the limit is taken at fixed z. A fixed number of layers below the surface the "
         "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "
         "not 6 M, in units of (σ/r)²/(1 − φ²)².",
         "The Gaussian P(f) of the paper is that of one contact, over the ensemble of packings, as "

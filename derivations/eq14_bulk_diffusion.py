@@ -144,7 +144,7 @@ def steps() -> Steps:
     )
     variance = steps.show(
         "The variance of what is kept, six times the sum of the squares of its weights:",
-        equation(KEPT, times(eq12.PREFACTOR**2, sigma**2, WEIGHTS)),
+        equation(KEPT, times(layers.UNIT, WEIGHTS)),
         moment(),
         definitions={KEPT: Variance(AVERAGE_OF_EQ_12)},
     )

@@ -52,14 +52,14 @@ class Derived:
         """What JSON can hold: verdicts and checks of each equation, times in seconds."""
         return outcomes_data(self.outcomes)
 
-    def latex(self, columns: int = 1) -> dict[str, str]:
-        """LaTeX by file name: a fragment for each equation, and a document that reads them.
+    def latex(self) -> dict[str, str]:
+        """LaTeX by file name: a fragment for each equation, and the paper re-derived.
 
-        The fragments fit text of one column, or of two. Raises ``ValueError`` for any other number.
+        The fragments fit text of one column and of two.
         """
         return {
             **{
-                fragment_name(one.derivation.number): statement_latex(one.derivation, columns)
+                fragment_name(one.derivation.number): statement_latex(one.derivation)
                 for one in self.in_order
             },
             DOCUMENT: document(self.in_order),

@@ -125,7 +125,7 @@ class Equation:
 
         >>> import force_diffusion as fd
         >>> fd.equation(13).remarks[0][:36]
-        'The limit is taken at fixed z. A fix'
+        'Erratum: the limit is taken at fixed z'
         """
         return self._derivation.remarks
 

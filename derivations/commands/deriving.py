@@ -13,7 +13,7 @@ import force_diffusion as fd
 from ..framework.catalogue import modules
 from ..framework.lists import both
 from .cli import STATUSES, command_line  # noqa: F401 (statuses stand below the help)
-from .equations import Columns, equation_number
+from .equations import equation_number
 from .output import Output, OutputError, Overwrite, folder_of, out_option
 from .shared import Json
 
@@ -25,7 +25,6 @@ def derive(
     ] = None,
     out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
     as_json: Json = False,
-    columns: Columns = 1,
     article: Annotated[
         Path | None,
         typer.Option(
@@ -69,7 +68,7 @@ def derive(
     if folder:
         about = {"command": command_line(), "version": version("force-diffusion")}
         data = {**about, **outcomes_data(found.in_order, timed=False)}
-        folder.write({**found.latex(columns), MANIFEST: json.dumps(data, indent=2) + "\n"})
+        folder.write({**found.latex(), MANIFEST: json.dumps(data, indent=2) + "\n"})
     folders = [printable(str(one)) for one in (out, article) if one]
     watch.summary(f"{found.counts()}." + (f" Written to {both(folders)}." if folders else ""))
     if as_json:

@@ -1,196 +1,164 @@
-"""The LaTeX that ``derive --out`` writes: a fragment per equation, and one document."""
+"""The LaTeX that ``derive --out`` writes: a fragment for each equation, and the paper re-derived.
+
+The words of the document that no equation has are in ``equations.tex`` beside this module.
+"""
 
 from collections.abc import Iterable, Sequence
+from importlib.resources import files
 
-from force_diffusion.symbolic.kernel.decisions import in_words
+from force_diffusion.symbolic import words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
-from force_diffusion.symbolic.printing.lines import latex_body
+from force_diffusion.symbolic.printing.lines import latex_body, latex_cases, width
 from sympy import Basic
 
 from ..coq.record import recorded
 from ..framework.catalogue import Number
+from ..framework.closed_form import over_common
+from ..framework.proof import Step
 from ..framework.record import Outcome, Statement
-from ..framework.rows import Row
 from .prose import prose_latex
-from .terminal import follows_text
 
 DOCUMENT, MANIFEST = "equations.tex", "manifest.json"
-
-_HEAD = r"""\documentclass[10pt]{article}
-\usepackage[a4paper,margin=27mm]{geometry}
-\usepackage{amsmath,array}
-\setlength{\parindent}{0pt}
-\setlength{\parskip}{4pt plus 1pt}
-\setlength{\emergencystretch}{4em}
-\widowpenalty=10000
-\clubpenalty=10000
-\displaywidowpenalty=10000
-\setcounter{secnumdepth}{0} % equations have numbers, their sections have none
-\renewcommand{\labelitemi}{$\bullet$}
-\allowdisplaybreaks
-\makeatletter\@beginparpenalty=10000\makeatother % no page ends between a heading and its list
-\newcommand{\heading}[1]{\par\vskip 0pt plus 4\baselineskip\penalty-200
-  \vskip 0pt plus -4\baselineskip\smallskip\noindent\textbf{#1}\par\nobreak}
-\title{Forces in nearly-ordered packings of frictionless discs:\\
-  the equations, derived and checked}
-\author{}
-\date{}
-\begin{document}
-\maketitle
-\pagenumbering{roman} % pages are counted after the contents, however long these are
-\tableofcontents
-\clearpage
-\pagenumbering{arabic}
-"""
-
-READING = (
-    "The equations keep the numbers that they have in the paper; B1 and so on go beyond it. "
-    "Proved means that the rules of the kernel, which decide exactly, give the printed equation "
-    "from its assumptions; proved, assuming, that it rests on a further one, which is named and "
-    "which no rule discharges; refuted, that a counterexample was found; undecided, that neither "
-    "was done; not a statement, that what is written has no value, or no single meaning, "
-    "somewhere on its domain. Accepted is a word of "
-    "Coq, an unrelated proof assistant, about the printed equation on exact packings; it is on "
-    "record with the hash of what was asked."
-)
-"""What the words of the document mean."""
+_ROOM = 400.0  # points for a line of the document
+_BETWEEN = 20.0  # points between two formulas of one line
 
 
-def statement_latex(derivation: Statement, columns: int = 1) -> str:
-    """The printed equation as a numbered display, ready to paste into text of 1 or 2 columns.
-
-    Its label is ``eq:fd13`` of Eq. 13, and so on; several displays are (B7a), (B7b) and so on.
-    """
-    label = f"\\label{{eq:fd{derivation.number}}}"
-    first, *others = derivation.displays(columns)
-    if not others:
-        return f"\\begin{{equation}}{label}\n{first}\n\\end{{equation}}\n"
-    displays = (f"\\begin{{equation}}\n{one}\n\\end{{equation}}\n" for one in (first, *others))
-    return f"\\begin{{subequations}}{label}\n{''.join(displays)}\\end{{subequations}}\n"
+def label(number: Number) -> str:
+    """The number of an equation as file names and labels have it: "03" or "B05"."""
+    return f"{number:02}" if isinstance(number, int) else f"{number[0]}{int(number[1:]):02}"
 
 
 def fragment_name(number: Number) -> str:
     """File name of an equation's fragment."""
-    return f"eq{number:02}.tex" if isinstance(number, int) else f"eq{number}.tex"
+    return f"eq{label(number)}.tex"
 
 
-def _list(kind: str, items: Iterable[str]) -> str:
-    lines = [f"\\item {item}" for item in items]
-    if not lines:
-        return ""
-    spacing = r"\setlength{\itemsep}{1pt}\setlength{\parskip}{0pt}\setlength{\topsep}{0pt}"
-    return f"\\begin{{{kind}}}{spacing}\n" + "\n".join(lines) + f"\n\\end{{{kind}}}\n"
+def statement_latex(derivation: Statement) -> str:
+    """The printed equation as a numbered display, ready to paste into text of one or two columns.
+
+    Its label is ``eq:fd13`` of Eq. 13, and so on; several displays are (B7a), (B7b) and so on.
+    """
+    named = f"\\label{{eq:fd{label(derivation.number)}}}"
+    first, *others = derivation.displays(columns=2)
+    if not others:
+        return f"\\begin{{equation}}{named}\n{first}\n\\end{{equation}}\n"
+    displays = (f"\\begin{{equation}}\n{one}\n\\end{{equation}}\n" for one in (first, *others))
+    return f"\\begin{{subequations}}{named}\n{''.join(displays)}\\end{{subequations}}\n"
 
 
-def _part(title: str, body: str) -> str:
-    return f"\\heading{{{title}}}\n{body}" if body else ""
-
-
-def sentence(words: str) -> str:
+def sentence(said: str) -> str:
     """Words with a capital letter, where they start with a word, and a full stop."""
-    first = words.split(" ", 1)[0]
-    capital = first[:1].upper() + words[1:] if first.isalpha() and len(first) > 1 else words
-    return capital + ("" if words.endswith((".", "!", "?", ":")) else ".")
+    first = said.split(" ", 1)[0]
+    capital = first[:1].upper() + said[1:] if first.isalpha() and len(first) > 1 else said
+    return capital + ("" if said.endswith((".", "!", "?", ":")) else ".")
 
 
-def _noted(verdict: str, name: str, note: str) -> str:
-    said = f"\\emph{{{verdict}}}: {prose_latex(sentence(name))}"
-    return f"{said} {prose_latex(sentence(note))}" if note else said
-
-
-def _steps(outcome: Outcome) -> str:
-    derivation, items = outcome.derivation, []
-    for step in derivation.proof if outcome.verdict.is_proved else ():
-        follows = f"\\emph{{{prose_latex(sentence(follows_text(step)))}}}"
-        if derivation.printed == (step.formula,):  # not the same display twice
-            reason = prose_latex(step.reason.rstrip(".:"))
-            items.append(f"{reason}: Eq.~({derivation.number}). {follows}")
-            continue
-        relation = RELATIONS[step.relation]
-        items.append(f"{prose_latex(step.reason)}\n{_shown(step.formula, relation)}{follows}")
-    return _list("enumerate", items)
-
-
-def _shown(formula: Basic, relation: str) -> str:
-    """A display without a number; a page may end between its lines."""
-    body = latex_body([formula], relation, room=380.0)
+def display(formulas: Sequence[Basic], relation: str) -> str:
+    """Formulas without numbers: in one line, or in several between which a page may end."""
+    sign = RELATIONS[relation]
+    alone = [latex_body([one], sign, _ROOM) for one in formulas]
+    size = sum(map(width, alone)) + _BETWEEN * (len(alone) - 1)
+    if size <= _ROOM and not any(r"\begin{aligned}" in one for one in alone):
+        return "\\[ " + r" \qquad ".join(alone) + " \\]\n"
+    body = latex_body(formulas, sign, _ROOM)
     lines = body.removeprefix("\\begin{aligned}\n").removesuffix("\n\\end{aligned}")
     return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
 
 
-def _refuted(outcome: Outcome) -> str:
-    """Printed statements that do not hold; they are in no fragment."""
-    return "".join(
-        f"\\par {prose_latex(sentence(one.reading))}\n"
-        f"{_shown(one.formula, RELATIONS[one.relation])}"
-        for one in (outcome.derivation.proof.refuted if outcome.refuted else ())
+def _cases(step: Step) -> str:
+    """One display of a quantity that has a formula on each of a few domains."""
+    factor, values = over_common([one.rhs for one in step.equations])
+    where = [_with_commas(words.parts(case, words.LATEX)) for case in step.cases]
+    rows = list(zip(values, where, strict=True))
+    return f"\\[ {latex_cases(step.equations[0].lhs, factor, rows, (), _ROOM)} \\]\n"
+
+
+def _with_commas(parts: Sequence[str]) -> list[str]:
+    return [*(rf"{one},\;" for one in parts[:-1]), *parts[-1:]]
+
+
+def _step(step: Step, derivation: Statement) -> str:
+    """A step with its number, and in the margin what it rests on."""
+    rests = [*map(str, step.steps_used), *(f"({number})" for number in step.equations_used)]
+    rests += step.assuming
+    head = f"\\step{{{step.number}}}{{{', '.join(rests)}}}"
+    if {*step.equations} <= {*derivation.printed} and step.relation == derivation.relation:
+        # not the same display twice
+        return f"{head}{prose_latex(step.reason.rstrip('.:'))}: Eq.~({derivation.number}).\n"
+    shown = _cases(step) if len(step.cases) > 1 else display(step.equations, step.relation)
+    return f"{head}{prose_latex(step.reason)}\n{shown}"
+
+
+def _aside(title: str, parts: Iterable[str]) -> str:
+    listed = "; ".join(parts)
+    return f"\\aside{{\\emph{{{title}:}} {listed}.}}\n" if listed else ""
+
+
+def section_latex(outcome: Outcome, explained: str = "") -> str:
+    """One equation and its steps; symbols that stand in what is ``explained`` are not again."""
+    derivation, number = outcome.derivation, outcome.derivation.number
+    proof = derivation.proof if outcome.verdict.is_proved else None
+    symbols = (
+        f"${latex(symbol)}$: {prose_latex(meaning)}"
+        for symbol, meaning in derivation.symbols
+        if f"${latex(symbol)}$" not in explained
     )
-
-
-def _numbered(derivation: Statement) -> str:
-    """What lets the next display have its number."""
-    number = derivation.number
-    if isinstance(number, int):
-        return f"\\setcounter{{equation}}{{{number - 1}}}\n"
-    return f"\\renewcommand{{\\theequation}}{{{number}}}\n"
-
-
-def section_latex(outcome: Outcome) -> str:
-    """All about one equation; the statement itself is read from its fragment."""
-    derivation = outcome.derivation
-    symbols = [
-        f"$\\displaystyle {latex(symbol)}$: {prose_latex(words)}"
-        for symbol, words in derivation.symbols
+    parts = [
+        f"\\heading{{Eq.~({number}). {prose_latex(derivation.title)}}}\n",
+        f"\\begin{{equation}}\\label{{eq:fd{label(number)}}}\\tag{{{number}}}\n",
+        f"{latex_body(derivation.printed, RELATIONS[derivation.relation], _ROOM)}\n",
+        "\\end{equation}\n",
+        _aside("Symbols", symbols),
+        _aside("Assumptions", map(prose_latex, derivation.assumptions)),
     ]
-    rests = ", ".join(f"({number})" for number in derivation.premises)
-    plural = "s" if len(derivation.premises) > 1 else ""
-    claims = [
-        _noted(in_words(check.verdict, check.assuming), check.name, check.note)
-        for check in outcome.checks
-        if check.kind != "step"
-    ]
-    return "".join(
-        [
-            f"\\section{{Eq.\\ ({derivation.number}): {prose_latex(derivation.title)}}}\n",
-            _numbered(derivation),
-            f"\\input{{{fragment_name(derivation.number).removesuffix('.tex')}}}%\n",
-            f"Verdict: \\textbf{{{prose_latex(outcome.words)}}}. "
-            f"Coq: {recorded(derivation.number)}."
-            + (f" Rests on Eq{plural}.\\ {rests}.\n" if rests else "\n"),
-            _part("Printed as well, and refuted", _refuted(outcome)),
-            _part("Symbols", _list("itemize", symbols)),
-            _part("Assumptions", _list("itemize", map(prose_latex, derivation.assumptions))),
-            _part("Steps", "" if isinstance(derivation, Row) else _steps(outcome)),
-            _part("Claims", _list("itemize", claims)),
-            _part("Remarks", _list("itemize", map(prose_latex, derivation.remarks))),
-        ]
-    )
+    if proof is None:
+        found = (f"{one.words}: {sentence(one.name)} {sentence(one.note)}" for one in outcome.checks)
+        return "".join([*parts, f"Verdict: {outcome.words}.\n\n", *map(prose_latex, found)])
+    for one in proof.refuted:
+        formula = display([one.formula], one.relation)
+        parts.append(
+            f"{prose_latex(sentence(one.reading))}\n{formula}{prose_latex(sentence(one.reason))}\n"
+        )
+    parts += [_step(step, derivation) for step in proof]
+    if derivation.exact_forms and not any(step.cases for step in proof):
+        parts.append("\\par All of this, exact at every site:\n")
+        for form in derivation.exact_forms.values():
+            parts += [f"\\[ {body} \\]\n" for body in form.displays()]
+    remarks = [prose_latex(remark) for remark in derivation.remarks]
+    errata = [remark for remark in remarks if remark.startswith("Erratum")]
+    parts += [f"\\par {remark}\n" for remark in errata]
+    parts.append(_aside("Also proved", (prose_latex(one.reason) for one in proof.claims)))
+    parts += [f"\\aside{{{remark}}}\n" for remark in remarks if remark not in errata]
+    return "".join(parts)
 
 
-def _overview(outcomes: Sequence[Outcome]) -> str:
-    """The paper's equations in one table, those beyond it in another: a page ends in between."""
-    of_paper = [one for one in outcomes if isinstance(one.derivation.number, int)]
-    beyond = [one for one in outcomes if not isinstance(one.derivation.number, int)]
-    return "\n".join(_table(some) for some in (of_paper, beyond) if some)
+def _sections(outcomes: Iterable[Outcome], explained: str) -> str:
+    """The paper's equations; each symbol is explained where it comes first."""
+    sections = []
+    for one in outcomes:
+        if isinstance(one.derivation.number, int):
+            sections.append(section_latex(one, explained))
+            explained += "".join(f"${latex(symbol)}$" for symbol, _ in one.derivation.symbols)
+    return "\n".join(sections)
 
 
-def _table(outcomes: Iterable[Outcome]) -> str:
-    rows = [
+def _verdicts(outcomes: Iterable[Outcome]) -> str:
+    rows = (
         f"({one.derivation.number}) & {prose_latex(one.derivation.title)} & "
         f"{prose_latex(one.words)} & {recorded(one.derivation.number).partition(' by ')[0]} \\\\\n"
         for one in outcomes
-    ]
+    )
     return (
         "\\begin{center}\\footnotesize\\setlength{\\tabcolsep}{3pt}\n"
-        "\\begin{tabular}{r>{\\raggedright}p{85mm}>{\\raggedright}p{30mm}l}\n\\hline\n"
-        "Eq. & title & verdict & Coq \\\\\n\\hline\n"
-        + "".join(rows)
-        + "\\hline\n\\end{tabular}\n\\end{center}\n"
+        "\\begin{tabular}{r>{\\raggedright}p{88mm}>{\\raggedright}p{26mm}l}\n\\hline\n"
+        f"Eq. & title & verdict & Coq \\\\\n\\hline\n{''.join(rows)}\\hline\n"
+        "\\end{tabular}\n\\end{center}\n"
     )
 
 
 def document(outcomes: Sequence[Outcome]) -> str:
-    """The document about these equations; it reads the fragments beside it."""
-    body = "\n".join(map(section_latex, outcomes))
-    reading = f"{prose_latex(READING)}\n"
-    return f"{_HEAD}{reading}{_overview(outcomes)}\n{body}\n\\end{{document}}\n"
+    """The paper's equations with their steps, and the verdicts on all."""
+    beside = files("force_diffusion.derivations.export")
+    frame = (beside / DOCUMENT).read_text(encoding="utf-8")
+    sections = _sections(outcomes, frame)
+    return frame.replace("% the equations\n", sections).replace("% the verdicts\n", _verdicts(outcomes))

@@ -349,9 +349,8 @@ class ClosedForm:
     @cached_property
     def _over_common(self) -> tuple[sympy.Expr, dict[Piece, sympy.Expr]]:
         """What its formulas have in common, and what else each of them holds."""
-        common = _common([piece.expr for piece in self.pieces])
-        factor = self.pieces[0].value.domain.from_sympy(common)
-        return factor.to_sympy(), {one: (one.value / factor).to_sympy() for one in self.pieces}
+        factor, values = over_common([piece.expr for piece in self.pieces])
+        return factor, dict(zip(self.pieces, values, strict=True))
 
     def first(self, columns: int = 1) -> str:
         """LaTeX of its first formula, and where it holds."""
@@ -560,6 +559,12 @@ def _with_commas(parts: list[str], before: str = "") -> list[str]:
     if parts and before:
         parts = [rf"\text{{{before} }} {parts[0]}", *parts[1:]]
     return [*(rf"{one},\;" for one in parts[:-1]), *parts[-1:]]
+
+
+def over_common(formulas: Sequence[sympy.Expr]) -> tuple[sympy.Expr, list[sympy.Expr]]:
+    """What formulas have in common, and what else each of them holds."""
+    factor = FIELD.from_sympy(_common(formulas))
+    return factor.to_sympy(), [(FIELD.from_sympy(one) / factor).to_sympy() for one in formulas]
 
 
 def _common(formulas: Iterable[sympy.Expr]) -> sympy.Expr:

@@ -13,7 +13,6 @@ from force_diffusion.symbolic.kernel.rules import Rule, differentiate, rewrite, 
 from force_diffusion.symbolic.kernel.theorem import Group, NotProvedError, Theorem
 from force_diffusion.symbolic.piecewise import theorems
 from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma, z
-from force_diffusion.symbolic.words import in_words
 
 from .proof import Definitions, Steps
 
@@ -46,15 +45,14 @@ def show_closed_form(
 ) -> tuple[Theorem, ...]:
     """Show the formula of each part of a packing; ``how`` they come about."""
     exact = tuple(theorems(in_place(symbol, definitions), layers, *groups))
-    for theorem in exact:
-        part = theorem.domain.relations[len(layers.relations) :]
-        steps.show(
-            f"Exact for {in_words(part) or 'every height'}: {how}.",
-            equation(symbol, theorem.formula.rhs),
-            same(theorem),
-            theorem.domain,
-            definitions,
-        )
+    steps.show(
+        f"Exact at every size: {how}.",
+        sympy.Tuple(*(equation(symbol, theorem.formula.rhs) for theorem in exact)),
+        [same(theorem) for theorem in exact],
+        [theorem.domain for theorem in exact],
+        definitions,
+        [theorem.domain.relations[len(layers.relations) :] for theorem in exact],
+    )
     return exact
 
 

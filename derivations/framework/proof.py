@@ -16,6 +16,7 @@ from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule, proved_by
 from force_diffusion.symbolic.kernel.theorem import FalseStatementError, NotProvedError, Theorem
+from force_diffusion.symbolic.piecewise import Relations
 from sympy.core.function import UndefinedFunction
 
 from .catalogue import Number, in_order
@@ -42,6 +43,7 @@ class Step:
         definitions: what symbols of each stand for.
         theorems: what the kernel made of them.
         number: its place among the steps, from 1; 0 of a claim.
+        cases: where each holds, if they are the cases of one quantity.
     """
 
     equation: Number
@@ -52,6 +54,7 @@ class Step:
     definitions: tuple[Definitions, ...]
     theorems: tuple[Theorem, ...]
     number: int = 0
+    cases: tuple[Relations, ...] = ()
 
     def __repr__(self) -> str:
         return f"<step {self.number} of Eq. {self.equation}: {self.reason}>"
@@ -178,13 +181,14 @@ class Steps(list[Step]):
         rule: Rule | Sequence[Rule],
         domain: Domain | Sequence[Domain] | None = None,
         definitions: Definitions | Sequence[Definitions] = (),
+        cases: Sequence[Relations] = (),
     ) -> Step:
         """Prove a step and add it.
 
         Raises:
             NotProvedError: the rule does not prove it.
         """
-        step = self._proved(reason, formula, rule, domain, definitions, len(self) + 1)
+        step = self._proved(reason, formula, rule, domain, definitions, len(self) + 1, cases)
         self.append(step)
         return step
 
@@ -229,6 +233,7 @@ class Steps(list[Step]):
         domain: Domain | Sequence[Domain] | None,
         definitions: Definitions | Sequence[Definitions],
         number: int = 0,
+        cases: Sequence[Relations] = (),
     ) -> Step:
         equations = tuple(formula) if isinstance(formula, sympy.Tuple) else (formula,)
         count = len(equations)
@@ -250,7 +255,8 @@ class Steps(list[Step]):
         for theorem in theorems:
             if type(theorem) is not Theorem or theorem.supposed:
                 raise NotProvedError(f"it rests on what is only supposed: {reason}")
-        step = Step(self._equation, reason, formula, rules, domains, defined, theorems, number)
+        made = rules, domains, defined, theorems
+        step = Step(self._equation, reason, formula, *made, number, tuple(cases))
         for theorem in theorems:
             _STEP_OF.setdefault(theorem, step)
         return step

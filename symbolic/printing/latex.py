@@ -56,6 +56,12 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         rows = r" \\[2pt] ".join(" & ".join(map(self._print, row)) for row in expr.tolist())
         return rf"\begin{{pmatrix}} {rows} \end{{pmatrix}}"
 
+    def _print_Derivative(self, expr: Any) -> str:
+        ((symbol, _),), inner = expr.variable_count, expr.expr
+        name = self._print(symbol)
+        sign = r"\partial" if len(inner.free_symbols) > 1 else "d"
+        return rf"\frac{{{sign}}}{{{sign} {name}}} {self.set_brackets(self._print(inner))}"
+
     def _print_Sum(self, expr: Sum) -> str:
         text = ""
         for index, lower, upper in reversed(expr.limits):

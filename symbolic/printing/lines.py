@@ -96,20 +96,26 @@ def pack(pieces: Iterable[tuple[str, float]], room: float, first_room: float) ->
         if len(shorter) > len(lines):
             break
         lines = shorter
-    return lines
+    if len(lines) > 1:
+        before, last = lines[-2:]
+        while len(before) > 1 and sum(size for _, size in last) < _LONE * room:
+            last.insert(0, before.pop())
+    return [" ".join(piece for piece, _ in line) for line in lines]
 
 
-def _filled(pieces: Iterable[tuple[str, float]], room: float, first_room: float) -> list[str]:
+def _filled(
+    pieces: Iterable[tuple[str, float]], room: float, first_room: float
+) -> list[list[tuple[str, float]]]:
     """Pieces in lines, of which each is filled before the next begins."""
-    lines: list[str] = []
+    lines: list[list[tuple[str, float]]] = []
     left = 0.0
     for piece, size in pieces:
         if lines and size <= left:
-            lines[-1] += f" {piece}"
             left -= size
         else:
             left = (room if lines else first_room) - size
-            lines.append(piece)
+            lines.append([])
+        lines[-1].append((piece, size))
     return lines
 
 
@@ -121,7 +127,7 @@ _BRACE = r"\biggl\{"
 _NO_FACTOR = _BINARY | {r"\propto", r"\left", "("}
 # A line is broken at an outer place if that leaves no more than this share of it empty.
 _EMPTY = 0.45
-# A factor alone is no last line: with what stands before it at least this share is to be filled.
+# A last line is to fill at least this share: it is no factor alone, and no lone number.
 _LONE = 0.28
 
 
@@ -133,6 +139,19 @@ def folded(source: str, room: float) -> list[str]:
     a = \biggl[ b + \frac{c + d}{e}
     \times (f - g) \biggr]
     """
+    lines = _folded(source, room)
+    for share in range(1, 10):
+        if width(lines[-1]) >= _LONE * room:
+            break
+        shorter = _folded(source, room * (1 - share / 20))
+        if len(shorter) > len(lines) or max(map(width, shorter)) > room:
+            break
+        lines = shorter
+    return lines
+
+
+def _folded(source: str, room: float) -> list[str]:
+    """The same with each line as long as it can be."""
     source = split_fraction(source, room)
     places, product = list(_breaks(source)), (*_FACTOR, _BRACE)
     lines = []

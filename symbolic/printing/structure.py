@@ -7,10 +7,25 @@ which says nothing, is put into a readable order.
 """
 
 from abc import abstractmethod
-from collections.abc import Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
-from sympy import Add, Basic, Expr, Integer, MatrixBase, Mul, Pow, Rational, Sum, Symbol
+from sympy import (
+    Add,
+    Basic,
+    Expr,
+    Integer,
+    MatrixBase,
+    Mul,
+    Poly,
+    Pow,
+    Rational,
+    Sum,
+    Symbol,
+    degree,
+    factor_list,
+)
 from sympy.printing.printer import Printer
 
 from .. import symbols as sy
@@ -29,8 +44,83 @@ def in_order(expr: Expr) -> list[Expr]:
     if isinstance(expr, Mul):
         return sorted(args, key=_factor_key)
     if not expr.has(sy.SiteFunction):
-        args = list(expr.as_ordered_terms())
+        args = list(_by_degree(expr))
     return positive_first(args)
+
+
+_MANY = 4  # terms of a polynomial that is put in order
+_TOO_MANY = 100  # terms of a part that is not factored: it would take long
+
+
+@cache
+def _by_degree(expr: Expr) -> tuple[Expr, ...]:
+    """The terms of a polynomial in indices: the highest degree first, each part factored."""
+    terms = expr.as_ordered_terms()
+    held = [symbol for symbol in (*sy.INDICES, sy.H_M) if expr.has(symbol)]
+    if len(terms) < _MANY or not held or not expr.is_polynomial(*held):
+        return tuple(terms)
+    parts: dict[int, dict[Expr, list[Expr]]] = {}
+    for term in terms:
+        rest, monomial = term.as_independent(*held, as_Add=False)
+        degree = sum(n for symbol, n in monomial.as_powers_dict().items() if symbol != sy.H_M)
+        parts.setdefault(int(degree), {}).setdefault(monomial, []).append(rest)
+    return tuple(one for n in sorted(parts, reverse=True) for one in _factored(parts[n]))
+
+
+def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
+    """A sum of monomials, each with the terms of its factor: as a product, or one by one."""
+    if len(part) > 1 and sum(map(len, part.values())) < _TOO_MANY:
+        whole = Add(*(Add(*terms) * monomial for monomial, terms in part.items()))
+        number, factors = factor_list(whole)
+        if sum(power for _, power in factors) > 1:
+            return [_product(number, factors)]
+    found = []
+    for monomial, terms in part.items():
+        if len(terms) == 1 or monomial == 1:
+            found += [one * monomial for one in terms]
+        else:
+            number, factors = factor_list(Add(*terms))
+            if len(factors) > 1:  # unlike (1 − φ)²
+                number, inner = Add(*terms).primitive()
+                factors = [(inner, 1)]
+            found.append(_product(number, [*monomial.as_powers_dict().items(), *factors]))
+    return found
+
+
+def _product(number: Expr, factors: Iterable[tuple[Expr, int]]) -> Expr:
+    """A product whose number is not multiplied out; each factor begins with a plus sign."""
+    bases = []
+    for base, power in factors:
+        turn = _begins_negative(base)
+        number *= (-1) ** power if turn else 1
+        bases.append((-base if turn else base) ** power)
+    ordered = sorted(bases, key=_factor_key)
+    return Mul(*([] if number == 1 else [number]), *ordered, evaluate=False)
+
+
+def _begins_negative(base: Expr) -> bool:
+    """Whether its first term is: the highest in M, or in another index; 1 of 1 − φ."""
+    held = sorted(base.free_symbols & {*sy.INDICES}, key=sy.INDICES.index, reverse=True)
+    if not held and degree(base, sy.phi) == 1 and base.free_symbols == {sy.phi}:
+        return bool(base.subs(sy.phi, 0) < 0)
+    others = sorted(base.free_symbols - {*held}, key=str)
+    return bool(base.is_Add and Poly(base, *held, *others).LC() < 0)
+
+
+def _with_ratio(factors: list[Expr]) -> list[Expr]:
+    """Factors with a power of σ/r at their end, where they hold that of σ and of 1/r."""
+    powers = dict(factor.as_base_exp() for factor in factors)
+    power = powers.get(sy.sigma, 0)
+    if power <= 1 or powers.get(sy.r) != -power:
+        return factors
+    ratio = Pow(Mul(sy.sigma, 1 / sy.r, evaluate=False), power, evaluate=False)
+    return [*(f for f in factors if f.as_base_exp()[0] not in (sy.sigma, sy.r)), ratio]
+
+
+def _stands_beside(factor: Expr) -> bool:
+    """Whether a factor stands beside a fraction rather than in its numerator."""
+    is_ratio = isinstance(factor, Pow) and isinstance(factor.base, Mul)
+    return is_operand(factor) or isinstance(factor, Mul) or is_ratio
 
 
 def positive_first(terms: list[Expr]) -> list[Expr]:
@@ -49,8 +139,10 @@ def _factor_key(factor: Expr) -> tuple[int, int]:
     if base in sy.INDICES:
         return 1, -1 if base == sy.M else sy.INDICES.index(base)
     if base in sy.PARAMETERS:
-        return 3, base not in sy.SCALES
-    return (2 if base.free_symbols <= set(sy.INDICES) else 4), 0
+        return 3, 0 if base in sy.SCALES else 1 + sy.PARAMETERS.index(base)
+    if base.free_symbols <= set(sy.INDICES):
+        return 2, -int(factor.exp) if isinstance(factor, Pow) else -1
+    return 4, 0
 
 
 def is_negative(term: Expr) -> bool:
@@ -71,7 +163,7 @@ def without_sign(term: Expr) -> Expr:
 
 
 def is_operand(factor: Expr) -> bool:
-    """Whether a factor stands beside a fraction rather than in its numerator."""
+    """Whether a factor is a vector, or a sum or product of some."""
     return bool(factor.has(Sum, sy.Dot, sy.MatrixTimes)) or is_vector(factor)
 
 
@@ -167,7 +259,7 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
         over: list[Expr] = []
         under: list[Expr] = []
         beside: list[Expr] = []
-        for factor in in_order(expr):
+        for factor in _with_ratio(in_order(expr)):
             if isinstance(factor, Rational) and factor.q != 1:
                 over += [Integer(factor.p)] if factor.p != 1 else []
                 under.append(Integer(factor.q))
@@ -177,7 +269,7 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
                 over.append(factor)
         if under:
             # a person writes the fraction first, then what it multiplies
-            beside = [f for f in over if is_operand(f) or isinstance(f, Mul) or self.is_tall(f)]
+            beside = [f for f in over if _stands_beside(f) or self.is_tall(f)]
             over = [f for f in over if f not in beside]
         if not under:
             return self._side_by_side(over)

@@ -4,7 +4,7 @@ import pytest
 from force_diffusion.derivations.coq.files import theory_hash
 from force_diffusion.derivations.coq.record import Certificate, record, recorded
 from force_diffusion.derivations.coq.statements import statements
-from force_diffusion.derivations.export.document import section_latex
+from force_diffusion.derivations.export.document import document
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import run
@@ -35,7 +35,7 @@ def test_lists_and_documents_say_so(capsys: pytest.CaptureFixture[str]) -> None:
         assert main(list(command)) == 0
         return capsys.readouterr().out
 
-    assert "Coq: accepted by Coq 8.16.1." in section_latex(run(load(13)))
+    assert "& proved & accepted" in document([run(load(13))])
     assert "accepted by Coq 8.16.1" in shown("show", "13")
     assert fd.equation(13).coq == "accepted by Coq 8.16.1"
     assert shown("list").count("accepted by Coq 8.16.1 ") == len(paper())

