@@ -107,8 +107,8 @@ DERIVATION = Derivation(
     domain=ABOVE,
     steps=steps,
     remarks=(
-        "Erratum: the printed formula is for j ≥ 1. At j = 0 its empty sums leave 2δr_(i,0)(b⁺ + b⁻), "
-        "while the base is fixed: δx_(i,0) = 0 is a condition of its own.",
+        "Erratum: the printed formula is for j ≥ 1. At j = 0 its empty sums leave "
+        "2δr_(i,0)(b⁺ + b⁻), while the base is fixed: δx_(i,0) = 0 is a condition of its own.",
     ),
 )
 

@@ -125,8 +125,8 @@ DERIVATION = Derivation(
     remarks=(
         "Erratum: the double sum printed just before Eq. 12 counts M − m + 1 for m > j; the braces "
         "say M − m. The difference is of the order that Eq. 12 drops.",
-        "Erratum: the sum over n in Eq. 11 ends at M − j − 1, the one printed before Eq. 12 at M − j: "
-        "again a difference of dropped order.",
+        "Erratum: the sum over n in Eq. 11 ends at M − j − 1, the one printed before Eq. 12 at "
+        "M − j: again a difference of dropped order.",
         "The largest of what is dropped is half a Δ on the base for each branch, with a weight of "
         "order M on three radii.",
     ),

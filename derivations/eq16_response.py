@@ -282,10 +282,10 @@ DERIVATION = Derivation(
         for name, symbol in (("bead", RESPONSE), ("contact", ONE_CONTACT), ("force", LEG_MAGNITUDE))
     },
     remarks=(
-        "Erratum: the paper's p is the vertical component of the force at a contact f^±_ij. For one contact "
-        "the printed form does not hold: its variance is (3/2) s (σ/r)²/(1−φ²)² with the layer "
-        "s = ½(l+j±(k−i)) in which its path turns, so it grows from (3/2) j beside one leg "
-        "to (3/2) l beside the other. The printed form holds for both upper contacts of a bead "
+        "Erratum: the paper's p is the vertical component of the force at a contact f^±_ij. For "
+        "one contact the printed form does not hold: its variance is (3/2) s (σ/r)²/(1−φ²)² with "
+        "the layer s = ½(l+j±(k−i)) in which its path turns, so it grows from (3/2) j beside one "
+        "leg to (3/2) l beside the other. The printed form holds for both upper contacts of a bead "
         "together, and, since these pass through it, for both lower ones.",
         "For that p the horizontal position drops out exactly, not only to leading order, from the "
         "third layer above the base on, except straight below the load.",

@@ -5,9 +5,8 @@ from dataclasses import dataclass
 from typing import Self
 
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.printing.latex import RELATIONS
-from force_diffusion.symbolic.printing.lines import latex_body
 
+from ..export.document import step_latex
 from ..export.terminal import (
     check_text,
     expected_text,
@@ -116,6 +115,6 @@ class StepList(tuple[Step, ...]):
         lines = []
         for step in self:
             lines.append(f"{step.number}. {step.reason}")
-            lines.append(f"$$\n{latex_body([step.formula], RELATIONS[step.relation])}\n$$")
+            lines.append(f"$$\n{step_latex(step)}\n$$")
             lines.append(follows_text(step))
         return "\n\n".join(lines)

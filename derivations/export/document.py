@@ -8,7 +8,7 @@ from importlib.resources import files
 
 from force_diffusion.symbolic import words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
-from force_diffusion.symbolic.printing.lines import latex_body, latex_cases, width
+from force_diffusion.symbolic.printing.lines import LINE_WIDTH, latex_body, latex_cases, width
 from sympy import Basic
 
 from ..coq.record import recorded
@@ -65,12 +65,14 @@ def display(formulas: Sequence[Basic], relation: str) -> str:
     return f"\\begin{{align*}}\n{lines}\n\\end{{align*}}\n"
 
 
-def _cases(step: Step) -> str:
-    """One display of a quantity that has a formula on each of a few domains."""
+def step_latex(step: Step, room: float = LINE_WIDTH) -> str:
+    """What a step shows, for one display: the cases of a quantity, or its formulas."""
+    if len(step.cases) < 2:
+        return latex_body([step.formula], RELATIONS[step.relation], room)
     factor, values = over_common([one.rhs for one in step.equations])
     where = [_with_commas(words.parts(case, words.LATEX)) for case in step.cases]
     rows = list(zip(values, where, strict=True))
-    return f"\\[ {latex_cases(step.equations[0].lhs, factor, rows, (), _ROOM)} \\]\n"
+    return latex_cases(step.equations[0].lhs, factor, rows, (), room)
 
 
 def _with_commas(parts: Sequence[str]) -> list[str]:
@@ -85,7 +87,11 @@ def _step(step: Step, derivation: Statement) -> str:
     if {*step.equations} <= {*derivation.printed} and step.relation == derivation.relation:
         # not the same display twice
         return f"{head}{prose_latex(step.reason.rstrip('.:'))}: Eq.~({derivation.number}).\n"
-    shown = _cases(step) if len(step.cases) > 1 else display(step.equations, step.relation)
+    shown = (
+        f"\\[ {step_latex(step, _ROOM)} \\]\n"
+        if len(step.cases) > 1
+        else display(step.equations, step.relation)
+    )
     return f"{head}{prose_latex(step.reason)}\n{shown}"
 
 
@@ -112,7 +118,9 @@ def section_latex(outcome: Outcome, explained: str = "") -> str:
         _aside("Assumptions", map(prose_latex, derivation.assumptions)),
     ]
     if proof is None:
-        found = (f"{one.words}: {sentence(one.name)} {sentence(one.note)}" for one in outcome.checks)
+        found = (
+            f"{one.words}: {sentence(one.name)} {sentence(one.note)}" for one in outcome.checks
+        )
         return "".join([*parts, f"Verdict: {outcome.words}.\n\n", *map(prose_latex, found)])
     for one in proof.refuted:
         formula = display([one.formula], one.relation)
@@ -161,4 +169,6 @@ def document(outcomes: Sequence[Outcome]) -> str:
     beside = files("force_diffusion.derivations.export")
     frame = (beside / DOCUMENT).read_text(encoding="utf-8")
     sections = _sections(outcomes, frame)
-    return frame.replace("% the equations\n", sections).replace("% the verdicts\n", _verdicts(outcomes))
+    return frame.replace("% the equations\n", sections).replace(
+        "% the verdicts\n", _verdicts(outcomes)
+    )

@@ -10,6 +10,7 @@ from typing import Any
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.words import in_words as where_in_words
 
 from ..coq.record import recorded
 from ..framework.lists import both
@@ -93,13 +94,23 @@ def follows_text(step: Step) -> str:
     return f"{verdict}, from {both(step.uses)}" if step.uses else verdict
 
 
+def step_lines(step: Step, room: int = TEXT_WIDTH) -> list[str]:
+    """What a step shows; of several cases, each below where it holds."""
+    if not any(step.cases):
+        return text_lines(step.formula, step.relation, room)
+    return [
+        line
+        for case, one in zip(step.cases, step.equations, strict=True)
+        for line in (f"for {where_in_words(case)}:", *text_lines(one, step.relation, room))
+    ]
+
+
 def steps_text(steps: Iterable[Step]) -> str:
     """The steps: the reason, the formula that it gives, the verdict, and what it follows from."""
     parts = []
     for step in steps:
         parts.append(_paragraph(step.reason, f"{step.number:3}. ", "     "))
-        lines = text_lines(step.formula, step.relation, TEXT_WIDTH - 7)
-        parts += ["       " + line for line in lines]
+        parts += ["       " + line for line in step_lines(step, TEXT_WIDTH - 7)]
         parts.append(_paragraph(follows_text(step), "     "))
     return "\n".join(parts)
 

@@ -125,8 +125,8 @@ _FACTOR = {"(", r"\left", r"\frac", r"\sum"}
 _BRACE = r"\biggl\{"
 # What must stand before a line that begins with a factor; else it continues a sum, or an argument.
 _NO_FACTOR = _BINARY | {r"\propto", r"\left", "("}
-# A line is broken at an outer place if that leaves no more than this share of it empty.
-_EMPTY = 0.45
+# A line is broken at an outer place if that fills at least this share of it; the first that can be.
+_FILLED = 0.55, 0.3, 0.0
 # A last line is to fill at least this share: it is no factor alone, and no lone number.
 _LONE = 0.28
 
@@ -174,7 +174,7 @@ def _folded(source: str, room: float) -> list[str]:
 
 def _best(places: Sequence[tuple[float, int]], room: float, sizes: Mapping[int, float]) -> int:
     """Where a line ends best: far out, if it is then filled well enough, and far to the right."""
-    good = [(d, at) for d, at in places if sizes[at] > (1 - _EMPTY) * room] or places
+    good = next(filter(None, ([p for p in places if sizes[p[1]] > n * room] for n in _FILLED)))
     least = min(depth for depth, _ in good)
     return max(at for depth, at in good if depth == least)
 
@@ -326,6 +326,12 @@ def _at_terms(equation: Basic, relation: str, room: float) -> list[str]:
         left = pack(pieces.of(equation.lhs, room), room, room)
         if len(left) > 1 or width(lhs) + sum(size for _, size in rhs) > room:
             right = pack(rhs, room - 20, room - 20)
+            end = f" {relation} {right[0]}"
+            if len(left) > len(right) == 1 and width(left[-1] + end) < room - 20:
+                return [
+                    f"&{left[0]}",
+                    *(rf"&\quad {line}" for line in (*left[1:-1], left[-1] + end)),
+                ]
             return [
                 f"&{left[0]}",
                 *(rf"&\quad {line}" for line in left[1:]),

@@ -4,9 +4,9 @@ from pathlib import Path
 from textwrap import indent
 
 import pytest
-from force_diffusion.derivations.export.document import fragment_name, statement_latex
+from force_diffusion.derivations.export.document import fragment_name, statement_latex, step_latex
 from force_diffusion.derivations.export.prose import prose_latex
-from force_diffusion.derivations.export.terminal import heading
+from force_diffusion.derivations.export.terminal import heading, step_lines
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.lists import both
 from force_diffusion.derivations.framework.loading import load
@@ -31,9 +31,9 @@ def step_shown(step: Step) -> str:
     shown = (
         f"Step {step.number}{uses}",
         step.reason,
-        indent("\n".join(text_lines(step.formula, step.relation, TEXT_WIDTH)), "    "),
+        indent("\n".join(step_lines(step)), "    "),
         prose_latex(step.reason),
-        indent(latex_body([step.formula], RELATIONS[step.relation]), "    "),
+        indent(step_latex(step), "    "),
     )
     return "\n\n".join(shown) + "\n"
 
