@@ -80,9 +80,9 @@ class ClosedForm:
     >>> from force_diffusion.symbols import f_plus, i, j
     >>> print(fd.variance(f_plus(i, j) - f_plus(i - 1, j - 1)))
     var(f⁺_ij − f⁺_(i−1,j−1)), exact for 1 ≤ j ≤ M − 1
-      j ≥ 3: σ_δr² (12 j φ² + 12 j + φ⁴ + 3 φ² − 6)/[2 r² (1 − φ²)²]
-      j = 2: σ_δr² (φ⁴ + 27 φ² + 3 φ + 18)/[2 r² (1 − φ²)²]
-      j = 1: σ_δr² (φ⁴ − φ³ + 12 φ² − 5 φ + 7)/[2 r² (1 − φ²)²]
+      j ≥ 3: ([12 j (φ² + 1) + φ⁴ + 3 φ² − 6]/[2 (1 − φ²)²]) (σ_δr/r)²
+      j = 2: ((φ⁴ + 27 φ² + 3 φ + 18)/[2 (1 − φ²)²]) (σ_δr/r)²
+      j = 1: ((φ⁴ − φ³ + 12 φ² − 5 φ + 7)/[2 (1 − φ²)²]) (σ_δr/r)²
 
     Attributes:
         quantity: what it is the value of, as shown.
