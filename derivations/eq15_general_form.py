@@ -96,19 +96,13 @@ def tensile_fraction(load: str) -> sympy.Expr:
     return sympy.Integral(half, (z, 0, 1))
 
 
-DEFINED = {
-    "surface": "M* is defined here as the height at which the leading order of the mean of "
-    "σ_f²/⟨f⟩² is one. It goes as the paper says, surface load.",
-    "bulk": "Likewise, bulk load.",
-}
-NEGATIVE = {
-    "surface": "The probability of a tensile contact is ½ erfc(1/√(2v)) for a Gaussian force of "
-    "mean 1 and variance v. The forces are Gaussian, to first order, for normal radii, and in the "
-    "limit for all radii of finite variance: no radius dominates, by Eqs. 13 and 14, which is what "
+NEGATIVE = (
+    "The probability of a tensile contact is ½ erfc(1/√(2v)) for a Gaussian force of mean 1 and "
+    "variance v. The forces are Gaussian, to first order, for normal radii, and in the limit for "
+    "all radii of finite variance: no radius dominates, by Eqs. 13 and 14, which is what "
     "Lindeberg's theorem needs. Averaged over the layers as M → ∞ at fixed M/M*, the expected "
-    "fraction under a surface load is",
-    "bulk": "In the same way, the expected fraction under a bulk load is",
-}
+    "fraction under a surface load is"
+)
 
 
 @cache
@@ -146,7 +140,8 @@ def steps() -> Steps:
         )
     for load in LOADS:
         steps.show(
-            DEFINED[load],
+            "M* is defined here as the height at which the leading order of the mean of σ_f²/⟨f⟩² "
+            f"is one. It goes as the paper says, {load} load.",
             PRINTED_HEIGHT,
             power_law(*IN_RADII[load]()),
             in_proportion[load],
@@ -168,7 +163,7 @@ def steps() -> Steps:
             eq11.LAYERS.loaded(LOADING[load]),
         )
         steps.show(
-            NEGATIVE[load],
+            NEGATIVE if load == "surface" else "In the same way, under a bulk load:",
             equation(FRACTION, tensile_fraction(load)),
             tensile(OF_LAYER[load].theorem, ones.theorem, *IN_RADII[load]()),
             heights(load).in_the_limit(AT_FIXED_RATIO),

@@ -328,10 +328,8 @@ def _at_terms(equation: Basic, relation: str, room: float) -> list[str]:
             right = pack(rhs, room - 20, room - 20)
             end = f" {relation} {right[0]}"
             if len(left) > len(right) == 1 and width(left[-1] + end) < room - 20:
-                return [
-                    f"&{left[0]}",
-                    *(rf"&\quad {line}" for line in (*left[1:-1], left[-1] + end)),
-                ]
+                left[-1] += end
+                return [f"&{left[0]}", *(rf"&\quad {line}" for line in left[1:])]
             return [
                 f"&{left[0]}",
                 *(rf"&\quad {line}" for line in left[1:]),

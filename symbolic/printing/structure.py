@@ -11,21 +11,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from typing import Any
 
-from sympy import (
-    Add,
-    Basic,
-    Expr,
-    Integer,
-    MatrixBase,
-    Mul,
-    Poly,
-    Pow,
-    Rational,
-    Sum,
-    Symbol,
-    degree,
-    factor_list,
-)
+import sympy
+from sympy import Add, Basic, Expr, Integer, MatrixBase, Mul, Pow, Rational, Sum, Symbol
 from sympy.printing.printer import Printer
 
 from .. import symbols as sy
@@ -71,7 +58,7 @@ def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
     """A sum of monomials, each with the terms of its factor: as a product, or one by one."""
     if len(part) > 1 and sum(map(len, part.values())) < _TOO_MANY:
         whole = Add(*(Add(*terms) * monomial for monomial, terms in part.items()))
-        number, factors = factor_list(whole)
+        number, factors = sympy.factor_list(whole)
         if sum(power for _, power in factors) > 1:
             return [_product(number, factors)]
     found = []
@@ -79,7 +66,7 @@ def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
         if len(terms) == 1 or monomial == 1:
             found += [one * monomial for one in terms]
         else:
-            number, factors = factor_list(Add(*terms))
+            number, factors = sympy.factor_list(Add(*terms))
             if len(factors) > 1:  # unlike (1 − φ)²
                 number, inner = Add(*terms).primitive()
                 factors = [(inner, 1)]
@@ -89,22 +76,22 @@ def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
 
 def _product(number: Expr, factors: Iterable[tuple[Expr, int]]) -> Expr:
     """A product whose number is not multiplied out; each factor begins with a plus sign."""
-    bases = []
-    for base, power in factors:
-        turn = _begins_negative(base)
-        number *= (-1) ** power if turn else 1
-        bases.append((-base if turn else base) ** power)
-    ordered = sorted(bases, key=_factor_key)
+    signed = [
+        (-base, -1, power) if _begins_negative(base) else (base, 1, power)
+        for base, power in factors
+    ]
+    number *= Mul(*(sign**power for _, sign, power in signed))
+    ordered = sorted((base**power for base, _, power in signed), key=_factor_key)
     return Mul(*([] if number == 1 else [number]), *ordered, evaluate=False)
 
 
 def _begins_negative(base: Expr) -> bool:
     """Whether its first term is: the highest in M, or in another index; 1 of 1 − φ."""
     held = sorted(base.free_symbols & {*sy.INDICES}, key=sy.INDICES.index, reverse=True)
-    if not held and degree(base, sy.phi) == 1 and base.free_symbols == {sy.phi}:
-        return bool(base.subs(sy.phi, 0) < 0)
+    if base == sy.phi - 1:
+        return True
     others = sorted(base.free_symbols - {*held}, key=str)
-    return bool(base.is_Add and Poly(base, *held, *others).LC() < 0)
+    return bool(base.is_Add and sympy.Poly(base, *held, *others).LC() < 0)
 
 
 def _with_ratio(factors: list[Expr]) -> list[Expr]:
@@ -119,8 +106,8 @@ def _with_ratio(factors: list[Expr]) -> list[Expr]:
 
 def _stands_beside(factor: Expr) -> bool:
     """Whether a factor stands beside a fraction rather than in its numerator."""
-    is_ratio = isinstance(factor, Pow) and isinstance(factor.base, Mul)
-    return is_operand(factor) or isinstance(factor, Mul) or is_ratio
+    is_ratio = isinstance(factor, Pow) and factor.base.is_Mul
+    return is_operand(factor) or factor.is_Mul or is_ratio
 
 
 def positive_first(terms: list[Expr]) -> list[Expr]:
