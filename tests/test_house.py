@@ -16,7 +16,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 78
 LIMITS = {
-    "symbolic": 4_545,
+    "symbolic": 4_624,
     "derivations": 8_350,
     "numeric": 13_037,
     "force_diffusion": 62,
