@@ -108,10 +108,11 @@ def test_where_formulas_hold_stands_beside_them() -> None:
 
 
 def test_what_formulas_have_in_common_stands_before_them() -> None:
-    for number, common in ((13, "2 r^{2}"), (14, "120 r^{2}")):
+    for number, common in ((13, "2"), (14, "120")):
         lines = fd.equation(number).exact().latex().splitlines()
         assert lines[1].endswith(
-            rf"\frac{{\sigma_{{\delta r}}^{{2}}}}{{{common} (1 - \phi^{{2}})^{{2}}}} \times \\"
+            rf"\frac{{1}}{{{common} (1 - \phi^{{2}})^{{2}}}} "
+            r"\left( \frac{\sigma_{\delta r}}{r} \right)^{2} \times \\"
         )
         assert not any(r"\sigma" in line for line in lines[2:])
 

@@ -261,7 +261,7 @@ def test_the_highest_degree_comes_first_factored() -> None:
     form = sympy.expand(8 * (M - j) ** 2 * (M + 2 * j) - 6 * M + M * (1 - phi) ** 2 + phi + 1)
     assert text(form) == "8 (M − j)² (M + 2 j) + M (φ² − 2 φ − 5) + φ + 1"
     assert text(sympy.expand(j * (7 - 2 * phi) - j**2 * (1 - phi) ** 4 + 1)) == (
-        "j (7 − 2 φ) − j² (1 − φ)⁴ + 1"
+        "1 − j² (1 − φ)⁴ − j (2 φ − 7)"
     )
 
 
