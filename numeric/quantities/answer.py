@@ -76,10 +76,10 @@ def answer(
                 network = solved.network
         for quantity, gatherer in zip(quantities, gatherers, strict=True):
             table = in_units(quantity, gatherer.table().sorted(), system)
-            index = table.index or quantity.names
-            if alike > 1 and "samples" in index:
-                index["samples"] = index["samples"] * alike
-            tables.append(replace(table, index=index))
+            if alike > 1 and "samples" in table.index:
+                samples = {"samples": table.index["samples"] * alike}
+                table = replace(table, index=table.index | samples)
+            tables.append(table)
             if isinstance(quantity, Histogram) and not work.repeating:
                 found = histogram(table.numbers["change"], quantity.bins, system)
                 bins = [(low, high, count * alike) for low, high, count in found]

@@ -5,8 +5,7 @@ A question is a class of its own in a file of its own; ``quantities.quantity_of`
 
 import math
 from abc import ABC, abstractmethod
-from collections import UserDict
-from collections.abc import Callable, Mapping, MutableMapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, cached_property
@@ -36,20 +35,7 @@ SCATTER_OF = {
 }
 
 
-Columns = MutableMapping[str, Array]
-
-
-class Later(UserDict[str, Array]):
-    """Columns that are made when one is first looked at: many take time, and memory."""
-
-    def __init__(self, make: Callable[[], Mapping[str, Array]]) -> None:
-        """``make`` gives them."""
-        self._make = make
-
-    @cached_property
-    def data(self) -> dict[str, Array]:  # type: ignore[override]
-        """All columns."""
-        return dict(self._make())
+Columns = dict[str, Array]
 
 
 @dataclass(frozen=True)
@@ -98,7 +84,7 @@ class Gatherer(ABC):
 
     @abstractmethod
     def table(self) -> Table:
-        """Give the answer; where rows have no ``index``, theirs is ``Quantity.names``."""
+        """Give the answer."""
 
 
 class Quantity(ABC):
@@ -192,11 +178,6 @@ class Quantity(ABC):
 
     # How it is gathered
 
-    @property
-    def names(self) -> Columns:
-        """The columns that name all rows of a packing, where tables leave them out."""
-        return {}
-
     @abstractmethod
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start to gather the answer."""
@@ -216,9 +197,8 @@ class Listing(Gatherer):
             one = solved if len(realisations) == 1 else solved.one(number)
             part = self.quantity.rows(self.problem, one)
             if self.problem.realisations > 1:
-                index = part.index or self.quantity.names
-                index["realisation"] = np.full(part.rows, realisation)
-                part = replace(part, index=index)
+                number_of = {"realisation": np.full(part.rows, realisation)}
+                part = replace(part, index=part.index | number_of)
             self.parts.append(part)
 
     def table(self) -> Table:

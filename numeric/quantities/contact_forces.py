@@ -1,6 +1,6 @@
 """All contact forces."""
 
-from functools import lru_cache, partial
+from functools import lru_cache
 
 import numpy as np
 
@@ -8,9 +8,7 @@ from ..arithmetic.systems import Array
 from ..lattice.layers import Block, Region, full_layer
 from ..mechanics.problem import Problem, Solved
 from .base import (
-    Columns,
     ContactQuantity,
-    Later,
     Listed,
     Table,
     contact_changes,
@@ -72,13 +70,7 @@ class ContactForces(ContactQuantity, Listed):
         force = by_lower_bead(forces.F, width)
         force += change
         numbers = {"force": force.reshape(-1), "change": change.reshape(-1)}
-        return Table({}, numbers, ("change",), in_order=True)
-
-    @property
-    def names(self) -> Columns:
-        """The columns i, j and branch of a periodic packing's contacts."""
-        assert self.width is not None
-        return Later(partial(_names, self.height, self.width))
+        return Table(_names(self.height, width), numbers, ("change",), in_order=True)
 
 
 def by_lower_bead(values: Array, width: int) -> Array:
