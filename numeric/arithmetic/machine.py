@@ -1,7 +1,6 @@
 """What this machine has to offer: cores, free memory, and a folder for what is made once."""
 
 import os
-import threading
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -13,8 +12,6 @@ _GROUPS = {
 }
 _CACHE = {"inactive_file", "active_file"}  # the kernel makes room of it
 
-_thread = threading.local()
-
 
 def user_cache() -> Path | None:
     """Give the user's folder for what was compiled; None where nobody knows the user's home."""
@@ -24,15 +21,8 @@ def user_cache() -> Path | None:
         return None
 
 
-def take_one_core() -> None:
-    """Leave this thread one core: others do as much beside it."""
-    _thread.alone = True
-
-
 def cores() -> int:
-    """Give the number of cores that this thread may use."""
-    if getattr(_thread, "alone", False):
-        return 1
+    """Give the number of cores that this process may use."""
     try:
         return len(os.sched_getaffinity(0))
     except AttributeError:  # not on this system

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import SupportsIndex
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
-from ..arithmetic.machine import cores, memory_limit, take_one_core
+from ..arithmetic.machine import cores, memory_limit
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
@@ -204,7 +204,6 @@ def _solve(version: str, m: Measurement, first: int, stop: int) -> Sums:
             f"a worker has force-diffusion {program_version()}, and this is {version}: numbers "
             "could differ; install the same version everywhere"
         )
-    take_one_core()
     return solve_block(m, first, stop)
 
 
