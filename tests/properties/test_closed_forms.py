@@ -91,19 +91,16 @@ FORMS = [
     Form(13, "layer", "surface"),
     Form(14, "layer", "bulk"),
     Form(16, "bead", "point", below),
-    Form(16, "contact", "point", below),
     Form("B2", "plus", "surface", leaning=True),
     Form("B3", "minus", "bulk", leaning=True),
     Form("B4", "height", "surface", order=2),
     Form("B5", "force", "surface", order=2),
-    Form("B6", "force", "bulk", order=2),
     Form("B7", "apart", "surface", pairs, reach=3, highest=3),
     Form("B8", "mean", "surface", neighbours, reach=2, highest=3),
     Form("B9", "contact", "point", below, order=2, highest=3),
     Form("B10", "ratio", "surface", order=2, leaning=True, highest=3),
     Form("B12", "layers", "surface", two_layers),
     Form("B19", "bead", "point", inside_in_space, dimensions=3, highest=3),
-    Form("B24", "first", "surface", leaning=True, dimensions=3, highest=3),
 ]
 
 
