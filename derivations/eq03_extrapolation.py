@@ -6,7 +6,8 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, along, axioms, equation, follows, induct, rewrite, terms, times)
+    Derivation, Domain, Steps, Theorem, along, axioms, equation, follows, induct, rewrite, shown,
+    terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_minus, n_plus)
 # fmt: on
@@ -42,6 +43,19 @@ FIRST_LAYER = terms(
 
 
 @cache
+def from_the_base_up(formula: sympy.Eq, domain: Domain) -> Theorem:
+    """Prove a displacement by induction: a bead rests on two of the layer below (Eq. 2)."""
+    resting, base = eq02.DERIVATION.theorem, axioms.base()
+    first, next_layer = rewrite(resting, base), lambda supposed: rewrite(resting, supposed)
+    return induct(j, 1, first, next_layer)(formula, domain)
+
+
+def positions() -> tuple[Theorem, ...]:
+    """The displacement of every bead in the radii."""
+    return *shown(3, from_the_base_up(PRINTED, ABOVE)), axioms.base()
+
+
+@cache
 def steps() -> Steps:
     """Base case on the fixed base, then one step of Eq. 2 with symbolic i and j."""
     steps = Steps(3, ABOVE)
@@ -74,7 +88,7 @@ def steps() -> Steps:
         "counted once there and once by the new contact: it joins the sum with the weight 2. This "
         "is the printed equation in layer j.",
         PRINTED,
-        induct(j, 1, rewrite(resting, base), lambda supposed: rewrite(resting, supposed)),
+        from_the_base_up,
     )
     empty = dict.fromkeys(PRINTED.rhs.atoms(sympy.Sum), sympy.S.Zero)
     steps.claim(

@@ -48,7 +48,7 @@ def show_change(steps: Steps, side: int, printed: sympy.Eq, reasons: tuple[str, 
         equation(times(2, r, change), terms(*apart, minus(times(normal, radii)))),
         order(axioms.direction(side), 1),
     )
-    displaced = (eq03.DERIVATION.theorem, axioms.base())
+    displaced = eq03.positions()
     steps.show(reasons[1], equation(Dot(normal, terms(*apart)), radii), rewrite(displaced))
     return steps.show(reasons[2], printed, rewrite(changed.theorem, displaced))
 

@@ -6,7 +6,8 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, equation, lattice, minus, mirror_of, rewrite, terms, times)
+    Derivation, Domain, Steps, Theorem, equation, lattice, minus, mirror_of, rewrite, terms,
+    times)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaR, Dot, b_minus, b_plus, i, j, m, n_minus, r)
 # fmt: on
@@ -61,6 +62,11 @@ def steps() -> Steps:
 
 
 RIGHT_ANGLE = equation(Dot(n_minus, DeltaNMinus(i, j)), 0)
+
+
+def directions() -> tuple[Theorem, ...]:
+    """The changes of both contact directions in the radii, by Eqs. 4 and 5."""
+    return eq04.DERIVATION.theorem, DERIVATION.theorem
 
 
 DERIVATION = Derivation(

@@ -4,14 +4,13 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, axioms, equation, induct, lattice, minus, mirror,
-    mirror_of, moment, rewrite, terms, times)
+    Derivation, Domain, Groups, Steps, Theorem, axioms, equation, induct, lattice, minus, mirror,
+    mirror_of, moment, rewrite, shown, terms, times)
 from force_diffusion.symbolic.symbols import (
     M, DeltaNMinus, DeltaNPlus, Dot, ForcePlus, Variance, f_load, i, j, k, l, n, n_minus, n_plus,
     n_y, phi, r, sigma)
@@ -59,10 +58,18 @@ def branched_load(count: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
 
 
 @cache
+def from_the_surface_down(formula: sympy.Eq, domain: Domain) -> Theorem:
+    """Prove a force by induction, balancing bead after bead."""
+    balancing = eq07.balancing(axioms.loads(domain.loading))
+    top = balancing(())
+    return induct(j, M - 1, top, balancing, down=True, mirrored=True)(formula, domain)
+
+
+@cache
 def in_radii() -> Groups:
     """The forces and, in the radii, the directions of contacts: both branches."""
-    force = DERIVATION.theorem
-    return (force, mirror(force)), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
+    (force,) = shown(11, from_the_surface_down(PRINTED, LOADED))
+    return (force, mirror(force)), eq05.directions()
 
 
 @cache
@@ -114,18 +121,10 @@ def steps() -> Steps:
         rewrite(),
         LAYERS,
     )
-    balancing = eq07.balancing(axioms.loads(axioms.SURFACE))
     steps.show(
         "Both together; from layer to layer down, every bead is balanced by these forces:",
         PRINTED,
-        induct(
-            j,
-            M - 1,
-            balancing(()),
-            balancing,
-            down=True,
-            mirrored=True,
-        ),
+        from_the_surface_down,
     )
     first, last = branched_load(sympy.S.One)[0], branched_load(M - j - 1)[0]
     steps.claim(

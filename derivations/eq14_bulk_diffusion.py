@@ -4,16 +4,14 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic, at_fixed_height,
-    axioms, certificate, differentiate, equation, formula, induct, minus, mirror, moment,
-    negligible, of_what_is_kept, power, rewrite, terms, times, usual)
+    axioms, certificate, differentiate, equation, formula, minus, mirror, moment, negligible,
+    of_what_is_kept, power, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
 # fmt: on
@@ -67,11 +65,14 @@ def averaged_force() -> sympy.Expr:
     return times(1 / (M - j), sympy.Sum(each, (l, j + 1, M)))
 
 
+FORCE = equation(RATIO, averaged_force())
+
+
 @cache
 def in_radii() -> Groups:
     """The forces and, in the radii, the directions of contacts: both branches."""
-    force = force_steps()[1].theorem
-    return (force, mirror(force)), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
+    (force,) = shown(14, eq11.from_the_surface_down(FORCE, LOADED))
+    return (force, mirror(force)), eq05.directions()
 
 
 def next_to_the_maximum(above: int) -> Domain:
@@ -94,10 +95,9 @@ def gained(above: int) -> sympy.Eq:
 
 
 @cache
-def force_steps() -> Steps:
-    """The force as an average of Eq. 11."""
-    balancing = eq07.balancing(axioms.loads(axioms.BULK))
-    steps = Steps(14, eq12.INSIDE, MEANING)
+def steps() -> Steps:
+    """Superpose the surface loads of all layers above the contact."""
+    steps, groups = Steps(14, eq12.INSIDE, MEANING), in_radii()
     steps.show(
         "The weight of the beads in layer l acts as the surface load of a packing of "
         "height l. The ordered forces of the layers above j add up to",
@@ -112,24 +112,10 @@ def force_steps() -> Steps:
     steps.show(
         "In units of this mean, f⁺_ij is the average of what Eq. 11 says over the heights "
         "l = j+1, …, M: by balancing bead after bead, from the surface down.",
-        equation(RATIO, averaged_force()),
-        induct(
-            j,
-            M - 1,
-            balancing(()),
-            balancing,
-            down=True,
-            mirrored=True,
-        ),
+        FORCE,
+        eq11.from_the_surface_down,
         LOADED,
     )
-    return steps
-
-
-@cache
-def steps() -> Steps:
-    """Superpose the surface loads of all layers above the contact."""
-    steps, groups = force_steps(), in_radii()
     steps.show(
         "So the weights of Δ in Eq. 12 are averaged, for m ≤ j and for m > j:",
         sympy.Tuple(*map(equation, OVER_HEIGHTS, AVERAGED)),

@@ -197,7 +197,7 @@ def claims(steps: Steps) -> None:
             "displacements are of order M^(1/2) σ, so of order r at a height (σ/r)^(−2), far above "
             f"M*: along {component} exactly",
             equation(Variance(Dot(unit, DeltaX(i, j))), (4 * j - 2) * sigma**2),
-            moment((eq03.DERIVATION.theorem, axioms.base())),
+            moment(eq03.positions()),
             Domain.of(j >= 2),
         )
 

@@ -4,7 +4,6 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
@@ -13,8 +12,8 @@ from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, equation,
-    formula, inducted, lattice, leading_order_of, minus, mirror, moment, rewrite, same, terms,
-    times, usual)
+    formula, inducted, lattice, leading_order_of, minus, mirror, moment, rewrite, same, shown,
+    terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.symbols import (
     Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
@@ -109,13 +108,13 @@ def forces() -> tuple[Theorem, ...]:
         down=True,
         mirrored=True,
     )
-    return (*plus, *map(mirror, plus))
+    return (*shown(16, *plus), *map(mirror, plus))
 
 
 @cache
 def in_radii() -> Groups:
     """The forces and, in the radii, the directions of contacts."""
-    return forces(), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
+    return forces(), eq05.directions()
 
 
 @cache

@@ -4,7 +4,6 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
@@ -13,7 +12,7 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, equation, inducted, lattice,
-    minus, rewrite, same, terms, times)
+    minus, rewrite, same, shown, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, L_minus, L_plus, M, e_x, e_y, f_load, i, j,
     m, n, n_minus, n_plus, n_x, n_y, phi, t)
@@ -69,13 +68,13 @@ def _from_the_surface_down(statements: tuple[sympy.Eq, ...], domain: Domain) -> 
 def forces(load: str) -> tuple[Theorem, ...]:
     """Both forces under a leaning load on the "surface" or in the "bulk"."""
     statements, domain = (FORCES, ON_SURFACE) if load == "surface" else (BULK, IN_BULK)
-    return _from_the_surface_down(statements, domain)
+    return shown("B1", *_from_the_surface_down(statements, domain))
 
 
 @cache
 def in_radii(load: str) -> Groups:
     """The forces and, in the radii, the directions of contacts."""
-    return forces(load), (eq04.DERIVATION.theorem, eq05.DERIVATION.theorem)
+    return forces(load), eq05.directions()
 
 
 @cache

@@ -11,7 +11,7 @@ is i′ steps along n⁻ and j − i′ along n⁺ from the origin, and no condi
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property, lru_cache
 from typing import Any, Self, TypeAlias
 
 import sympy
@@ -53,6 +53,7 @@ _HIGHEST = 4  # power of a quantity
 Image = Mapping[sympy.Symbol, sympy.Expr]
 
 
+@lru_cache(maxsize=4096)
 def _product(one: Key, other: Key) -> Key | None:
     """The key of a product; None where it is of second order.
 
@@ -67,7 +68,14 @@ def _product(one: Key, other: Key) -> Key | None:
         if any(name.startswith(_OF_ORDER_0) for name in located):
             raise NotExactError("a product of two positions, or loads")
         return None
-    return tuple(sorted(((f, p) for f, p in powers.items() if p), key=str))
+    return _in_order((f, p) for f, p in powers.items() if p)
+
+
+def _in_order(factors: Iterable[tuple[Factor, int]]) -> Key:
+    return tuple(sorted(factors, key=_written))
+
+
+_written = cache(str)  # SymPy takes longer to write a place than to read it
 
 
 @dataclass(frozen=True)
@@ -163,7 +171,7 @@ class Form:
         """The same with other indices in the places of its forces."""
         total = type(self)()
         for key, weights in self.parts.items():
-            moved = tuple(sorted(((_moved(one, image), power) for one, power in key), key=str))
+            moved = _in_order((_moved(one, image), power) for one, power in key)
             total = total + type(self)({moved: weights})
         return total
 

@@ -71,6 +71,7 @@ def _constraint(form: Row, equation: bool) -> Any:
     return found
 
 
+@lru_cache(maxsize=4096)
 def condition(relation: sympy.Basic) -> tuple[Row, bool]:
     """What is at least 0 where a relation holds, and whether it is 0 there.
 
@@ -150,6 +151,7 @@ def parts(points: Set) -> list[Set]:
     return [part for part in found if not part.is_empty()]
 
 
+@lru_cache(maxsize=4096)
 def rows(part: Set) -> tuple[list[Row], list[Row]]:
     """Forms that are 0, and that are at least 0, on a convex set.
 
@@ -441,7 +443,11 @@ def contains(part: Set, values: Mapping[sympy.Symbol, int]) -> bool:
 
 def sample(points: Set) -> dict[sympy.Symbol, int]:
     """A point of a set that is not empty."""
-    return next(samples(points))
+    point = points.sample_point()
+    return {
+        symbol: point.get_coordinate_val(_DIM, place).to_python()
+        for symbol, place in _PLACE.items()
+    }
 
 
 def samples(
@@ -453,12 +459,8 @@ def samples(
     for _ in range(most):
         if points.is_empty():
             return
-        point = points.sample_point()
-        yield {
-            symbol: point.get_coordinate_val(_DIM, place).to_python()
-            for symbol, place in _PLACE.items()
-        }
-        points = points - isl.Set.from_point(point)
+        yield sample(points)
+        points = points - isl.Set.from_point(points.sample_point())
 
 
 def joined(pieces: Sequence[Set]) -> Set:

@@ -43,11 +43,10 @@ class Weights:
         return cls(((sets.where(*relations), value),))
 
     def __add__(self, other: "Weights") -> "Weights":
-        found: dict[int, Piece] = {}
+        found: dict[Set, RationalFunction] = {}
         for points, value in (*self.pieces, *other.pieces):
-            before = found.get(id(points))
-            found[id(points)] = points, before[1] + value if before else value
-        return Weights(tuple(piece for piece in found.values() if not piece[1].is_zero()))
+            found[points] = found[points] + value if points in found else value
+        return Weights(tuple(piece for piece in found.items() if not piece[1].is_zero()))
 
     def __sub__(self, other: "Weights") -> "Weights":
         return self + other.scaled(FIELD.constant(-1))
@@ -69,10 +68,10 @@ class Weights:
                 return rest.scaled(one.pieces[0][1])
         return Weights(
             tuple(
-                (points & there, value * factor)
+                (both, value * factor)
                 for points, value in self.pieces
                 for there, factor in other.pieces
-                if not points.is_disjoint(there)
+                if not (both := points & there).is_empty()
             )
         )
 
@@ -175,7 +174,8 @@ class Weights:
 
     def is_zero(self) -> bool:
         """Whether it is 0 everywhere."""
-        return not self.formulas()
+        zeros = (_agree(FIELD.zero, value, sets.fixed(part)) for part, value in self.cells().pieces)
+        return all(zeros)
 
 
 Numbers = tuple[Array[np.float64], Array[np.float64]]

@@ -13,7 +13,6 @@ from force_diffusion.symbolic.kernel.theorem import Group
 from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t, t_2, t_3
 
 from .. import eq03_extrapolation as eq03
-from .. import eq04_contact_plus as eq04
 from .. import eq05_contact_minus as eq05
 from .. import eq11_total_force as eq11
 from .. import eq14_bulk_diffusion as eq14
@@ -31,7 +30,6 @@ class ObservableError(ForceDiffusionError, ValueError):
 @cache
 def in_radii(load: str = "") -> tuple[Group, ...]:
     """What forces under a load are in the radii, with contact directions and positions."""
-    positions = (eq03.DERIVATION.theorem, axioms.base())
     match load.split():
         case ["surface"]:
             groups = eq11.in_radii()
@@ -40,11 +38,10 @@ def in_radii(load: str = "") -> tuple[Group, ...]:
         case ["point"]:
             groups = eq16.in_radii()
         case ["leaning", below]:
-            _ = tilted.DERIVATIONS["B1"].proof  # whose steps show these theorems
             groups = tilted.in_radii(below)
         case _:
-            groups = ((eq04.DERIVATION.theorem, eq05.DERIVATION.theorem),)
-    return (*groups, positions)
+            groups = (eq05.directions(),)
+    return (*groups, eq03.positions())
 
 
 @dataclass(frozen=True)

@@ -82,18 +82,19 @@ class Step:
         return tuple(sorted(set().union(*(one.assuming for one in self.theorems))))
 
     @cached_property
-    def _sources(self) -> tuple["Step", ...]:
+    def _sources(self) -> tuple["Place", ...]:
         return tuple(_sources(premise for one in self.theorems for premise in one.premises))
 
     @property
     def equations_used(self) -> tuple[Number, ...]:
         """The other equations that its theorems rest on."""
-        return in_order({step.equation for step in self._sources} - {self.equation})
+        return in_order({equation for equation, _ in self._sources} - {self.equation})
 
     @property
     def steps_used(self) -> tuple[int, ...]:
         """The numbers of earlier steps that its theorems rest on."""
-        return tuple(sorted({s.number for s in self._sources if s.equation == self.equation} - {0}))
+        numbers = {number for equation, number in self._sources if equation == self.equation}
+        return tuple(sorted(numbers - {0}))
 
     @property
     def uses(self) -> tuple[str, ...]:
@@ -111,25 +112,35 @@ class Step:
         return proved_by(self.rules[place], meant, self.domains[place])
 
 
-_STEP_OF: dict[Theorem, Step] = {}
-"""The step that shows a theorem."""
+Place = tuple[Number, int]
+"""An equation and one of its steps; 0 for none of them."""
+
+_PLACE_OF: dict[Theorem, Place] = {}
+"""Where a theorem is shown."""
+
+
+def shown(equation: Number, *theorems: Theorem) -> tuple[Theorem, ...]:
+    """Theorems that an equation shows, for those who need no other of its steps."""
+    for theorem in theorems:
+        _PLACE_OF.setdefault(theorem, (equation, 0))
+    return theorems
 
 
 def equations_of(theorems: Iterable[Theorem]) -> tuple[Number, ...]:
     """The equations that show theorems, or what these rest on."""
-    return in_order(step.equation for step in _sources(theorems))
+    return in_order(equation for equation, _ in _sources(theorems))
 
 
-def _sources(theorems: Iterable[Theorem]) -> Iterator[Step]:
-    """The steps that show theorems, or what these rest on: the nearest on each way."""
+def _sources(theorems: Iterable[Theorem]) -> Iterator[Place]:
+    """Where theorems are shown, or what these rest on: the nearest place on each way."""
     left, seen = list(theorems), set[Theorem]()
     while left:
         theorem = left.pop(0)
         if theorem in seen:
             continue
         seen.add(theorem)
-        if theorem in _STEP_OF:
-            yield _STEP_OF[theorem]
+        if theorem in _PLACE_OF:
+            yield _PLACE_OF[theorem]
         else:
             left += theorem.premises
 
@@ -257,8 +268,9 @@ class Steps(list[Step]):
                 raise NotProvedError(f"it rests on what is only supposed: {reason}")
         made = rules, domains, defined, theorems
         step = Step(self._equation, reason, formula, *made, number, tuple(cases))
-        for theorem in theorems:
-            _STEP_OF.setdefault(theorem, step)
+        for theorem in shown(self._equation, *theorems):
+            if _PLACE_OF[theorem] == (self._equation, 0):
+                _PLACE_OF[theorem] = self._equation, number
         return step
 
 

@@ -19,7 +19,7 @@ from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
 
-from .proof import Step, Steps
+from .proof import Step, Steps, shown
 from .record import FIRST_ORDER, Derivation, usual
 # fmt: on
 
@@ -31,6 +31,6 @@ __all__ = [
     "Theorem", "along", "asymptotic", "at_fixed_height", "axioms", "below", "certificate",
     "differentiate", "equation", "follows", "formula", "induct", "inducted", "instance",
     "lattice", "leading_order_of", "minus", "mirror", "mirror_of", "moment", "negligible",
-    "of_what_is_kept", "order", "power", "power_law", "reach", "rewrite", "same", "solve",
-    "tensile", "terms", "times", "usual",
+    "of_what_is_kept", "order", "power", "power_law", "reach", "rewrite", "same", "shown",
+    "solve", "tensile", "terms", "times", "usual",
 ]  # fmt: skip

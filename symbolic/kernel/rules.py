@@ -85,7 +85,7 @@ def rewrite(*groups: Group) -> Rule:
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         apart = difference(read(formula, domain, groups), domain)
-        if not all(form.is_zero() for form in apart):
+        if any(form.parts for form in apart):
             raise refuse(apart, domain, groups, formula)
         return made(formula, domain, "rewrite", flat(groups))
 
@@ -435,7 +435,7 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
         for one, where in ((origin, Domain()), *((one, beads) for one in up)):
             here = moved(one, {}, where)
             apart = difference(read(said(here.formula), where), where)
-            if not all(form.is_zero() for form in apart):
+            if any(form.parts for form in apart):
                 raise refuse(apart, where)
         return made(formula, domain, "reach", (origin, *up))
 
@@ -459,7 +459,7 @@ def differentiate(formula: sympy.Eq, domain: Domain) -> Theorem:
         read(equation(one.expr, one.expr), domain)  # what SymPy cancels has a value
     done = equation(*(_done(side) for side in formula.args))
     apart = difference(read(done, domain), domain)
-    if not all(form.is_zero() for form in apart):
+    if any(form.parts for form in apart):
         raise refuse(apart, domain)
     return made(formula, domain, "differentiate")
 

@@ -148,7 +148,7 @@ def moment(*groups: Group, on: Domain | None = None) -> Rule:
         except NotExactError as reason:
             raise NotProvedError(str(reason)) from None
         apart = difference(((forms[0],), (forms[1],)), domain)
-        if not all(form.is_zero() for form in apart):
+        if any(form.parts for form in apart):
             raise refuse(apart, domain, groups, formula)
         return made(formula, domain, "moment", flat(groups))
 

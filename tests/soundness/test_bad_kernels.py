@@ -135,7 +135,7 @@ def forget() -> None:
             for name in [*vars(one)]:
                 if isinstance(inspect.getattr_static(type(one), name, None), cached_property):
                     del vars(one)[name]
-    proof._STEP_OF.clear()
+    proof._PLACE_OF.clear()
 
 
 def _is_own(one: object) -> bool:
