@@ -18,8 +18,9 @@ import sympy
 from sympy import Integer, Rational
 
 from . import symbols as sy
-from .as_printed import minus, power, terms, times, too_large
+from .as_printed import minus, power, terms, times
 from .printing.structure import rebuilt
+from .trees import nodes
 
 _BEADS_OWN = (sy.site_r, sy.site_s)
 VOCABULARY = (
@@ -332,3 +333,44 @@ class _Reader:
 def _built(found: list[_Term]) -> sympy.Expr:
     made = [one.expression() for one in found]
     return terms(*made) if len(made) > 1 else made[0]
+
+
+def written_out(tree: sympy.Basic) -> int:
+    """How many nodes a tree has when a part that it holds twice is counted twice."""
+    count: dict[int, int] = {}
+    for node in nodes(tree):
+        count[id(node)] = 1 + sum(count[id(one)] for one in node.args)
+    return count[id(tree)]
+
+
+def bits(tree: sympy.Basic) -> int:
+    """A bound on the length of its numbers when all of it is carried out; symbols count eight."""
+    found: dict[int, int] = {}
+    for node in nodes(tree):
+        parts = [found[id(one)] for one in node.args]
+        if isinstance(node, sympy.Rational):
+            length = sum(int(part).bit_length() for part in (node.p, node.q))
+        elif isinstance(node, sympy.Pow) and isinstance(node.exp, sympy.Rational):
+            length = parts[0] * max(1, -(-abs(int(node.exp.p)) // int(node.exp.q)))
+        elif isinstance(node, sympy.Piecewise):  # each alternative is read by itself
+            length = max(parts, default=0)
+        else:
+            length = 8 + sum(parts)
+        found[id(node)] = length
+    return found[id(tree)]
+
+
+_MOST_NODES = 100_000
+"""Of what is read, written out: a hundred times the longest printed statement."""
+
+_MOST_BITS = 50_000
+"""Of its numbers: ten times those of the longest one."""
+
+
+def too_large(tree: sympy.Basic) -> str:
+    """Why a tree would take too long to be read; "" when it would not."""
+    if written_out(tree) > _MOST_NODES:
+        return f"it is too large: at most {_MOST_NODES} parts are read"
+    if bits(tree) > _MOST_BITS:
+        return f"it is too large: carried out, it may hold numbers of more than {_MOST_BITS} bits"
+    return ""

@@ -9,6 +9,7 @@ from functools import cache
 from typing import Any, Self, TypeVar
 
 import sympy
+from sympy.printing.precedence import PRECEDENCE
 
 T = TypeVar("T", bound=sympy.Basic)
 
@@ -63,3 +64,68 @@ class Symbol(sympy.Symbol):  # type: ignore[misc]
 
     def _latex(self, printer: Any) -> str:
         return self.in_latex or str(printer._print_Symbol(self))
+
+
+class Written(sympy.Function):  # type: ignore[misc]
+    """A function written by forms, in which %(0)s, %(1)s, … stand for its arguments."""
+
+    latex_form = text_form = ""
+
+    def _filled(self, form: str, printer: Any) -> str:
+        return form % {str(n): printer._print(one) for n, one in enumerate(self.args)}
+
+    def _latex(self, printer: Any, exp: str | None = None) -> str:
+        return _raised_to(exp, self._filled(self.latex_form, printer))
+
+    def _text(self, printer: Any) -> str:
+        return self._filled(self.text_form, printer)
+
+
+def _raised_to(exponent: str | None, shown: str) -> str:
+    """LaTeX with an exponent, where SymPy gives one."""
+    return shown if exponent is None else rf"({shown})^{{{exponent}}}"
+
+
+class WrittenAtSite(sympy.Function):  # type: ignore[misc]
+    """A quantity of a bead, or of the contact along n⁺ or n⁻ above it, with its indices below."""
+
+    latex_head = text_head = in_code = ""
+    branch = ""  # "+" or "-" for a contact's quantity
+
+    def _subscript(self, printer: Any) -> tuple[str, bool]:
+        """Indices side by side, and whether each is a single letter (then without commas)."""
+        set_tightly = getattr(printer, "index", printer._print)
+        letters = all(index.is_Symbol for index in self.args)
+        return ("" if letters else ",").join(map(set_tightly, self.args)), letters
+
+    def _latex(self, printer: Any, exp: str | None = None) -> str:
+        branch = f"^{{{self.branch}}}" if self.branch else ""
+        shown = f"{self.latex_head}{branch}_{{{self._subscript(printer)[0]}}}"
+        return _raised_to(exp, shown)
+
+    def _text(self, printer: Any) -> str:
+        indices, letters = self._subscript(printer)
+        return f"{self.text_head}{raised(self.branch)}_{indices if letters else f'({indices})'}"
+
+
+class WrittenDot(sympy.Function):  # type: ignore[misc]
+    """A product with a dot."""
+
+    def _factors(self, printer: Any) -> list[str]:
+        return [printer.parenthesize(arg, PRECEDENCE["Mul"]) for arg in self.args]
+
+    def _latex(self, printer: Any) -> str:
+        return r" \cdot ".join(self._factors(printer))
+
+    def _text(self, printer: Any) -> str:
+        return "·".join(self._factors(printer))
+
+
+class WrittenMatrixTimes(sympy.Function):  # type: ignore[misc]
+    """A 2×2 matrix, given by its entries, times a vector."""
+
+    def _latex(self, printer: Any) -> str:
+        matrix = printer._print(sympy.Matrix(2, 2, self.args[:4]))
+        return f"{matrix} {printer.parenthesize(self.args[4], PRECEDENCE['Mul'])}"
+
+    _text = _latex

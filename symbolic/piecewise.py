@@ -7,14 +7,15 @@ from functools import cached_property
 
 import sympy
 
-from . import sets, words
+from . import sets, shortest, words
 from . import symbols as sy
 from .algebra.exact import FIELD, Domain, NotExactError, RationalFunction
-from .as_printed import equation
 from .forms import NUMBER, Straightening
 from .kernel.domain import Domain as Where
 from .kernel.statistics import moment, worked_out
 from .kernel.theorem import Group, NotProvedError, Theorem, names_for
+from .printing.quotients import factored
+from .trees import equation
 from .weights import Piece, Weights
 
 Relations = tuple[sympy.Basic, ...]
@@ -48,13 +49,6 @@ class PiecewiseFunction:
     points: sets.Set
     straight: Straightening
     constants: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
-
-    def __reduce__(
-        self,
-    ) -> tuple[type["PiecewiseFunction"], tuple[object, ...], dict[str, list[Piece]]]:
-        """Relations are left out of pickles: SymPy would evaluate them."""
-        parts = (self.weights, self.points, self.straight, self.constants)
-        return PiecewiseFunction, parts, {"_merged": self._merged}
 
     @cached_property
     def _merged(self) -> list[Piece]:
@@ -157,7 +151,7 @@ class PiecewiseFunction:
                 *(sympy.Eq(self._whole(form), 0, evaluate=False) for form in equations),
                 *(sympy.Ge(self._whole(form), 0, evaluate=False) for form in bounds),
             )
-            for equations, bounds in sets.conditions(whole, context)
+            for equations, bounds in shortest.conditions(whole, context)
         )
 
     def _formula(self, whole: sets.Set, value: RationalFunction) -> RationalFunction:
@@ -181,4 +175,4 @@ def theorems(quantity: sympy.Expr, domain: Where, *groups: Group) -> Iterator[Th
     rule = moment(*groups, on=domain)
     for formula in PiecewiseFunction.of(quantity, domain, *groups).formulas:
         for part in formula.where:
-            yield rule(equation(quantity, formula.value.to_sympy()), domain.also(*part))
+            yield rule(equation(quantity, factored(formula.value)), domain.also(*part))

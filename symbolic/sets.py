@@ -63,7 +63,8 @@ def row(form: sympy.Expr) -> Row:
     return factors, constant
 
 
-def _constraint(form: Row, equation: bool) -> Any:
+def constraint(form: Row, equation: bool) -> Any:
+    """What isl takes for a form that is 0, or at least 0."""
     make = isl.Constraint.equality_alloc if equation else isl.Constraint.inequality_alloc
     found = make(_LOCAL).set_constant_val(isl.Val(form[1]))
     for symbol, factor in form[0].items():
@@ -99,7 +100,7 @@ def where(*relations: sympy.Basic) -> Set:
             continue
         if relation == sympy.false:
             return NOTHING
-        found = found.add_constraint(_constraint(*condition(relation)))
+        found = found.add_constraint(constraint(*condition(relation)))
     return found.to_set()
 
 
@@ -160,26 +161,23 @@ def rows(part: Set) -> tuple[list[Row], list[Row]]:
     """
     (basic,) = part.get_basic_sets()
     found: tuple[list[Row], list[Row]] = ([], [])
-    for one in basic.get_constraints():
-        if any(not _number(one, isl.dim_type.div, n).is_zero() for n in range(_divisions(one))):
+    for one, form in _forms(basic):
+        if form is None:
             raise OpenSumError(f"{part} holds a remainder")
-        found[0 if one.is_equality() else 1].append(_row(one))
+        found[0 if one.is_equality() else 1].append(form)
     return found
 
 
-def _divisions(constraint: Any) -> int:
-    return int(constraint.dim(isl.dim_type.div))
-
-
-def _number(constraint: Any, kind: Any, place: int) -> Any:
-    return constraint.get_coefficient_val(kind, place)
-
-
-def _row(constraint: Any) -> Row:
-    numbers = (_number(constraint, _DIM, place) for place in range(len(DIMENSIONS)))
-    held = zip(DIMENSIONS, numbers, strict=True)
-    factors = {symbol: n.to_python() for symbol, n in held if not n.is_zero()}
-    return factors, constraint.get_constant_val().to_python()
+def _forms(part: Any) -> Iterator[tuple[Any, Row | None]]:
+    """The constraints of a convex set, each with its form; None where it holds a remainder."""
+    held = [(symbol, n) for symbol, n in _PLACE.items() if part.involves_dims(_DIM, n, 1)]
+    for one in part.get_constraints():
+        if one.involves_dims(isl.dim_type.div, 0, one.dim(isl.dim_type.div)):
+            yield one, None
+            continue
+        numbers = ((symbol, one.get_coefficient_val(_DIM, n).to_python()) for symbol, n in held)
+        factors = {symbol: number for symbol, number in numbers if number}
+        yield one, (factors, one.get_constant_val().to_python())
 
 
 def depends_on(points: Set, symbol: sympy.Symbol) -> bool:
@@ -261,9 +259,9 @@ def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
             ((one, intervals),) = still_open
             for number, (low, high) in intervals.items():
                 if low is not None:
-                    cell = cell.add_constraint(_constraint((factors[number], -low), False))
+                    cell = cell.add_constraint(constraint((factors[number], -low), False))
                 if high is not None:
-                    cell = cell.add_constraint(_constraint((opposite[number], high), False))
+                    cell = cell.add_constraint(constraint((opposite[number], high), False))
             if not cell.is_empty():
                 yield cell, [one]
             return
@@ -272,7 +270,7 @@ def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
             return
         ((number, bound), _), *_ = cuts.most_common(1)
         for form in ((factors[number], -bound), (opposite[number], bound - 1)):
-            half = cell.add_constraint(_constraint(form, False))
+            half = cell.add_constraint(constraint(form, False))
             yield from halved(half, still_open, inside, number)
 
     yield from halved(EVERYTHING, bounded, [], -1)
@@ -305,12 +303,8 @@ def _bounded(value: Any) -> int | None:
 
 def equations(points: Set) -> list[Row]:
     """Forms that are 0 on all of a set; remainders are left out."""
-    found = []
-    for one in points.affine_hull().get_constraints():
-        divided = (_number(one, isl.dim_type.div, n).is_zero() for n in range(_divisions(one)))
-        if one.is_equality() and all(divided):
-            found.append(_row(one))
-    return found
+    forms = _forms(points.affine_hull())
+    return [form for one, form in forms if form is not None and one.is_equality()]
 
 
 def fixed(points: Set, first: Sequence[sympy.Symbol] = ()) -> dict[sympy.Symbol, RationalFunction]:
@@ -416,7 +410,7 @@ def _bounds(
     """
     for form in forms:
         for rest in range(sign * form[0].get(symbol, 0)):
-            reached = part.add_constraint(_constraint((form[0], form[1] - rest), True))
+            reached = part.add_constraint(constraint((form[0], form[1] - rest), True))
             there = without(reached, symbol) & shadow
             if not there.is_empty():
                 yield there, _bound(form, symbol, rest)
@@ -426,19 +420,7 @@ def _bounds(
     raise OpenSumError(f"{symbol} has no bound")
 
 
-# points, and how a set is written
-
-
-def contains(part: Set, values: Mapping[sympy.Symbol, int]) -> bool:
-    """Whether a point is in a convex set; symbols without a value must not matter."""
-    equations, inequalities = rows(part)
-
-    def value(form: Row) -> int:
-        return form[1] + sum(n * values[symbol] for symbol, n in form[0].items())
-
-    return all(value(one) == 0 for one in equations) and all(
-        value(one) >= 0 for one in inequalities
-    )
+# points
 
 
 def sample(points: Set) -> dict[sympy.Symbol, int]:
@@ -450,111 +432,9 @@ def sample(points: Set) -> dict[sympy.Symbol, int]:
     }
 
 
-def samples(
-    points: Set, among: Iterable[sympy.Symbol] = (), most: int = 8
-) -> Iterator[dict[sympy.Symbol, int]]:
-    """Some points of a set, which differ in what it is said by and in symbols ``among``."""
-    idle = [one for one in DIMENSIONS if one not in among and not depends_on(points, one)]
-    points = points & where(*(sympy.Eq(one, 0, evaluate=False) for one in idle))
-    for _ in range(most):
-        if points.is_empty():
-            return
-        yield sample(points)
-        points = points - isl.Set.from_point(points.sample_point())
-
-
-def joined(pieces: Sequence[Set]) -> Set:
-    """The union of sets, in as few convex parts as isl and a look at their hull find.
-
-    Single points far apart are not joined to a line that holds no others.
-    """
-    whole = _union(pieces).coalesce()
-    if whole.n_basic_set() > 1:
-        hull = whole.simple_hull().to_set()
-        if hull.is_subset(whole):
-            whole = hull
-    several = [part.to_set() for part in whole.get_basic_sets()]
-    if not any(map(_steep, several)):
-        return whole
-    before = [part.to_set() for part in _union(pieces).get_basic_sets()]
-    known = set().union(*map(_steep, before))
-    return _union(
-        kept
-        for part in several
-        for kept in ([part] if _steep(part) <= known else (part & one for one in before))
-    )
-
-
-def _union(pieces: Iterable[Set]) -> Set:
+def union(pieces: Iterable[Set]) -> Set:
+    """The points of any of several sets."""
     whole = NOTHING
     for one in pieces:
         whole = whole | one
     return whole
-
-
-def _steep(part: Set) -> set[Any]:
-    """The equations of a convex set in which a symbol has another factor than 1 or −1."""
-    return {
-        (frozenset(factors.items()), constant)
-        for factors, constant in equations(part)
-        if any(abs(factor) > 1 for factor in factors.values())
-    }
-
-
-Conditions = tuple[list[Row], list[Row]]
-"""Forms that are 0, and that are at least 0."""
-
-
-def conditions(whole: Set, context: Set) -> list[Conditions]:
-    """The fewest forms that tell a part of a context from the rest; any of several may hold.
-
-    Raises:
-        OpenSumError: the part holds a condition on remainders.
-    """
-    found: list[Conditions] = []
-    left = whole & context
-    for part in parts(whole & context):
-        if part.is_disjoint(left):
-            continue
-        held = _needed(sorted(equations(part), key=_length), context)
-        forms = [*sorted(rows(part)[1], key=_length, reverse=True), *reversed(held)]
-        for one in tuple(forms):
-            fewer = [form for form in forms if form is not one]
-            if _inside(context, fewer, held).is_subset(whole):
-                forms = fewer
-        left = left - _inside(context, forms, held)
-        found.append(
-            (
-                [form for form in held if form in forms],
-                [form for form in reversed(forms) if form not in held],
-            )
-        )
-    if not left.is_empty() or not all(_both(context, one).is_subset(whole) for one in found):
-        raise OpenSumError(f"{whole} is not written by forms")
-    return found
-
-
-def _inside(points: Set, forms: Iterable[Row], equations: Iterable[Row]) -> Set:
-    """The points at which some forms are 0, as those of ``equations`` are, or at least 0."""
-    for one in forms:
-        points = points.add_constraint(_constraint(one, one in equations))
-    return points
-
-
-def _both(points: Set, told: Conditions) -> Set:
-    return _inside(points, (*told[0], *told[1]), told[0])
-
-
-def _needed(equations: Iterable[Row], context: Set) -> list[Row]:
-    """Equations that the context and those before them do not imply."""
-    found = []
-    for one in equations:
-        more = context.add_constraint(_constraint(one, True))
-        if not context.is_subset(more):
-            found.append(one)
-            context = more
-    return found
-
-
-def _length(form: Row) -> tuple[int, int]:
-    return len(form[0]), sum(abs(factor) for factor in form[0].values())

@@ -6,10 +6,9 @@ the indices of a bead (r, s); here the bead's are ``site_r`` and ``site_s``.
 
 from typing import Any
 
-from sympy import Function, Matrix, Piecewise
-from sympy.printing.precedence import PRECEDENCE
+from sympy import Piecewise
 
-from .notation import Symbol, raised
+from .notation import Symbol, Written, WrittenAtSite, WrittenDot, WrittenMatrixTimes
 
 # geometry: radius, horizontal spacing (a length), base vectors' components and mutual cosine
 r = Symbol("r", positive=True)
@@ -65,30 +64,11 @@ e_x = n_x * (b_plus - b_minus)  # the horizontal unit vector, to the right
 VECTORS = (n_plus, n_minus, b_plus, b_minus, e_y)
 
 
-class SiteFunction(Function):  # type: ignore[misc]
+class SiteFunction(WrittenAtSite):
     """A quantity that belongs to the bead (i, j), or to the contact above it."""
 
     nargs = 2
-    latex_head = ""
-    text_head = ""
-    in_code = ""
-    branch = ""  # "+" or "-" for a contact's quantity
     is_vector = False
-
-    def _subscript(self, printer: Any) -> tuple[str, bool]:
-        """Indices side by side, and whether each is a single letter (then without commas)."""
-        set_tightly = getattr(printer, "index", printer._print)
-        letters = all(index.is_Symbol for index in self.args)
-        return ("" if letters else ",").join(map(set_tightly, self.args)), letters
-
-    def _latex(self, printer: Any, exp: str | None = None) -> str:
-        branch = f"^{{{self.branch}}}" if self.branch else ""
-        shown = f"{self.latex_head}{branch}_{{{self._subscript(printer)[0]}}}"
-        return shown if exp is None else rf"({shown})^{{{exp}}}"
-
-    def _text(self, printer: Any) -> str:
-        indices, letters = self._subscript(printer)
-        return f"{self.text_head}{raised(self.branch)}_{indices if letters else f'({indices})'}"
 
 
 class DeltaR(SiteFunction):
@@ -171,23 +151,14 @@ class SecondDifference(SiteFunction):
         return 2 * DeltaR(at, layer) - DeltaR(at - 2, layer) - DeltaR(at + 2, layer)
 
 
-class Dot(Function):  # type: ignore[misc]
+class Dot(WrittenDot):
     """u·v for vector expressions, kept whole; ``symbolic.algebra.bases`` expands it."""
 
     nargs = 2
     in_code = "dot"
 
-    def _factors(self, printer: Any) -> list[str]:
-        return [printer.parenthesize(arg, PRECEDENCE["Mul"]) for arg in self.args]
 
-    def _latex(self, printer: Any) -> str:
-        return r" \cdot ".join(self._factors(printer))
-
-    def _text(self, printer: Any) -> str:
-        return "·".join(self._factors(printer))
-
-
-class Moment(Function):  # type: ignore[misc]
+class Moment(Written):
     """A moment over packings with independent radii, to leading order in their deviations."""
 
 
@@ -195,74 +166,46 @@ class Mean(Moment):
     """⟨X⟩, kept whole."""
 
     nargs = 1
-
-    def _latex(self, printer: Any) -> str:
-        return rf"\left\langle {printer._print(self.args[0])} \right\rangle"
-
-    def _text(self, printer: Any) -> str:
-        return f"⟨{printer._print(self.args[0])}⟩"
+    latex_form, text_form = r"\left\langle %(0)s \right\rangle", "⟨%(0)s⟩"
 
 
 class Variance(Moment):
     """var X, kept whole: σ² times the sum of the squared weights of the radii."""
 
     nargs = 1
-
-    def _latex(self, printer: Any) -> str:
-        return rf"\mathrm{{var}}\left( {printer._print(self.args[0])} \right)"
-
-    def _text(self, printer: Any) -> str:
-        return f"var({printer._print(self.args[0])})"
+    latex_form, text_form = r"\mathrm{var}\left( %(0)s \right)", "var(%(0)s)"
 
 
 class Covariance(Moment):
     """cov(X, Y), kept whole."""
 
     nargs = 2
-
-    def _latex(self, printer: Any) -> str:
-        inside = ", ".join(map(printer._print, self.args))
-        return rf"\mathrm{{cov}}\left( {inside} \right)"
-
-    def _text(self, printer: Any) -> str:
-        return f"cov({', '.join(map(printer._print, self.args))})"
+    latex_form = r"\mathrm{cov}\left( %(0)s, %(1)s \right)"
+    text_form = "cov(%(0)s, %(1)s)"
 
 
-class MeanOver(Function):  # type: ignore[misc]
+class MeanOver(Written):
     """The average over N neighbours: MeanOver(X, N, i) is that of X at i, i + 2, …, i + 2(N − 1).
 
     With several indices all of them go on together.
     """
 
-    def _latex(self, printer: Any) -> str:
-        quantity, count, *_ = map(printer._print, self.args)
-        return rf"\overline{{{quantity}}}^{{\,{count}}}"
-
-    def _text(self, printer: Any) -> str:
-        quantity, count, *_ = map(printer._print, self.args)
-        return f"mean of {count} neighbours ({quantity})"
+    latex_form = r"\overline{%(0)s}^{\,%(1)s}"
+    text_form = "mean of %(1)s neighbours (%(0)s)"
 
 
-class UnitHeight(Function):  # type: ignore[misc]
+class UnitHeight(Written):
     """The height M at which the leading order of X(M) is 1, as M → ∞; X keeps its symbol M."""
 
     nargs = 1
-
-    def _text(self, printer: Any) -> str:
-        return f"M({printer._print(self.args[0])} ∼ 1)"
-
-    _latex = _text
+    latex_form = text_form = "M(%(0)s ∼ 1)"
 
 
-class Tensile(Function):  # type: ignore[misc]
+class Tensile(Written):
     """P(X < 0): the probability that a force over its mean is tensile."""
 
     nargs = 1
-
-    def _text(self, printer: Any) -> str:
-        return f"P({printer._print(self.args[0])} < 0)"
-
-    _latex = _text
+    latex_form = text_form = "P(%(0)s < 0)"
 
 
 class Shift(Moment):
@@ -273,85 +216,57 @@ class Shift(Moment):
     """
 
     nargs = 1
-
-    def _latex(self, printer: Any) -> str:
-        return rf"\left\langle {printer._print(self.args[0])} \right\rangle_2"
-
-    def _text(self, printer: Any) -> str:
-        return f"⟨{printer._print(self.args[0])}⟩₂"
+    latex_form, text_form = r"\left\langle %(0)s \right\rangle_2", "⟨%(0)s⟩₂"
 
 
-class LargestShare(Function):  # type: ignore[misc]
+class LargestShare(Written):
     """The largest share that one radius has in the variance of X: max w²/Σw² of its weights."""
 
     nargs = 1
-
-    def _latex(self, printer: Any) -> str:
-        return rf"\max w^2/\sum w^2 \left( {printer._print(self.args[0])} \right)"
-
-    def _text(self, printer: Any) -> str:
-        return f"max w²/Σw²({printer._print(self.args[0])})"
+    latex_form = r"\max w^2/\sum w^2 \left( %(0)s \right)"
+    text_form = "max w²/Σw²(%(0)s)"
 
 
-class ForceAlong(Function):  # type: ignore[misc]
+class ForceAlong(Written):
     """f^a of bead (x, y, z): the force of the contact that leads up from it along base vector a.
 
     In three dimensions; x, y and z are steps along the three base vectors, x + y + z is the layer.
     """
 
     nargs = 4
-    head = "f"
-
-    def _latex(self, printer: Any) -> str:
-        axis, *steps = map(printer._print, self.args)
-        return rf"{self.head}^{{({axis})}}_{{{','.join(steps)}}}"
-
-    def _text(self, printer: Any) -> str:
-        axis, *steps = map(printer._print, self.args)
-        return f"{self.head}{axis}_({','.join(steps)})"
+    latex_form, text_form = r"f^{(%(0)s)}_{%(1)s,%(2)s,%(3)s}", "f%(0)s_(%(1)s,%(2)s,%(3)s)"
 
 
 class VerticalAlong(ForceAlong):
     """The vertical component of the same."""
 
-    head = "p"
+    latex_form, text_form = r"p^{(%(0)s)}_{%(1)s,%(2)s,%(3)s}", "p%(0)s_(%(1)s,%(2)s,%(3)s)"
 
 
-class MatrixTimes(Function):  # type: ignore[misc]
+class MatrixTimes(WrittenMatrixTimes):
     """((a, b), (c, d)) v in Cartesian components, kept whole: arguments a, b, c, d, v."""
 
     nargs = 5
     in_code = "matrix_times"
 
-    def _latex(self, printer: Any) -> str:
-        matrix = printer._print(Matrix(2, 2, self.args[:4]))
-        return f"{matrix} {printer.parenthesize(self.args[4], PRECEDENCE['Mul'])}"
 
-    _text = _latex
-
-
-class Braces(Function):  # type: ignore[misc]
+class Braces(Written):
     """Braces with two cases: Braces(a, b, m, e) is a for m ≤ e and b for m > e.
 
     SymPy's Piecewise rewrites its conditions when an expression is rebuilt; this keeps them.
     """
 
     nargs = 4
+    latex_form = (
+        r"\left\{ \begin{array}{rcl} %(0)s & : & %(2)s \leq %(3)s \\ "
+        r"%(1)s & : & %(2)s > %(3)s \end{array} \right\}"
+    )
+    text_form = "{%(0)s if %(2)s ≤ %(3)s; %(1)s if %(2)s > %(3)s}"
 
     def doit(self, **hints: Any) -> Any:
         """Return the same as a Piecewise."""
         first, second, index, last = self.args
         return Piecewise((first, index <= last), (second, True))
 
-    def _latex(self, printer: Any) -> str:
-        first, second, index, last = map(printer._print, self.args)
-        cases = rf"{first} & : & {index} \leq {last} \\ {second} & : & {index} > {last}"
-        return rf"\left\{{ \begin{{array}}{{rcl}} {cases} \end{{array}} \right\}}"
-
-    def _text(self, printer: Any) -> str:
-        first, second, index, last = map(printer._print, self.args)
-        return f"{{{first} if {index} ≤ {last}; {second} if {index} > {last}}}"
-
     def _python(self, printer: Any) -> str:
-        first, second, index, last = map(printer._print, self.args)
-        return f"({first} if {index} <= {last} else {second})"
+        return self._filled("(%(0)s if %(2)s <= %(3)s else %(1)s)", printer)

@@ -7,28 +7,27 @@ themselves, and two forms are the same where no piece of their difference is lef
 """
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import Any
 
-import numpy as np
 import sympy
 from flint import fmpq
-from numpy.typing import NDArray as Array
 
 from . import sets
-from .algebra.exact import FIELD, NotExactError, Polynomial, RationalFunction, sum_over
+from .algebra.exact import FIELD, NotExactError, RationalFunction, sum_over
 from .sets import Set
+from .shortest import joined
 from .symbols import H_M, M, n_x, n_y, phi
 
 Fixed = Mapping[sympy.Symbol, RationalFunction]
 
 Piece = tuple[Set, RationalFunction]
 
-_NUMBERS = {symbol: 0.37 + 0.61803 * number % 1 for number, symbol in enumerate(FIELD.generators)}
-_NUMBERS |= {n_x: 0.6, n_y: 0.8, phi: 0.28}
+_NUMBERS: dict[sympy.Expr, Any] = {
+    symbol: fmpq(101 + 7 * number) for number, symbol in enumerate(FIELD.generators)
+}
+_NUMBERS |= {n_x: fmpq(3, 5), n_y: fmpq(4, 5), phi: fmpq(7, 25)}
 """Numbers for symbols, no two of them alike; those of φ, n_x and n_y belong together."""
-
-_ROUNDING = 1e-12
-"""Of a sum of products, relative to the sum of their sizes: thousands of roundings."""
 
 
 @dataclass(frozen=True)
@@ -156,21 +155,18 @@ class Weights:
         """The same as few polynomials, each on a set of its own; where it is 0 is left out."""
         cells = [(sets.fixed(part), part, value) for part, value in self.cells().pieces]
         cells.sort(key=lambda cell: len(cell[0]))
-        places = np.array([_place(part) for _, part, _ in cells])
-        groups = [_Group(FIELD.zero, (np.zeros(len(cells)), np.zeros(len(cells))))]
-        for number, (held, part, value) in enumerate(cells):
-            own, error = (one[0] for one in _numbers(value, places[number : number + 1]))
-            for group in groups:
-                apart = abs(group.numbers[0][number] - own)
-                if apart > error + group.numbers[1][number]:
-                    continue
-                if _agree(group.value, value, held):
-                    group.parts.append(part)
+        groups: list[tuple[RationalFunction, list[Set]]] = [(FIELD.zero, [])]
+        for held, part, value in cells:
+            numbers = _place(part)
+            own = _at(value, numbers)
+            for other, parts in groups:
+                there = _at(other, numbers)
+                if (own == there or None in (own, there)) and _agree(other, value, held):
+                    parts.append(part)
                     break
             else:
-                reduced = value.substitute(held)
-                groups.append(_Group(reduced, _numbers(reduced, places), [part]))
-        return [(sets.joined(group.parts), group.value) for group in groups[1:]]
+                groups.append((value.substitute(held), [part]))
+        return [(_joined(parts), value) for value, parts in groups[1:]]
 
     def is_zero(self) -> bool:
         """Whether it is 0 everywhere."""
@@ -178,55 +174,21 @@ class Weights:
         return all(zeros)
 
 
-Numbers = tuple[Array[np.float64], Array[np.float64]]
-"""Values, and how far they may be off."""
-
-
-@dataclass
-class _Group:
-    """A polynomial, its value at a place of each cell, and the cells where it holds."""
-
-    value: RationalFunction
-    numbers: Numbers
-    parts: list[Set] = field(default_factory=list)
-
-
-def _place(part: Set) -> list[float]:
+def _place(part: Set) -> list[fmpq]:
     """A point of a set, and numbers for all other symbols: where two functions may differ."""
-    values = dict(_NUMBERS)
-    values.update(sets.sample(part))
-    return [values[symbol] for symbol in FIELD.generators]
+    return list({**_NUMBERS, **sets.sample(part)}.values())
 
 
-def _numbers(function: RationalFunction, places: Array[np.float64]) -> Numbers:
-    """The values of a function at places; what it is not worked out to may be anything."""
-    above, of_above = _values(function.numerator, places)
-    below, of_below = _values(function.denominator, places)
-    with np.errstate(all="ignore"):
-        value = above / below
-        error = (of_above + abs(value) * of_below) / (abs(below) - of_below)
-    sure = (abs(below) > of_below) & np.isfinite(value) & np.isfinite(error)
-    return np.where(sure, value, 0), np.where(sure, error, np.inf)
+def _at(function: RationalFunction, numbers: list[fmpq]) -> fmpq | None:
+    """The value of a function; None where it has none."""
+    divisor = function.denominator(*numbers)
+    return function.numerator(*numbers) / divisor if divisor else None
 
 
-def _values(polynomial: Polynomial, places: Array[np.float64]) -> Numbers:
-    total, size = np.zeros(len(places)), np.zeros(len(places))
-    with np.errstate(all="ignore"):
-        for powers, factor in polynomial.to_dict().items():
-            held = [number for number, power in enumerate(powers) if power]
-            exponents = [int(powers[number]) for number in held]
-            term = _float(factor) * np.prod(places[:, held] ** exponents, axis=1)
-            total += term
-            size += abs(term)
-    return total, _ROUNDING * size
-
-
-def _float(number: fmpq) -> float:
-    """The nearest float; infinite beyond their range."""
-    try:
-        return float(number.p) / float(number.q)
-    except OverflowError:
-        return float("inf")
+def _joined(parts: list[Set]) -> Set:
+    """The union of sets, in few convex parts if these are found."""
+    whole, found = sets.union(parts), joined(parts)
+    return found if found == whole else whole
 
 
 def _agree(one: RationalFunction, other: RationalFunction, held: Fixed) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import sympy
 
@@ -14,6 +15,7 @@ _ALONE = (N, p, q, n, m, i, site_r, j, k, site_s, l, M)
 """Which symbol stands alone, the first that can."""
 
 
+@lru_cache(maxsize=4096)
 def alone(form: sympy.Expr) -> tuple[sympy.Symbol, sympy.Expr, int]:
     """A symbol of a form c·symbol + rest with c = ±1, −rest/c, and c; any c where there is none."""
     factors = sympy.expand(form).as_coefficients_dict()

@@ -17,7 +17,6 @@ from force_diffusion.symbolic.algebra.exact import (
     NotExactError,
     RationalFunction,
 )
-from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
@@ -41,7 +40,9 @@ from force_diffusion.symbolic.printing.lines import (
     pack,
     text_lines,
 )
+from force_diffusion.symbolic.printing.quotients import factored
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.trees import equation, in_place
 
 from .arrays import evaluate
 from .catalogue import Number as EquationNumber
@@ -100,22 +101,21 @@ class ClosedForm:
         groups: Callable[[], Sequence[Group]],
         divisor: sympy.Expr = sympy.S.One,
         values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
-        function: PiecewiseFunction | None = None,
     ) -> None:
         self.quantity, self.statistic, self.kernel_domain = quantity, statistic, kernel_domain
         self.divisor, self.values, self._groups = divisor, values or {}, groups
-        if function:
-            self.__dict__["function"] = function
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """No theorem comes out of a pickle: the groups of theorems are had again."""
+        """No theorem comes out of a pickle: what it says is worked out again."""
         own = self.quantity, self.statistic, self.kernel_domain, self._groups
-        return ClosedForm, (*own, self.divisor, self.values, self.function)
+        return ClosedForm, (*own, self.divisor, self.values)
 
     def named(self, quantity: sympy.Expr) -> "ClosedForm":
         """The same, shown as a symbol."""
         _, (_, *others) = self.__reduce__()
-        return ClosedForm(quantity, *others)
+        form = ClosedForm(quantity, *others)
+        form.function = self.function
+        return form
 
     @property
     def groups(self) -> tuple[Group, ...]:
@@ -148,7 +148,7 @@ class ClosedForm:
         Raises:
             NotProvedError: it is not.
         """
-        return self.function.on(*relations).to_sympy()
+        return factored(self.function.on(*relations))
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -160,7 +160,7 @@ class ClosedForm:
         ['j ≥ 2', 'j = 1', 'j = 0']
         """
         return tuple(
-            Piece(_parts_in_words(one.where), one.value.to_sympy(), one.where, one.value)
+            Piece(_parts_in_words(one.where), factored(one.value), one.where, one.value)
             for one in self.function.formulas
         )
 
@@ -631,7 +631,7 @@ def _number(value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rationa
     if any(value.holds(one) for one in (sy.n_x, sy.n_y)):
         cosine = values[sy.phi]
         sides = {sy.n_x: sympy.sqrt((1 - cosine) / 2), sy.n_y: sympy.sqrt((1 + cosine) / 2)}
-        return value.to_sympy().xreplace({**values, **sides})
+        return factored(value).xreplace({**values, **sides})
     numbers = [
         fmpq(int(values[one].p), int(values[one].q)) if one in values else fmpq(0)
         for one in value.domain.generators
@@ -665,5 +665,5 @@ def _highest(value: RationalFunction, orders: int) -> Iterator[sympy.Expr]:
             return
         above = rest.coefficients(sy.M)
         term = above[-1] / below[-1] * height ** (len(above) - len(below))
-        yield (term / height**orders).to_sympy()
+        yield factored(term / height**orders)
         rest = rest - term * divisor

@@ -6,13 +6,14 @@ from typing import TYPE_CHECKING
 
 import sympy
 from force_diffusion.symbolic.algebra.exact import NotAStatementError
-from force_diffusion.symbolic.as_printed import equation, in_place, minus, terms, times
+from force_diffusion.symbolic.as_printed import minus, terms, times
 from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.kernel.limits import bounded, leading_order_of
 from force_diffusion.symbolic.kernel.rules import Rule, differentiate, rewrite, same
 from force_diffusion.symbolic.kernel.theorem import Group, NotProvedError, Theorem
 from force_diffusion.symbolic.piecewise import theorems
 from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma, z
+from force_diffusion.symbolic.trees import equation, in_place
 
 from .proof import Definitions, Steps
 

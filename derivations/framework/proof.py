@@ -12,11 +12,11 @@ from typing import Any
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.as_printed import in_place
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule, proved_by
 from force_diffusion.symbolic.kernel.theorem import FalseStatementError, NotProvedError, Theorem
 from force_diffusion.symbolic.piecewise import Relations
+from force_diffusion.symbolic.trees import in_place
 from sympy.core.function import UndefinedFunction
 
 from .catalogue import Number, in_order

@@ -8,7 +8,6 @@ from functools import cached_property
 import sympy
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
@@ -19,6 +18,7 @@ from force_diffusion.symbolic.printing.lines import stacked
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.signs import sign
 from force_diffusion.symbolic.symbols import M, Shift, j, z
+from force_diffusion.symbolic.trees import equation
 from force_diffusion.symbolic.words import in_words
 
 from .catalogue import Number

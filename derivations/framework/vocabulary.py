@@ -4,7 +4,8 @@ What makes an expression as it is printed, the axioms, the rules, and what a der
 """
 
 # fmt: off
-from force_diffusion.symbolic.as_printed import certificate, equation, minus, power, terms, times
+from force_diffusion.symbolic.as_printed import certificate, minus, power, terms, times
+from force_diffusion.symbolic.trees import equation
 from force_diffusion.symbolic.as_written import formula
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.averages import power_law, tensile

@@ -15,7 +15,7 @@ import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
 from ..printing.text import text
-from ..symbols import H_M, INDICES, PARAMETERS, M, l, n_x, n_y, phi
+from ..symbols import H_M, INDICES, PARAMETERS, M, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
 
@@ -54,12 +54,6 @@ class Domain:
     def named(self, names: Mapping[sympy.Expr, sympy.Expr]) -> "Domain":
         """The same field, whose generators have other names; its elements are those of this one."""
         return Domain(names.get(one, one) for one in self.generators)
-
-    def __reduce__(self) -> str:
-        """The one domain that pickles hold is found by its name."""
-        if self is not FIELD:
-            raise TypeError("elements of another domain than FIELD are not pickled")
-        return "FIELD"
 
     def constant(self, value: int | Fraction | sympy.Rational) -> "RationalFunction":
         """A rational number as an element of the field."""
@@ -104,6 +98,16 @@ class Domain:
         if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Integer):
             return self.from_sympy(expression.base) ** int(expression.exp)
         raise _not_exact(expression)
+
+    def expanded(self, polynomial: Polynomial) -> sympy.Expr:
+        """A polynomial as a SymPy sum."""
+        return sympy.Add(
+            *(
+                sympy.Rational(int(c.p), int(c.q))
+                * sympy.Mul(*(g ** int(e) for g, e in zip(self.generators, x, strict=True) if e))
+                for x, c in polynomial.to_dict().items()
+            )
+        )
 
     def total(self, values: Iterable["RationalFunction"]) -> "RationalFunction":
         """The sum of elements; what has one denominator is brought to lowest terms once."""
@@ -199,12 +203,6 @@ class RationalFunction:
         self.numerator = numerator
         self.denominator = denominator
 
-    def __reduce__(self) -> tuple[Any, tuple[Any, ...]]:
-        """Polynomials go into pickles as their terms."""
-        parts = (one.to_dict().items() for one in (self.numerator, self.denominator))
-        terms = ({tuple(map(int, x)): (int(c.p), int(c.q)) for x, c in one} for one in parts)
-        return _from_terms, (self.domain, *terms)
-
     def _same(self, numerator: Polynomial, denominator: Polynomial) -> Self:
         return type(self)(self.domain, numerator, denominator)
 
@@ -298,20 +296,6 @@ class RationalFunction:
             total += self.domain.context.from_dict({tuple(rest): c}) * scale
         return total
 
-    def at(self, values: Mapping[sympy.Expr, Fraction]) -> Fraction:
-        """Value at a point; ``ZeroDivisionError`` where the denominator vanishes."""
-        return self._value(self.numerator, values) / self._value(self.denominator, values)
-
-    def _value(self, polynomial: Polynomial, values: Mapping[sympy.Expr, Fraction]) -> Fraction:
-        total = Fraction(0)
-        for exponents, c in polynomial.to_dict().items():
-            term = Fraction(int(c.p), int(c.q))
-            for generator, power in zip(self.domain.generators, exponents, strict=True):
-                if power:
-                    term *= values[generator] ** int(power)
-            total += term
-        return total
-
     def holds(self, symbol: sympy.Expr) -> bool:
         """Whether a generator occurs."""
         place = self.domain.position[symbol]
@@ -379,63 +363,8 @@ class RationalFunction:
         return [self._same(make(part), self.denominator) for part in parts]
 
     def to_sympy(self) -> sympy.Expr:
-        """The same element as a SymPy quotient: factored, whole numbers within each factor."""
-        if self.numerator == 0:
-            return sympy.Integer(0)
-        number, powers = self.factors(self.numerator)
-        below, under = self.factors(self.denominator)
-        for factor, power in under.items():
-            powers[factor] = powers.get(factor, 0) - power
-        paired = min(-powers.get(1 - phi, 0), -powers.get(1 + phi, 0))
-        if paired > 0:
-            powers[1 - phi] += paired
-            powers[1 + phi] += paired
-            powers[1 - phi**2] = -paired
-        return sympy.Mul(number / below, *(factor**power for factor, power in powers.items()))
-
-    def _expanded(self, polynomial: Polynomial) -> sympy.Expr:
-        return sympy.Add(
-            *(
-                sympy.Rational(int(c.p), int(c.q))
-                * sympy.Mul(
-                    *(g ** int(e) for g, e in zip(self.domain.generators, x, strict=True) if e)
-                )
-                for x, c in polynomial.to_dict().items()
-            )
-        )
-
-    def factors(self, polynomial: Polynomial) -> tuple[sympy.Rational, dict[sympy.Expr, int]]:
-        """A number, and factors with their powers, each in the sign that a person would write."""
-        content, factors = polynomial.factor()
-        number = sympy.Rational(int(content.p), int(content.q))
-        powers: dict[sympy.Expr, int] = {}
-        for factor, power in factors:
-            scale, primitive = self._expanded(factor).primitive()
-            if _reads_negative(primitive):
-                scale, primitive = -scale, -primitive
-            number *= scale ** int(power)
-            powers[primitive] = powers.get(primitive, 0) + int(power)
-        return number, powers
-
-
-def _from_terms(domain: Domain, *parts: Mapping[tuple[int, ...], tuple[int, int]]) -> Any:
-    """A quotient from the terms of numerator and denominator."""
-    terms = ({x: fmpq(*c) for x, c in part.items()} for part in parts)
-    return RationalFunction(domain, *map(domain.context.from_dict, terms))
-
-
-def _reads_negative(factor: sympy.Expr) -> bool:
-    """Whether −factor reads better: M − j rather than j − M, 1 − z rather than z − 1."""
-    if height := next((one for one in (M, l) if one in factor.free_symbols), None):
-        found = [term.as_coeff_exponent(height) for term in sympy.Add.make_args(factor)]
-        highest = max(power for _, power in found)
-        top = sympy.Add(*(c for c, power in found if power == highest))
-        return bool(top.could_extract_minus_sign())
-    signs = [term.could_extract_minus_sign() for term in sympy.Add.make_args(factor)]
-    if 2 * sum(signs) != len(signs):
-        return bool(2 * sum(signs) > len(signs))
-    constant = factor.as_coeff_Add()[0]
-    return bool(constant.is_negative or (constant == 0 and factor.could_extract_minus_sign()))
+        """The same element as a SymPy quotient, multiplied out."""
+        return self.domain.expanded(self.numerator) / self.domain.expanded(self.denominator)
 
 
 def antidifference(f: RationalFunction, symbol: sympy.Expr) -> RationalFunction:

@@ -10,10 +10,11 @@ import sympy
 
 from .. import symbols as sy
 from ..algebra.exact import FIELD, NotAStatementError, NotExactError, RationalFunction
-from ..as_printed import equation
+from ..printing.quotients import factored
 from ..printing.text import text
 from ..sets import EVERYTHING
 from ..signs import sign
+from ..trees import equation
 from .axioms import GAUSSIAN_FORCES
 from .domain import AT_FIXED_RATIO, Domain, at_fixed_height, at_large_height
 from .limits import in_the_limit, leading, limit_of, order
@@ -63,7 +64,7 @@ def power_law(*groups: Group) -> Rule:
 
 
 def _shown(ratio: RationalFunction) -> str:
-    return text(ratio.reduced().to_sympy())
+    return text(factored(ratio.reduced()))
 
 
 def _powers(

@@ -10,9 +10,9 @@ from functools import cache
 import sympy
 
 from .. import symbols as sy
-from ..as_printed import equation
 from ..mechanics import lattice
 from ..symbols import i, j, n_minus, n_plus, r, site_r, site_s
+from ..trees import equation
 from .domain import Domain, Loading
 from .theorem import NotProvedError, Theorem, made
 

@@ -20,13 +20,14 @@ from ..algebra.exact import (
     Polynomial,
     RationalFunction,
 )
-from ..as_printed import in_place
 from ..forms import FORCES, NUMBER, RADII, Form
 from ..notation import by_name
+from ..printing.quotients import factored
 from ..printing.text import text
 from ..second_order import covariance
 from ..sets import EVERYTHING, Set
 from ..signs import sign
+from ..trees import in_place
 from ..weights import Weights
 from .domain import Domain, Limit
 from .rules import Rule
@@ -83,7 +84,7 @@ def _shown(value: RationalFunction, limit: Limit) -> str:
     """A function in words, of z where that is fixed."""
     if {*limit.growing} == {sy.M, sy.j}:
         value = value.substitute({sy.j: FIELD.generator(sy.z) * FIELD.generator(sy.M)})
-    return text(value.reduced().to_sympy())
+    return text(factored(value.reduced()))
 
 
 def negligible(*groups: Group) -> Rule:

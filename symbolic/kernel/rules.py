@@ -18,14 +18,15 @@ from ..algebra.exact import (
     NotExactError,
     RationalFunction,
 )
-from ..as_printed import equation
 from ..forms import NUMBER, Form, Image
 from ..mechanics import lattice
 from ..printing.text import text
 from ..signs import never_zero
+from ..trees import equation
 from ..weights import Weights
 from . import axioms
 from .domain import LATTICE, Domain
+from .refuted import refuse
 from .theorem import (
     Group,
     NotProvedError,
@@ -40,7 +41,6 @@ from .theorem import (
     made,
     moved,
     read,
-    refuse,
     with_indices,
 )
 

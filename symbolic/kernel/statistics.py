@@ -20,6 +20,7 @@ from ..printing.text import text
 from ..second_order import Jet, covariance
 from ..weights import Weights
 from .domain import Domain, Loading
+from .refuted import refuse
 from .rules import Rule
 from .theorem import (
     Group,
@@ -31,7 +32,6 @@ from .theorem import (
     in_kernel_symbols,
     knowing,
     made,
-    refuse,
 )
 
 _SQUARE = FIELD.generator(sy.sigma) ** 2

@@ -24,14 +24,13 @@ from ..algebra.exact import (
     UNKNOWNS,
     NotAStatementError,
     NotExactError,
-    RationalFunction,
 )
-from ..as_printed import equation, in_place
-from ..forms import FORCES, NUMBER, RADII, Form, Image, Key, Known, Reader, is_whole
+from ..forms import FORCES, Form, Image, Known, Reader, is_whole
 from ..notation import by_name
 from ..printing.text import text
 from ..second_order import Means
 from ..signs import never_zero
+from ..trees import equation, in_place
 from .domain import Domain, Loading
 
 _MADE_HERE = object()
@@ -425,60 +424,3 @@ def difference(sides: Sides, domain: Domain) -> tuple[Form, ...]:
     """Left less right side, in few pieces; nothing is left of it where they agree."""
     left, right = sides
     return tuple((a - b).on(domain.points).merged() for a, b in zip(left, right, strict=True))
-
-
-def refuse(
-    apart: Sequence[Form], domain: Domain, groups: Groups = (), formula: sympy.Basic = sympy.S.Zero
-) -> NotProvedError:
-    """Why two sides of a formula that differ are not equal: that they do somewhere, or may.
-
-    Radii are independent: what holds nothing else is false where a weight differs.
-    """
-    keys = {key for form in apart for key in form.parts}
-    if keys <= {NUMBER, RADII} and not _supposes(groups):
-        for form in apart:
-            for key, weights in form.parts.items():
-                for points, value in weights.pieces:
-                    if where := witness(points, value, domain):
-                        own = {there: one for one, there in names_for(formula).items()}
-                        return FalseStatementError(_at_odds(key, where, own))
-    return NotProvedError("the normal forms of both sides differ")
-
-
-def _supposes(groups: Groups) -> bool:
-    return any(one.supposed for one in flat(groups))
-
-
-def witness(
-    points: sets.Set, value: RationalFunction, domain: Domain
-) -> tuple[dict[sympy.Symbol, sympy.Integer], dict[sympy.Symbol, sympy.Integer], sympy.Expr] | None:
-    """A point at which a function is not zero: its indices, its site, and the value there."""
-    for part in sets.parts(points):
-        for at in sets.samples(part, [one for one in FIELD.generators if value.holds(one)]):
-            numbers = {one: sympy.Integer(number) for one, number in at.items()}
-            held = {s: FIELD.constant(number) for s, number in numbers.items() if value.holds(s)}
-            straight = domain.straight.image
-            if value.holds(sy.H_M):
-                height = straight.get(sy.M, sy.M).xreplace(numbers)
-                held[sy.H_M] = FIELD.constant(sympy.harmonic(height))
-            there = value.substitute(held)
-            if not there.is_zero():
-                indices = {
-                    one: straight.get(one, one).xreplace(numbers)
-                    for one in domain.indices
-                    if value.holds(one) or sets.depends_on(part, one)
-                }
-                return indices, {s: numbers[s] for s in SITE}, there.reduced().to_sympy()
-    return None
-
-
-def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> str:
-    """How two sides differ at a point, in words, with a user's own symbols."""
-    indices, site, value = where[0], where[1], where[2].xreplace(dict(own))
-    at = ", ".join(f"{text(symbol)} = {number}" for symbol, number in indices.items())
-    if any(name == RADII[0][0] for name, _ in key):
-        first, second, *_ = site.values()
-        what = f"the weight of δr_({first - second}, {first + second}) differs by {text(value)}"
-    else:
-        what = f"the sides differ by {text(value)}"
-    return f"at {at}: {what}" if at else what

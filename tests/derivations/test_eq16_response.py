@@ -18,10 +18,10 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Step, Steps
 from force_diffusion.numeric import closed_forms
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.kernel.limits import asymptotic
 from force_diffusion.symbolic.kernel.theorem import FalseStatementError, NotProvedError
+from force_diffusion.symbolic.trees import equation
 from hypothesis import given
 from hypothesis import strategies as st
 from sympy import Rational

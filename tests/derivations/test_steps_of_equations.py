@@ -15,9 +15,9 @@ from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
+from force_diffusion.symbolic.trees import equation
 
 from tests.properties.mutants import mutants
 

@@ -16,7 +16,8 @@ from force_diffusion.derivations.coq.statements import statements
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation, terms, times
+from force_diffusion.symbolic.as_printed import terms, times
+from force_diffusion.symbolic.trees import equation
 
 pytestmark = pytest.mark.skipif(
     os.environ.get("FORCE_DIFFUSION_TEST_COQ") != "required",

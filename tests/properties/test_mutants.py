@@ -1,8 +1,9 @@
 """Mechanical changes: every kind, each once, none that changes nothing."""
 
 import sympy
-from force_diffusion.symbolic.as_printed import equation, terms, times
+from force_diffusion.symbolic.as_printed import terms, times
 from force_diffusion.symbolic.symbols import Braces, DeltaR, DeltaX, Dot, M, i, j, m, n_plus
+from force_diffusion.symbolic.trees import equation
 
 from tests.properties.mutants import (
     BOUND,

@@ -22,7 +22,6 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Steps
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import CONSTANTS, SITE, UNKNOWNS
-from force_diffusion.symbolic.as_printed import equation, in_place
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import (
@@ -89,6 +88,7 @@ from force_diffusion.symbolic.symbols import (
     t,
     z,
 )
+from force_diffusion.symbolic.trees import equation, in_place
 from sympy import Derivative, Eq, Integer, Mul, Pow, Rational, Sum, Symbol, sqrt
 
 REFUSALS = ValueError, TypeError

@@ -12,8 +12,8 @@ import sympy
 from force_diffusion.derivations.framework.decide import candidate_for
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.trees import equation
 from sympy import Add, Integer, Mul, Pow, Rational, Sum
 
 from tests.properties import (

@@ -4,7 +4,7 @@ from itertools import product
 
 import pytest
 import sympy
-from force_diffusion.symbolic import sets
+from force_diffusion.symbolic import sets, shortest
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError
 from force_diffusion.symbolic.symbols import M, i, j
 from hypothesis import given
@@ -64,7 +64,7 @@ def test_a_union_is_the_same_in_disjoint_parts_and_joined(first, second):
     parts = [points_of(part) for part in sets.parts(whole)]
     assert set().union(*parts) == wanted
     assert sum(map(len, parts)) == len(wanted)
-    assert points_of(sets.joined(sets.parts(whole))) == wanted
+    assert points_of(shortest.joined(sets.parts(whole))) == wanted
 
 
 @given(several)
@@ -96,17 +96,15 @@ def test_ranges_reach_every_value_once(given_relations):
     for there, low, high in sets.ranges(points, j):
         for a, b, c in points_of(there):
             if b == 0:  # the set does not depend on j
-                at = {i: a, M: c}
-                first, last = (one.at(_all(at)) for one in (low, high))
-                assert first.denominator == last.denominator == 1
+                first, last = (_at(one, {i: a, M: c}) for one in (low, high))
+                assert first.is_Integer
+                assert last.is_Integer
                 found += [(a, n, c) for n in range(int(first), int(last) + 1)]
     assert sorted(found) == sorted(expected(given_relations))
 
 
-def _all(at):
-    from fractions import Fraction
-
-    return {generator: Fraction(at.get(generator, 0)) for generator in FIELD.generators}
+def _at(value, at):
+    return value.substitute({one: FIELD.constant(n) for one, n in at.items()}).to_sympy()
 
 
 @given(several)
@@ -115,7 +113,7 @@ def test_what_is_fixed_is_so_at_every_point(given_relations):
     for symbol, held in sets.fixed(points).items():
         for point in points_of(points):
             at = dict(zip(SYMBOLS, point, strict=True))
-            assert held.at(_all(at)) == at[symbol]
+            assert _at(held, at) == at[symbol]
 
 
 @given(several, several, several)
@@ -123,7 +121,7 @@ def test_conditions_tell_a_part_from_the_rest_of_its_context(first, second, arou
     context = sets.where(*around, *IN_BOX)
     whole = (sets.where(*first) | sets.where(*second)) & context
     try:
-        found = sets.conditions(whole, context)
+        found = shortest.conditions(whole, context)
     except sets.OpenSumError:  # a remainder, which equations leave
         return
     reached = set()
@@ -152,7 +150,7 @@ def test_points_far_apart_are_not_joined_to_a_line() -> None:
              for n in (0, 1)]  # fmt: skip
     together = [sets.where(sympy.Eq(i, n, evaluate=False), sympy.Eq(j, n, evaluate=False))
                 for n in (0, 1)]  # fmt: skip
-    assert len(sets.parts(sets.joined(apart))) == 2
-    assert len(sets.parts(sets.joined(together))) == 1
-    both = sets.joined(apart)
+    assert len(sets.parts(shortest.joined(apart))) == 2
+    assert len(sets.parts(shortest.joined(together))) == 1
+    both = shortest.joined(apart)
     assert all(one.is_subset(both) for one in apart)

@@ -3,6 +3,7 @@
 from collections import defaultdict
 from fractions import Fraction
 
+from flint import fmpq
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.symbols import j
@@ -24,7 +25,9 @@ def weights(drawn):
 
 def at(function, point):
     known = dict(zip(SYMBOLS, point, strict=True))
-    return function.at({one: Fraction(known.get(one, 0)) for one in FIELD.generators})
+    numbers = [fmpq(known.get(one, 0)) for one in FIELD.generators]
+    found = function.numerator(*numbers) / function.denominator(*numbers)
+    return Fraction(int(found.p), int(found.q))
 
 
 def added(pairs):

@@ -11,8 +11,9 @@ from force_diffusion.derivations.coq.files import theory
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation, minus, terms, times
+from force_diffusion.symbolic.as_printed import minus, terms, times
 from force_diffusion.symbolic.kernel.domain import Domain
+from force_diffusion.symbolic.trees import equation
 
 i, j, m = sy.i, sy.j, sy.m
 

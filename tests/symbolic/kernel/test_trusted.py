@@ -10,10 +10,8 @@ from tests.test_house import imported
 
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "docs/background/trusted.md").read_text(encoding="utf-8")
-STANDS_BESIDE = ("kernel/__init__", "kernel/decisions")
-"""What words verdicts; no rule imports it."""
-MESSAGES_ALONE = re.compile(r"printing/|words$|notation$")
-"""What names symbols and writes reasons: no proof depends on it."""
+BESIDE = re.compile(r"kernel/(__init__|decisions|refuted)$|printing/|words$|notation$|shortest$")
+"""What names symbols, writes verdicts and reasons, or finds what is then checked."""
 _BETWEEN = (
     tokenize.COMMENT,
     tokenize.NL,
@@ -41,16 +39,12 @@ def lines_of_code(path: Path) -> int:
 
 def trusted() -> dict[str, int]:
     """The files of the kernel, and all that they import of the package, with their lines."""
-    left = [
-        path
-        for path in (ROOT / "symbolic/kernel").glob("*.py")
-        if f"kernel/{path.stem}" not in STANDS_BESIDE
-    ]
+    left = list((ROOT / "symbolic/kernel").glob("*.py"))
     found: dict[str, int] = {}
     while left:
         path = left.pop()
         name = path.relative_to(ROOT / "symbolic").with_suffix("").as_posix()
-        if name not in found and not MESSAGES_ALONE.match(name):
+        if name not in found and not BESIDE.match(name):
             found[name] = lines_of_code(path)
             for one in imported(path):
                 parts = one.split(".")[1:]

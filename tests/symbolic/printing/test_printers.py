@@ -8,7 +8,7 @@ from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.as_printed import equation, minus, power, terms, times
+from force_diffusion.symbolic.as_printed import minus, power, terms, times
 from force_diffusion.symbolic.printing.code import python_source, sympy_source
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import (
@@ -36,6 +36,7 @@ from force_diffusion.symbolic.symbols import (
     sigma,
     z,
 )
+from force_diffusion.symbolic.trees import equation
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -1,0 +1,85 @@
+"""Why a statement is not proved: where its sides differ. No theorem rests on what is found here."""
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import islpy as isl
+import sympy
+
+from .. import sets
+from .. import symbols as sy
+from ..algebra.exact import FIELD, SITE, RationalFunction
+from ..forms import NUMBER, RADII, Form, Image, Key
+from ..printing.quotients import factored
+from ..printing.text import text
+from .domain import Domain
+from .theorem import FalseStatementError, Groups, NotProvedError, flat, names_for
+
+
+def refuse(
+    apart: Sequence[Form], domain: Domain, groups: Groups = (), formula: sympy.Basic = sympy.S.Zero
+) -> NotProvedError:
+    """Why two sides of a formula that differ are not equal: that they do somewhere, or may.
+
+    Radii are independent: what holds nothing else is false where a weight differs.
+    """
+    keys = {key for form in apart for key in form.parts}
+    if keys <= {NUMBER, RADII} and not _supposes(groups):
+        for form in apart:
+            for key, weights in form.parts.items():
+                for points, value in weights.pieces:
+                    if where := _witness(points, value, domain):
+                        own = {there: one for one, there in names_for(formula).items()}
+                        return FalseStatementError(_at_odds(key, where, own))
+    return NotProvedError("the normal forms of both sides differ")
+
+
+def _supposes(groups: Groups) -> bool:
+    return any(one.supposed for one in flat(groups))
+
+
+def _witness(
+    points: sets.Set, value: RationalFunction, domain: Domain
+) -> tuple[dict[sympy.Symbol, sympy.Integer], dict[sympy.Symbol, sympy.Integer], sympy.Expr] | None:
+    """A point at which a function is not zero: its indices, its site, and the value there."""
+    for part in sets.parts(points):
+        for at in _samples(part, [one for one in FIELD.generators if value.holds(one)]):
+            numbers = {one: sympy.Integer(number) for one, number in at.items()}
+            held = {s: FIELD.constant(number) for s, number in numbers.items() if value.holds(s)}
+            straight = domain.straight.image
+            if value.holds(sy.H_M):
+                height = straight.get(sy.M, sy.M).xreplace(numbers)
+                held[sy.H_M] = FIELD.constant(sympy.harmonic(height))
+            there = value.substitute(held)
+            if not there.is_zero():
+                indices = {
+                    one: straight.get(one, one).xreplace(numbers)
+                    for one in domain.indices
+                    if value.holds(one) or sets.depends_on(part, one)
+                }
+                return indices, {s: numbers[s] for s in SITE}, factored(there.reduced())
+    return None
+
+
+def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> str:
+    """How two sides differ at a point, in words, with a user's own symbols."""
+    indices, site, value = where[0], where[1], where[2].xreplace(dict(own))
+    at = ", ".join(f"{text(symbol)} = {number}" for symbol, number in indices.items())
+    if any(name == RADII[0][0] for name, _ in key):
+        first, second, *_ = site.values()
+        what = f"the weight of δr_({first - second}, {first + second}) differs by {text(value)}"
+    else:
+        what = f"the sides differ by {text(value)}"
+    return f"at {at}: {what}" if at else what
+
+
+def _samples(
+    points: sets.Set, among: Iterable[sympy.Symbol] = (), most: int = 8
+) -> Iterator[dict[sympy.Symbol, int]]:
+    """Some points of a set, which differ in what it is said by and in symbols ``among``."""
+    idle = [one for one in sets.DIMENSIONS if one not in among and not sets.depends_on(points, one)]
+    points = points & sets.where(*(sympy.Eq(one, 0, evaluate=False) for one in idle))
+    for _ in range(most):
+        if points.is_empty():
+            return
+        yield sets.sample(points)
+        points = points - isl.Set.from_point(points.sample_point())
