@@ -14,7 +14,7 @@ from .forms import NUMBER, Straightening
 from .kernel.domain import Domain as Where
 from .kernel.statistics import moment, worked_out
 from .kernel.theorem import Group, NotProvedError, Theorem, names_for
-from .printing.quotients import factored
+from .quotients import factored
 from .trees import equation
 from .weights import Piece, Weights
 

@@ -40,8 +40,8 @@ from force_diffusion.symbolic.printing.lines import (
     pack,
     text_lines,
 )
-from force_diffusion.symbolic.printing.quotients import factored
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .arrays import evaluate

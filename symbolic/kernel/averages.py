@@ -10,8 +10,8 @@ import sympy
 
 from .. import symbols as sy
 from ..algebra.exact import FIELD, NotAStatementError, NotExactError, RationalFunction
-from ..printing.quotients import factored
 from ..printing.text import text
+from ..quotients import factored
 from ..sets import EVERYTHING
 from ..signs import sign
 from ..trees import equation

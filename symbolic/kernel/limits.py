@@ -22,8 +22,8 @@ from ..algebra.exact import (
 )
 from ..forms import FORCES, NUMBER, RADII, Form
 from ..notation import by_name
-from ..printing.quotients import factored
 from ..printing.text import text
+from ..quotients import factored
 from ..second_order import covariance
 from ..sets import EVERYTHING, Set
 from ..signs import sign

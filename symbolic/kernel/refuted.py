@@ -9,8 +9,8 @@ from .. import sets
 from .. import symbols as sy
 from ..algebra.exact import FIELD, SITE, RationalFunction
 from ..forms import NUMBER, RADII, Form, Image, Key
-from ..printing.quotients import factored
 from ..printing.text import text
+from ..quotients import factored
 from .domain import Domain
 from .theorem import FalseStatementError, Groups, NotProvedError, flat, names_for
 

@@ -10,7 +10,9 @@ from tests.test_house import imported
 
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "docs/background/trusted.md").read_text(encoding="utf-8")
-BESIDE = re.compile(r"kernel/(__init__|decisions|refuted)$|printing/|words$|notation$|shortest$")
+BESIDE = re.compile(
+    r"kernel/(__init__|decisions|refuted)$|printing/|words$|notation$|quotients$|shortest$"
+)
 """What names symbols, writes verdicts and reasons, or finds what is then checked."""
 _BETWEEN = (
     tokenize.COMMENT,

@@ -2,8 +2,8 @@
 
 import sympy
 
-from ..algebra.exact import Domain, Polynomial, RationalFunction
-from ..symbols import M, l, phi
+from .algebra.exact import Domain, Polynomial, RationalFunction
+from .symbols import M, l, phi
 
 
 def factored(value: RationalFunction) -> sympy.Expr:
