@@ -564,7 +564,7 @@ def _with_commas(parts: list[str], before: str = "") -> list[str]:
 def over_common(formulas: Sequence[sympy.Expr]) -> tuple[sympy.Expr, list[sympy.Expr]]:
     """What formulas have in common, and what else each of them holds."""
     factor = FIELD.from_sympy(_common(formulas))
-    return factor.to_sympy(), [(FIELD.from_sympy(one) / factor).to_sympy() for one in formulas]
+    return factored(factor), [factored(FIELD.from_sympy(one) / factor) for one in formulas]
 
 
 def _common(formulas: Iterable[sympy.Expr]) -> sympy.Expr:
