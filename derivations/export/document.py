@@ -158,7 +158,7 @@ def _verdicts(outcomes: Iterable[Outcome]) -> str:
     )
     return (
         "\\begin{center}\\footnotesize\\setlength{\\tabcolsep}{3pt}\n"
-        "\\begin{tabular}{r>{\\raggedright}p{88mm}>{\\raggedright}p{26mm}l}\n\\hline\n"
+        "\\begin{tabular}{r>{\\raggedright}p{84mm}>{\\raggedright}p{26mm}l}\n\\hline\n"
         f"Eq. & title & verdict & Coq \\\\\n\\hline\n{''.join(rows)}\\hline\n"
         "\\end{tabular}\n\\end{center}\n"
     )
