@@ -152,7 +152,6 @@ def parts(points: Set) -> list[Set]:
     return [part for part in found if not part.is_empty()]
 
 
-@lru_cache(maxsize=4096)
 def rows(part: Set) -> tuple[list[Row], list[Row]]:
     """Forms that are 0, and that are at least 0, on a convex set.
 
