@@ -1,5 +1,6 @@
 """The supplement of the article: tables of all closed forms beyond the paper."""
 
+import re
 from collections.abc import Iterable, Sequence
 
 import sympy
@@ -126,6 +127,7 @@ def _positive(
         turned = len(terms) > 1 and (base.subs(sy.phi, 0) == -1 or is_negative(terms[0]))
         number *= (-1) ** power if turned else 1
         body = latex(-base if turned else base)
+        body = re.sub(r"\\(left|right)(?![a-z])", "", body)  # lines end between these brackets, too
         body = f"({body})" if len(terms) > 1 else body
         written.append(body if power == 1 else f"{body}^{{{power}}}")
     return number, written
