@@ -97,10 +97,15 @@ def ensemble(
     lines = str(found).splitlines()
     show([found], data, lines, as_json=as_json, quiet=quiet, written=folder is not None)
     if found.reached is False:
-        more = (found.half_width / (until or 1)) ** 2
+        more = found.half_width / (until or 1)
+        remedy = (
+            f"about {more**2 * found.realisations:.2g} realisations may do"
+            if more < 1e6
+            else "more realisations are needed than an ensemble may have"
+        )
         raise NotReachedError(
             f"the confidence is not reached: σ_f is known to {found.half_width:.2g}, not {until}; "
-            f"about {more * found.realisations:.2g} realisations may do"
+            f"{remedy}"
         )
 
 

@@ -17,6 +17,7 @@ from force_diffusion.symbolic.algebra.exact import (
     NotExactError,
     RationalFunction,
 )
+from force_diffusion.symbolic.algebra.exact import Domain as Field
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
@@ -349,7 +350,8 @@ class ClosedForm:
     @cached_property
     def _over_common(self) -> tuple[sympy.Expr, dict[Piece, sympy.Expr]]:
         """What its formulas have in common, and what else each of them holds."""
-        factor, values = over_common([piece.expr for piece in self.pieces])
+        field = self.pieces[0].value.domain  # it has the user's own symbols, too
+        factor, values = over_common([piece.expr for piece in self.pieces], field)
         return factor, dict(zip(self.pieces, values, strict=True))
 
     def first(self, columns: int = 1) -> str:
@@ -561,10 +563,12 @@ def _with_commas(parts: list[str], before: str = "") -> list[str]:
     return [*(rf"{one},\;" for one in parts[:-1]), *parts[-1:]]
 
 
-def over_common(formulas: Sequence[sympy.Expr]) -> tuple[sympy.Expr, list[sympy.Expr]]:
+def over_common(
+    formulas: Sequence[sympy.Expr], field: Field = FIELD
+) -> tuple[sympy.Expr, list[sympy.Expr]]:
     """What formulas have in common, and what else each of them holds."""
-    factor = FIELD.from_sympy(_common(formulas))
-    return factored(factor), [factored(FIELD.from_sympy(one) / factor) for one in formulas]
+    factor = field.from_sympy(_common(formulas))
+    return factored(factor), [factored(field.from_sympy(one) / factor) for one in formulas]
 
 
 def _common(formulas: Iterable[sympy.Expr]) -> sympy.Expr:

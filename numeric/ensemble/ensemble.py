@@ -233,9 +233,11 @@ def _size(realisations: object) -> int:
 
 
 def _number(name: str, value: object, below: float = 1) -> float:
-    if not isinstance(value, Real) or not 0 < float(value) < below:
+    # compared before it is rounded: float64 does not hold every number
+    number = float(value) if isinstance(value, Real) and 0 < value < below else 0.0
+    if not number > 0:
         raise ArgumentError(name, value, f"must be a number between 0 and {below:g}")
-    return float(value)
+    return number
 
 
 def _kept(store: Store | None) -> str:

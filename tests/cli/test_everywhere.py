@@ -2,11 +2,10 @@
 
 from itertools import product
 from pathlib import Path
-from typing import get_args
 
 import pytest
+from force_diffusion.numeric.scene.sections import QUANTITIES
 
-import force_diffusion as fd
 from force_diffusion.__main__ import main
 
 # what an effect needs said in the scene
@@ -42,7 +41,7 @@ COMMANDS = {
     "ensemble": ["--realisations", "3", "--workers", "1"],
     "cost": ["--out", "costs", "--overwrite"],
 }
-QUESTIONS = get_args(fd.Ask.model_fields["quantity"].annotation)
+QUESTIONS = QUANTITIES
 
 
 def test_the_questions_are_all() -> None:

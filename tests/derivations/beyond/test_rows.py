@@ -70,10 +70,9 @@ def changed(form: ClosedForm, everywhere: bool) -> ClosedForm:
         whole = formulas[0][0]
     more = FIELD.from_sympy(t * (M * l) ** 6 * sigma**2 / r**2)
     wrong = function.weights.scaled(FIELD.constant(-3)) + Weights(((whole, more),))
-    return ClosedForm(
-        form.quantity, form.statistic, form.kernel_domain, lambda: form.groups,
-        divisor=form.divisor, function=replace(function, weights=wrong),
-    )  # fmt: skip
+    found = form.named(form.quantity)
+    found.function = replace(function, weights=wrong)
+    return found
 
 
 def refutations(decide: Any, forms: dict[str, ClosedForm]) -> Iterator[bool]:

@@ -27,7 +27,7 @@ SCENE = fd.Scene(
     "wrong",
     [
         {"realisations": "a"}, {"realisations": 10.5}, {"workers": "x"}, {"until": "a"},
-        {"confidence": "a"}, {"reach": "a"}, {"store": 5}, {"scheduler": 5},
+        {"confidence": "a"}, {"reach": "a"}, {"store": 5},
     ],
 )  # fmt: skip
 def test_wrong_types_for_an_ensemble(wrong: dict[str, Any]) -> None:
