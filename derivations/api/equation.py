@@ -124,7 +124,7 @@ class Equation:
         """What the paper leaves out, or what differs from it.
 
         >>> import force_diffusion as fd
-        >>> fd.equation(13).remarks[0][:36]
+        >>> fd.equation(13).remarks[0][:38]
         'Erratum: the limit is taken at fixed z'
         """
         return self._derivation.remarks

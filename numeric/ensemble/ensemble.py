@@ -1,5 +1,6 @@
 """A scene becomes an ensemble: blocks that are missing are solved, kept, and joined in order."""
 
+import math
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -233,9 +234,11 @@ def _size(realisations: object) -> int:
 
 
 def _number(name: str, value: object, below: float = 1) -> float:
-    # compared before it is rounded: float64 does not hold every number
-    number = float(value) if isinstance(value, Real) and 0 < value < below else 0.0
-    if not number > 0:
+    try:
+        number = float(value) if isinstance(value, Real) else math.nan
+    except OverflowError:
+        number = math.inf
+    if not 0 < number < below:
         raise ArgumentError(name, value, f"must be a number between 0 and {below:g}")
     return number
 

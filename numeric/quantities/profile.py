@@ -28,9 +28,9 @@ class Profile(Merged):
         return len(self.branches) * self.height
 
     def gathered(self, region: Region, realisations: int) -> int:
-        """Whole layers, also where a load reaches few of their contacts: 38 numbers a bead."""
+        """Whole layers, of which a load may reach little: 10 numbers of the 38 of a bead."""
         idle = max((self.width or 0) * (self.height + 1) - region.beads, 0)
-        return 2 * idle * (realisations + 1) // 38
+        return 10 * idle * (realisations + 1) // 38
 
     def blocks(self, problem: Problem) -> list[Block]:
         """Give whole layers, those that no load reaches included."""

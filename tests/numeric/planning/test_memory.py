@@ -35,6 +35,7 @@ SCENES = {
     "balls": 'packing = {height = 40, width = 90}\nask = {quantity = "contact_forces", '
     "tolerance = 1e-30}",
 }
+MUCH = 1.6  # NumPy, for which a plan has room, takes more than compiled loops
 PROGRAM = """
 import sys
 from force_diffusion.__main__ import main
@@ -56,9 +57,9 @@ def test_no_run_takes_more_than_its_plan_says_nor_much_less(name: str, tmp_path:
         )
         predicted = json.loads(done.stdout)["plan"]["memory_bytes"]
         peaks.append(int(done.stderr))
-        if predicted <= 1.5 * peaks[-1]:
+        if predicted <= MUCH * peaks[-1]:
             break
-    assert max(peaks) <= predicted <= 1.5 * max(peaks)
+    assert max(peaks) <= predicted <= MUCH * max(peaks)
 
 
 def test_a_plan_says_gigabytes_where_it_takes_some() -> None:
