@@ -55,7 +55,7 @@ _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
 _SMALLER = {"footnotesize": 0.85, "scriptsize": 0.75, "tiny": 0.68}  # widths of LaTeX's type
-_HIGH = {1: 28, 2: 22}  # lines of a display that fits a page of usual classes, by columns
+_HIGH = {1: 24, 2: 22}  # lines of a display that fits a page of usual classes, by columns
 
 
 @dataclass(frozen=True, eq=False)
