@@ -10,7 +10,7 @@ from ..disorder.radii import beads_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Layer
 from . import first_order
-from .physicality import PHYSICAL, Physicality
+from .physicality import Physicality
 from .problem import Problem, Route, Solved, rounded
 from .sweep import Forces, deposit, radii_named, sweep_down
 from .work import Work
@@ -56,12 +56,11 @@ def packings(
         chunk = realisations[at : at + size]
         solved = solve(problem, chunk, system, work, carried=carried)
         if physical is not None:
-            with work.timed(PHYSICAL):
-                physical.looks_at = chunk
-                if solved.packing is not None:
-                    physical.look_at_gaps(solved.packing)
-                if solved.forces is not None:
-                    physical.look_at_forces(solved.forces)
+            physical.looks_at = chunk
+            if solved.packing is not None:
+                physical.look_at_gaps(solved.packing)
+            if solved.forces is not None:
+                physical.look_at_forces(solved.forces)
             work.did_rows("checked", problem.region.rows, problem.region.beads * len(chunk))
         yield solved, chunk
 
@@ -76,25 +75,22 @@ def solve(
 ) -> Solved:
     """Solve some realisations together; the caller activates ``system``."""
     if problem.route == Route.ORDERED:
-        with work.timed("closed form"):
-            return _ordered(problem, system)
+        return _ordered(problem, system)
     own: Any = CARRYING if carried else system
     if problem.route == Route.LINE_SUMS:
         found = _line_sums(problem, realisations[0], own, work)
         return rounded(found) if carried else found
     region, rows, n = problem.region, problem.force_rows, len(realisations)
     linear = problem.route != Route.EXACT
-    with work.timed("radii"), radii_named(region):
+    with radii_named(region):
         rho = beads_of(problem.radii, region.rows, realisations, own)
     work.did_rows("radii", region.rows, region.beads * n)
-    with work.timed("line sums" if linear else "deposit"):
-        packing = deposit(problem.phi, region, rho, own, linear=linear)
+    packing = deposit(problem.phi, region, rho, own, linear=linear)
     work.did_rows("summed" if linear else "deposited", region.rows, region.beads * n)
     forces = None
     if problem.needs_forces:
-        with work.timed("balance forces"):
-            F = problem.load.ordered(rows, problem.load.strength(problem.n_x, own), own)
-            forces = sweep_down(packing, rows, F, linear=linear)
+        F = problem.load.ordered(rows, problem.load.strength(problem.n_x, own), own)
+        forces = sweep_down(packing, rows, F, linear=linear)
         work.did_rows("balanced", rows[1:], F.shape[1] * n)
     found = Solved(own, packing, forces, None)
     return rounded(found) if carried else found
@@ -115,10 +111,8 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
 
 
 def _line_sums(problem: Problem, realisation: int, system: NumberSystem, work: Work) -> Solved:
-    with work.timed("radii"):
-        known = _along(problem, realisation, system, work)
-    with work.timed("line sums"):
-        return Solved(system, None, None, _summed(problem, known, system, work))
+    known = _along(problem, realisation, system, work)
+    return Solved(system, None, None, _summed(problem, known, system, work))
 
 
 def _along(

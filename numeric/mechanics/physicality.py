@@ -28,7 +28,6 @@ from .local import RESOLUTION
 from .loops import loops
 from .sweep import Forces, SolvedPacking, metric_array, shift_of, starts_above
 
-PHYSICAL = "check that it is physical"
 Steps = tuple[int, ...]
 # A number that bounds, and was rounded a few times.
 ROOM = 1 + 1e-9

@@ -1,14 +1,10 @@
-"""What a run really did: counters that the sweeps themselves advance, clocks, and progress."""
+"""What a run really did: counters, which are advanced where it is done, and progress."""
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from time import perf_counter
 from typing import Any
 
 from ..lattice.layers import Layer
-
-ESTIMATE = "estimate the error"
 
 Progress = Callable[[str, int], None]
 """Called with the kind of work and the number of beads just done."""
@@ -16,9 +12,8 @@ Progress = Callable[[str, int], None]
 
 @dataclass
 class Work:
-    """Beads visited by each kind of work, and the seconds of each step, over all passes of a run.
+    """Beads visited by each kind of work, over all passes of a run.
 
-    ``again`` counts every visit of a pass that only repeats an earlier one, to estimate its error.
     ``arithmetic`` names the number systems of the passes. With ``trace`` on, rows are kept too.
     ``settled``: where beads came to rest in float64, for passes with more bits.
     """
@@ -28,18 +23,14 @@ class Work:
     balanced: int = 0
     summed: int = 0
     checked: int = 0
-    again: int = 0
-    seconds: dict[str, float] = field(default_factory=dict, compare=False)
     arithmetic: list[str] = field(default_factory=list)
     progress: Progress | None = None
     trace: bool = False
     rows: dict[str, list[Layer]] = field(default_factory=dict)
-    repeating: bool = False
     settled: Any = None
 
     def did(self, kind: str, layer: Layer, times: int = 1) -> None:
         """Count a row of beads: "radii", "deposited", "balanced", "summed" or "checked"."""
-        kind = "again" if self.repeating else kind
         beads = layer.count * times
         setattr(self, kind, getattr(self, kind) + beads)
         if self.trace:
@@ -60,28 +51,3 @@ class Work:
         """Note the number system of a pass."""
         if name not in self.arithmetic:
             self.arithmetic.append(name)
-
-    @contextmanager
-    def timed(self, step: str) -> Iterator[None]:
-        """Add the time that a step takes, also where it fails; steps must not be nested.
-
-        What is repeated belongs to the one step that repeats it.
-        """
-        if self.repeating:
-            yield
-            return
-        start = perf_counter()
-        try:
-            yield
-        finally:
-            self.seconds[step] = self.seconds.get(step, 0.0) + perf_counter() - start
-
-    @contextmanager
-    def repeat(self, step: str) -> Iterator[None]:
-        """Count and time all that is done as repeating, as one step."""
-        with self.timed(step):
-            self.repeating = True
-            try:
-                yield
-            finally:
-                self.repeating = False

@@ -62,7 +62,7 @@ def answer(
     work = Work() if work is None else work
     work.uses(system.name)
     physical, network, sizes, bins = None, None, NONE, None
-    if problem.route == Route.EXACT and not work.repeating:
+    if problem.route == Route.EXACT:
         physical = Physicality(looks_at=realisations)
     gatherers = [quantity.gatherer(problem, system) for quantity in quantities]
     tables = []
@@ -80,7 +80,7 @@ def answer(
                 samples = {"samples": table.index["samples"] * alike}
                 table = replace(table, index=table.index | samples)
             tables.append(table)
-            if isinstance(quantity, Histogram) and not work.repeating:
+            if isinstance(quantity, Histogram):
                 found = histogram(table.numbers["change"], quantity.bins, system)
                 bins = [(low, high, count * alike) for low, high, count in found]
     if physical is not None and physical.first_tensile is not None:

@@ -52,8 +52,7 @@ def relaxed(problem: Problem, realisation: int, system: Balls, work: Work) -> Re
     try:
         if work.settled is None:
             work.settled = settle(problem, realisation, work)
-        with work.timed("certify"):
-            network = _proved(problem, realisation, work.settled, system)
+        network = _proved(problem, realisation, work.settled, system)
     except ImpossibleError:
         raise
     except UnfinishedError as error:
@@ -81,12 +80,11 @@ def settle(problem: Problem, realisation: int, work: Work) -> Settled:
             return Settled(grains, supports)
     must_hold(grains)
     before, most = grains.energy(), problem.most_programs or MOST_PROGRAMS
-    with work.timed("relax"):
-        near, forces, programs = relax(grains, most, _limited(problem, work))
-        touching = grains.gaps(near) < NEARLY
-        contacts = _bearing(grains, near[touching], forces[touching])
-        _close(grains, contacts)
-        _free(grains, grains.rattlers(contacts))
+    near, forces, programs = relax(grains, most, _limited(problem, work))
+    touching = grains.gaps(near) < NEARLY
+    contacts = _bearing(grains, near[touching], forces[touching])
+    _close(grains, contacts)
+    _free(grains, grains.rattlers(contacts))
     return Settled(grains, contacts, programs, before - grains.energy())
 
 
