@@ -14,7 +14,7 @@ from typing import Any
 import flint
 import numpy as np
 
-from .arithmetic.carried import Sizes
+from .arithmetic.carried import UNIT, Sizes, stated_error
 from .arithmetic.decimals import short
 from .arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from .arithmetic.systems import (
@@ -30,7 +30,7 @@ from .arithmetic.systems import (
 from .mechanics.sweep import NotStandingError
 from .mechanics.work import Work
 from .planning.plan import Plan
-from .planning.planner import PRINTED, UNIT, gathering, initial_bits
+from .planning.planner import gathering, initial_bits
 from .quantities.answer import Answer, Bins, answer
 from .quantities.base import RATIO, SCATTER_OF, Quantity, Table
 from .tables import significant
@@ -184,8 +184,7 @@ def of_carried(quantity: Quantity, table: Table, sizes: Sizes, plan: Plan) -> Ac
         unseen = Fraction(force) * scene.load.magnitude
     else:
         unseen = Fraction(moved * float(1 / problem.n_x)) * scene.packing.radius
-    ratio = PRINTED * (gathering(quantity, problem) * UNIT + 2 * unseen / largest)
-    bound = float(min(ratio, Fraction(10) ** 300)) * (1 + 1e-15)
+    bound = stated_error(gathering(quantity, problem), unseen / largest)
     return Accuracy(bound, False, FLOAT64.name, CARRIED)
 
 

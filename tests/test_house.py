@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_570,
     "derivations": 8_350,
-    "numeric": 10_083,
+    "numeric": 10_053,
     "force_diffusion": 62,
     "benchmarks": 836,
     ".ci": 500,

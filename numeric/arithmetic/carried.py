@@ -17,6 +17,10 @@ import numpy as np
 from .systems import FLOAT64, Array, midpoint
 
 _SPLIT = 2.0**27 + 1
+# Room for printing: a number that its error swallows is printed as 0, and digits are cut off.
+PRINTED = 2
+# A float64 is off by so much of itself when it was rounded.
+UNIT = Fraction(1, 2**53)
 
 
 class Carried:
@@ -234,3 +238,12 @@ class Sizes:
 
 
 NONE = Sizes()
+
+
+def stated_error(roundings: int, unseen: Fraction) -> float:
+    """Bound the error of numbers that were rounded so often after their errors were carried.
+
+    Both are relative to the largest change; ``unseen`` is what the carried errors leave out.
+    """
+    ratio = PRINTED * (roundings * UNIT + 2 * unseen)
+    return float(min(ratio, Fraction(10) ** 300)) * (1 + 1e-15)

@@ -349,10 +349,10 @@ def closed_below(j: Array, first: Array, last: Array, width: int | None) -> Rows
     return Rows.between(left[::-1] + j, right[::-1] - j, width)
 
 
-class ByRow(Sequence[Any]):
+class RowView(Sequence[Any]):
     """Numbers of beads that lie row after row, (…, beads), by row.
 
-    >>> rows = ByRow(np.arange(5), np.array([0, 2, 5]))
+    >>> rows = RowView(np.arange(5), np.array([0, 2, 5]))
     >>> len(rows), rows[-1].tolist(), [row.tolist() for row in rows]
     (2, [2, 3, 4], [[0, 1], [2, 3, 4]])
     """

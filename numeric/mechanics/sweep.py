@@ -20,7 +20,7 @@ from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
 from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
-from ..lattice.layers import ByRow, Layer, Region, Rows, bead_of
+from ..lattice.layers import Layer, Region, Rows, RowView, bead_of
 from .local import balance, balance_linear, metric, nested, rest, rest_linear
 from .loops import Loops, loops
 
@@ -77,22 +77,22 @@ class SolvedPacking:
     @property
     def radii(self) -> Sequence[Any]:
         """Radii of each row, in units of r."""
-        return ByRow(_of_one(1 + self.rho), self.region.starts)
+        return RowView(_of_one(1 + self.rho), self.region.starts)
 
     @cached_property
     def c(self) -> PerBranch[Sequence[Any]]:
         """n^a·δx/r of each row, (count,) or (packings, count)."""
         d, starts = self.region.dimension, self.region.starts
-        return per_direction([ByRow(_of_one(self.block[:, a]), starts) for a in range(d)])
+        return per_direction([RowView(_of_one(self.block[:, a]), starts) for a in range(d)])
 
     @cached_property
     def dn(self) -> PerBranch[Sequence[Any]]:
         """The components of δn of the contacts below each row, (d, …, count)."""
         d, starts = self.region.dimension, self.region.starts
 
-        def of(a: int) -> ByRow:
+        def of(a: int) -> RowView:
             parts = self.block[:, d + a * d : 2 * d + a * d]
-            return ByRow(parts[0] if len(parts) == 1 else parts.swapaxes(0, 1), starts)
+            return RowView(parts[0] if len(parts) == 1 else parts.swapaxes(0, 1), starts)
 
         return per_direction([of(a) for a in range(d)])
 
@@ -115,13 +115,13 @@ class Forces:
     def ordered(self) -> PerBranch[Sequence[Any]]:
         """F^a of each row, (count,)."""
         starts = starts_above(self.rows)
-        return per_direction([ByRow(self.F[a], starts) for a in range(len(self.F))])
+        return per_direction([RowView(self.F[a], starts) for a in range(len(self.F))])
 
     @cached_property
     def change(self) -> PerBranch[Sequence[Any]]:
         """g^a of each row, (count,) or (packings, count)."""
         starts = starts_above(self.rows)
-        return per_direction([ByRow(_of_one(self.g[:, a]), starts) for a in range(len(self.F))])
+        return per_direction([RowView(_of_one(self.g[:, a]), starts) for a in range(len(self.F))])
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
         """Give (branch, F, g) of the contacts below row j."""

@@ -15,6 +15,7 @@ from functools import lru_cache
 from math import isqrt
 from time import monotonic
 
+from ..arithmetic.carried import PRINTED, UNIT
 from ..arithmetic.decimals import short
 from ..arithmetic.machine import memory_limit as free_memory
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
@@ -34,10 +35,6 @@ from .sources import beyond_floats, load_of, radii_of
 TOUCHING = Fraction(1, 10**17)
 # Nearer to M* than this, disorder itself grows with the height, and rounding errors with it.
 SOUND = 0.5
-# Room for printing: a number that its error swallows is printed as 0, and digits are cut off.
-PRINTED = 2
-# A float64 is off by so much of itself when it was rounded.
-UNIT = Fraction(1, 2**53)
 
 
 def plan(
@@ -100,7 +97,7 @@ def _problem(
     ``TableError``.
     """
     skipped: list[Skipped] = []
-    ordered = _known_ordered(scene)
+    ordered = _why_ordered(scene)
     needs_forces = any(quantity.needs_forces for quantity in quantities)
     single = quantities[0].single and bool(ordered or scene.effects.geometry == "first-order")
     beads = 5 * scene.packing.height
@@ -121,7 +118,7 @@ def _problem(
     if not ordered:
         radii = radii_of(scene, region.rows)
         unloaded = not region.rows or (needs_forces and load.loaded == [])
-        ordered = _found_ordered(scene, radii, unloaded=unloaded, single=single)
+        ordered = _why_ordered_once_read(scene, radii, unloaded=unloaded, single=single)
     route = Route.ORDERED
     if not ordered:
         route = _route(scene, skipped, single=single)
@@ -153,7 +150,7 @@ def _problem(
     return problem, skipped
 
 
-def _known_ordered(scene: Scene) -> str:
+def _why_ordered(scene: Scene) -> str:
     """Say why nothing is disordered, where that is plain without reading any file; else nothing."""
     disorder = scene.disorder
     if scene.effects.contacts == "unilateral":
@@ -166,7 +163,7 @@ def _known_ordered(scene: Scene) -> str:
     return "its relative_std is 0" if drawn and not disorder.relative_std else ""
 
 
-def _found_ordered(scene: Scene, radii: Radii, *, unloaded: bool, single: bool) -> str:
+def _why_ordered_once_read(scene: Scene, radii: Radii, *, unloaded: bool, single: bool) -> str:
     """Say why the radii that were found decide nothing; nothing where they do."""
     if single or scene.effects.contacts == "unilateral":
         return ""

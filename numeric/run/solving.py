@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from ..accuracy import CARRIED, Accuracy
-from ..arithmetic.carried import CARRYING
+from ..arithmetic.carried import CARRYING, stated_error
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import ArrayRadii
@@ -24,7 +24,8 @@ from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
 from ..mechanics.sweep import deposit, rounded, sweep_down
 from ..planning.plan import Plan
-from ..planning.planner import PRINTED, UNIT, plan
+from ..planning.planner import plan
+from ..planning.sources import FARTHEST_UNIT
 from ..scene.scene import Scene
 from ..scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
 from .outcome import Outcome
@@ -175,16 +176,17 @@ class _Found:
     physical: Physicality
 
 
-# Beads that are solved at once, without a plan; and what needs no care beside float64.
+# Beads that are solved at once, without a plan.
 AT_ONCE = 2_000_000
-USUAL, SMALL = (Fraction(1, 10**100), 10**100), 1e-140
+# Changes below this are left to a plan, which has balls.
+SMALL = 1e-140
 
 
 def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
     """Solve packings under loads on layers; None for what is out of the ordinary, or can't be."""
     d, shape, r, s = packing.dimension, given.values.shape, packing.radius, packing.s
     layers, width = shape[-d], shape[-1]
-    usual = all(USUAL[0] < x < USUAL[1] for x in (r, s, load.magnitude))
+    usual = all(1 / FARTHEST_UNIT < x < FARTHEST_UNIT for x in (r, s, load.magnitude))
     apart = 4 * r**2 < s**2 < (8 + Fraction(8, d)) * r**2
     mean = float(given.values.mean()) - float(r if given.delta_r is None else 0)
     on_layers = load.kind in {"surface", "bulk"} and not load.angle_deg
@@ -217,7 +219,7 @@ def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
     if not (largest > SMALL and sizes.moved + unseen < math.inf):
         return None
     roundings = 1 if load.magnitude == 1 else 3
-    bound = PRINTED * (roundings * float(UNIT) + 2 * unseen / largest) * (1 + 1e-15)
+    bound = stated_error(roundings, Fraction(unseen) / Fraction(largest))
     if physical.smallest_gap is not None:
         physical.smallest_gap = float(Fraction(physical.smallest_gap) * r)
     if isinstance(physical.first_tensile, Contact):

@@ -201,7 +201,7 @@ def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> N
     """Balls answer, and the outcome says why float64 did not."""
     plan = planned(basic(tolerance="=1e-9"))
     assert not plan.certified
-    monkeypatch.setattr("force_diffusion.numeric.accuracy.PRINTED", 10**9)
+    monkeypatch.setattr("force_diffusion.numeric.arithmetic.carried.PRINTED", 10**9)
     outcome = run(plan)
     assert outcome.accuracy.certified
     assert "float64 was tried: the error is still" in outcome.data()["plan"]["reason"]
