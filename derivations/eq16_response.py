@@ -17,7 +17,7 @@ from force_diffusion.derivations.framework.vocabulary import (
 from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.symbols import (
     Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
-    VerticalPlus, e_y, f_load, i, j, k, l, n, n_minus, n_plus, n_y, p, phi, q, r, sigma)
+    VerticalPlus, e_y, f_load, i, j, k, l, n_minus, n_plus, n_y, p, phi, q, r, sigma)
 from sympy import Eq, Rational
 # fmt: on
 
@@ -62,11 +62,10 @@ LEFT_LEG = REACHED.also(p >= 1, Eq(q, 0))
 CONE = INSIDE.in_the_limit(inside_cone("∼"))
 
 UPPER_RIGHT = eq10.branched_plus(i, j, p)
-UPPER_LEFT = eq10.PRINTED.rhs.xreplace({n: q})
-"""The forces f⁺_ij and f⁻_ij on a bead inside of the cone, over f_load/2n_y, to first order.
+"""The force f⁺_ij on a bead inside of the cone, over f_load/2n_y, to first order.
 
-Each has one path with one branch from the loaded bead: q steps along n⁻ and p along n⁺, or the
-other way round. The branch is of first order; what enters it counts at order 0, f_load/2n_y.
+It has one path with one branch from the loaded bead: q steps along n⁻ and p along n⁺. The branch is
+of first order; what enters it counts at order 0, f_load/2n_y.
 """
 LEG_CONTACT = eq09.first_order_product(eq07.split_plus(k, l), eq09.PRINTED.rhs)
 """f⁺_ij over f_load/2n_y on the left leg: the split of the load, carried down a straight path."""

@@ -13,7 +13,7 @@ from sympy import Basic
 
 from ..coq.record import recorded
 from ..framework.catalogue import Number
-from ..framework.closed_form import over_common
+from ..framework.display import over_common, with_commas
 from ..framework.proof import Step
 from ..framework.record import Outcome, Statement
 from .prose import prose_latex
@@ -70,13 +70,9 @@ def step_latex(step: Step, room: float = LINE_WIDTH) -> str:
     if len(step.cases) < 2:
         return latex_body([step.formula], RELATIONS[step.relation], room)
     factor, values = over_common([one.rhs for one in step.equations])
-    where = [_with_commas(words.parts(case, words.LATEX)) for case in step.cases]
+    where = [with_commas(words.parts(case, words.LATEX)) for case in step.cases]
     rows = list(zip(values, where, strict=True))
     return latex_cases(step.equations[0].lhs, factor, rows, (), room)
-
-
-def _with_commas(parts: Sequence[str]) -> list[str]:
-    return [*(rf"{one},\;" for one in parts[:-1]), *parts[-1:]]
 
 
 def _step(step: Step, derivation: Statement) -> str:

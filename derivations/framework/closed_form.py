@@ -17,7 +17,6 @@ from force_diffusion.symbolic.algebra.exact import (
     NotExactError,
     RationalFunction,
 )
-from force_diffusion.symbolic.algebra.exact import Domain as Field
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     all_of,
@@ -48,6 +47,7 @@ from force_diffusion.symbolic.trees import equation, in_place
 from .arrays import evaluate
 from .catalogue import Number as EquationNumber
 from .deciding import decided, strange_symbol
+from .display import alternatives_in_latex, over_common, with_commas
 from .evaluation import ArgumentError, Number, in_order, indices_at, with_values
 from .proof import equations_of
 
@@ -336,15 +336,15 @@ class ClosedForm:
     def _shown(self, pieces: Sequence[Piece], columns: int, size: float = 1.0) -> str:
         """LaTeX of some of its pieces, in type of some size."""
         room, domain = column_width(columns) / size, self.conditions(words.LATEX)
-        below = _with_commas(domain, "for")
+        below = with_commas(domain, "for")
         if len(pieces) == 1:
             (piece,) = pieces
-            if alternatives := _alternatives(piece.where, "if"):
-                below = [*alternatives, *_with_commas(domain, " for")]
+            if alternatives := alternatives_in_latex(piece.where, "if"):
+                below = [*alternatives, *with_commas(domain, " for")]
             line = equation(self.quantity, piece.expr)
             return latex_body((line,), room=room, below=below)
         factor, values = self._over_common
-        rows = [(values[one], _alternatives(one.where)) for one in pieces]
+        rows = [(values[one], alternatives_in_latex(one.where)) for one in pieces]
         return latex_cases(self.quantity, factor, rows, below, room)
 
     @cached_property
@@ -547,68 +547,19 @@ def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relati
             yield value, tuple(one for one in sympy.And.make_args(part) if one != sympy.true)
 
 
-def _alternatives(parts: Iterable[Relations], before: str = "") -> list[str]:
-    """Where a formula holds, as pieces of LaTeX."""
-    first, *others = (words.parts(one, words.LATEX) for one in parts)
-    return [
-        *_with_commas(first, before),
-        *(one for part in others for one in _with_commas(part, " or")),
-    ]
-
-
-def _with_commas(parts: list[str], before: str = "") -> list[str]:
-    """Pieces of LaTeX behind one another, with a word before the first."""
-    if parts and before:
-        parts = [rf"\text{{{before} }} {parts[0]}", *parts[1:]]
-    return [*(rf"{one},\;" for one in parts[:-1]), *parts[-1:]]
-
-
-def over_common(
-    formulas: Sequence[sympy.Expr], field: Field = FIELD
-) -> tuple[sympy.Expr, list[sympy.Expr]]:
-    """What formulas have in common, and what else each of them holds."""
-    factor = field.from_sympy(_common(formulas))
-    return factored(factor), [factored(field.from_sympy(one) / factor) for one in formulas]
-
-
-def _common(formulas: Iterable[sympy.Expr]) -> sympy.Expr:
-    """A factor of formulas: of divisors, only those that hold an index are left in each."""
-    numbers, powers = [], []
-    for number, rest in (one.as_coeff_Mul() for one in formulas if one != 0):
-        numbers.append(number)
-        held = rest.as_powers_dict()
-        if square := held.pop(1 - sy.phi**2, 0):
-            for base in (1 - sy.phi, 1 + sy.phi):
-                held[base] = held.get(base, 0) + square
-        powers.append(held)
-    factor = sympy.Rational(
-        sympy.igcd(0, *(one.p for one in numbers)), sympy.ilcm(1, *(one.q for one in numbers))
-    )
-    for base in set().union(*powers):
-        found = [held.get(base, 0) for held in powers]
-        if max(found) < 0 and base.free_symbols & {*sy.INDICES}:
-            factor *= base ** max(found)
-        elif min(found) > 0 or not base.free_symbols & {*sy.INDICES}:
-            factor *= base ** min(found)
-    return factor
-
-
 def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
     return form[1] + sum(factor * whole[symbol] for symbol, factor in form[0].items())
 
 
-@lru_cache(maxsize=4096)
-def _condition(relation: sympy.Basic) -> tuple[sets.Row, bool]:
-    return sets.condition(relation)
+_condition = lru_cache(maxsize=4096)(sets.condition)
 
 
 def _hold(relations: Iterable[sympy.Basic], whole: Mapping[sympy.Symbol, int]) -> bool:
     """Whether relations hold of whole numbers."""
-    for form, is_equation in map(_condition, relations):
-        total = _total(form, whole)
-        if total < 0 or (is_equation and total):
-            return False
-    return True
+    totals = (
+        (_total(form, whole), is_equation) for form, is_equation in map(_condition, relations)
+    )
+    return all(total == 0 if is_equation else total >= 0 for total, is_equation in totals)
 
 
 def _harmonic(
