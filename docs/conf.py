@@ -1,8 +1,12 @@
 """The documentation site: ``sphinx-build -W docs site``. It loads nothing from elsewhere."""
 
+import inspect
 import os
 import re
 import sys
+from functools import cached_property
+from hashlib import sha256
+from importlib import import_module
 from importlib.metadata import version as installed
 from pathlib import Path
 from typing import Any
@@ -15,6 +19,20 @@ from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic.printing.latex import latex
+
+import force_diffusion as fd
+
+_CACHE = Path(__file__).parent / "_build" / "notebooks"
+
+
+def _sources() -> str:
+    """A name made from all files of the package that a notebook may use."""
+    root = Path(__file__).parents[1]
+    folders = ("derivations", "force_diffusion", "numeric", "scenes", "symbolic")
+    files = (file for folder in folders for file in sorted((root / folder).rglob("*")))
+    content = (file.read_bytes() for file in files if file.suffix in {".py", ".toml", ".mplstyle"})
+    return sha256(b"".join(content)).hexdigest()[:16]
+
 
 project = "force-diffusion"
 release = installed(project)
@@ -38,14 +56,17 @@ html_show_sourcelink = False
 
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
-nb_execution_mode = "force"
+# Notebooks are run when they or the package have changed; otherwise output comes from the cache.
+nb_execution_mode = "cache"
+nb_execution_cache_path = str(_CACHE / _sources())
 nb_execution_in_temp = True
 nb_execution_raise_on_error = True
-nb_execution_timeout = 120
+nb_execution_timeout = -1  # none: how long they take depends on what else the machine does
 nb_merge_streams = True
 nb_render_markdown_format = "myst"
 
 autodoc_member_order = "bysource"
+autodoc_preserve_defaults = True
 autodoc_typehints_format = "short"
 python_use_unqualified_type_names = True
 
@@ -97,12 +118,73 @@ def _calls() -> str:
     return "\n\n".join(parts)
 
 
+def _equations() -> str:
+    """Every equation of the paper: formula, premises, assumptions, remarks and exact forms."""
+    parts = []
+    for eq in (fd.equation(number) for number in range(1, 17)):
+        parts.append(f"## Eq. {eq.number}: {eq.title}")
+        parts += [f"$$\n{display}\n$$" for display in eq.displays()]
+        if eq.premises:
+            plural = "s" * (len(eq.premises) > 1)
+            numbers = ", ".join(str(premise.number) for premise in eq.premises)
+            parts.append(f"*Rests on* Eq{plural}. {numbers}.")
+        parts.append(f"*Assumes:* {'; '.join(map(prose_markdown, eq.assumptions))}.")
+        parts += [f"*Remark:* {prose_markdown(remark)}" for remark in eq.remarks]
+        for name in eq.forms:
+            parts.append(f"*Exact* (`{name}`):")
+            parts += [f"$$\n{display}\n$$" for display in eq.exact(name).displays()]
+    return "\n\n".join(parts)
+
+
+_OTHER_CLASSES = {
+    "Accuracy": "force_diffusion.numeric.accuracy",
+    "Certificate": "force_diffusion.derivations.coq.record",
+    "Certification": "force_diffusion.derivations.coq.record",
+    "Physicality": "force_diffusion.numeric.mechanics.physicality",
+    "Piece": "force_diffusion.derivations.framework.closed_form",
+    "Proof": "force_diffusion.derivations.api.proof",
+    "Ruling": "force_diffusion.symbolic.kernel.decisions",
+    "Way": "force_diffusion.numeric.run.cost",
+}
+"""Where the classes are that the page on Python names and ``fd`` does not have."""
+
+
+def _directives(table: re.Match[str]) -> str:
+    """A table of names, as directives that show their docstrings."""
+    lines = []
+    for cell in re.findall(r"^\| `([^`]+)` \|", table[0], re.MULTILINE):
+        name, _, arguments = cell.partition("(")
+        if name.startswith(f"{fd.__name__}."):
+            lines += [f".. automodule:: {name}", "   :members:" if "numeric" in name else ""]
+            continue
+        owner, _, member = name.partition(".")
+        module = _OTHER_CLASSES.get(owner, fd.__name__)
+        described = getattr(import_module(module), owner)
+        if member:
+            kind = inspect.getattr_static(described, member)
+            directive = "automethod" if inspect.isfunction(kind) else "autoattribute"
+            if isinstance(kind, property | cached_property):
+                directive = "autoproperty"
+            lines += [f"   .. {directive}:: {member}", ""]
+        elif not inspect.isclass(described):
+            lines += [f".. autofunction:: {module}.{name}", ""]
+        elif issubclass(described, Exception):
+            lines += [f".. autoexception:: {module}.{name}()", ""]
+        else:
+            lines += [f".. autoclass:: {module}.{name}({arguments.removesuffix(')')})", ""]
+    return "\n".join(["```{eval-rst}", *lines, "```", ""])
+
+
 def _generated(_app: Any, name: str, source: list[str]) -> None:
-    """Put in what pages have from the derivations."""
+    """Put in what pages have from the derivations, and the docstrings."""
     if name == "background/beyond":
         source[0] = article.page(article.source())
     if name == "reference/calls":
         source[0] = f"{source[0]}\n{_calls()}\n"
+    if name == "reference/equations":
+        source[0] = f"{source[0]}\n{_equations()}\n"
+    if name == "reference/python":
+        source[0] = re.sub(r"(?m)^\| name \|.*\n(?:\|.*\n)+", _directives, source[0])
 
 
 def setup(app: Any) -> None:
