@@ -109,6 +109,6 @@ DERIVATION = Derivation(
 )
 
 if __name__ == "__main__":
-    from force_diffusion.derivations.commands.alone import run_alone
+    from force_diffusion.derivations.commands.cli import run_alone
 
-    raise SystemExit(run_alone(DERIVATION))
+    raise SystemExit(run_alone(9))

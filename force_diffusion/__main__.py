@@ -1,13 +1,10 @@
 """Where the program starts; the command line is loaded inside of the guard."""
 
-from force_diffusion.derivations.commands.interrupts import end_quietly
-
-end_quietly()
+from force_diffusion.derivations.commands.guard import guarded
 
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return its exit status."""
-    from force_diffusion.derivations.commands.guard import guarded
 
     def program() -> int:
         from force_diffusion.derivations.commands.cli import run

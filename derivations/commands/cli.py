@@ -16,7 +16,9 @@ import typer
 from force_diffusion.numeric.arithmetic.errors import WRONG_INPUT, printable, rule
 from typer.core import TyperGroup
 
+from ..framework.catalogue import Number
 from ..framework.lists import either
+from .guard import guarded
 
 # Name: (function, what --help says: the first paragraph of the command's docstring).
 COMMANDS = {
@@ -134,6 +136,11 @@ def _about(
     ] = False,
 ) -> None:
     """Derive, prove and export the equations of force diffusion in packings of discs."""
+
+
+def run_alone(number: Number) -> int:
+    """Run an equation's file as a program, which is ``derive`` of it with the same options."""
+    return guarded(lambda: run(["derive", str(number), *sys.argv[1:]]))
 
 
 def run(arguments: list[str] | None = None) -> int:

@@ -3,7 +3,7 @@
 import json
 from importlib.metadata import version
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 from force_diffusion.numeric.arithmetic.errors import printable
@@ -15,7 +15,10 @@ from ..framework.lists import both
 from .cli import STATUSES, command_line  # noqa: F401 (statuses stand below the help)
 from .equations import equation_number
 from .output import Output, OutputError, Overwrite, folder_of, out_option
-from .shared import Json
+from .shared import Json, noticing
+
+if TYPE_CHECKING:
+    from ..framework.record import Outcome
 
 
 def derive(
@@ -42,8 +45,7 @@ def derive(
     """
     wanted = [equation_number(word) for word in numbers or ()] or list(modules())
     from ..export.document import DOCUMENT, MANIFEST, fragment_name
-    from ..export.terminal import outcomes_data
-    from .progress import display
+    from ..export.terminal import outcome_text, outcomes_data, summary_line, trouble_lines
 
     # the folders are looked at before the first proof, so that a wrong one costs no time
     folder = paper = None
@@ -55,22 +57,28 @@ def derive(
         if out and out.absolute() == article.absolute():
             raise OutputError(f"'{article}' is that of --out, too. Give another folder.")
         paper = Output(article, names_of_files(), overwrite)
-    in_full = wanted if len(wanted) == 1 else ()
-    total = len(wanted) if len(wanted) == len(modules()) else None
-    watch = display(total, in_full, as_json=as_json)
-    with watch.showing():
-        found = fd.derive(wanted, notice=watch.checking, finished=watch.finished)
-    if paper:
-        from ..export.article import article_and_figures
 
-        with watch.showing():
-            paper.write(article_and_figures(found.outcomes, command_line(), watch.checking))
+    def finished(outcome: "Outcome") -> None:
+        notice("")
+        if not as_json and wanted == [outcome.derivation.number]:
+            print(f"\n{outcome_text(outcome)}", flush=True)
+        elif not as_json:
+            print(summary_line(outcome), *trouble_lines(outcome), sep="\n", flush=True)
+
+    with noticing() as notice:
+        found = fd.derive(wanted, notice=notice, finished=finished)
+        if paper:
+            from ..export.article import article_and_figures
+
+            paper.write(article_and_figures(found.outcomes, command_line(), notice))
     if folder:
         about = {"command": command_line(), "version": version("force-diffusion")}
         data = {**about, **outcomes_data(found.in_order, timed=False)}
         folder.write({**found.latex(), MANIFEST: json.dumps(data, indent=2) + "\n"})
     folders = [printable(str(one)) for one in (out, article) if one]
-    watch.summary(f"{found.counts()}." + (f" Written to {both(folders)}." if folders else ""))
     if as_json:
         print(json.dumps(found.data(), indent=2), flush=True)
+    else:
+        written = f" Written to {both(folders)}." if folders else ""
+        print(f"{found.counts()}.{written}", flush=True)
     raise typer.Exit(0 if found.proved else 1)

@@ -16,21 +16,20 @@ import io
 import os
 import signal
 import sys
+import threading
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, suppress
+from types import FrameType
 
 from force_diffusion.numeric.arithmetic.errors import (
     NOT_REACHED,
-    WRONG_INPUT,
     ForceDiffusionError,
     NotReachedError,
     printable,
 )
 
-from .interrupts import INTERRUPTED, MESSAGE, came, heed
-
-WRONG_USAGE = WRONG_INPUT
-FAILED_OUTSIDE = NOT_REACHED
+FAILED_OUTSIDE, INTERRUPTED = NOT_REACHED, 130
+INTERRUPTS = "SIGINT", "SIGTERM", "SIGHUP"  # of which Windows has two
 
 
 @contextmanager
@@ -67,8 +66,8 @@ def tell(message: str) -> None:
 def guarded(program: Callable[[], int]) -> int:
     """Run a program; return its exit status, which is that of a failure if there was one."""
     _prepare_streams()
-    with _interruptible():
-        status = _status(program)
+    with _interruptible() as came:
+        status = _status(program, came)
     try:
         sys.stdout.flush()
     except OSError as failure:
@@ -77,27 +76,40 @@ def guarded(program: Callable[[], int]) -> int:
 
 
 @contextmanager
-def _interruptible() -> Iterator[None]:
-    came.clear()
-    before = heed("SIGINT", "SIGTERM", "SIGHUP")
+def _interruptible() -> Iterator[list[int]]:
+    """Let signals interrupt this program, unless it was started to ignore them (``nohup``).
+
+    Gives a list to which those that come are added: where a module is loaded, an interrupt may be
+    taken for an error.
+    """
+    came: list[int] = []
+
+    def interrupt(number: int, _: FrameType | None) -> None:
+        came.append(number)
+        raise KeyboardInterrupt
+
+    before = {}
+    in_main = threading.current_thread() is threading.main_thread()
+    for number in (getattr(signal, name, None) for name in INTERRUPTS if in_main):
+        if number and signal.getsignal(number) in (signal.SIG_DFL, signal.default_int_handler):
+            before[number] = signal.signal(number, interrupt)
     try:
-        yield
+        yield came
     finally:
         for number, handler in before.items():
             signal.signal(number, handler)
 
 
-def _status(program: Callable[[], int]) -> int:
+def _status(program: Callable[[], int], came: list[int]) -> int:
     try:
         status = program()
     except BaseException as error:
         if not came and not isinstance(error, KeyboardInterrupt):
             return _known(error)
         status = INTERRUPTED
-    if came and status:
-        status = INTERRUPTED
-    if status == INTERRUPTED:
-        tell(MESSAGE)
+    if status and (came or status == INTERRUPTED):
+        tell("interrupted; no half-written file is left.")
+        return INTERRUPTED
     return status
 
 
@@ -120,30 +132,15 @@ def _failed(error: Exception, message: str, status: int) -> int:
     return status
 
 
-class _Heedless(io.FileIO):
-    """A file of messages: where one can't be written, the exit status alone has to tell."""
-
-    def write(self, message: bytes) -> int:  # type: ignore[override]
-        """Write what can be written."""
-        with suppress(OSError):
-            return super().write(message) or 0
-        return len(message)
-
-
 def _prepare_streams() -> None:
-    """Let standard output fail where it is closed, and standard error never."""
+    """Let printing fail where standard output is closed, and show δ on every terminal."""
     if sys.stdout is None:  # what is printed has to fail as it does on a full disk
         unwritable = os.open(os.devnull, os.O_RDONLY)
         sys.stdout = open(unwritable, "w", encoding="utf-8")  # noqa: SIM115
-    if sys.stderr is sys.__stderr__:  # unless somebody put another one there
-        number = 2 if sys.stderr else os.open(os.devnull, os.O_WRONLY)
-        sys.stderr = io.TextIOWrapper(
-            _Heedless(number, "w", closefd=False),  # unbuffered, as with python -u
-            encoding=getattr(sys.stderr, "encoding", None),
-            write_through=True,
-        )
+    if sys.stderr is None:
+        sys.stderr = open(os.devnull, "w", encoding="utf-8")  # noqa: SIM115
     for stream in (sys.stdout, sys.stderr):
-        if isinstance(stream, io.TextIOWrapper):  # δ on a terminal that can't show it
+        if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
 
 

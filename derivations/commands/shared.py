@@ -1,5 +1,6 @@
 """What several commands share: a line that tells how far they are, and plots if they can be."""
 
+import os
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -87,7 +88,7 @@ def _print(content: bytes) -> None:
 @contextmanager
 def noticing() -> Iterator[Callable[[str], None]]:
     """Give a function that tells a terminal what is being measured, on one line of its own."""
-    terminal = sys.stderr.isatty()
+    terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
     def notice(words: str) -> None:
         if terminal:

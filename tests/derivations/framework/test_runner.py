@@ -1,6 +1,5 @@
 """The runner: verdicts from checks, premises first."""
 
-import re
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -8,7 +7,6 @@ from types import SimpleNamespace
 
 import pytest
 from force_diffusion.derivations.api.derived import Derived
-from force_diffusion.derivations.commands.alone import run_alone
 from force_diffusion.derivations.export.document import document
 from force_diffusion.derivations.export.terminal import (
     outcome_text,
@@ -127,27 +125,6 @@ def test_premises_come_first_and_once(catalogue: dict[int, Derivation]) -> None:
     assert fakes.CONCLUSION.premises == (1,)
 
 
-def test_run_alone_prints_everything(
-    catalogue: dict[int, Derivation], capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert run_alone(fakes.PREMISE, []) == 0
-    printed = capsys.readouterr().out
-    for part in ("A premise", "Symbols", "Assumptions", "Steps", "Claims", "is proved"):
-        assert part in printed
-    catalogue[2] = fakes.with_claim(fakes.baffled)
-    assert run_alone(catalogue[2], []) == 1
-
-
-def test_run_alone_proves_the_premises_of_all_equations_of_a_module(
-    catalogue: dict[int, Derivation], capsys: pytest.CaptureFixture[str]
-) -> None:
-    catalogue[3] = replace(fakes.with_claim(fakes.baffled), number=3)
-    assert run_alone({2: fakes.CONCLUSION, 3: catalogue[3]}, []) == 1
-    printed = capsys.readouterr().out
-    assert printed.index("1  proved") < printed.index("Eq. 2: B") < printed.index("Eq. 3: B")
-    assert "undecided: its derivation" in printed
-
-
 def test_a_module_may_derive_several(monkeypatch: pytest.MonkeyPatch) -> None:
     several = SimpleNamespace(DERIVATIONS={2: fakes.CONCLUSION, 1: fakes.PREMISE})
     monkeypatch.setattr(loading, "import_module", lambda _: several)
@@ -158,11 +135,6 @@ def test_every_module_beyond_the_paper_has_labels() -> None:
     stems = {module for number, module in modules().items() if isinstance(number, str)}
     files = {f"beyond.{path.stem}" for path in FOLDER.glob("*.py") if path.stem != "__init__"}
     assert stems == {"leaning", *files}
-
-
-def test_a_line_has_number_verdict_title_and_seconds() -> None:
-    line = summary_line(run(fakes.PREMISE))
-    assert re.fullmatch(rf"  1  proved     {re.escape(fakes.PREMISE.title)} \(\d+\.\d\d s\)", line)
 
 
 def test_modules_are_found_by_name_in_order() -> None:
