@@ -169,7 +169,7 @@ class Ensemble:
         if theory is None or "j" not in self.index or "component" in self.index:
             return None
         contacts = zip(self.index["branch"], self.index["j"], strict=True)
-        return np.array([float(theory[direction(b)][j]) for b, j in contacts]) * self._unit
+        return np.array([float(theory(j)[direction(b)]) for b, j in contacts]) * self._unit
 
     @property
     def tensile(self) -> Array:

@@ -6,7 +6,7 @@ depend on the scene alone, and are joined in their order: who solves them decide
 """
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, reduce
@@ -99,8 +99,8 @@ class Measurement:
         """Give the ordered force of each group (of a group whose forces differ, their mean)."""
         return np.array([float(force) for force in self.quantity.ordered(self.problem)])
 
-    def theory(self) -> PerBranch[Sequence[Fraction]] | None:
-        """Give σ_f of layers j = 0 … M − 1, exact to first order; None where it does not apply."""
+    def theory(self) -> Callable[[int], PerBranch[Fraction]] | None:
+        """Give σ_f of layer j = 0 … M − 1, exact to first order; None where it does not apply."""
         return first_order_std(self.problem)
 
     def blocks(self, size: int) -> Iterator[Block]:
@@ -156,9 +156,9 @@ def _usual_reach(made: Measurement) -> float:
         )
     contact = made.problem.contact
     if contact is None:
-        layers = made.plan.scene.ask.layers or range(len(theory.plus))
-        return float(REACH * max(rows[j] for _, rows in theory for j in layers))
-    return float(REACH * theory[contact.branch][contact.j])
+        layers = made.plan.scene.ask.layers or range(made.problem.height)
+        return float(REACH * max(std for j in layers for _, std in theory(j)))
+    return float(REACH * theory(contact.j)[contact.branch])
 
 
 @dataclass(frozen=True, eq=False)

@@ -58,8 +58,9 @@ def theory(plan: Plan) -> PerBranch[Array] | None:
     found = first_order_std(plan.problem)
     if found is None:
         return None
-    unit = plan.scene.load.magnitude
-    return per_direction([np.array([float(v * unit) for v in layers]) for _, layers in found])
+    unit, layers = plan.scene.load.magnitude, map(found, range(plan.problem.height))
+    stds = np.array([[float(std * unit) for _, std in layer] for layer in layers])
+    return per_direction(list(stds.T))
 
 
 def contact_forces(

@@ -112,30 +112,6 @@ def full_layer(j: int, width: int) -> Layer:
     return Layer(j, lowest_column(j), width)
 
 
-class LazyRows(Sequence[T]):
-    """What there is of each row, looked up when it is asked for: views take time to make."""
-
-    def __init__(self, count: int, row: Callable[[int], T]) -> None:
-        """``row`` gives what there is of row 0 … count − 1."""
-        self._all, self._row = range(count), row
-
-    def __len__(self) -> int:
-        return len(self._all)
-
-    def __iter__(self) -> Iterator[T]:
-        return map(self._row, self._all)
-
-    @overload
-    def __getitem__(self, which: int) -> T: ...
-    @overload
-    def __getitem__(self, which: slice) -> Sequence[T]: ...
-
-    def __getitem__(self, which: int | slice) -> T | Sequence[T]:
-        if isinstance(which, slice):
-            return tuple(map(self._row, self._all[which]))
-        return self._row(self._all[which])
-
-
 class Rows(Sequence[Layer]):
     """Rows of neighbouring beads, one a layer from layer ``lowest`` up.
 

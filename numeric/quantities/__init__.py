@@ -1,12 +1,11 @@
 """Quantities: one class a question, what it needs and how its answer is gathered."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 
 from ..scene.scene import Scene
 from .base import Quantity
 from .contact import ContactForce
 from .contact_forces import ContactForces
-from .contacts_that_open import NETWORK_QUANTITIES
 from .histogram import histogram_of
 from .positions import Positions
 from .profile import Profile
@@ -24,7 +23,4 @@ QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
 
 def quantities_of(scene: Scene) -> tuple[Quantity, ...]:
     """Give the questions that a scene asks."""
-    known: Mapping[str, Callable[[Scene], Quantity]] = QUANTITIES
-    if scene.effects.contacts == "unilateral":
-        known = NETWORK_QUANTITIES
-    return tuple(known[name](scene.asking(name)) for name in scene.ask.quantities)
+    return tuple(QUANTITIES[name](scene.asking(name)) for name in scene.ask.quantities)

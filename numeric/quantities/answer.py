@@ -1,7 +1,7 @@
 """An answer: packings solved, looked at, and gathered as a quantity asks."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
-from ..lattice.branch import AxisContact, Contact
+from ..lattice.branch import Contact
 from ..mechanics.engine import chunk_size, packings
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, Solved
@@ -66,7 +66,8 @@ def answer(
         physical = Physicality(looks_at=realisations)
     gatherers = [quantity.gatherer(problem, system) for quantity in quantities]
     tables = []
-    alike = quantities[0].scene.ask.realisations if problem.route == Route.ORDERED else 1
+    # an ordered packing is solved once, whatever is asked
+    alike = quantities[0].scene.ask.realisations // problem.realisations
     with system.active():
         for solved, chunk in _solved(problem, realisations, system, work, physical, carried):
             for gatherer in gatherers:
@@ -76,15 +77,15 @@ def answer(
                 network = solved.network
         for quantity, gatherer in zip(quantities, gatherers, strict=True):
             table = in_units(quantity, gatherer.table().sorted(), system)
-            if alike > 1 and "samples" in table.index:
-                samples = {"samples": table.index["samples"] * alike}
-                table = replace(table, index=table.index | samples)
+            if "samples" in table.index:
+                table.index["samples"] *= alike
             tables.append(table)
             if isinstance(quantity, Histogram):
                 found = histogram(table.numbers["change"], quantity.bins, system)
                 bins = [(low, high, count * alike) for low, high, count in found]
-    if physical is not None and physical.first_tensile is not None:
-        physical.first_tensile = at_home(quantities[0], physical.first_tensile)
+    if physical is not None and isinstance(physical.first_tensile, Contact):
+        home = quantities[0].naming.home(physical.first_tensile.i)  # as rows name it
+        physical.first_tensile = physical.first_tensile._replace(i=home)
     return Answer(tuple(tables), bins, physical, network, sizes)
 
 
@@ -120,7 +121,7 @@ def _solved(
 def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
     """Give forces in the unit in which the load's magnitude is written."""
     magnitude = quantity.scene.load.magnitude
-    if not quantity.needs_forces or magnitude == 1:
+    if not quantity.of_forces or magnitude == 1:
         return table
     factor = system.scalar(magnitude)
     unit = float(magnitude) if magnitude < 10**300 else np.inf
@@ -128,13 +129,6 @@ def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
         errors = {k: v * unit for k, v in table.errors.items()}
     numbers = {k: v if k == RATIO else v * factor for k, v in table.numbers.items()}
     return Table(table.index, numbers, table.small, errors)
-
-
-def at_home(quantity: Quantity, contact: Contact | AxisContact) -> Contact | AxisContact:
-    """Name a contact by the column within the period, as rows do."""
-    if isinstance(contact, AxisContact):
-        return contact
-    return contact._replace(i=quantity.naming.home(contact.i))
 
 
 def _which(problem: Problem, realisations: Sequence[int], system: NumberSystem) -> str:

@@ -1,15 +1,15 @@
 """What every question has in common: what it needs, its rows, how they are gathered, its limits.
 
-A question is a class of its own in a file of its own; ``quantities.quantity_of`` finds it by name.
+A question is a class of its own in a file of its own; ``quantities.quantities_of`` finds it by
+name.
 """
 
-import math
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cache, cached_property
-from typing import Any, ClassVar
+from functools import cached_property
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
@@ -17,11 +17,12 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import ORDER, PerBranch, per_direction
-from ..lattice.layers import Block, LazyRows, Naming, Region, Rows, pick, standing_on_base, whole
+from ..lattice.layers import Block, Naming, Region, Rows, pick, standing_on_base, whole
+from ..mechanics.engine import solve
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.sweep import Forces
+from ..mechanics.work import Work
 from ..scene.scene import Scene
 from ..theory.expected import std_of_spheres, stds_of_discs
 
@@ -45,14 +46,13 @@ class Table:
     ``index`` names the rows (sites, branches, realisations), ``numbers`` are in the arithmetic of
     the run. ``small`` columns are the deviations from the ordered packing: accuracy is judged by
     their error, relative to the largest of them. ``errors`` are standard errors of the columns that
-    are statistics over packings. ``in_order``: rows are as ``sorted`` gives them.
+    are statistics over packings.
     """
 
     index: Columns
-    numbers: dict[str, Array]
+    numbers: Columns
     small: tuple[str, ...]
-    errors: dict[str, Array] = field(default_factory=dict)
-    in_order: bool = False
+    errors: Columns = field(default_factory=dict)
 
     @property
     def rows(self) -> int:
@@ -61,28 +61,21 @@ class Table:
 
     def sorted(self) -> "Table":
         """Give the rows by realisation, j, i (or p, q) and branch as numbers, "+" before "-"."""
-        if self.in_order:
-            return self
-        names = (*ORDER, "realisation")
-        keys = [self.index[name] for name in names if name in self.index]
+        keys = [self.index[name] for name in (*ORDER, "realisation") if name in self.index]
         if not keys:
             return self
         order = np.lexsort(keys)
-        if (order[1:] > order[:-1]).all():
-            return self
-        parts: tuple[Columns, ...] = (self.index, self.numbers, self.errors)
+        parts = (self.index, self.numbers, self.errors)
         index, numbers, errors = ({k: v[order] for k, v in part.items()} for part in parts)
         return Table(index, numbers, self.small, errors)
 
 
-class Gatherer(ABC):
+class Gatherer(Protocol):
     """Collects solved realisations; ``table`` gives what was found."""
 
-    @abstractmethod
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in solved realisations (in a batch, the first axis of the arrays)."""
 
-    @abstractmethod
     def table(self) -> Table:
         """Give the answer."""
 
@@ -91,7 +84,8 @@ class Quantity(ABC):
     """A question about a scene."""
 
     name: ClassVar[str]
-    needs_forces: ClassVar[bool] = True
+    of_forces: ClassVar[bool] = True
+    """Whether its numbers are forces, and not lengths."""
     merged: ClassVar[bool] = False
     """Whether realisations are merged into one set of rows."""
     numbers: ClassVar[int] = 4
@@ -108,9 +102,14 @@ class Quantity(ABC):
     # What it needs
 
     @property
+    def needs_forces(self) -> bool:
+        """Whether forces are solved for: where contacts open they decide where beads rest."""
+        return self.of_forces or self.scene.effects.contacts == "unilateral"
+
+    @property
     def by_layers(self) -> bool:
-        """Whether whole layers are solved, whatever is asked: in three dimensions and more."""
-        return self.naming.dimension > 2
+        """Whether whole layers are solved, whatever is asked."""
+        return self.naming.dimension > 2 or self.scene.effects.contacts == "unilateral"
 
     @property
     def single(self) -> bool:
@@ -120,9 +119,9 @@ class Quantity(ABC):
     @property
     def top(self) -> int:
         """The highest layer that is solved where layers are whole: of the load, or as asked."""
-        load, at = self.scene.load, self.scene.ask.at
-        if self.needs_forces:
-            at = load.at
+        if self.scene.effects.contacts == "unilateral":
+            return self.height
+        at = self.scene.load.at if self.needs_forces else self.scene.ask.at
         return self.height if at is None else int(at[self.naming.dimension - 1])
 
     def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
@@ -183,12 +182,12 @@ class Quantity(ABC):
         """Start to gather the answer."""
 
 
-class Listing(Gatherer):
+class Listing:
     """Lists the rows of every realisation below each other."""
 
-    def __init__(self, quantity: "Listed", problem: Problem, system: NumberSystem) -> None:
+    def __init__(self, quantity: "Listed", problem: Problem) -> None:
         """Start empty."""
-        self.quantity, self.problem, self.system = quantity, problem, system
+        self.quantity, self.problem = quantity, problem
         self.parts: list[Table] = []
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
@@ -204,8 +203,6 @@ class Listing(Gatherer):
     def table(self) -> Table:
         """Put the realisations below each other."""
         first = self.parts[0]
-        if len(self.parts) == 1:
-            return first
         return Table(
             {k: np.concatenate([part.index[k] for part in self.parts]) for k in first.index},
             {k: np.concatenate([part.numbers[k] for part in self.parts]) for k in first.numbers},
@@ -218,18 +215,20 @@ class Listed(Quantity):
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start a list."""
-        return Listing(self, problem, system)
+        return Listing(self, problem)
 
     @abstractmethod
     def rows(self, problem: Problem, solved: Solved) -> Table:
         """Give the rows of one realisation."""
 
 
-class ContactQuantity(Quantity):
+class ContactQuantity(Listed):
     """A question about contact forces, of which an ensemble has statistics.
 
     Its groups hold contacts that are alike: a layer and branch of a profile, or one contact.
     """
+
+    roundings = 1
 
     @cached_property
     def layers(self) -> frozenset[int] | None:
@@ -260,49 +259,48 @@ class ContactQuantity(Quantity):
 
         Shapes: (groups, 1 or members) and (groups, realisations, members).
         """
-        parts = list(contact_changes(solved, self.blocks(problem), realisations))
-        F = np.concatenate([F for _, F, _ in parts])
-        g = np.concatenate([g for _, _, g in parts], axis=1)
+        F, g = contact_forces(solved, self.blocks(problem), realisations)
         return F[:, None], g.T[:, :, None]
 
     def ordered(self, problem: Problem) -> list[Fraction]:
         """Give the ordered force of each group (of a group whose forces differ, their mean)."""
-        return [force for block in self.ordered_blocks(problem) for force in block]
+        solved = solve(replace(problem, route=Route.ORDERED), [0], FLOAT64, Work())
+        F, _ = self.changes(problem, solved, 1)
+        return [Fraction(sum(map(Fraction, group))) / len(group) for group in F.tolist()]
 
-    def ordered_blocks(self, problem: Problem) -> list[list[Fraction]]:
-        """Give the ordered forces, block by block."""
-        blocks = self.blocks(problem)
-        load, rows = problem.load, problem.force_rows
-        strength = load.strength(problem.n_x, FLOAT64)
-        F = load.ordered(rows, strength, FLOAT64)
-        forces = Forces(FLOAT64, problem.region, rows, F, np.zeros((1, *F.shape)))
-        found = contact_changes(Solved(FLOAT64, None, forces, None), blocks, 1)
-        return [[Fraction(float(one)) for one in F] for _, F, _ in found]
+    def rows(self, problem: Problem, solved: Solved) -> Table:
+        """Give the contacts that loads reach."""
+        return self.listed(self.blocks(problem), solved)
+
+    def listed(self, blocks: Sequence[Block], solved: Solved) -> Table:
+        """Give a row a contact."""
+        F, g = contact_forces(solved, blocks, 1)
+        return Table(self.naming.contacts(blocks), {"force": F + g[0], "change": g[0]}, ("change",))
 
 
-def contact_changes(
+def contact_forces(
     solved: Solved, blocks: Sequence[Block], realisations: int
-) -> "Sequence[tuple[Block, Array, Array]]":
-    """Give F, shape (count,), and g, (realisations, count), of the contacts of each block.
+) -> tuple[Array, Array]:
+    """Give F, shape (contacts,), and g, (realisations, contacts), block after block.
 
     Contacts that no load reaches have zeros.
     """
-    forces, system = solved.forces, solved.system
+    system, forces = solved.system, solved.forces
+    if solved.single is not None:  # line sums of the one contact
+        force, change = (column([one], system) for one in solved.single)
+        return force, change[None]
     assert forces is not None
     zero = zeros(system, 1)[0]
-    found = []
-    for block in blocks:
-        branch, row = block
+    F, g = [zeros(system, 0)], [zeros(system, realisations, 0)]
+    for branch, row in blocks:
         if row.j >= len(forces.rows):  # above every load
-            found.append((block, zeros(system, row.count), zeros(system, realisations, row.count)))
+            F.append(zeros(system, row.count))
+            g.append(zeros(system, realisations, row.count))
             continue
-        F, g = forces.ordered[branch][row.j], forces.change[branch][row.j]
-        g = g.reshape(realisations, -1)
-        own = forces.rows[row.j]
-        if own != row:  # a whole layer of a periodic packing
-            F, g = pick(F, own, row, row.count, zero), pick(g, own, row, row.count, zero)
-        found.append((block, F, g))
-    return found
+        own, change = forces.rows[row.j], forces.change[branch][row.j].reshape(realisations, -1)
+        F.append(pick(forces.ordered[branch][row.j], own, row, row.count, zero))
+        g.append(pick(change, own, row, row.count, zero))
+    return np.concatenate(F), np.concatenate(g, axis=1)
 
 
 def joined(system: NumberSystem, parts: Sequence[Array]) -> Array:
@@ -356,38 +354,25 @@ def cartesian(
     return (*found, rise * up if raised else rise / (len(components) * up))
 
 
-def first_order_std(problem: Problem) -> PerBranch[Sequence[Fraction]] | None:
-    """Give σ_f of layers j = 0 … M − 1, exact to first order (Eqs. 13, 14, B2, B3 at finite M).
+def first_order_std(problem: Problem) -> Callable[[int], PerBranch[Fraction]] | None:
+    """Give σ_f of layer j = 0 … M − 1, exact to first order (Eqs. 13, 14, B2, B3 at finite M).
 
-    None where they don't apply. Each is a float64 times the exact σ/r, in units of the load, and is
-    found when it is first asked for.
+    None where they don't apply. Each is a float64 times the exact σ/r, in units of the load.
     """
-    load, radii, height = problem.load, problem.radii, problem.height
+    load, radii, height, d = problem.load, problem.radii, problem.height, problem.dimension
     if problem.route == Route.ORDERED or not has_theory(problem):
         return None
     assert isinstance(radii, DrawnRadii)
     std, phi = radii.std, float(1 - 2 * problem.n_x**2)
+    unit = [float(of) for of in load.strength(problem.n_x, FLOAT64).unit]
 
-    def over(j: int) -> int:
-        return height - j if load.kind == "bulk" else 1
+    def layer(j: int) -> PerBranch[Fraction]:
+        over = height - j if load.kind == "bulk" else 1
+        stds: Sequence[float]
+        if d == 2:
+            stds = stds_of_discs(load.kind, height, j, phi, (unit[0], unit[1]))
+        else:
+            stds = [std_of_spheres(load.kind, height, j, phi) * unit[0]] * d
+        return per_direction([Fraction(of * over) * std for of in stds])
 
-    if problem.dimension > 2:  # of three, as there is theory
-        root = math.sqrt(3 * (1 + 2 * phi))
-
-        @cache
-        def alike(j: int) -> Fraction:
-            return Fraction(std_of_spheres(load.kind, height, j, phi) * (over(j) / root)) * std
-
-        found = LazyRows(height, alike)
-        return per_direction([found] * problem.dimension)
-    plus, minus = map(float, load.strength(problem.n_x, FLOAT64).unit)
-
-    def of(side: int) -> LazyRows[Fraction]:
-        @cache
-        def one(j: int) -> Fraction:
-            both = stds_of_discs(load.kind, height, j, phi, (plus, minus))
-            return Fraction(both[side] * over(j)) * std
-
-        return LazyRows(height, one)
-
-    return PerBranch(of(0), of(1))
+    return layer

@@ -1,31 +1,18 @@
 """One contact force."""
 
-from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
-from ..arithmetic.systems import FLOAT64, Array
 from ..lattice import regions
 from ..lattice.branch import Contact
 from ..lattice.layers import Block, Region, Rows
 from ..mechanics import first_order
 from ..mechanics.loads import LoadSpec
-from ..mechanics.problem import Problem, Solved
-from .base import (
-    ContactQuantity,
-    Listed,
-    Table,
-    column,
-    contact_changes,
-    joined,
-)
+from ..mechanics.problem import Problem
+from .base import ContactQuantity
 
 
 class SingleContact(ContactQuantity):
     """A question about one contact."""
-
-    roundings = 1
 
     @property
     def contact(self) -> Contact:
@@ -64,34 +51,8 @@ class SingleContact(ContactQuantity):
         names = self.naming.contacts(self.blocks(problem))
         return {name: [value] for name, value in zip(names, self.scene.ask.at, strict=True)}
 
-    def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
-        """Give F, shape (1, 1), and g, (1, realisations, 1)."""
-        if solved.single is not None:  # line sums
-            force, change = solved.single
-            return np.array([[force]]), np.array([[[change]]])
-        return super().changes(problem, solved, realisations)
 
-    def ordered(self, problem: Problem) -> list[Fraction]:
-        """Give the ordered force."""
-        if self.by_layers:
-            return super().ordered(problem)
-        strength = problem.load.strength(problem.n_x, FLOAT64)
-        return [Fraction(float(problem.load.ordered_force(self.contact, strength, FLOAT64)))]
-
-    def rows(self, problem: Problem, solved: Solved) -> Table:
-        """Give the contact."""
-        system, blocks = solved.system, self.blocks(problem)
-        if solved.single is not None:
-            F, g = (column([one], system) for one in solved.single)
-        else:
-            assert solved.forces is not None
-            found = contact_changes(solved, blocks, 1)
-            F = joined(system, [F for _, F, _ in found])
-            g = joined(system, [g[0] for _, _, g in found])
-        return Table(self.naming.contacts(blocks), {"force": F + g, "change": g}, ("change",))
-
-
-class ContactForce(SingleContact, Listed):
+class ContactForce(SingleContact):
     """One contact force f^±_ij and its change."""
 
     name = "contact"

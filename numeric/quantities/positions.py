@@ -1,8 +1,6 @@
 """Positions of beads."""
 
 from collections.abc import Sequence
-from fractions import Fraction
-from functools import lru_cache
 
 from ..arithmetic.systems import Array, NumberSystem, array, from_floats, zeros
 from ..lattice import regions
@@ -10,17 +8,19 @@ from ..lattice.branch import axis_names
 from ..lattice.layers import Layer, Region, Rows, pick, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Solved
-from .base import Columns, Listed, Table, cartesian, column, joined, slope
+from ..unilateral.network import Relaxed
+from .base import Columns, Listed, Table, cartesian, column, joined
 
 
 class Positions(Listed):
     """Positions of one bead or of all, in the scene's unit of length.
 
     The first bead of the ordered base is at the origin, x is along the base, and the last axis up.
+    Where contacts open, that of a bead which bears no force is one of many.
     """
 
     name = "positions"
-    needs_forces = False
+    of_forces = False
 
     def force_rows(self, load: LoadSpec) -> Rows:
         """No forces are needed."""
@@ -40,7 +40,7 @@ class Positions(Listed):
 
     def most_beads(self) -> int:
         """Bound the beads to be solved."""
-        if self.scene.site is None:
+        if not self.single or self.scene.site is None:
             return (self.top + 1) * (self.width or 0)
         j = self.scene.site[1]
         beads = regions.triangle_beads(j)
@@ -58,17 +58,23 @@ class Positions(Listed):
             i, j = self.naming.site(at)
             rows = [Layer(j, i, 1)]
         r, index = system.number(self.scene.packing.radius), self.naming.beads(rows)
-        moved = cartesian(self._line_sums(solved, rows), problem, system, raised=False)
-        axes = axis_names(len(moved))
-        change = {f"d{axis}": of * r for axis, of in zip(axes, moved, strict=True)}
-        home = self._ordered(problem, rows, index, system)
-        place = zip(axes, home, change.values(), strict=True)
-        return Table(index, {axis: a + b for axis, a, b in place} | change, tuple(change))
+        home = [of * r for of in self._ordered(problem, index, system)]
+        if isinstance(solved, Relaxed):
+            beads = index["j"] * solved.network.width + index["i"] // 2
+            index["contacts"] = solved.network.bearing[beads]
+            change = [x * r - at for x, at in zip(solved.network.x[beads].T, home, strict=True)]
+        else:
+            moved = self._moved(solved, rows)
+            change = [of * r for of in cartesian(moved, problem, system, raised=False)]
+        axes = axis_names(len(home))
+        place = zip(axes, home, change, strict=True)
+        moves = {f"d{axis}": of for axis, of in zip(axes, change, strict=True)}
+        return Table(index, {axis: a + b for axis, a, b in place} | moves, tuple(moves))
 
-    def _line_sums(self, solved: Solved, rows: Sequence[Layer]) -> list[Array]:
+    def _moved(self, solved: Solved, rows: Sequence[Layer]) -> list[Array]:
         """Give c of each direction, row by row."""
         system, packing = solved.system, solved.packing
-        if solved.single is not None:
+        if solved.single is not None:  # line sums of the one bead
             return [column([one], system) for one in solved.single]
         if packing is None:
             return [zeros(system, sum(row.count for row in rows))] * len(self.branches)
@@ -78,22 +84,17 @@ class Positions(Listed):
             for _, c in packing.c
         ]
 
-    def _ordered(
-        self, problem: Problem, rows: Sequence[Layer], index: Columns, system: NumberSystem
-    ) -> Sequence[Array]:
-        """Give the positions of beads in the ordered packing."""
-        r = system.number(self.scene.packing.radius)
-        if self.by_layers:
-            *columns, j = index.values()
-            home = [from_floats(system, 2.0 * one) for one in (*columns, j - sum(columns))]
-            return [one * r for one in cartesian(home, problem, system, raised=True)]
-        x = [_ordered(row.sites(), self.scene.spacing, system) for row in rows]
-        step = slope(problem, system) * r
-        y = [zeros(system, row.count) + 2 * row.j * step for row in rows]
-        return joined(system, x), joined(system, y)
+    def _ordered(self, problem: Problem, index: Columns, system: NumberSystem) -> tuple[Array, ...]:
+        """Give the positions of beads in the ordered packing, in units of r."""
+        *columns, j = index.values()
+        steps = [2 * one for one in (*columns, j - sum(columns))]
+        if len(columns) == 1:
+            steps = [j + columns[0], j - columns[0]]
+        return cartesian([_whole(one, system) for one in steps], problem, system, raised=True)
 
 
-@lru_cache(maxsize=4)
-def _ordered(sites: range, spacing: Fraction, system: NumberSystem) -> Array:
-    """Give the x of beads of the ordered packing; whole layers take turns."""
-    return array(system, [i * spacing / 2 for i in sites])
+def _whole(numbers: Array, system: NumberSystem) -> Array:
+    """Turn whole numbers into the number system: float64 holds none above 2^53."""
+    if abs(numbers).max(initial=0) < 2**53:
+        return from_floats(system, numbers.astype(float))
+    return array(system, numbers.tolist())

@@ -1,6 +1,5 @@
 """σ_f layer by layer."""
 
-from fractions import Fraction
 from typing import Any
 
 import numpy as np
@@ -10,7 +9,7 @@ from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.branch import direction
 from ..lattice.layers import Block, Region, full_layer
 from ..mechanics.problem import Problem, Solved
-from .base import RATIO, Table, contact_changes, first_order_std
+from .base import RATIO, Table, contact_forces, first_order_std
 from .statistics import Merged, Statistics
 
 
@@ -50,13 +49,9 @@ class Profile(Merged):
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
         """Give F, shape (2M, W), and g, (2M, realisations, W)."""
-        parts = contact_changes(solved, self.blocks(problem), realisations)
-        return np.stack([F for _, F, _ in parts]), np.stack([g for _, _, g in parts])
-
-    def ordered(self, problem: Problem) -> list[Fraction]:
-        """Give the mean ordered force of each layer and branch."""
-        blocks = self.ordered_blocks(problem)
-        return [sum(block, Fraction(0)) / self.members(problem) for block in blocks]
+        F, g = contact_forces(solved, self.blocks(problem), realisations)
+        shape = -1, self.members(problem)
+        return F.reshape(shape), g.reshape(realisations, *shape).swapaxes(0, 1)
 
     def table(self, problem: Problem, system: NumberSystem, found: Statistics) -> Table:
         """One row a layer and branch, base first."""
@@ -66,7 +61,7 @@ class Profile(Merged):
         if theory is not None:
             unit = self.scene.load.magnitude
             contacts = zip(index["branch"], index["j"].tolist(), strict=True)
-            stds = [short(theory[direction(b)][j] * unit, 12) for b, j in contacts]
+            stds = [short(theory(j)[direction(b)] * unit, 12) for b, j in contacts]
             index["first_order_std"] = np.array(stds, dtype="U")
         numbers = {
             "mean": found.ordered + found.mean,

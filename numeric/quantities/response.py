@@ -1,15 +1,14 @@
 """The response to a point load."""
 
-from fractions import Fraction
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
-from ..lattice.branch import Direction
-from ..lattice.layers import Layer, Region, pick
+from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..lattice.layers import Block, Region, pick
 from ..mechanics.problem import Problem, Route, Solved
-from .base import Table, contact_changes, joined, slope
+from .base import Table, contact_forces, slope
 from .statistics import Merged, Statistics
 
 # Bytes of a number of one realisation while standard errors are made; measured.
@@ -45,32 +44,22 @@ class Response(Merged):
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
         """Give F, shape (groups, 1), and g, (groups, realisations, 1): forces, then f N_y."""
-        system = solved.system
-        ny, nothing = slope(problem, system), zeros(system, realisations, 0)
-        changes, verticals, ordered = [nothing], [nothing], []
-        for (branch, row), F, g in contact_changes(solved, self.blocks(problem), realisations):
-            tilt = self.tilt(solved, branch, row)
-            f = F + (g if problem.route == Route.EXACT else 0)
-            ordered.append(F)
-            changes.append(g)
-            verticals.append((g + f * tilt.reshape(-1, row.count)) * ny)
-        F = joined(system, ordered)
-        g = np.concatenate([*changes, *verticals], axis=1)
-        return np.concatenate([F, F * ny])[:, None], g.T[:, :, None]
+        blocks, ny = self.blocks(problem), slope(problem, solved.system)
+        F, g = contact_forces(solved, blocks, realisations)
+        f = F + (g if problem.route == Route.EXACT else 0)
+        vertical = g if solved.packing is None else g + f * self.tilt(solved, blocks, realisations)
+        both = np.concatenate([g, vertical * ny], axis=1)
+        return np.concatenate([F, F * ny])[:, None], both.T[:, :, None]
 
-    def tilt(self, solved: Solved, branch: Direction, row: Layer) -> Array:
-        """Give N_y/n_y − 1 of the contacts below a row."""
-        if solved.packing is None:
-            return zeros(solved.system, row.count)
-        source, width = solved.packing.region.rows[row.j], solved.packing.region.width
-        parts = [pick(v, source, row, width) for v in solved.packing.dn[branch][row.j]]
-        return np.asarray(sum(parts[1:], parts[0]))
-
-    def ordered(self, problem: Problem) -> list[Fraction]:
-        """Give the ordered forces, then their vertical components."""
-        forces = super().ordered(problem)
-        ny = Fraction(float(slope(problem, FLOAT64)))
-        return forces + [force * ny for force in forces]
+    def tilt(self, solved: Solved, blocks: Sequence[Block], realisations: int) -> Array:
+        """Give N_y/n_y − 1 of contacts, (realisations, contacts)."""
+        assert solved.packing is not None
+        region, found = solved.packing.region, [zeros(solved.system, realisations, 0)]
+        for branch, row in blocks:
+            normal = solved.packing.dn[branch][row.j]
+            parts = [pick(v, region.rows[row.j], row, region.width) for v in normal]
+            found.append(sum(parts[1:], parts[0]).reshape(realisations, -1))
+        return np.concatenate(found, axis=1)
 
     def table(self, problem: Problem, system: NumberSystem, found: Statistics) -> Table:
         """One row a contact."""

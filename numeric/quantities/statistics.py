@@ -32,6 +32,7 @@ class Merged(ContactQuantity):
     """A quantity whose realisations are merged, group by group."""
 
     merged = True
+    roundings = 6
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
         """Start to merge moments."""
@@ -42,7 +43,7 @@ class Merged(ContactQuantity):
         """Give the rows."""
 
 
-class _Moments(Gatherer):
+class _Moments:
     def __init__(self, quantity: Merged, problem: Problem, system: NumberSystem) -> None:
         self.quantity, self.problem, self.system = quantity, problem, system
         self.unit = unit_near(problem.radii.relative_std())

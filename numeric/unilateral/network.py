@@ -3,6 +3,8 @@
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
@@ -76,14 +78,19 @@ class Network:
             return "as deposited: no contact pulls"
         return "a strict local minimum in the coordinates of beads that contacts hold"
 
-    def bead(self, number: int) -> tuple[int, int]:
-        """Name a bead (i, j)."""
-        j, q = divmod(int(number), self.width)
+    @property
+    def bearing(self) -> Array:
+        """How many contacts bear force on each bead, (N,)."""
+        return np.bincount(self.pairs.ravel(), minlength=len(self.x))
+
+    def names(self, numbers: Any) -> tuple[Any, Any]:
+        """Name a bead, or an array of them, (i, j)."""
+        j, q = divmod(numbers, self.width)
         return 2 * q + j % 2, j
 
     def branch(self, pair: Array) -> str:
         """Give "+" or "-" where a pair are neighbours of the lattice, else an empty string."""
-        (k, upper), (i, j) = self.bead(pair[0]), self.bead(pair[1])
+        (k, upper), (i, j) = self.names(pair[0]), self.names(pair[1])
         if upper != j + 1:
             return ""
         for branch in Branch:

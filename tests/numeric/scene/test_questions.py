@@ -40,9 +40,14 @@ def test_all_are_answered_where_contacts_open() -> None:
     sections = basic(5, 7, quantity=["contact_forces", "positions"])
     sections["disorder"]["relative_std"] = "=0.03"
     sections["effects"] = {"contacts": "unilateral"}
-    found = fd.run(scene(sections)).results
+    found, heavy = (
+        fd.run(scene({**sections, "load": {"magnitude": unit}})).results for unit in (1, 8)
+    )
     assert len(found["positions"].rows()) == 6 * 7
     assert min(found["contact_forces"].arrays["force"]) >= 0
+    for quantity, name, unit in (("positions", "x", 1), ("contact_forces", "force", 8)):
+        one, other = (of[quantity].arrays[name].astype(float) for of in (found, heavy))
+        assert one * unit == pytest.approx(other)  # lengths have no unit of force
 
 
 def test_one_packing_is_solved(monkeypatch: pytest.MonkeyPatch) -> None:
