@@ -19,7 +19,7 @@ from typing import Any
 
 import flint
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, NumberSystem, from_floats
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, NumberSystem
 from force_diffusion.numeric.figures import style
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.work import Work
@@ -40,7 +40,7 @@ def plain(delta: Any, system: NumberSystem) -> Any:
     ``delta``: δr/r, (M + 1, W). Where a bead does not rest they are no numbers.
     """
     with system.active(), np.errstate(all="ignore"):
-        delta, (nx,) = from_floats(system, delta), from_floats(system, np.array([0.75]))
+        delta, (nx,) = system.from_floats(delta), system.from_floats(np.array([0.75]))
         x, y, contacts = 4 * nx * np.arange(delta.shape[1]), 0 * delta[0], []
         for j in range(1, len(delta)):
             # supports of column q: columns q − 1 and q in even layers, q and q + 1 in odd ones
@@ -108,7 +108,7 @@ def floats() -> Iterator[dict[str, Any]]:
         true = solve(Balls(512))
         with flint.ctx.workprec(512):
             for name, way in ways.items():
-                away = largest(from_floats(Balls(53), way()) - true) / largest(true)
+                away = largest(Balls(53).from_floats(way()) - true) / largest(true)
                 row |= {f"{name}error": float(away), f"{name}seconds": times[name]}
         yield row
 

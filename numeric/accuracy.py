@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-import flint
 import numpy as np
 
 from .arithmetic.carried import UNIT, Sizes, stated_error
@@ -24,6 +23,7 @@ from .arithmetic.systems import (
     Balls,
     NumberSystem,
     as_floats,
+    flint,
     largest_of,
     midpoint,
 )
@@ -93,7 +93,7 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
             return Accuracy(math.inf, True, system.name)
         largest = system.number(floor)
         note = "no change can be told from zero; the error is relative to σ/r instead"
-    printed = (radius / largest).upper() * CUT_OFF + flint.arb(10) ** (1 - most_digits(system))
+    printed = (radius / largest).upper() * CUT_OFF + flint().arb(10) ** (1 - most_digits(system))
     return Accuracy(_up(printed), True, system.name, note)
 
 

@@ -6,7 +6,6 @@ to what the operands carry along. What is left out are products of two errors. V
 plain float64, to the bit.
 """
 
-from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from fractions import Fraction
@@ -14,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from .systems import FLOAT64, Array, midpoint
+from .systems import FLOAT64, Array, NumberSystem
 
 _SPLIT = 2.0**27 + 1
 # Room for printing: a number that its error swallows is printed as 0, and digits are cut off.
@@ -69,9 +68,6 @@ class Carried:
 
     def __len__(self) -> int:
         return len(self.value)
-
-    def __iter__(self) -> "Iterator[Carried]":
-        return map(Carried, self.value, self.error)
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -138,43 +134,27 @@ def sqrt(x: Any) -> Any:
     return Carried(found, (x.error - residual(found, found, x.value)) / (found + found))
 
 
-def scalar(value: Fraction) -> Carried:
-    """Round a rational, and keep what that lost."""
-    near = float(FLOAT64.number(value))
-    if not np.isfinite(near):
-        return Carried(near, 0.0)
-    return Carried(near, float(FLOAT64.number(value - Fraction(near))))
-
-
 @dataclass(frozen=True)
-class Carrying:
+class Carrying(NumberSystem):
     """float64, with the error of each number carried along: the system of ``Carried``."""
 
     name: str = "float64 with errors"
     dtype: Any = np.float64
-    bits: int = 106
 
     def number(self, value: Fraction) -> Carried:
         """Round a rational, and keep what that lost."""
-        return scalar(value)
-
-    scalar = number
+        near = float(FLOAT64.number(value))
+        if not np.isfinite(near):
+            return Carried(near, 0.0)
+        return Carried(near, float(FLOAT64.number(value - Fraction(near))))
 
     def from_float(self, value: float) -> Carried:
         """Give an exact number."""
         return Carried(value, 0.0)
 
-    def from_ball(self, value: Any) -> Carried:
-        """Round the midpoint, and keep what that lost."""
-        return scalar(midpoint(value))
-
     def root(self, value: Fraction) -> Any:
         """Give the square root of a rational."""
-        return sqrt(scalar(value))
-
-    def sqrt(self, values: Any) -> Any:
-        """Give square roots."""
-        return sqrt(values)
+        return sqrt(self.number(value))
 
     def signs(self, values: Any) -> tuple[Array, Array]:
         """Look at the values."""
@@ -188,11 +168,10 @@ class Carrying:
         """Give exact numbers."""
         return Carried(values, np.zeros(values.shape))
 
-    def array(self, values: Iterable[Fraction]) -> Any:
-        """Round rationals, and keep what that lost."""
-        found = [scalar(value) for value in values]
-        return Carried(np.array([v.value for v in found], dtype=np.float64),
-                       np.array([v.error for v in found], dtype=np.float64))  # fmt: skip
+    def filled(self, numbers: list[Any]) -> Any:
+        """Put numbers into an array of values and one of errors."""
+        return Carried(*(np.array([getattr(x, part) for x in numbers], np.float64)
+                         for part in ("value", "error")))  # fmt: skip
 
     def active(self) -> AbstractContextManager[None]:
         """Silence floating-point warnings."""

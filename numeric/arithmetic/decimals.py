@@ -6,8 +6,7 @@ from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from functools import cache
 from numbers import Rational
-
-import flint
+from typing import Any
 
 LARGEST_EXPONENT = 5000
 MOST_DIGITS = 5000
@@ -35,10 +34,12 @@ def exact(value: object) -> Fraction:
                 f"must have at most {MOST_DIGITS} digits and an exponent within ±{LARGEST_EXPONENT}"
             )
         return Fraction(value)
-    if isinstance(value, bool) or not isinstance(value, Rational | flint.fmpz | flint.fmpq):
+    number: Any = value
+    rational = isinstance(value, Rational) or type(value).__name__ in {"fmpz", "fmpq"}
+    if isinstance(value, bool) or not rational:
         kinds = ": whole, a Fraction, a Decimal or a float of 64 bits"
         raise ValueError(f"must be a number{kinds if hasattr(value, '__float__') else ''}")
-    found = Fraction(int(value.numerator), int(value.denominator))
+    found = Fraction(int(number.numerator), int(number.denominator))
     long = max(found.numerator.bit_length(), found.denominator.bit_length()) > MOST_DIGITS
     if long and (abs(found) >= _MOST or found.denominator >= _MOST**2):
         raise ValueError(f"must have at most {MOST_DIGITS} digits")

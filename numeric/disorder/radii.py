@@ -18,14 +18,7 @@ import numpy as np
 
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import ForceDiffusionError
-from ..arithmetic.systems import (
-    Array,
-    NumberSystem,
-    array,
-    from_floats,
-    like_array,
-    zeros,
-)
+from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.layers import Layer, Rows
 from .compiled import OFFSET, drawn
 from .normal import normal_deviates
@@ -46,10 +39,10 @@ class RadiusError(ForceDiffusionError, ValueError):
 class Radii(Protocol):
     """A source of δr/r for the beads of a row."""
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Give δr/r; shape (count,) for one realisation, (realisations, count) for more."""
 
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Give δr/r of single beads, the same as in their rows; shape (sites,)."""
 
     def relative_std(self) -> Fraction:
@@ -80,14 +73,14 @@ _streams = _Streams()
 class Monodisperse:
     """No disorder: δr = 0 everywhere."""
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Zeros."""
         shape = (layer.count,) if len(realisations) == 1 else (len(realisations), layer.count)
-        return zeros(system, *shape)
+        return system.zeros(*shape)
 
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Zeros."""
-        return zeros(system, len(sites))
+        return system.zeros(len(sites))
 
     def relative_std(self) -> Fraction:
         """Zero."""
@@ -132,16 +125,16 @@ class DrawnRadii:
             return np.asarray(odd.astype(np.float64) * 2.0**-53 * np.sqrt(3.0))
         return normal_deviates(first, second)
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Scale the deviates; a radius that is not positive raises ``RadiusError``."""
         deviates = self._drawn(layer, realisations)
         if deviates.size and self.std * Fraction(float(deviates.min())) < -NEARLY:
             for row in deviates:
                 self._check_sites(row, [(i, layer.j) for i in layer.sites()])
         values = deviates[0] if len(deviates) == 1 else deviates
-        return like_array(from_floats(system, values) * system.scalar(self.std))
+        return system.from_floats(values) * system.number(self.std)
 
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Put all counters through Philox at once: a generator for each bead would be slow."""
         columns = ((i - j % 2) // 2 for i, j in sites)
         if self.width is not None:
@@ -151,7 +144,7 @@ class DrawnRadii:
         deviates = self._deviates(*philox(low, high, (self.seed, realisation)))
         if deviates.size and deviates.min() * float(self.std) < -0.999:
             self._check_sites(deviates, sites)
-        return like_array(from_floats(system, deviates) * system.scalar(self.std))
+        return system.from_floats(deviates) * system.number(self.std)
 
     def _check_sites(self, deviates: Array, sites: Sequence[tuple[int, int]]) -> None:
         for site, u in zip(sites, deviates, strict=True):
@@ -190,12 +183,12 @@ class MeasuredRadii:
         """The smallest |δr|/r that is not 0; 0 if all are 0."""
         return min((abs(v) for v in self.rho.values() if v), default=Fraction(0))
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
         one = self.at([(i, layer.j) for i in layer.sites()], 0, system)
         return one if len(realisations) == 1 else np.stack([one] * len(realisations))
 
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Look single beads up."""
         values = []
         for i, j in sites:
@@ -203,7 +196,7 @@ class MeasuredRadii:
             if site not in self.rho:
                 raise RadiusError(site, "the radii file has no line for it")
             values.append(self.rho[site])
-        return array(system, values)
+        return system.array(values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -238,32 +231,27 @@ class ArrayRadii:
         """Mean of δr/r."""
         return float(self.values.mean() - float(self.origin)) / float(self.radius)
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look the radii up."""
         rows = self.values[np.asarray(realisations), layer.j]
         columns = (np.arange(layer.first, layer.last + 2, 2) - layer.j % 2) // 2
         picked = rows[:, columns % self.values.shape[-1]]
         return self._deltas(picked[0] if len(realisations) == 1 else picked, system)
 
-    def layers(self, count: int, realisations: Sequence[int], system: NumberSystem) -> Array:
+    def layers(self, count: int, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look whole layers up, the lowest ones; shape (realisations, beads)."""
         values = self.values[np.asarray(realisations), :count]
         return self._deltas(values.reshape(len(realisations), -1), system)
 
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Look single beads up."""
         i, j = np.array(sites, dtype=np.int64).reshape(-1, 2).T
         columns = (i - j % 2) // 2 % self.values.shape[-1]
         return self._deltas(self.values[realisation, j, columns], system)
 
-    def _deltas(self, values: Array, system: NumberSystem) -> Array:
-        origin, radius = system.scalar(self.origin), system.scalar(self.radius)
-        return like_array(relative(from_floats(system, values), origin, radius))
-
-
-def relative(values: Any, origin: Any, radius: Any) -> Any:
-    """Give δr/r of radii, or of δr, whose ``origin`` is 0; compiled, too."""
-    return (values - origin) / radius
+    def _deltas(self, values: Array, system: NumberSystem) -> Any:
+        origin, radius = system.number(self.origin), system.number(self.radius)
+        return (system.from_floats(values) - origin) / radius
 
 
 def philox(low: Array, high: Array, key: tuple[int, int]) -> tuple[Array, Array]:
@@ -301,9 +289,9 @@ def beads_of(radii: Radii, layers: Rows, realisations: Sequence[int], system: Nu
     if isinstance(radii, DrawnRadii) and system.dtype is not object:
         deviates = drawn(radii.kind, radii.seed, radii.width, layers, realisations)
         if deviates is not None and float(radii.std) * deviates.min(initial=0) > -NEARLY:
-            return from_floats(system, deviates) * system.scalar(radii.std)
+            return system.from_floats(deviates) * system.number(radii.std)
     rows = [radii.row(layer, realisations, system) for layer in layers]
-    found: Any = zeros(system, len(realisations), sum(layer.count for layer in layers))
+    found: Any = system.zeros(len(realisations), sum(layer.count for layer in layers))
     at = 0
     for layer, row in zip(layers, rows, strict=True):
         found[:, at : at + layer.count] = row

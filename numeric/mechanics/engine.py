@@ -5,7 +5,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from ..arithmetic.carried import CARRYING
-from ..arithmetic.systems import FLOAT64, NumberSystem, zeros
+from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..disorder.radii import beads_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Layer
@@ -106,7 +106,7 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
             single = (load.ordered_force(problem.contact, strength, system), zero)
         else:
             F = load.ordered(rows, strength, system)
-            forces = Forces(system, problem.region, rows, F, zeros(system, 1, *F.shape))
+            forces = Forces(system, problem.region, rows, F, system.zeros(1, *F.shape))
     return Solved(system, None, forces, single)
 
 

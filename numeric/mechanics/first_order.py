@@ -84,8 +84,8 @@ def contact_change(
     i, j, branch = contact
     side = 1 if branch == "+" else -1
     phi = cosine(n_x)
-    over = system.scalar(1 / (1 - phi**2))
-    phi = system.scalar(phi)
+    over = system.number(1 / (1 - phi**2))
+    phi = system.number(phi)
     lines = Diagonals(i, j, side, radius_at, {})
     total = system.number(Fraction(0))
     if above:

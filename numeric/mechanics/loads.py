@@ -11,10 +11,10 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-import flint
 import numpy as np
 
-from ..arithmetic.systems import Array, Balls, NumberSystem, from_floats, zeros
+from ..arithmetic.carried import CARRYING
+from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, flint
 from ..lattice.branch import Branch, Site
 from ..lattice.layers import Rows
 from .local import level, vertical_square
@@ -23,8 +23,10 @@ from .sweep import starts_above
 Components = tuple[Any, ...]
 
 
-def components(force: Sequence[Any], n_x: Any, up: Any) -> Components:
+def components(force: Sequence[Any], n_x: Any, up: Any, root12: Any = None) -> Components:
     """Turn a Cartesian load into (L^a), n^1 − n^d along x; ``up`` is the vertical part of the n^a.
+
+    Of spheres √12 is needed, too.
 
     >>> from fractions import Fraction
     >>> components((0, -1), Fraction(3, 5), Fraction(4, 5))
@@ -34,14 +36,9 @@ def components(force: Sequence[Any], n_x: Any, up: Any) -> Components:
     found = [-force[-1] / (d * up)] * d
     for k, (part, row) in enumerate(zip(force, level(d), strict=False), 1):
         # k (k + 1) (1 − φ) is the square of the level vector, and 1 − φ = 2 n_x²
-        size = n_x * (2 if k == 1 else flint.arb(12).sqrt())
+        size = n_x * (2 if k == 1 else root12)
         found = [of - h * part / size if h else of for of, h in zip(found, row, strict=True)]
     return tuple(found)
-
-
-def _exact(system: NumberSystem) -> Balls:
-    """Give balls of a system's own precision; of other systems, better than they can hold."""
-    return Balls(system.bits if isinstance(system, Balls) else system.bits + 64)
 
 
 @dataclass(frozen=True)
@@ -81,26 +78,29 @@ class LoadSpec:
     def strength(self, n_x: Fraction, system: NumberSystem) -> Strength:
         """Give (L^a) of the unit load, or of each loaded bead.
 
-        Of discs it is (cos θ/n_y ∓ sin θ/n_x)/2.
+        Of discs it is (cos θ/n_y ∓ sin θ/n_x)/2. Of float64 it is rounded once.
         """
-        exact = _exact(system)
-        with exact.active():
-            sin, cos = self._turn()
-            forces: dict[Site, Components] = {
-                site: tuple(map(exact.number, force)) for site, force in self.single.items()
-            }
-            nx, up = exact.number(n_x), exact.root(vertical_square(self.dimension, n_x))
-            unit = components((sin, *[0 * sin] * (self.dimension - 2), -cos), nx, up)
-            single = {site: components(force, nx, up) for site, force in forces.items()}
-        return Strength(
-            tuple(map(system.from_ball, unit)),
-            {site: tuple(map(system.from_ball, load)) for site, load in single.items()},
-        )
+        own: Any = CARRYING if system is FLOAT64 else system
+        nx, up = own.number(n_x), own.root(vertical_square(self.dimension, n_x))
+        root12 = own.root(Fraction(12)) if self.dimension > 2 else None
 
-    def _turn(self) -> tuple[flint.arb, flint.arb]:
-        angle = flint.fmpq(self.angle_deg.numerator, self.angle_deg.denominator) / 180
-        sin, cos = flint.arb.sin_cos_pi_fmpq(angle)
-        return sin, cos
+        def of(*force: Any) -> Components:
+            found = components(force, nx, up, root12)
+            return tuple(x.nearest for x in found) if own is not system else found
+
+        single = {site: of(*map(own.number, force)) for site, force in self.single.items()}
+        sin, cos = self._turn(own)
+        return Strength(of(sin, *[0 * sin] * (self.dimension - 2), -cos), single)
+
+    def _turn(self, system: NumberSystem) -> tuple[Any, Any]:
+        """Give sin θ and cos θ."""
+        if not self.angle_deg:
+            return system.number(Fraction(0)), system.number(Fraction(1))
+        balls = system if isinstance(system, Balls) else Balls(400)
+        with balls.active():
+            angle = flint().fmpq(*self.angle_deg.as_integer_ratio()) / 180
+            sin, cos = flint().arb.sin_cos_pi_fmpq(angle)
+        return system.from_ball(sin), system.from_ball(cos)
 
     def _singly(self, strength: Strength) -> Mapping[Site, Components]:
         """Give the loads of single beads."""
@@ -108,7 +108,7 @@ class LoadSpec:
 
     def on(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
         """Give (L^a) of the beads of ``rows`` (layers 0 … top), (d, beads)."""
-        found = zeros(system, self.dimension, rows.beads)
+        found = system.zeros(self.dimension, rows.beads)
         ends = np.cumsum(rows.counts)
         if self.loaded is None:
             first = 0 if self.kind == "bulk" else int(ends[-1] - rows.counts[-1])
@@ -128,14 +128,14 @@ class LoadSpec:
         A load goes straight down, along each direction by itself.
         """
         starts = starts_above(rows)
-        found = zeros(system, self.dimension, int(starts[-1]))
+        found = system.zeros(self.dimension, int(starts[-1]))
         if self.loaded is None:
             times = np.ones(len(rows))
             if self.kind == "bulk":
                 times = self.height - rows.layers + 1.0
             row = np.arange(len(rows)).repeat(np.diff(starts))
             for a, share in enumerate(strength.unit):
-                found[a] = (from_floats(system, times) * share)[row]
+                found[a] = (system.from_floats(times) * share)[row]
             return found
         for site, load in self._singly(strength).items():
             for a, share in enumerate(load):

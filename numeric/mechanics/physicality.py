@@ -246,7 +246,7 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
         arrays = (one.ctypes.data for one in (rho, block, found, table, constants))
         made.gaps(*arrays, *sizes)
         return found
-    layers, metric = tuple(rows), local.metric(d, packing.phi, FLOAT64.scalar)
+    layers, metric = tuple(rows), local.metric(d, packing.phi, FLOAT64.number)
     for j in range(max(region.top + 1 - rise, 0)):
         own = slice(starts[j], starts[j + 1])
         over = slice(starts[j + rise], starts[j + rise + 1])

@@ -22,7 +22,7 @@ from .sweep import Forces, SolvedPacking
 
 def axes(n_x: Fraction, system: NumberSystem) -> tuple[Any, Any]:
     """Give (n_x, n_y) with n_y = √(1 − n_x²)."""
-    return system.scalar(n_x), system.root(1 - n_x**2)
+    return system.number(n_x), system.root(1 - n_x**2)
 
 
 class Route(StrEnum):

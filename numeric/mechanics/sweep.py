@@ -17,7 +17,7 @@ import numpy as np
 
 from ..arithmetic.carried import Carried, Carrying, Sizes
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem, zeros
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows, RowView, bead_of
@@ -185,8 +185,8 @@ def _deposited(
     phi: Fraction, region: Region, rho: Any, system: NumberSystem, *, linear: bool
 ) -> Any:
     d, at = region.dimension, region.starts.tolist()
-    m = metric(d, phi, system.scalar)
-    block = zeros(system, len(rho), d + d * d, region.beads)
+    m = metric(d, phi, system.number)
+    block = system.zeros(len(rho), d + d * d, region.beads)
     layers = tuple(region.rows)
     for j, layer in enumerate(layers):
         own, below = slice(at[j], at[j + 1]), slice(at[j - 1], at[j])
@@ -226,14 +226,14 @@ def _balanced(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool) -> An
     region, system, block = packing.region, packing.system, packing.block
     d, top = region.dimension, len(rows) - 1
     at, beads = starts_above(rows).tolist(), region.starts.tolist()
-    g = zeros(system, len(block), d, at[-1])
-    zero = 0.0 if isinstance(system, Carrying) else zeros(system, 1)[0]
+    g = system.zeros(len(block), d, at[-1])
+    zero = 0.0 if isinstance(system, Carrying) else system.zeros(1)[0]
     layers, deposited = tuple(rows), tuple(region.rows)
     for j in range(top, 0, -1):
         layer, own, here = layers[j], slice(at[j], at[j + 1]), slice(beads[j], beads[j + 1])
         if not layer.count:
             break
-        none = zeros(system, 1, layer.count)
+        none = system.zeros(1, layer.count)
         above = [(none[0], none, (none,) * d) for _ in range(d)]
         for a in range(d if j < top else 0):
             force, bead = slice(at[j + 1], at[j + 2]), slice(beads[j + 1], beads[j + 2])
@@ -286,7 +286,7 @@ def _address(values: Any) -> tuple[int, tuple[int, ...]]:
 @lru_cache(maxsize=4)
 def metric_array(phi: Fraction, system: NumberSystem) -> Array:
     """Give what φ decides of discs, as ``loops`` takes it: errors behind the numbers."""
-    m = metric(2, phi, system.scalar)
+    m = metric(2, phi, system.number)
     if isinstance(system, Carrying):
         return np.array([one.value for one in m] + [one.error for one in m])
     return np.array(m)

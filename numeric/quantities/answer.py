@@ -123,7 +123,7 @@ def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
     magnitude = quantity.scene.load.magnitude
     if not quantity.of_forces or magnitude == 1:
         return table
-    factor = system.scalar(magnitude)
+    factor = system.number(magnitude)
     unit = float(magnitude) if magnitude < 10**300 else np.inf
     with np.errstate(all="ignore"):  # standard errors beyond floats are not known
         errors = {k: v * unit for k, v in table.errors.items()}

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem, array, zeros
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import ORDER, PerBranch, per_direction
@@ -290,12 +290,12 @@ def contact_forces(
         force, change = (column([one], system) for one in solved.single)
         return force, change[None]
     assert forces is not None
-    zero = zeros(system, 1)[0]
-    F, g = [zeros(system, 0)], [zeros(system, realisations, 0)]
+    zero = system.zeros(1)[0]
+    F, g = [system.zeros(0)], [system.zeros(realisations, 0)]
     for branch, row in blocks:
         if row.j >= len(forces.rows):  # above every load
-            F.append(zeros(system, row.count))
-            g.append(zeros(system, realisations, row.count))
+            F.append(system.zeros(row.count))
+            g.append(system.zeros(realisations, row.count))
             continue
         own, change = forces.rows[row.j], forces.change[branch][row.j].reshape(realisations, -1)
         F.append(pick(forces.ordered[branch][row.j], own, row, row.count, zero))
@@ -305,7 +305,7 @@ def contact_forces(
 
 def joined(system: NumberSystem, parts: Sequence[Array]) -> Array:
     """Put arrays one after the other, of which there may be none."""
-    return np.concatenate([array(system, []), *parts])
+    return np.concatenate([system.array([]), *parts])
 
 
 def column(values: Sequence[Any], system: NumberSystem) -> Array:
@@ -343,7 +343,7 @@ def cartesian(
 
     The last is up; x is along n^1 − n^d, the y of three dimensions along 2 n^2 − n^1 − n^3.
     """
-    nx, up = system.scalar(problem.n_x), slope(problem, system)
+    nx, up = system.number(problem.n_x), slope(problem, system)
     found = []
     for k, row in enumerate(level(len(components)), 1):
         parts = [v if h == 1 else h * v for h, v in zip(row, components, strict=True) if h]

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from ..arithmetic.systems import Array, NumberSystem, array, from_floats, zeros
+from ..arithmetic.systems import Array, NumberSystem
 from ..lattice import regions
 from ..lattice.branch import axis_names
 from ..lattice.layers import Layer, Region, Rows, pick, whole
@@ -77,7 +77,7 @@ class Positions(Listed):
         if solved.single is not None:  # line sums of the one bead
             return [column([one], system) for one in solved.single]
         if packing is None:
-            return [zeros(system, sum(row.count for row in rows))] * len(self.branches)
+            return [system.zeros(sum(row.count for row in rows))] * len(self.branches)
         region = packing.region
         return [
             joined(system, [pick(c[row.j], region.rows[row.j], row, self.width) for row in rows])
@@ -96,5 +96,5 @@ class Positions(Listed):
 def _whole(numbers: Array, system: NumberSystem) -> Array:
     """Turn whole numbers into the number system: float64 holds none above 2^53."""
     if abs(numbers).max(initial=0) < 2**53:
-        return from_floats(system, numbers.astype(float))
-    return array(system, numbers.tolist())
+        return system.from_floats(numbers.astype(float))
+    return system.array(numbers.tolist())

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem, zeros
+from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.layers import Block, Region, pick
 from ..mechanics.problem import Problem, Route, Solved
 from .base import Table, contact_forces, slope
@@ -54,7 +54,7 @@ class Response(Merged):
     def tilt(self, solved: Solved, blocks: Sequence[Block], realisations: int) -> Array:
         """Give N_y/n_y − 1 of contacts, (realisations, contacts)."""
         assert solved.packing is not None
-        region, found = solved.packing.region, [zeros(solved.system, realisations, 0)]
+        region, found = solved.packing.region, [solved.system.zeros(realisations, 0)]
         for branch, row in blocks:
             normal = solved.packing.dn[branch][row.j]
             parts = [pick(v, region.rows[row.j], row, region.width) for v in normal]

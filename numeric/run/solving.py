@@ -214,7 +214,7 @@ def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
         largest, unseen = float(np.abs(forces.g).max()), sizes.unseen(layers - 1)[0]
         change, force = forces.g, forces.g + forces.F
         if load.magnitude != 1:
-            magnitude = FLOAT64.scalar(load.magnitude)
+            magnitude = FLOAT64.number(load.magnitude)
             change, force = change * magnitude, force * magnitude
     if not (largest > SMALL and sizes.moved + unseen < math.inf):
         return None

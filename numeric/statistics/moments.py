@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-import flint
 import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem
@@ -139,9 +138,10 @@ def unit_near(size: Fraction) -> float:
 def root(values: Array, system: NumberSystem) -> Array:
     """Take the root of what can't be negative: of a ball, only its non-negative part."""
     if values.dtype != object:
-        return system.sqrt(values)
+        return np.sqrt(values)
 
     def one(value: Any) -> Any:
-        return value.nonnegative_part().sqrt() if isinstance(value, flint.arb) else value.sqrt()
+        ball = hasattr(value, "nonnegative_part")
+        return (value.nonnegative_part() if ball else value).sqrt()
 
     return np.asarray(np.frompyfunc(one, 1, 1)(values))

@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats, zeros
+from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
 from ..disorder.radii import beads_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Rows, column, whole
@@ -112,7 +112,7 @@ def as_deposited(problem: Problem, realisation: int, known: Frame, system: Balls
     if seen.undecided_signs:
         raise UndecidedError("the enclosures are too wide to tell whether a contact pulls")
     width, height = len(known.base), problem.height
-    found = zeros(system, height, width, 2)
+    found = system.zeros(height, width, 2)
     for j in range(1, len(forces.rows)):
         for side, (_, F, g) in enumerate(forces.below(j)):
             if len(F):
@@ -131,7 +131,7 @@ def frame(problem: Problem, realisation: int, system: NumberSystem) -> Frame:
     assert problem.width is not None
     rows = whole(problem.width, problem.height).rows
     (rho,) = beads_of(problem.radii, rows, [realisation], system)
-    base = zeros(system, problem.width, 2)
+    base = system.zeros(problem.width, 2)
     base[:, 0] = [system.number(4 * problem.n_x * q) for q in range(problem.width)]
     return Frame(
         1 + rho,

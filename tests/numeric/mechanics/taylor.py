@@ -11,13 +11,13 @@ Every function here gives a coefficient list ``[order 0, order 1, …, order n]`
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import flint
 import numpy as np
-from force_diffusion.numeric.arithmetic.systems import Array, in_flint, midpoint, zeros
+from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem
 from force_diffusion.numeric.lattice.branch import Branch
 from force_diffusion.numeric.lattice.layers import column, whole
 from force_diffusion.numeric.mechanics.loads import LoadSpec, Strength, components
@@ -29,48 +29,31 @@ Coefficients = list[Fraction]
 
 
 @dataclass(frozen=True)
-class Series:
+class Series(NumberSystem):
     """Power series in ε with exact rational coefficients, up to and including ε^``order``."""
 
     order: int
-    dtype: Any = field(default=object, init=False, repr=False)
 
     @property
-    def name(self) -> str:
+    def name(self) -> str:  # type: ignore[override]
         """Such as ``rational series to order 2``."""
         return f"rational series to order {self.order}"
 
     def number(self, value: Fraction) -> Any:
-        """Give the constant series."""
-        return self.series([value])
-
-    @property
-    def bits(self) -> int:
-        """Rationals are exact: 0 stands for no limit."""
-        return 0
+        """Give a plain rational: NumPy would take a series for a sequence of numbers."""
+        return flint.fmpq(value.numerator, value.denominator)
 
     def from_float(self, value: float) -> Any:
         """Give the constant series."""
         return self.number(Fraction(value))
 
-    def from_ball(self, value: Any) -> Any:
-        """Give the constant series of the midpoint."""
-        return self.number(midpoint(value))
-
-    def scalar(self, value: Fraction) -> Any:
-        """Give a plain rational: NumPy would take a series for a sequence of numbers."""
-        return flint.fmpq(value.numerator, value.denominator)
+    def zeros(self, *shape: int) -> Any:
+        """Give constant series."""
+        return self.filled([self.series([Fraction(0)])] * math.prod(shape)).reshape(shape)
 
     def series(self, coefficients: Sequence[Fraction]) -> Any:
         """Give the series with these coefficients of ε⁰, ε¹, …"""
         return flint.fmpq_series([flint.fmpq(c.numerator, c.denominator) for c in coefficients])
-
-    def sqrt(self, values: Array) -> Array:
-        """Square roots; the constant term must be the square of a rational.
-
-        Flint takes the root of a series with constant term 1, so the constant is divided out.
-        """
-        return np.asarray(np.frompyfunc(_series_sqrt, 1, 1)(values))
 
     def root(self, value: Fraction) -> Any:
         """Give the rational root; ``ValueError`` where there is none."""
@@ -84,8 +67,11 @@ class Series:
     @contextmanager
     def active(self) -> Iterator[None]:
         """Set flint's global truncation order and put it back."""
-        with in_flint(cap=self.order + 1):
+        before, flint.ctx.cap = flint.ctx.cap, self.order + 1
+        try:
             yield
+        finally:
+            flint.ctx.cap = before
 
 
 def _rational_root(value: Any) -> Any:
@@ -93,11 +79,6 @@ def _rational_root(value: Any) -> Any:
     if root * root != value:
         raise ValueError(f"the square root of {value} is no rational number")
     return root
-
-
-def _series_sqrt(value: Any) -> Any:
-    constant = value[0]
-    return (value / constant).sqrt() * _rational_root(constant)
 
 
 @dataclass(frozen=True)
@@ -183,7 +164,7 @@ def solve(
     system = Series(order)
     region = whole(width, height)
     with system.active():
-        rho_of = zeros(system, 1, (height + 1) * width)
+        rho_of = system.zeros(1, (height + 1) * width)
         for (i, j), value in rho.items():
             if not 0 <= j <= height:
                 raise ValueError(f"({i}, {j}) lies outside layers 0 … {height}")
@@ -192,7 +173,7 @@ def solve(
         for (i, j), (fx, fy) in loads.items():
             column(i, j, width)
             up, um = components((fx, fy), n_x, n_y)
-            supported[i, j] = (system.scalar(up), system.scalar(um))
+            supported[i, j] = (system.number(up), system.number(um))
         packing = deposit(cosine(n_x), region, rho_of, system)
         spec = LoadSpec("file", height, width, single=loads)
         F = spec.ordered(region.rows, Strength((), supported), system)

@@ -165,7 +165,7 @@ def rational_strength(spec: LoadSpec, n: tuple[Fraction, Fraction], system: Seri
     return Strength(
         (system.number(Fraction(0)), system.number(Fraction(0))),
         {
-            site: tuple(system.scalar(c) for c in components(force, *n))  # type: ignore[misc]
+            site: tuple(system.number(c) for c in components(force, *n))  # type: ignore[misc]
             for site, force in spec.single.items()
         },
     )

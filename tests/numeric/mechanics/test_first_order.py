@@ -13,7 +13,7 @@ from force_diffusion.numeric.mechanics.first_order import (
 )
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 
-FRACTIONS: Any = SimpleNamespace(scalar=Fraction, number=Fraction)
+FRACTIONS: Any = SimpleNamespace(number=Fraction)
 TOP = 5
 CONTACTS = [
     (i, j, branch)

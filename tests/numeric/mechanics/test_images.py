@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem, array
+from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem
 from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice.layers import Layer
 from force_diffusion.numeric.mechanics.engine import solve
@@ -31,7 +31,7 @@ class Known:
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
         values = [self.special.get(s, _rule(s[0] % self.period, s[1])) for s in sites]
-        return array(system, values)
+        return system.array(values)
 
     def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
         return self.at([(i, layer.j) for i in layer.sites()], 0, system)

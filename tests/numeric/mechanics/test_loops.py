@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.carried import CARRYING, Carried
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, Balls, as_floats, from_floats
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, Balls, as_floats
 from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError, beads_of
 from force_diffusion.numeric.lattice.branch import Branch, Contact
 from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
@@ -95,10 +95,10 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
     assert physicality.gaps(usual[0]).smallest == physicality.gaps(same[0]).smallest
     balls = Balls(200)
     with balls.active():
-        exact = solved(phi, region, from_floats(balls, rho[:1]), rows, from_floats(balls, F), balls)
+        exact = solved(phi, region, balls.from_floats(rho[:1]), rows, balls.from_floats(F), balls)
         assert exact is not None
         for one, true in ((carried[0].block, exact[0].block), (carried[1].g, exact[1].g)):
-            off = as_floats(true[0] - from_floats(balls, one.value[0]))
+            off = as_floats(true[0] - balls.from_floats(one.value[0]))
             # what is left out: products of errors, and their own roundings
             largest = np.abs(one.value[0]).max(initial=0)
             room = 1e-12 * np.abs(off).max(initial=0) + 2.0**-90 * largest

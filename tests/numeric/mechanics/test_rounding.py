@@ -35,4 +35,4 @@ def test_errors_do_not_pile_up_as_forces_pass_straight_down(height: int, dimensi
     exact = changes(problem, Balls(200))
     error = np.abs(changes(problem) - exact).max() / np.abs(exact).max()
     # rounded once; as_floats rounds the other once
-    assert error <= 2 * 2.0**-FLOAT64.bits
+    assert error <= 2 * 2.0**-53

@@ -49,7 +49,7 @@ def test_number_systems_agree(case: Case) -> None:
     """
     reference = solved(case, BigFloat(60))
     ball = solved(case, Balls(256))
-    unit = scale(case) * STRENGTH * Fraction(2) ** -FLOAT64.bits
+    unit = scale(case) * STRENGTH * Fraction(2) ** -53
     rounded = solved(case, FLOAT64)
     for contact in contacts(case):
         error = abs(mp.mpf(float(rounded.change(*contact))) - reference.change(*contact))

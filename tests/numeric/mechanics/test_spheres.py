@@ -18,8 +18,6 @@ from force_diffusion.numeric.arithmetic.systems import (
     BigFloat,
     NumberSystem,
     as_floats,
-    from_floats,
-    zeros,
 )
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics.engine import packings
@@ -165,7 +163,7 @@ def test_number_systems_agree(linear: bool) -> None:
     def solved(system: NumberSystem) -> Array:
         with system.active():
             region, rows = spheres(rho)
-            placed = deposit(phi, region, from_floats(system, rows), system, linear=linear)
+            placed = deposit(phi, region, system.from_floats(rows), system, linear=linear)
             F = from_above(region, system.number(Fraction(1)))
             forces = sweep_down(placed, region.rows, F, linear=linear)
             return np.stack([change[1] for _, change in forces.change])
@@ -352,7 +350,7 @@ def test_a_radius_below_zero_is_named_in_any_layer(layer: int) -> None:
 def test_what_balls_leave_open_is_undecided() -> None:
     system = Balls(60)
     with system.active():
-        rho = [zeros(system, 2, 2), zeros(system, 2, 2)]
+        rho = [system.zeros(2, 2), system.zeros(2, 2)]
         rho[0][0, 1] = flint.arb(3, 3)  # a support of any size from r to 7 r
         with pytest.raises(UndecidedError, match="layer 1"):
             deposit(Fraction(1, 5), *spheres(rho), system)

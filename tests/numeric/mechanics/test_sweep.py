@@ -9,7 +9,7 @@ import mpmath
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.carried import CARRYING
-from force_diffusion.numeric.arithmetic.systems import BigFloat, NumberSystem, zeros
+from force_diffusion.numeric.arithmetic.systems import BigFloat, NumberSystem
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import local
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError, deposit, sweep_down
@@ -41,7 +41,7 @@ def solved(
 ) -> tuple[Any, Any]:
     with system.active():
         packing = deposit(phi, region, rho, system)
-        F = zeros(system, len(share), region.beads - region.rows[0].count)
+        F = system.zeros(len(share), region.beads - region.rows[0].count)
         for a, x in enumerate(share):
             F[a] = F[a] + system.number(x)
         return packing, sweep_down(packing, region.rows, F)
@@ -111,7 +111,7 @@ def test_a_bead_rests_on_its_supports(d: int) -> None:
     rng, system = np.random.default_rng(d), BigFloat(60)
     mp = system.context
     phi = Fraction(1, 7)
-    m = local.metric(d, phi, system.scalar)
+    m = local.metric(d, phi, system.number)
 
     def numbers(*shape: int) -> Any:
         values = rng.uniform(-0.03, 0.03, shape)

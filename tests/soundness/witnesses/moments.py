@@ -17,7 +17,6 @@ from typing import Any
 
 import sympy
 from flint import fmpq
-from force_diffusion.numeric.arithmetic.systems import zeros
 from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 from force_diffusion.symbolic import symbols as sy
@@ -364,14 +363,14 @@ def spheres(
     sums = Sums()
     with system.active():
         region = whole(width**2, height, dimension=3)
-        F = zeros(system, 3, region.beads - width**2)
+        F = system.zeros(3, region.beads - width**2)
         for a, ratio in enumerate((Fraction(1), *ratios)):
             for j in range(1, height + 1):
                 times = height - j + 1 if load == "bulk" else 1
                 layer = slice((j - 1) * width**2, j * width**2)
-                F[a, layer] = F[a, layer] + system.scalar(ratio * times)
+                F[a, layer] = F[a, layer] + system.number(ratio * times)
         for source in range(height + 1):
-            rho = zeros(system, 1, region.beads)
+            rho = system.zeros(1, region.beads)
             rho[0, source * width**2] = system.series([Fraction(0), Fraction(1)])
             packing = deposit(phi, region, rho, system)
             forces = sweep_down(packing, region.rows, F)
