@@ -1,6 +1,7 @@
 """Positions of beads."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from ..arithmetic.systems import Array, NumberSystem
 from ..lattice import regions
@@ -93,7 +94,7 @@ class Positions(Listed):
         return cartesian([_whole(one, system) for one in steps], problem, system, raised=True)
 
 
-def _whole(numbers: Array, system: NumberSystem) -> Array:
+def _whole(numbers: Array, system: NumberSystem) -> Any:
     """Turn whole numbers into the number system: float64 holds none above 2^53."""
     if abs(numbers).max(initial=0) < 2**53:
         return system.from_floats(numbers.astype(float))
