@@ -1,6 +1,7 @@
 """Results as rows, as tables to be looked at, and as columns of text."""
 
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import cache
@@ -94,6 +95,25 @@ def _cell(value: Any) -> str:
     if value is None:
         return ""
     return escape(f"{value:.6g}" if isinstance(value, float) else str(value))
+
+
+def latex_table(rows: Sequence[Mapping[str, Any]]) -> str:
+    r"""Show rows as an array in LaTeX, which MathJax reads, too.
+
+    >>> print(latex_table([{"j": 0, "std_error": 2.5e-7}]))
+    $\displaystyle\begin{array}{rr}
+    \mathrm{j} & \mathrm{std\_error} \\ \hline
+    0 & 2.5\times10^{-07}
+    \end{array}$
+    """
+
+    def line(words: Iterable[str]) -> str:
+        return " & ".join(words).replace("_", r"\_")
+
+    heads = line(rf"\mathrm{{{name}}}" for name in rows[0])
+    cells = (line(re.sub("e(.*)", r"\\times10^{\1}", _text(v)) for v in r.values()) for r in rows)
+    start = rf"$\displaystyle\begin{{array}}{{{'r' * len(rows[0])}}}"
+    return "\n".join([start, heads + r" \\ \hline", " \\\\\n".join(cells), r"\end{array}$"])
 
 
 def significant(values: Array, digits: Array) -> list[str]:

@@ -2,7 +2,7 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
@@ -123,8 +123,7 @@ def _solved(
 
     try:
         with ExitStack() as stack, in_range():
-            size = scene.ask.realisations if realisations is None else realisations
-            progress = _progress(stack, size, until, quiet)
+            progress = not quiet and sys.stderr.isatty()
             if scheduler is not None:
                 more["executor"] = stack.enter_context(_cluster(scheduler))
             return fd.ensemble(
@@ -161,32 +160,6 @@ def _cluster(address: str) -> Iterator[Executor]:
             yield client.get_executor(pure=False)
         except (TimeoutError, distributed.KilledWorker) as error:
             raise WorkersError(f"{error}: give the cluster workers, or more memory") from None
-
-
-def _progress(
-    stack: ExitStack, size: int, until: float | None, quiet: bool
-) -> Callable[[int, float | None], None]:
-    """A bar with the time left, on a terminal."""
-    if quiet or not sys.stderr.isatty():
-        return lambda done, width: None
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TimeRemainingColumn
-
-    done_of_all, time = MofNCompleteColumn(), TimeRemainingColumn()
-    columns = "realisations", BarColumn(), done_of_all, time, "left {task.description}"
-    bar = Progress(*columns, console=Console(stderr=True), transient=True)
-    task = None
-
-    def progress(done: int, width: float | None) -> None:
-        nonlocal task
-        if task is None:  # what a store held took no time now
-            task = bar.add_task("", total=size, completed=done)
-            stack.enter_context(bar)
-        bar.update(task, completed=done)
-        if width is not None and until is not None:
-            bar.update(task, description=f"σ_f to {width:.2g}, until {until:g}")
-
-    return progress
 
 
 def ensemble_status(

@@ -71,10 +71,11 @@ def show(
     for answer in found if not written else ():
         if len(found) > 1:
             print(f"# {answer.quantity}")
-        rows = answer.count if quiet else FEW
+        count = answers.rows_of(answer)
+        rows = count if quiet else FEW
         _print(csv_bytes({name: text[:rows] for name, text in answer.text.items()}))
-        if answer.count > rows:
-            print(f"# {answer.count - rows} more rows: --quiet prints all, --out DIR writes them")
+        if count > rows:
+            print(f"# {count - rows} more rows: --quiet prints all, --out DIR writes them")
     if not quiet:
         mark = "" if written else "# "
         print("\n".join(f"{mark}{line}" for line in lines))

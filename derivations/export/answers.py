@@ -34,10 +34,6 @@ class Answered(Protocol):
         """What was asked."""
 
     @property
-    def count(self) -> int:
-        """How many rows there are."""
-
-    @property
     def arrays(self) -> dict[str, Array]:
         """The columns as numbers."""
 
@@ -48,6 +44,11 @@ class Answered(Protocol):
     @property
     def whole_numbers(self) -> list[str]:
         """Which columns are whole numbers."""
+
+
+def rows_of(answer: Answered) -> int:
+    """Count the rows."""
+    return len(next(iter(answer.arrays.values()), ()))
 
 
 def check(written: Format) -> None:
@@ -72,7 +73,8 @@ def files_of(
         return {"result.json": json_bytes(answers, about), **tables}
     about = about | {
         "results": {
-            answer.quantity: {"file": name, "rows": answer.count} for name, answer in files.items()
+            answer.quantity: {"file": name, "rows": rows_of(answer)}
+            for name, answer in files.items()
         }
     }
     text = json.dumps(about, indent=2) + "\n"

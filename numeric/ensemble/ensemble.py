@@ -1,17 +1,17 @@
 """A scene becomes an ensemble: blocks that are missing are solved, kept, and joined in order."""
 
 import math
+from collections import deque
 from collections.abc import Callable, Generator, Iterable
 from concurrent.futures import (
-    FIRST_COMPLETED,
     BrokenExecutor,
     CancelledError,
     Executor,
     Future,
     ProcessPoolExecutor,
     ThreadPoolExecutor,
-    wait,
 )
+from contextlib import ExitStack, closing
 from dataclasses import replace
 from itertools import islice
 from multiprocessing import get_context
@@ -25,6 +25,7 @@ from ..arithmetic.machine import cores, memory_limit
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
+from ..progress import bar
 from ..scene.reading import read_scene
 from ..scene.scene import Scene, program_version
 from ..statistics.confidence import looks
@@ -65,7 +66,7 @@ def ensemble(
     workers: int | None = 1,
     executor: Executor | None = None,
     reach: float | None = None,
-    progress: Progress = lambda done, width: None,
+    progress: bool | Progress = False,
 ) -> Ensemble:
     """Solve many packings of a scene, or of the path of one: statistics, the same for any workers.
 
@@ -78,8 +79,8 @@ def ensemble(
     ``if __name__ == "__main__"``; None for as many as are good here. Any other ``executor`` of
     ``concurrent.futures`` solves as well, such as that of a Dask cluster,
     ``distributed.Client(address).get_executor()``. ``reach`` is the outer edge of a histogram's
-    bins, in units of force; by default six times the largest σ_f of theory. ``progress`` is called
-    with how many packings are done, and the half-width at the last look.
+    bins, in units of force; by default six times the largest σ_f of theory. ``progress`` shows a
+    bar, or is called with how many packings are done, and the half-width at the last look.
 
     Raises ``TypeError`` for what is no scene, ``ArgumentError``, ``SceneError``, ``StoreError`` for
     a file that can't serve, ``StoreFailedError`` where it can't be written, ``RealisationError``
@@ -112,7 +113,10 @@ def ensemble(
     try:
         solved = own or executor
         assert solved is not None
-        return _joined(m, size, solved, opened, until, confidence, progress)
+        with ExitStack() as stack:
+            if isinstance(progress, bool):
+                progress = _bar(stack, size, until) if progress else lambda done, width: None
+            return _joined(m, size, solved, opened, until, confidence, progress)
     except (BrokenExecutor, CancelledError, MemoryError) as error:
         raise WorkersError(
             f"a worker died, perhaps for want of memory ({error}): use fewer.{_kept(opened)}"
@@ -130,6 +134,17 @@ def ensemble(
             opened.close()
 
 
+def _bar(stack: ExitStack, size: int, until: float | None) -> Progress:
+    """Start a bar."""
+    show = stack.enter_context(bar("realisations", size))
+
+    def progress(done: int, width: float | None) -> None:
+        known = width is not None and until is not None
+        show(done, f"σ_f to {width:.2g}, until {until:g}" if known else "")
+
+    return progress
+
+
 def _joined(
     m: Measurement,
     size: int,
@@ -141,30 +156,26 @@ def _joined(
 ) -> Ensemble:
     """Sum up realisations 0 … size − 1, or up to a look at which all is known well enough."""
     blocks, held = list(m.blocks(size)), set() if store is None else store.held.copy()
-    arriving = solved_blocks(m, (block for block in blocks if block not in held), executor)
-    arrived: dict[Block, Sums] = {}
     at_looks = set() if until is None else {*looks(size), size}
-    done, width = _count(held.intersection(blocks)), None
-    found = Ensemble(m, Sums.nothing(m), confidence, until)
-    progress(done, None)
-    for block in blocks:
-        while block not in held and block not in arrived:
-            another, sums = next(arriving)
-            arrived[another] = sums
-            if store is not None and sums.packings:  # of a wrong scene nothing is kept
-                store.put(another, sums)
-            done += _count([another])
-            found = replace(found, solved=found.solved + _count([another]))
-            progress(done, width)
-        own = arrived.pop(block) if store is None or block in arrived else store.read(block, m)
-        found = replace(found, sums=found.sums + own)
-        if block[1] in at_looks:
-            found = replace(found, looks=found.looks + 1)
-            width = found.half_width
-            progress(done, width)
-            if found.reached:
-                break
-    arriving.close()
+    found, width = Ensemble(m, Sums.nothing(m), confidence, until), None
+    missing = (block for block in blocks if block not in held)
+    with closing(solved_blocks(m, missing, executor)) as arriving:
+        for first, stop in blocks:
+            if store is not None and (first, stop) in held:
+                own = store.read((first, stop), m)
+            else:
+                own = next(arriving)
+                if store is not None and own.packings:  # of a wrong scene nothing is kept
+                    store.put((first, stop), own)
+                found = replace(found, solved=found.solved + stop - first)
+                progress(stop, width)
+            found = replace(found, sums=found.sums + own)
+            if stop in at_looks:
+                found = replace(found, looks=found.looks + 1)
+                width = found.half_width
+                progress(stop, width)
+                if found.reached:
+                    break
     if found.realisations < 2:
         number = found.sums.first_left_out
         raise RealisationError(
@@ -174,26 +185,19 @@ def _joined(
     return found
 
 
-def _count(blocks: Iterable[Block]) -> int:
-    return sum(stop - first for first, stop in blocks)
-
-
 def solved_blocks(
     m: Measurement, blocks: Iterable[Block], executor: Executor
-) -> Generator[tuple[Block, Sums], None, None]:
-    """Give the sums of blocks as they come."""
-    todo, pending = iter(blocks), dict[Future[Sums], Block]()
+) -> Generator[Sums, None, None]:
+    """Give the sums of blocks in their order; some are solved ahead."""
+    todo, pending = iter(blocks), deque[Future[Sums]]()
     try:
         while True:
             for block in islice(todo, AHEAD - len(pending)):
                 with without_interrupts():  # the first ones may start processes
-                    future = executor.submit(_solve, program_version(), m, *block)
-                pending[future] = block
+                    pending.append(executor.submit(_solve, program_version(), m, *block))
             if not pending:
                 return
-            wait(pending, return_when=FIRST_COMPLETED)
-            for future in [future for future in pending if future.done()]:
-                yield pending.pop(future), future.result()
+            yield pending.popleft().result()
     finally:
         for future in pending:
             future.cancel()

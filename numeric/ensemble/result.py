@@ -1,4 +1,4 @@
-"""The result of an ensemble: arrays, rows, and plain data with no time and no worker in it."""
+"""The result of an ensemble: arrays, a table, and plain data with no time and no worker in it."""
 
 import math
 from dataclasses import dataclass
@@ -14,8 +14,8 @@ from ..lattice.branch import ORDER, direction
 from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.scene import source_of
 from ..statistics.confidence import half_width
-from ..statistics.moments import with_errors
-from ..tables import Row, html_table, rows_of, rows_of_text, significant, text_of
+from ..statistics.moments import error_of_std, with_errors
+from ..tables import SHOWN, html_table, latex_table, rows_of, rows_of_text, significant, text_of
 from .sums import Measurement, Sums
 
 if TYPE_CHECKING:
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 LEAST = 1e-300  # floats that are smaller have fewer digits
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Ensemble:
     """Statistics over N packings of G groups of alike contacts.
 
     A group is a layer and branch of a profile, one contact, or all of a histogram. Forces are in
     the unit in which the load's magnitude is written; arrays are float64 of shape (G,) unless they
-    say otherwise, in the order of the rows: by j, i (or p, q), branch and component. The spread
+    say otherwise, in the order of the table: by j, i (or p, q), branch and component. The spread
     over packings, which are independent, gives the standard errors.
 
     ``half_width``, relative, holds for all σ_f together with confidence ``confidence``. ``until``
@@ -68,12 +68,12 @@ class Ensemble:
     @cached_property
     def half_width(self) -> float:
         """Half-width of the intervals of all σ_f together, relative to σ_f; the largest."""
-        _, std, _, error = self._moments
-        known = np.isfinite(error)
-        relative = (error[known] / std[known]).tolist()
+        _, std, _, log_error = self._moments
+        known = np.isfinite(log_error)
+        errors = log_error[known].tolist()
         if self.realisations < 2 or (self.realisations == 2 and (std[~known] > 0).any()):
-            relative = [math.inf]  # of single contacts two packings don't tell it
-        return half_width(relative, self.realisations, self.confidence, self.looks)
+            errors = [math.inf]  # of single contacts two packings don't tell it
+        return half_width(errors, self.realisations, self.confidence, self.looks)
 
     @property
     def reached(self) -> bool | None:
@@ -82,7 +82,7 @@ class Ensemble:
 
     @cached_property
     def _order(self) -> Array:
-        """Where the rows stand among the groups."""
+        """Where the rows of the table stand among the groups."""
         labels = self.measurement.labels
         keys = [labels[name] for name in ("component", *ORDER) if name in labels]
         return np.lexsort(keys) if keys else np.arange(self.measurement.groups)
@@ -94,40 +94,19 @@ class Ensemble:
 
     @cached_property
     def _moments(self) -> tuple[Array, Array, Array, Array]:
-        """Mean change, standard deviation, and their standard errors, as they were summed up."""
+        """Mean change, σ, and standard errors of the mean and of ln σ, as they were summed up."""
         return with_errors(self.realisations, self.sums.means, self.sums.products)
 
-    def _rows(self, values: Array) -> Array:
-        """Give what was summed up row by row, in the unit of force."""
+    def _forces(self, values: Array) -> Array:
+        """Give what was summed up in the order of the table, in the unit of force."""
         scaled = np.ldexp(values[self._order], self.measurement.unit)
         return np.asarray(scaled * self._unit)
 
-    @cached_property
-    def mean(self) -> Array:
-        """Mean force."""
-        change = np.ldexp(self._moments[0], self.measurement.unit)
-        return np.asarray((self.measurement.ordered() + change)[self._order] * self._unit)
-
-    @cached_property
-    def mean_change(self) -> Array:
-        """Mean of the change g = f − F from the ordered force F."""
-        return self._rows(self._moments[0])
-
-    @cached_property
-    def mean_change_error(self) -> Array:
-        """Standard error of ``mean_change``."""
-        return self._rows(self._moments[2])
-
-    @cached_property
-    def mean_square(self) -> Array:
-        """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory.
-
-        Raises ``ForceDiffusionError`` where floats don't hold squares in this unit of force.
-        """
-        root = self._rows(np.sqrt(self.sums.means[1]))
+    def _squares(self, roots: Array) -> Array:
+        """Raises ``ForceDiffusionError`` where floats don't hold squares in this unit of force."""
         with np.errstate(all="ignore"):
-            found = np.asarray(root**2)
-        if ((root != 0) & ~((found > LEAST) & np.isfinite(found))).any():
+            found = np.asarray(roots**2)
+        if ((roots != 0) & ~((found > LEAST) & np.isfinite(found))).any():
             raise ForceDiffusionError(
                 f"squares of forces are beyond what floats hold where load.magnitude is "
                 f"{self._unit:g}: choose another unit"
@@ -135,20 +114,59 @@ class Ensemble:
         return found
 
     @cached_property
+    def mean(self) -> Array:
+        """Mean force ⟨f⟩."""
+        change = np.ldexp(self._moments[0], self.measurement.unit)
+        return np.asarray((self.measurement.ordered() + change)[self._order] * self._unit)
+
+    @cached_property
+    def mean_change(self) -> Array:
+        """Mean of the change g = f − F from the ordered force F."""
+        return self._forces(self._moments[0])
+
+    @cached_property
+    def mean_change_error(self) -> Array:
+        """Standard error of ``mean_change``."""
+        return self._forces(self._moments[2])
+
+    @cached_property
+    def mean_square(self) -> Array:
+        """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory.
+
+        Raises ``ForceDiffusionError`` where floats don't hold squares in this unit of force.
+        """
+        return self._squares(self._forces(np.sqrt(self.sums.means[1])))
+
+    @cached_property
     def std(self) -> Array:
         """σ_f, the standard deviation of g about its mean."""
-        return self._rows(self._moments[1])
+        return self._forces(self._moments[1])
 
     @cached_property
     def std_error(self) -> Array:
-        """Standard error of ``std``; NaN where nothing varies."""
-        return self._rows(self._moments[3])
+        """Standard error of ``std`` for intervals of two such errors or so; NaN if nothing varies.
+
+        It comes from that of ln σ_f, ε, as σ_f (e^2ε − 1)/2.
+        """
+        _, std, _, log_error = self._moments
+        return self._forces(error_of_std(std, log_error))
+
+    @property
+    def variance(self) -> Array:
+        """σ_f². Raises ``ForceDiffusionError`` as ``mean_square`` does."""
+        return self._squares(self.std)
 
     @cached_property
     def index(self) -> dict[str, Array]:
         """Columns that name the groups: j, branch, i or p, q, component; none for a histogram."""
         labels = self.measurement.labels
         return {name: np.array(column)[self._order] for name, column in labels.items()}
+
+    @property
+    def z(self) -> Array | None:
+        """Relative heights j/M of the contacts; None for a histogram."""
+        layers = self.index.get("j")
+        return None if layers is None else np.asarray(layers / self.measurement.problem.height)
 
     @property
     def std_over_mean(self) -> Array | None:
@@ -198,11 +216,6 @@ class Ensemble:
         }
 
     @cached_property
-    def arrays(self) -> dict[str, Array]:
-        """The table's columns by name, all of one length: of groups, or of a histogram's bins."""
-        return self.bins or self._groups
-
-    @cached_property
     def _groups(self) -> dict[str, Array]:
         theory, ratio = self.first_order_std, self.std_over_mean
         return {
@@ -218,13 +231,14 @@ class Ensemble:
             "tensile": self.tensile,
         }
 
-    def rows(self) -> list[Row]:
-        """The table row by row, ready for a data frame."""
-        return rows_of(self.arrays)
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """The table's columns by name, all of one length: of groups, or of a histogram's bins."""
+        return self.bins or self._groups
 
     @property
-    def count(self) -> int:
-        """How many rows there are."""
+    def rows(self) -> int:
+        """How many rows the table has."""
         return len(next(iter(self.arrays.values())))
 
     @cached_property
@@ -252,7 +266,7 @@ class Ensemble:
     @property
     def whole_numbers(self) -> list[str]:
         """The columns that are whole numbers: sites and counts."""
-        return [name for name, column in self.arrays.items() if column.dtype.kind == "i"]
+        return _whole(self.arrays)
 
     @cached_property
     def source(self) -> dict[str, Any]:
@@ -266,7 +280,7 @@ class Ensemble:
 
         Without ``rows`` the list of results is empty: there may be millions.
         """
-        m = self.measurement
+        m, known = self.measurement, math.isfinite(self.half_width)
         data: dict[str, Any] = {
             "source": self.source,
             "ensemble": {
@@ -281,17 +295,14 @@ class Ensemble:
             "results": {self.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
             "confidence": {
                 "level": self.confidence,
-                "largest_relative_half_width": (
-                    self.half_width if math.isfinite(self.half_width) else None
-                ),
+                "largest_relative_half_width": self.half_width if known else None,
                 "looks": self.looks,
                 "reached": self.reached,
             },
         }
-        if self.bins:
-            whole = [name for name, column in self._groups.items() if column.dtype.kind == "i"]
-            # of all that was counted
-            (data["statistics"],) = rows_of_text(self._text_of(self._groups), whole)
+        if self.bins:  # of all that was counted
+            groups = self._groups
+            (data["statistics"],) = rows_of_text(self._text_of(groups), _whole(groups))
         return data
 
     def plot(self) -> "Figure":
@@ -312,24 +323,35 @@ class Ensemble:
 
     def __str__(self) -> str:
         """Say how many rows and packings there are, and how sure they are."""
-        data = self.data(rows=False)
-        lines = [f"{self.quantity}: {self.count} rows"]
-        lines.append(f"{self.realisations} packings, {data['ensemble']['arithmetic']}")
-        if self.unbuildable:
-            lines.append(
-                f"{self.unbuildable} more, {data['ensemble']['unbuildable_share']:.2g} of all, "
-                "can't be built and are left out, the first of them realisation "
-                f"{data['ensemble']['first_unbuildable']}: what is said holds for the others"
-            )
+        lines = [f"{self.quantity}: {self.rows} rows, {self.realisations} packings"]
         if math.isfinite(self.half_width):
-            looks = f", looked at {self.looks} times" if self.looks else ""
             lines.append(
-                f"every std together within {self.half_width:.2g} of itself, with confidence "
-                f"{self.confidence:g}{looks}"
+                f"all σ_f known to {100 * self.half_width:.2g} % "
+                f"({100 * self.confidence:g} %, simultaneous)"
             )
-        lines += [f"left out: {s['effect']}: {s['reason']}" for s in data["skipped"]]
-        return "\n".join(lines)
+        if self.unbuildable:
+            share = self.unbuildable / (self.realisations + self.unbuildable)
+            lines.append(
+                f"{self.unbuildable} more, {100 * share:.2g} % of all, can't be built and are left "
+                f"out, the first of them realisation {self.sums.first_left_out}"
+            )
+        skipped = [f"{s.effect} ({s.reason})" for s in self.measurement.plan.skipped]
+        return "\n".join(lines + [f"skipped: {'; '.join(skipped)}"] * bool(skipped))
+
+    __repr__ = __str__
 
     def _repr_html_(self) -> str:
         """Show the first rows as a table in a notebook."""
-        return html_table(self.rows(), str(self).splitlines())
+        return html_table(rows_of(self._first), str(self).splitlines(), self.rows)
+
+    def _repr_latex_(self) -> str:
+        """Show the first rows as a table in LaTeX."""
+        return latex_table(rows_of(self._first))
+
+    @property
+    def _first(self) -> dict[str, Array]:
+        return {name: column[:SHOWN] for name, column in self.arrays.items()}
+
+
+def _whole(columns: dict[str, Array]) -> list[str]:
+    return [name for name, column in columns.items() if column.dtype.kind == "i"]

@@ -7,6 +7,7 @@ when a file is opened, and a file that is not this scene's is never written to.
 import hashlib
 import json
 import sqlite3
+import textwrap
 from collections.abc import Iterable, Iterator
 from contextlib import closing, contextmanager, suppress
 from dataclasses import asdict, dataclass
@@ -65,26 +66,34 @@ class Store:
         another kind, scene or version.
         """
         self.path, self.ensemble, self.held = path, ensemble or {}, set[Block]()
-        exists = _is_ours(path)
-        if ensemble is None and not exists:
+        if path.exists() and not path.is_file():
+            raise StoreError(f"{path} is no ordinary file: give another name")
+        if ensemble is None and not path.exists():
             raise StoreError(f"{path}: there is no such store")
         with _reading(path):
             self._database = sqlite3.connect(
                 path.absolute(), timeout=PATIENCE, isolation_level=None
             )
         try:
-            if exists:
-                with _reading(path):
+            with _reading(path):
+                if not self._is_new():
                     self._read()
+            if ensemble not in (None, self.ensemble):
+                raise StoreError(
+                    f"{path} holds another ensemble: {_difference(self.ensemble, ensemble or {})}. "
+                    "Give another name for this one"
+                )
         except BaseException:
             self._database.close()
             raise
-        if ensemble not in (None, self.ensemble):
-            self._database.close()
-            raise StoreError(
-                f"{path} holds another ensemble: {_difference(self.ensemble, ensemble or {})}. "
-                "Give another name for this one"
-            )
+
+    def _is_new(self) -> bool:
+        """Raises ``StoreError`` for another database."""
+        if not self._database.execute("SELECT * FROM sqlite_master").fetchone():
+            return True
+        if self._database.execute("PRAGMA application_id").fetchone() != (APPLICATION,):
+            raise _not_ours(self.path)
+        return False
 
     def _read(self) -> None:
         """Look what it holds, and check it."""
@@ -94,14 +103,11 @@ class Store:
         self.ensemble = json.loads(text)
         if not isinstance(self.ensemble, dict):
             raise ValueError("it does not say what it holds")
-        self.held = set(self._checked())
-
-    def _checked(self) -> Iterator[Block]:
         rows = self._database.execute("SELECT first, stop, content, checksum FROM blocks")
         for first, stop, content, checksum in rows:
             if not isinstance(content, bytes) or checksum != self._checksum((first, stop), content):
                 raise ValueError("a checksum is wrong")
-            yield first, stop
+            self.held.add((first, stop))
 
     def _checksum(self, block: Block, content: bytes) -> str:
         head = f"{_text(self.ensemble)} {block}".encode()
@@ -202,21 +208,8 @@ def together(blocks: Iterable[Block]) -> list[Block]:
     return found
 
 
-def _is_ours(path: Path) -> bool:
-    """Tell a store from a new file, before SQLite looks at it. Raises ``StoreError`` for others."""
-    try:
-        if path.exists() and not path.is_file():
-            raise StoreError(f"{path} is no ordinary file: give another name")
-        if not path.exists() or not path.stat().st_size:
-            return False
-        with path.open("rb") as file:
-            head = file.read(100)
-    except OSError as error:
-        raise StoreError(f"{path} can't be read: {error.strerror}") from None
-    magic = head.startswith(b"SQLite format 3\x00")
-    if magic and int.from_bytes(head[68:72], "big") == APPLICATION:
-        return True
-    raise StoreError(
+def _not_ours(path: Path) -> StoreError:
+    return StoreError(
         f"{path} is not the store of an ensemble, and is left as it is: give another name"
     )
 
@@ -230,6 +223,8 @@ def _reading(path: Path) -> Iterator[None]:
         raise
     except (sqlite3.Error, ValueError, RecursionError) as error:
         code = (getattr(error, "sqlite_errorcode", None) or 0) & 0xFF
+        if code == sqlite3.SQLITE_NOTADB:
+            raise _not_ours(path) from None
         if code in (sqlite3.SQLITE_CANTOPEN, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM):
             raise StoreError(
                 f"{path} can't be written to ({error}): give a place that can"
@@ -263,5 +258,4 @@ def _shown(value: Any) -> str:
     if isinstance(value, str):
         with suppress(ValueError):
             return short(Fraction(value))
-    text = "not given" if value is None else json.dumps(value)
-    return text if len(text) <= 50 else text[:47] + "…"
+    return "not given" if value is None else textwrap.shorten(json.dumps(value), 50)

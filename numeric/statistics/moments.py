@@ -87,22 +87,33 @@ class Scatter:
             values -= means[:, None]
             pairs = ((0, 0), (0, 1), (1, 1))
             products = np.stack([(values[i] * values[k]).sum(axis=0) for i, k in pairs])
-        return with_errors(len(a), means, products)[2:]
+        _, std, mean_error, log_error = with_errors(len(a), means, products)
+        return mean_error, error_of_std(std, log_error)
+
+
+def error_of_std(std: Array, log_error: Array) -> Array:
+    """Give the standard error of σ from that of ln σ, ε: σ (e^2ε − 1)/2.
+
+    Where the squares of a sample happen to be small, σ and its error both are: σ ± 2 σε would miss
+    on that side too often. ln σ hardly has that fault, and its interval is good to ln σ ± 2 ε.
+    """
+    with np.errstate(all="ignore"):
+        return np.asarray(std * np.expm1(2 * log_error) / 2)
 
 
 def with_errors(packings: int, means: Array, products: Array) -> tuple[Array, Array, Array, Array]:
-    """Give mean and standard deviation of each group, and the standard errors of both.
+    """Give mean and standard deviation σ of each group, and the standard errors of mean and ln σ.
 
     ``means`` (2, groups): over packings, of the means of x and of x² of each. ``products`` (3,
     groups): sums over packings of products of deviations from them, of x twice, of x and x², of x²
-    twice. Errors are NaN of one packing, and that of a standard deviation where it is zero, or its
-    error nothing but rounding.
+    twice. Errors are NaN of one packing, and that of ln σ where σ is zero, or its error nothing but
+    rounding.
 
     >>> a = np.array([0.3, 0.7])
     >>> x, xx = a - a.mean(), a * a - (a * a).mean()
     >>> of_two = [[a.mean()], [(a * a).mean()]], [[x @ x], [x @ xx], [xx @ xx]]
-    >>> mean, std, mean_error, std_error = with_errors(2, *map(np.array, of_two))
-    >>> [round(float(v[0]), 9) for v in (mean, std, mean_error, std_error)]
+    >>> mean, std, mean_error, log_error = with_errors(2, *map(np.array, of_two))
+    >>> [round(float(v[0]), 9) for v in (mean, std, mean_error, log_error)]
     [0.5, 0.2, 0.2, nan]
     """
 
@@ -118,9 +129,9 @@ def with_errors(packings: int, means: Array, products: Array) -> tuple[Array, Ar
         mean, square = means
         variance = np.maximum(square - mean**2, 0)
         of_variance = error((-2 * mean, 1.0))
-        std = np.sqrt(variance)
-        of_std = np.where(of_variance > ROUNDING * variance, of_variance / (2 * std), np.nan)
-        return mean, std, error((1.0, 0.0)), of_std
+        known = of_variance > ROUNDING * variance
+        of_log = np.where(known, of_variance / (2 * variance), np.nan)
+        return mean, np.sqrt(variance), error((1.0, 0.0)), of_log
 
 
 def unit_near(size: Fraction) -> float:

@@ -2,17 +2,16 @@
 
 import json
 import os
-import random
 import re
 import signal
 import subprocess
 import sys
-import time
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.ensemble import ensemble as module
 
 from force_diffusion.__main__ import main
 from tests.cli.test_terminal import on_a_terminal, plain
@@ -116,7 +115,7 @@ def test_a_rule_that_is_not_met_is_status_three(
 ) -> None:
     status, shown, err = call(capsys, small, "--until", "0.001", "--confidence", "0.99")
     assert status == 3
-    assert "# 40 packings" in shown
+    assert "6 rows, 40 packings" in shown
     assert "not reached" in err
     assert re.search(r"about \d.* realisations may do", err)
 
@@ -179,7 +178,7 @@ def test_other_scenes_work(name: str, capsys: pytest.CaptureFixture[str]) -> Non
         capsys, ROOT / "scenes" / f"{name}.toml", "--realisations", 3, "--workers", 1
     )
     assert (status, err) == (0, "")
-    assert "# 3 packings" in shown
+    assert " rows, 3 packings" in shown
 
 
 def test_without_dask_it_says_what_to_install(
@@ -189,67 +188,6 @@ def test_without_dask_it_says_what_to_install(
     status, _, err = call(capsys, small, "--scheduler", "tcp://x:1")
     assert status == 2
     assert "pip install 'force-diffusion[cluster]'" in err
-
-
-@pytest.mark.long
-def test_killed_again_and_again_at_random(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    """SIGKILL to a run with two workers, whatever it is at; the file is the same in the end."""
-    whole, store = tmp_path / "whole.fd", tmp_path / "killed.fd"
-    arguments = [SCENE, "--realisations", 400, "--json", "--store"]
-    assert call(capsys, *arguments, whole, "--workers", 1)[0] == 0
-    moments = random.Random(7)
-    kills = 0
-    while kills < 3:
-        started = time.monotonic()
-        with subprocess.Popen(
-            program(*arguments, store, "--workers", 2), env=ENVIRONMENT, stdout=subprocess.DEVNULL
-        ) as run:
-            begun = store.stat().st_mtime_ns if store.exists() else 0
-            while run.poll() is None and time.monotonic() < started + 600:
-                time.sleep(moments.random() / 20)
-                if store.exists() and store.stat().st_mtime_ns != begun:
-                    break  # it has begun to write
-            time.sleep(moments.random() / 2)
-            run.send_signal(signal.SIGKILL)
-            run.wait()
-        kills += 1
-    status, shown, _ = call(capsys, *arguments, store, "--workers", 1)
-    assert status == 0
-    assert shown == call(capsys, *arguments, whole)[1]
-
-
-@pytest.mark.long
-@pytest.mark.skipif(sys.platform == "win32", reason="no limit of a file's size there")
-def test_a_full_disk_keeps_what_is_written_and_says_how_to_go_on(
-    small: Path, tmp_path: Path
-) -> None:
-    """A limit of the file's size stands for the full disk: writing fails in the middle."""
-    store = tmp_path / "ensemble.fd"
-    arguments = program(small, "--realisations", 9000, "--store", store, "--json", "--workers", 1)
-
-    def limited(kilobytes: int) -> "subprocess.CompletedProcess[str]":
-        limit = (
-            "import os, resource, sys; "
-            f"resource.setrlimit(resource.RLIMIT_FSIZE, ({kilobytes << 10},) * 2); "
-            "os.execv(sys.argv[1], sys.argv[1:])"
-        )
-        command = [sys.executable, "-c", limit, *arguments]
-        return subprocess.run(
-            command, env=ENVIRONMENT, capture_output=True, text=True, timeout=600, check=False
-        )
-
-    full = limited(20)
-    assert (full.returncode, full.stdout) == (3, "")
-    assert f"{store} can't be written to" in full.stderr
-    held = re.search(r"holds (\d+) realisations; the same command goes on", full.stderr)
-    assert held is not None
-    assert 0 < int(held[1]) < 9000
-    whole = limited(10_000)
-    assert (whole.returncode, whole.stderr) == (0, "")
-    arguments[arguments.index("--store") + 1] = str(tmp_path / "other.fd")
-    assert limited(10_000).stdout == whole.stdout
 
 
 LOADING = """
@@ -283,34 +221,6 @@ def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
     ]
 
 
-@pytest.mark.long(sample=1)
-@pytest.mark.parametrize("how", ["SIGINT", "SIGTERM", "SIGHUP"])
-def test_an_interrupt_says_how_to_go_on(
-    how: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    store = tmp_path / "ensemble.fd"
-    arguments = [SCENE, "--realisations", 100_000, "--workers", 2, "--store", store]
-    with subprocess.Popen(
-        program(*arguments), env=ENVIRONMENT, stderr=subprocess.PIPE, text=True,
-        start_new_session=True,
-    ) as run:  # fmt: skip
-        patience = time.monotonic() + 600
-        while time.monotonic() < patience and not (
-            store.exists() and store.stat().st_size > 30_000
-        ):
-            time.sleep(0.05)
-        os.killpg(run.pid, getattr(signal, how))  # as a terminal does: to the workers too
-        try:
-            _, err = run.communicate(timeout=600)
-        finally:
-            run.kill()
-    assert run.returncode == 130
-    assert "Traceback" not in err
-    assert re.search(r"holds [1-9]\d* realisations; the same command goes on", err)
-    assert main(["ensemble-status", str(store)]) == 0
-    assert "sound" in capsys.readouterr().out
-
-
 def test_a_terminal_sees_progress_and_the_time_left() -> None:
     status, shown = on_a_terminal(
         "ensemble", str(SCENE), "--realisations", "60", "--until", "0.2", "--workers", "1"
@@ -334,3 +244,18 @@ def test_a_histogram_says_what_it_counted(capsys: pytest.CaptureFixture[str]) ->
     assert (first["low"], last["high"]) == ("-inf", "inf")
     edge = float(last["low"])
     assert edge == pytest.approx(6 * float(data["statistics"]["first_order_std"]), rel=1e-9)
+
+
+def test_an_interrupt_says_how_to_go_on(
+    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(m: Any, first: int, stop: int) -> Any:
+        if first:
+            raise KeyboardInterrupt
+        return solve(m, first, stop)
+
+    solve = module.solve_block
+    monkeypatch.setattr(module, "solve_block", interrupted)
+    status, _, err = call(capsys, small, "--store", tmp_path / "ensemble.fd")
+    assert status == 130
+    assert "holds 32 realisations; the same command goes on" in err

@@ -10,6 +10,7 @@ from force_diffusion.numeric.ensemble import ensemble as module
 from force_diffusion.numeric.ensemble.store import StoreError
 from force_diffusion.numeric.ensemble.sums import ArgumentError
 from force_diffusion.numeric.scene.sections import SceneError
+from force_diffusion.numeric.tables import rows_of
 
 import force_diffusion as fd
 from tests.numeric.ensemble.cases import CASES, PROFILE, case, ensemble_of
@@ -25,9 +26,8 @@ def test_arrays_rows_and_data_say_the_same(name: str) -> None:
         assert array.shape == (groups,)
     assert found.mean_square == pytest.approx(found.std**2 + found.mean_change**2, rel=1e-9)
     data = json.loads(json.dumps(found.data()))
-    rows = found.rows()
-    assert len(rows) == len(data["results"][found.quantity])
-    assert {len(column) for column in found.arrays.values()} == {len(rows)}
+    rows = rows_of(found.arrays)
+    assert found.rows == len(rows) == len(data["results"][found.quantity])
     for row, printed in zip(rows, data["results"][found.quantity], strict=True):
         assert list(row) == list(printed)
         for key, value in row.items():
@@ -45,8 +45,9 @@ def test_arrays_rows_and_data_say_the_same(name: str) -> None:
                 error /= row["mean"] if key == "std_over_mean" else 1
                 allowed = error / 20 + abs(value) * (1e-11 if key == "first_order_std" else 0)
                 assert float(printed[key]) == value or abs(float(printed[key]) - value) <= allowed
-    assert len(str(found).splitlines()) >= 3
+    assert 2 <= len(repr(found).splitlines()) <= 6
     assert found._repr_html_().count("<tr>") == 1 + min(len(rows), 20)
+    assert found._repr_latex_().count(" & ") == (len(rows[0]) - 1) * (1 + min(len(rows), 20))
 
 
 def test_layers_of_both_branches(tmp_path: Path) -> None:
@@ -60,6 +61,10 @@ def test_layers_of_both_branches(tmp_path: Path) -> None:
     assert (abs(found.std / found.first_order_std - 1) < 5 * error).all()
     assert found.mean - found.mean_change == pytest.approx(0.7559289460184544)
     assert found.solved == 150
+    assert found.variance == pytest.approx(found.std**2)
+    assert found.z is not None
+    assert found.z.tolist() == [0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75]
+    assert f"known to {100 * found.half_width:.2g} % (95 %, simultaneous)" in repr(found)
     again = fd.ensemble(scene(PROFILE), 150, store=str(store))
     assert (again.solved, again.data()) == (0, found.data())
 
@@ -141,7 +146,18 @@ def test_squares_beyond_floats_are_refused_and_not_zero(magnitude: str) -> None:
     usual = fd.ensemble(scene(sections), 32)
     sections["load"] = {"kind": "surface", "magnitude": magnitude}
     found = fd.ensemble(scene(sections), 32)
-    with pytest.raises(fd.ForceDiffusionError, match="choose another unit"):
-        _ = found.mean_square
+    for squares in ("mean_square", "variance"):
+        with pytest.raises(fd.ForceDiffusionError, match="choose another unit"):
+            getattr(found, squares)
     assert found.std / float(magnitude[1:]) == pytest.approx(usual.std, rel=1e-14)
     str(found)
+
+
+def test_progress_is_shown(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")  # as on a terminal
+    fd.ensemble(scene(PROFILE), 200, until=0.2, progress=True)
+    shown = capsys.readouterr().err
+    assert "/200" in shown
+    assert "until 0.2" in shown

@@ -24,7 +24,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.numeric.ensemble.cases import CASES, PROFILE, bytes_of_first, case, first
+from tests.numeric.ensemble.cases import CASES, PROFILE, bytes_of_first, case
 from tests.numeric.scenes import scene
 
 SCENE = scene(PROFILE)
@@ -80,14 +80,6 @@ def test_blocks_are_those_of_the_scene_up_to_the_last(
         blocks = list(M.blocks(size))
         assert blocks[:-1] == long[: len(blocks) - 1]
         assert blocks[-1] == (long[len(blocks) - 1][0], size)
-
-
-@settings(max_examples=10)
-@given(st.integers(0, 10**6))
-def test_any_order(seed: int) -> None:
-    with pytest.MonkeyPatch.context() as monkeypatch, Shuffled(seed) as executor:
-        monkeypatch.setattr(sums, "BEADS", 4 * BEADS)
-        assert bytes_of(fd.ensemble(SCENE, 150, executor=executor)) == bytes_of_first(M, 150)
 
 
 @settings(max_examples=6)
@@ -176,8 +168,7 @@ def test_a_rule_that_is_not_met() -> None:
     assert found.looks == 2  # at 32, and at the end
     assert found.realisations == 40
     fixed = fd.ensemble(SCENE, 40, confidence=0.9)
-    assert fixed.reached is None
-    assert fixed.looks == 0
+    assert (fixed.reached, fixed.looks) == (None, 0)
     assert fixed.half_width < found.half_width
 
 
@@ -239,12 +230,3 @@ def test_two_packings_tell_not_how_well_the_scatter_of_a_contact_is_known(seed: 
     found = fd.ensemble(asked, 2, until=0.01)
     assert math.isnan(found.std_error[0])
     assert (found.half_width, found.reached) == (math.inf, False)
-
-
-def test_sums_are_joined_as_if_they_were_one() -> None:
-    whole, parts = solve_block(M, 0, 20), solve_block(M, 0, 7) + solve_block(M, 7, 20)
-    assert parts.packings == 20
-    assert parts.tensile.tolist() == whole.tensile.tolist()
-    assert parts.means == pytest.approx(whole.means, rel=1e-13)
-    assert parts.products == pytest.approx(whole.products, rel=1e-12)
-    assert first(M, 20).to_bytes() == whole.to_bytes()

@@ -2,12 +2,10 @@
 
 import gc
 import os
-import random
 import signal
 import sqlite3
 import subprocess
 import sys
-import time
 from contextlib import closing, suppress
 from pathlib import Path
 from types import FrameType
@@ -75,17 +73,6 @@ def test_flipped_bytes_are_refused_or_do_no_harm(
         assert found.sums.to_bytes() == WHOLE
 
 
-def test_flipped_sums_are_refused(sound: bytes, tmp_path: Path) -> None:
-    path = tmp_path / "ensemble.fd"
-    content = bytes_of_first(M, 32)
-    at = sound.index(content[8:200])
-    for offset in (0, 7, 100, 190):
-        wrong = bytearray(sound)
-        wrong[at + offset] ^= 1
-        path.write_bytes(wrong)
-        refused(path, "damaged")
-
-
 @pytest.mark.parametrize("share", [0.1, 0.5, 0.9])
 def test_a_truncated_file_is_refused(share: float, sound: bytes, tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
@@ -141,14 +128,6 @@ def test_a_file_that_was_tampered_with(
     path.write_bytes(sound)
     changed(path, statement)
     refused(path, says)
-
-
-def test_names_in_a_forged_store_do_not_command_a_terminal(sound: bytes, tmp_path: Path) -> None:
-    path = tmp_path / "ensemble.fd"
-    path.write_bytes(sound)
-    content = '{"packing": {"height": "\\u001b[2J"}}'
-    changed(path, f"UPDATE ensemble SET description = '{content}'", "DELETE FROM blocks")
-    assert r"height = \x1b[2J" in str(read_store(path))
 
 
 def test_a_file_of_another_ensemble(sound: bytes, tmp_path: Path) -> None:
@@ -214,12 +193,6 @@ def test_a_full_disk_is_told_and_leaves_the_file_good(
     assert fd.ensemble(scene(PROFILE), 400, store=path).solved == 400 - held
 
 
-def test_an_empty_file_is_a_new_one(tmp_path: Path) -> None:
-    path = tmp_path / "ensemble.fd"
-    path.touch()
-    assert on_file(path, 5).solved == 5
-
-
 KILLED = """
 import os, signal, sqlite3, sys
 from force_diffusion.numeric.ensemble import sums
@@ -267,31 +240,6 @@ def test_killed_at_every_kind_of_moment(tmp_path: Path, monkeypatch: pytest.Monk
     assert found.solved == SIZE - held[-1]
     assert found.sums.to_bytes() == bytes_of_first(M, SIZE)
     assert [p.name for p in tmp_path.iterdir()] == [path.name]
-
-
-@pytest.mark.long
-def test_killed_at_any_time(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """SIGKILL while blocks are solved and written: what a file holds is good."""
-    path, held = tmp_path / "ensemble.fd", [0]
-    program = KILLED.replace("PROFILE), 40", "PROFILE), 100_000")
-    moments = random.Random(3)
-    for _ in range(4):
-        command = [sys.executable, "-c", program, str(path), "nothing", "1"]
-        with subprocess.Popen(
-            command, cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}
-        ) as run:
-            patience = time.monotonic() + 120
-            while run.poll() is None and time.monotonic() < patience:
-                time.sleep(0.02)
-                with suppress(StoreError):
-                    if read_store(path).realisations > held[-1]:
-                        break
-            time.sleep(moments.random() / 5)
-            run.kill()
-        held.append(read_store(path).realisations)
-    assert held == sorted(set(held))
-    monkeypatch.setattr(sums, "BEADS", 4 * M.problem.region.beads)
-    assert on_file(path, 60).sums.to_bytes() == bytes_of_first(M, 60)
 
 
 def test_a_running_store_can_be_looked_at(tmp_path: Path) -> None:

@@ -22,11 +22,13 @@ from tests.numeric.ensemble.cases import case, ensemble_of
     ],
 )
 def test_student(wrong: float, freedom: int, meant: float) -> None:
-    assert half_width([1.0], freedom + 1, 1 - wrong, 0) == pytest.approx(meant, rel=1e-6)
+    found = half_width([1e-6], freedom + 1, 1 - wrong, 0)
+    assert math.log1p(found) == pytest.approx(1e-6 * meant, rel=1e-6)
 
 
 def test_student_becomes_normal_and_needs_two() -> None:
-    assert half_width([1.0], 10**8, 1 - 0.31731050786291404, 0) == pytest.approx(1, rel=1e-6)
+    found = half_width([1.0], 10**8, 1 - 0.31731050786291404, 0)
+    assert found == pytest.approx(math.e - 1, rel=1e-6)
     assert half_width([1.0], 1, 0.95, 0) == math.inf
     assert half_width([], 1, 0.95, 0) == 0
 
@@ -41,9 +43,9 @@ def test_looks_are_few_and_their_shares_add_up() -> None:
 def test_more_looks_and_more_confidence_ask_for_more() -> None:
     found = ensemble_of(m := case("profile"), 40)
     t = stats.t.isf(0.05 / m.groups / 2, 39)
-    assert found.half_width == pytest.approx(
-        t * max(e / s for e, s in zip(found.std_error, found.std, strict=True) if e)
-    )
+    error = max(e / s for e, s in zip(found.std_error, found.std, strict=True) if e)
+    # σ (e^2ε − 1)/2 is stated of σ, of whose logarithm ε is the error
+    assert math.log1p(found.half_width) == pytest.approx(t * math.log1p(2 * error) / 2)
     first, second = (replace(found, looks=k).half_width for k in (1, 2))
     assert found.half_width < first < second
     assert found.half_width < replace(found, confidence=0.99).half_width
