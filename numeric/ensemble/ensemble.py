@@ -2,7 +2,7 @@
 
 import math
 from collections import deque
-from collections.abc import Callable, Generator, Iterable
+from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent.futures import (
     BrokenExecutor,
     CancelledError,
@@ -11,7 +11,7 @@ from concurrent.futures import (
     ProcessPoolExecutor,
     ThreadPoolExecutor,
 )
-from contextlib import ExitStack, closing
+from contextlib import closing, contextmanager, nullcontext
 from dataclasses import replace
 from itertools import islice
 from multiprocessing import get_context
@@ -25,7 +25,6 @@ from ..arithmetic.machine import cores, memory_limit
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
-from ..progress import bar
 from ..scene.reading import read_scene
 from ..scene.scene import Scene, program_version
 from ..statistics.confidence import looks
@@ -113,10 +112,8 @@ def ensemble(
     try:
         solved = own or executor
         assert solved is not None
-        with ExitStack() as stack:
-            if isinstance(progress, bool):
-                progress = _bar(stack, size, until) if progress else lambda done, width: None
-            return _joined(m, size, solved, opened, until, confidence, progress)
+        with _bar(size, until) if progress is True else nullcontext(progress or _silent) as follow:
+            return _joined(m, size, solved, opened, until, confidence, follow)
     except (BrokenExecutor, CancelledError, MemoryError) as error:
         raise WorkersError(
             f"a worker died, perhaps for want of memory ({error}): use fewer.{_kept(opened)}"
@@ -134,15 +131,29 @@ def ensemble(
             opened.close()
 
 
-def _bar(stack: ExitStack, size: int, until: float | None) -> Progress:
-    """Start a bar."""
-    show = stack.enter_context(bar("realisations", size))
+def _silent(done: int, width: float | None) -> None:
+    """Show nothing."""
+
+
+@contextmanager
+def _bar(size: int, until: float | None) -> Iterator[Progress]:
+    """A bar with the time left: rich draws it in a terminal or, by ipywidgets, in a notebook."""
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, TimeRemainingColumn
+    from rich.progress import Progress as Bar
+
+    done_of_all, time = MofNCompleteColumn(), TimeRemainingColumn()
+    columns = "realisations", BarColumn(), done_of_all, time, "left {task.description}"
+    bar = Bar(*columns, console=Console(stderr=True), transient=True)
+    task = bar.add_task("", total=size)
 
     def progress(done: int, width: float | None) -> None:
         known = width is not None and until is not None
-        show(done, f"σ_f to {width:.2g}, until {until:g}" if known else "")
+        words = f"σ_f to {width:.2g}, until {until:g}" if known else ""
+        bar.update(task, completed=done, description=words)
 
-    return progress
+    with bar:
+        yield progress
 
 
 def _joined(

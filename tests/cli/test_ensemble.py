@@ -14,7 +14,7 @@ import pytest
 from force_diffusion.numeric.ensemble import ensemble as module
 
 from force_diffusion.__main__ import main
-from tests.cli.test_terminal import on_a_terminal, plain
+from tests.cli.test_terminal import on_a_terminal
 from tests.numeric.ensemble.cases import CASES
 from tests.numeric.scenes import toml
 
@@ -226,7 +226,7 @@ def test_a_terminal_sees_progress_and_the_time_left() -> None:
         "ensemble", str(SCENE), "--realisations", "60", "--until", "0.2", "--workers", "1"
     )
     assert status == 0
-    text = plain(shown)
+    text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown)
     assert re.search(r"realisations .*/60 .* left", text)
     assert "until 0.2" in text
 

@@ -27,7 +27,7 @@ def test_of_a_single_std_99_percent_are_held(width: int, packings: int) -> None:
     m = measurement(scene)
     theory = m.theory()
     assert theory is not None
-    true = float(theory.plus[0]) * 2.0**-m.unit
+    true = float(theory(0).plus) * 2.0**-m.unit
     numbers = range(REPEATS * packings)
     parts = [means[:, :, 0] for _, means, _, _ in sums._solved(m, numbers)]
     each = np.concatenate(parts).reshape(REPEATS, packings, 2)
