@@ -68,4 +68,4 @@ def rule(error: "ValidationError") -> str:
             return "must be a number"
         case "value_error":
             return str(context["error"])
-    return first["msg"].lower().replace("input should", "must")
+    return first["msg"].lower().replace("input should", "must").replace("string should", "must")

@@ -44,7 +44,7 @@ def description(m: Measurement) -> dict[str, Any]:
     """Describe an ensemble: all that decides its numbers; numbers are exact, as strings."""
     scene = m.plan.scene
     sections = scene.model_dump(exclude={"folder": True, **_NOT_IN_IT})
-    sections["packing"]["spacing"] = scene.spacing
+    sections["packing"]["spacing"] = scene.packing.s
     if scene.load.file is not None:  # its content counts, not its name
         loads = m.problem.load.single.items()
         forces = sorted((list(site), list(map(str, force))) for site, force in loads)

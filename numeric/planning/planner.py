@@ -134,7 +134,7 @@ def _problem(
         skipped.append(Skipped("realisations", why))
         realisations = 1
     problem = Problem(
-        scene.n_x,
+        scene.packing.n_x,
         radii,
         load,
         route,

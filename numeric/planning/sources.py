@@ -2,7 +2,6 @@
 
 from fractions import Fraction
 
-from ..arithmetic.decimals import short
 from ..disorder.radii import ArrayRadii, DrawnRadii, MeasuredRadii, Radii
 from ..lattice.branch import Site
 from ..lattice.layers import Naming, Rows
@@ -22,63 +21,39 @@ MOST = Fraction(10**280)
 def load_of(scene: Scene) -> LoadSpec:
     """Give the load. Raises ``TableError``."""
     load, packing = scene.load, scene.packing
-    naming, top, d = Naming(packing.dimension, packing.width), packing.height, packing.dimension
+    naming, d = Naming(packing.dimension, packing.width), packing.dimension
     at = None if load.at is None else naming.site(load.at)
     single: dict[Site, tuple[Fraction, ...]] = {}
     if load.file is not None:
-        single = read_loads(
-            scene.folder / load.file,
-            magnitude=load.magnitude,
-            width=packing.width,
-            height=top,
-            dimension=d,
-        )
-    return LoadSpec(load.kind, top, naming.row, load.angle_deg, at, single, d)
+        single = read_loads(scene.folder / load.file, packing, load.magnitude)
+    return LoadSpec(load.kind, packing.height, naming.row, load.angle_deg, at, single, d)
 
 
 def radii_of(scene: Scene, rows: Rows) -> Radii:
     """Give the radii of the beads of ``rows``; without rows, of all. Raises ``TableError``."""
-    disorder, packing = scene.disorder, scene.packing
+    disorder, packing, r = scene.disorder, scene.packing, scene.packing.radius
     assert disorder is not None
-    naming = Naming(packing.dimension, packing.width)
+    width = Naming(packing.dimension, packing.width).row
     if isinstance(disorder, GivenRadii):
-        values = disorder.values.reshape(-1, packing.height + 1, naming.row or 0)
-        origin = packing.radius if disorder.delta_r is None else Fraction(0)
-        return ArrayRadii(values, origin, packing.radius)
+        values = disorder.values.reshape(-1, packing.height + 1, width or 0)
+        return ArrayRadii(values, r if disorder.delta_r is None else Fraction(0), r)
     if disorder.file is None:
         assert disorder.relative_std is not None
-        return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, naming.row)
+        return DrawnRadii(disorder.kind, disorder.relative_std, disorder.seed, width)
     path = scene.folder / disorder.file
     if path.suffix == ".npy":
-        values = read_array(path, packing.shape)
-        if abs(Fraction(float(values.mean())) - packing.radius) > packing.radius / 2:
-            raise TableError(
-                f"disorder.file: {path.name}: the mean radius is {values.mean():.3g}, and "
-                f"packing.radius is {short(packing.radius)}: is it in another unit?"
-            )
-        values = values.reshape(1, packing.height + 1, -1)
-        return ArrayRadii(values, packing.radius, packing.radius)
+        return ArrayRadii(read_array(path, packing).reshape(1, packing.height + 1, -1), r, r)
 
     def needed(site: Site) -> bool:
-        i, j = site
-        if not rows:  # line sums look up what they need
-            return True
-        return j < len(rows) and rows[j].first <= i <= rows[j].last
+        i, j = site  # line sums, which have no rows, look up what they need
+        return not rows or (j < len(rows) and rows[j].first <= i <= rows[j].last)
 
-    measured = read_radii(
-        path,
-        radius=packing.radius,
-        spacing=packing.s,
-        width=packing.width,
-        height=packing.height,
-        needed=needed,
-        dimension=packing.dimension,
-    )
+    measured = read_radii(path, packing, needed)
     if packing.width is None:
         for site in ((i, layer.j) for layer in rows for i in layer.sites()):
             if site not in measured:
                 raise TableError(f"disorder.file: {disorder.file}: bead {site} is missing")
-    return MeasuredRadii(measured, naming.row)
+    return MeasuredRadii(measured, width)
 
 
 def beyond_floats(scene: Scene, radii: Radii, load: LoadSpec) -> bool:

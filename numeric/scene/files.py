@@ -14,11 +14,12 @@ from ..arithmetic.foreign import ForeignFileError, opened, read_numbers
 from ..arithmetic.systems import Array
 from ..lattice.branch import Site, axis_names, bead_names
 from ..lattice.layers import Naming, full_layer, site_of
-from .sections import radii_array
+from .sections import Packing, radii_array
 
 Bead = tuple[int, ...]
 _WHOLE = re.compile(r"[+-]?[0-9]{1,18}", re.ASCII)
 LARGEST = 2**31  # bytes of a table; 10^8 beads
+LONGEST_LINE = 20_000  # characters; numbers have at most 5000 digits
 MOST = 10**100  # of δr/r: gaps between beads are measured in float64, which holds their squares
 FARTHEST = 2**50  # r: beyond, float64 tells no beads apart
 
@@ -38,7 +39,7 @@ def _rows(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
             opened(path, LARGEST) as raw,
             TextIOWrapper(raw, encoding="utf-8-sig", newline="") as file,
         ):
-            reader = csv.reader(file, strict=True)
+            reader = csv.reader(_lines(name, file), strict=True)
             header = [column.strip() for column in next(reader, ())]
             if header not in headers:
                 allowed = " or ".join(map(",".join, headers))
@@ -52,6 +53,17 @@ def _rows(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
         raise TableError(f"{key}: {path}: {error}") from None
     except (UnicodeDecodeError, csv.Error) as error:
         raise TableError(f"{name}: is no CSV text in UTF-8 ({error})") from None
+
+
+def _lines(name: str, file: TextIOWrapper) -> Iterator[str]:
+    """Read line by line: one that never ends is not held in memory."""
+    number = 0
+    while line := file.readline(LONGEST_LINE + 1):
+        number += 1
+        if len(line) > LONGEST_LINE:
+            most = f"a line has at most {LONGEST_LINE} characters, and this one has more"
+            raise TableError(f"{name}, line {number}: {most}: is it a table of one bead a line?")
+        yield line
 
 
 def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Bead, list[Fraction]]:
@@ -76,91 +88,79 @@ def _numbers(where: str, header: list[str], row: list[str]) -> list[Fraction]:
     return values
 
 
-def _on_lattice(
-    where: str, x: Fraction, y: Fraction, *, radius: Fraction, spacing: Fraction, width: int | None
-) -> Site:
+def _on_lattice(where: str, x: Fraction, y: Fraction, packing: Packing) -> Site:
     """Name the site of the ordered packing, bead (0, 0) at the origin, nearest to a place."""
-    if max(abs(x), abs(y)) > FARTHEST * radius:
-        raise TableError(
-            f"{where}: x = {short(x)}, y = {short(y)} lies more than 2^50 r from bead (0, 0)"
-        )
-    across, up = float(x / spacing), float(y / radius)
-    step = 2 * math.sqrt(1 - float(spacing / (4 * radius)) ** 2)
-    best: tuple[float, Site] | None = None
-    for j in (math.floor(up / step), math.floor(up / step) + 1):
+    r, s, width = packing.radius, packing.s, packing.width
+    place = f"{where}: x = {short(x)}, y = {short(y)}"
+    if max(abs(x), abs(y)) > FARTHEST * r:
+        raise TableError(f"{place} lies more than 2^50 r from bead (0, 0)")
+    across, up = float(x / s), float(y / r)
+    step = 2 * math.sqrt(1 - float(packing.n_x) ** 2)
+
+    def nearest(j: int) -> tuple[float, Site]:
         i = 2 * round(across - (j % 2) / 2) + j % 2
-        off = math.hypot((across - i / 2) * float(spacing / radius), up - j * step)
-        if best is None or off < best[0]:
-            best = (off, (i, j))
-    assert best is not None
-    off, (i, j) = best
+        return math.hypot((across - i / 2) * float(s / r), up - j * step), (i, j)
+
+    below = math.floor(up / step)
+    off, (i, j) = min(nearest(below), nearest(below + 1))
     if not off < 0.5:
         raise TableError(
-            f"{where}: x = {short(x)}, y = {short(y)} lies {off:.2g} r from the nearest site "
-            f"{(i, j)} of the ordered packing, and half of r is allowed: bead (0, 0) is at 0, 0"
+            f"{place} lies {off:.2g} r from the nearest site {(i, j)} of the ordered packing, and "
+            "half of r is allowed: bead (0, 0) is at 0, 0"
         )
     return (i if width is None else i % (2 * width)), j
 
 
-def _site(where: str, bead: Bead, width: int | None, height: int) -> Site:
+def _site(where: str, bead: Bead, packing: Packing) -> Site:
     """Give the place of a bead (i, j) in its layer, or of (p, q, j) in a row of W²."""
     *columns, j = bead
-    if len(columns) == 1 and (columns[0] + j) % 2:
+    flat, width = packing.dimension == 2, packing.width
+    if flat and (columns[0] + j) % 2:
         raise TableError(f"{where}: bead {bead}: i + j must be even")
-    *names, _ = bead_names(len(bead))
-    name, end = ", ".join(names), (2 if len(columns) == 1 else 1) * (width or 0)
-    if not 0 <= j <= height or (width is not None and not all(0 <= n < end for n in columns)):
-        across = "" if width is None else f"0 <= {name} < {end}, "
-        raise TableError(
-            f"{where}: bead {bead} lies outside the packing: {across}0 <= j <= {height}"
-        )
-    return (columns[0], j) if len(columns) == 1 else site_of(bead, end)
+    end = (2 if flat else 1) * (width or 0)
+    if not 0 <= j <= packing.height or (
+        width is not None and not 0 <= min(bead) <= max(columns) < end
+    ):
+        *names, _ = bead_names(len(bead))
+        across = "" if width is None else f"0 <= {', '.join(names)} < {end}, "
+        allowed = f"{across}0 <= j <= {packing.height}"
+        raise TableError(f"{where}: bead {bead} lies outside the packing: {allowed}")
+    return (columns[0], j) if flat else site_of(bead, end)
 
 
 def read_radii(
-    path: Path,
-    *,
-    radius: Fraction,
-    spacing: Fraction,
-    width: int | None,
-    height: int,
-    needed: Callable[[Site], bool],
-    dimension: int = 2,
+    path: Path, packing: Packing, needed: Callable[[Site], bool]
 ) -> dict[Site, Fraction]:
     """Read ``i,j,delta_r``, ``i,j,r`` or ``x,y,r`` into {(i, j): δr/r}, keeping ``needed`` beads.
 
-    In three dimensions ``p,q,j,delta_r`` or ``p,q,j,r``, into rows of W² beads. ``radius`` is r,
-    ``spacing`` s, in the unit of the file; beads at x, y are put on the nearest site. A periodic
-    packing's file must name each of its beads once. Raises ``TableError``.
+    In three dimensions ``p,q,j,delta_r`` or ``p,q,j,r``, into rows of W² beads. Lengths are in the
+    unit of the packing's; beads at x, y are put on the nearest site. A periodic packing's file must
+    name each of its beads once. Raises ``TableError``.
     """
     rho: dict[Site, Fraction] = {}
+    radius, width, dimension = packing.radius, packing.width, packing.dimension
     names = bead_names(dimension)
     headers = [[*names, "delta_r"], [*names, "r"]] + [["x", "y", "r"]] * (dimension == 2)
     bead: Bead
     for where, header, row in _rows("disorder.file", path, *headers):
         if header[0] == "x":
             x, y, delta = _numbers(where, header, row)
-            bead = _on_lattice(where, x, y, radius=radius, spacing=spacing, width=width)
+            bead = _on_lattice(where, x, y, packing)
         else:
             bead, (delta,) = _parsed(where, header, row)
         delta -= radius if header[-1] == "r" else 0
-        site = _site(where, bead, width, height)
-        if delta <= -radius:
-            raise TableError(
-                f"{where}: bead {bead}: delta_r = {short(delta)} leaves no positive radius"
-            )
-        if delta > MOST * radius:
-            raise TableError(
-                f"{where}: bead {bead}: delta_r = {short(delta)} must be at most 1e100 r"
-            )
+        site = _site(where, bead, packing)
+        if delta <= -radius or delta > MOST * radius:
+            allowed = "leaves no positive radius" if delta < 0 else "must be at most 1e100 r"
+            raise TableError(f"{where}: bead {bead}: delta_r = {short(delta)} {allowed}")
         if width is not None or needed(site):
             if site in rho:
                 raise TableError(f"{where}: bead {bead} is named twice")
             rho[site] = delta / radius
-    beads = None if width is None else width ** (dimension - 1)
-    if beads is not None and len(rho) < beads * (height + 1):
-        every = ((i, j) for j in range(height + 1) for i in full_layer(j, beads).sites())
-        bead = Naming(dimension, width).bead(next(one for one in every if one not in rho))
+    if width is not None and len(rho) < width ** (dimension - 1) * (packing.height + 1):
+        rows = (full_layer(j, width ** (dimension - 1)) for j in range(packing.height + 1))
+        missing = next((i, row.j) for row in rows for i in row.sites() if (i, row.j) not in rho)
+        bead = Naming(dimension, width).bead(missing)
         raise TableError(f"disorder.file: {path.name}: bead {bead} is missing")
     if abs(mean := math.fsum(map(float, rho.values())) / max(len(rho), 1)) > 0.5:
         raise TableError(
@@ -170,12 +170,12 @@ def read_radii(
     return rho
 
 
-def read_array(path: Path, shape: tuple[int | None, ...]) -> Array:
+def read_array(path: Path, packing: Packing) -> Array:
     """Read radii from a NumPy file (.npy) of the packing's ``shape``, layer 0 first, as float64.
 
     Raises ``TableError``.
     """
-    name = f"disorder.file: {path.name}"
+    name, shape = f"disorder.file: {path.name}", packing.shape
     if None in shape:
         raise TableError(f"{name}: an array needs packing.width: a slab has no last column")
     try:
@@ -188,23 +188,31 @@ def read_array(path: Path, shape: tuple[int | None, ...]) -> Array:
             f"base included, of {' × '.join(map(str, shape[1:]))} beads"
         )
     try:
-        return radii_array(values)
+        radii = radii_array(values)
     except ValueError as error:
         raise TableError(f"{name}: {error}") from None
+    mean = float(radii.mean())
+    if abs(Fraction(mean) - packing.radius) > packing.radius / 2:
+        raise TableError(
+            f"{name}: the mean radius is {mean:.3g}, and packing.radius is "
+            f"{short(packing.radius)}: is it in another unit?"
+        )
+    return radii
 
 
 def read_loads(
-    path: Path, *, magnitude: Fraction, width: int | None, height: int, dimension: int = 2
+    path: Path, packing: Packing, magnitude: Fraction
 ) -> dict[Site, tuple[Fraction, ...]]:
     """Read ``i,j,fx,fy`` into {(i, j): (fx, fy)/magnitude}, in three dimensions ``p,q,j,fx,fy,fz``.
 
     Raises ``TableError``.
     """
     loads: dict[Site, tuple[Fraction, ...]] = {}
-    header = [*bead_names(dimension), *(f"f{axis}" for axis in axis_names(dimension))]
+    d = packing.dimension
+    header = [*bead_names(d), *(f"f{axis}" for axis in axis_names(d))]
     for where, _, row in _rows("load.file", path, header):
         bead, force = _parsed(where, header, row)
-        site = _site(where, bead, width, height)
+        site = _site(where, bead, packing)
         if site in loads:
             raise TableError(f"{where}: bead {bead} is named twice")
         loads[site] = tuple(one / magnitude for one in force)

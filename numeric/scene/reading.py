@@ -5,20 +5,19 @@ import re
 import shlex
 import tomllib
 from collections.abc import Mapping
+from decimal import Decimal
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeVar
 
 from ..arithmetic.foreign import ForeignFileError, opened
 from .scene import Scene
-from .sections import SceneError, Written, unknown
+from .sections import SceneError, unknown
 
 LARGEST_FILE = 16_000  # bytes of a scene file, in which nothing takes long to read
-S = TypeVar("S", bound=Scene)
 LONGEST_VALUE = 6000
-# Files of radii or loads, which somebody may take for a scene.
-_TABLES = {".csv", ".npy", ".txt"}
-_NAMED = '; a table of radii is named in one, as disorder = {kind = "file", file = "radii.csv"}'
+S = TypeVar("S", bound=Scene)
+_NO_SCENE = "is no scene, which is a TOML file with [packing] and [ask]"
 _WORD = re.compile(r"(?!(true|false|inf|nan)$)[A-Za-z][A-Za-z_-]*", re.ASCII)
 
 
@@ -27,19 +26,24 @@ def read_scene(path: Path, kind: type[S], changes: Mapping[str, str] = MappingPr
 
     ``changes`` are keys, as "packing.height", with values as a scene file has them.
     """
+    table = ""
+    if path.suffix in {".csv", ".npy", ".txt"}:  # of radii or loads, taken for a scene
+        table = (
+            '; a table of radii is named in a scene, as disorder = {kind = "file", '
+            'file = "radii.csv"}, and the scene is run'
+        )
     try:
         with opened(path, LARGEST_FILE) as file:
             text = file.read(LARGEST_FILE).decode("utf-8")
     except UnicodeDecodeError:
-        table = _NAMED if path.suffix in _TABLES else ""
-        raise SceneError(str(path), None, f"a scene must be UTF-8 text{table}") from None
+        raise SceneError(str(path), None, f"{_NO_SCENE}, in UTF-8{table}") from None
     except ForeignFileError as error:
-        raise SceneError(str(path), None, str(error)) from None
+        said = f"{_NO_SCENE}: {error}" if table and path.exists() else str(error)
+        raise SceneError(str(path), None, said + table) from None
     try:
         return parse_scene(text, kind, path.parent, changes)
     except SceneError as error:
         if error.key == "scene":
-            table = _NAMED if path.suffix in _TABLES else ""
             raise SceneError(str(path), None, error.allowed + table) from None
         error.add_note(path.name)
         raise
@@ -52,19 +56,14 @@ def _value(name: str, written: str) -> object:
     try:
         if len(written) > LONGEST_VALUE or "\n" in written:
             raise ValueError
-        found: object = tomllib.loads(f"value = {written}", parse_float=Written)["value"]
+        found: object = tomllib.loads(f"value = {written}", parse_float=Decimal)["value"]
     except (ValueError, ArithmeticError, RecursionError):
-        why = f"is no value of TOML, such as 8, 1e-4 or [0, 10]{_quoted(name, written)}"
+        why = "is no value of TOML, such as 8, 1e-4 or [0, 10]"
+        if len(written) <= LONGEST_VALUE and re.match(r"[A-Za-z_./~]", written):
+            text = json.dumps(written, ensure_ascii=False)  # quotes, which shells take away
+            why += f"; text goes in quotes: say --set {shlex.quote(f'{name}={text}')}"
         raise SceneError(name, written, why) from None
     return found
-
-
-def _quoted(name: str, written: str) -> str:
-    """Say how text, such as the name of a file, is set: in quotes, which shells take away."""
-    if len(written) > LONGEST_VALUE or not re.match(r"[A-Za-z_./~]", written):
-        return ""
-    text = json.dumps(written, ensure_ascii=False)
-    return f"; text goes in quotes: say --set {shlex.quote(f'{name}={text}')}"
 
 
 def parse_scene(
@@ -83,12 +82,11 @@ def parse_scene(
 "profile"?
     """
     try:
-        raw = tomllib.loads(text, parse_float=Written)
+        raw = tomllib.loads(text, parse_float=Decimal)
     except RecursionError:
         raise SceneError("scene", None, "is nested too deeply") from None
     except tomllib.TOMLDecodeError as error:
-        why = f"is no scene, which is a TOML file with [packing] and [ask] ({error})"
-        raise SceneError("scene", None, why) from None
+        raise SceneError("scene", None, f"{_NO_SCENE} ({error})") from None
     except (ArithmeticError, ValueError):
         why = "has a number with a huge exponent, or an integer of more than 4300 digits"
         raise SceneError("scene", None, why) from None
@@ -100,12 +98,4 @@ def parse_scene(
         if not key or "." in key or not isinstance(keys, dict):
             raise SceneError(name, None, "is no key of a section, such as packing.height")
         keys[key] = _value(name, written)
-    try:
-        return kind(**raw, folder=folder)
-    except SceneError as error:  # say the number as it was written, not as it was understood
-        section, _, key = error.key.partition(".")
-        keys = raw.get(section)
-        value = keys.get(key) if isinstance(keys, dict) else None
-        if not isinstance(value, Written):
-            raise
-        raise SceneError(error.key, value, error.allowed) from None
+    return kind(**raw, folder=folder)

@@ -10,42 +10,37 @@ from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
 from ..lattice.branch import Branch, Contact, Site
-from .combinations import ONLY_WITH, REQUIRED, either, refusal
+from .combinations import NEEDS, Asked, Need, either, refusal
 from .sections import (
     PLACES,
     Ask,
     Disorder,
+    Effects,
     GivenRadii,
     Load,
     Packing,
     SceneError,
     Section,
-    Sections,
 )
 
 PROGRAM = "force-diffusion"
 FARTHEST = 10**307  # units of length, in which float64 are given
 
 
-class Scene(Sections):
+class Scene(Section):
     """A whole scene; files are relative to ``folder``. Raises ``SceneError``."""
 
+    packing: Packing
+    disorder: Disorder | None = None
+    load: Load = Load()
+    effects: Effects = Effects()
+    ask: Ask
     folder: Path = Path()
 
     def __init__(self, /, **values: Any) -> None:
         """Check the sections, and what they say about each other."""
         super().__init__(**values)
         check(self)
-
-    @property
-    def spacing(self) -> Fraction:
-        """s; 3 r unless named."""
-        return self.packing.s
-
-    @property
-    def n_x(self) -> Fraction:
-        """n_x = s/4r."""
-        return self.packing.s / (4 * Fraction(self.packing.radius))
 
     @property
     def contact(self) -> Contact | None:
@@ -70,29 +65,22 @@ class Scene(Sections):
         return self.model_copy(update={"ask": self.ask.model_copy(update={"quantity": quantity})})
 
 
-def check(scene: Sections) -> None:
+def check(scene: Scene) -> None:
     """Check what keys say about each other. Raises ``SceneError``."""
-    packing, disorder, ask = scene.packing, scene.disorder, scene.ask
+    packing, disorder, load, ask = scene.packing, scene.disorder, scene.load, scene.ask
     _check_packing(packing)
-    _check_keys(scene)
+    for need in NEEDS:
+        _check_need(scene, need)
     refuse("run", scene)
     if isinstance(disorder, GivenRadii):
         _check_given(disorder, packing, ask)
     elif disorder is not None:
         _check_disorder(disorder, ask)
-    load, effects = scene.load, scene.effects
-    _check_positive("load.magnitude", load.magnitude)
-    _check_positive("effects.most_seconds", effects.most_seconds)
-    if abs(load.angle_deg) > 90:
-        allowed = "must lie between -90 and 90, counted from straight down"
-        raise SceneError("load.angle_deg", load.angle_deg, allowed)
     if load.at is not None:
         _check_place(packing, "load.at", load.at, contact=False, layers=(1, packing.height))
-    if effects.contacts == "unilateral" and (packing.width or 3) < 3:
+    if scene.effects.contacts == "unilateral" and (packing.width or 3) < 3:
         allowed = 'must be 3 or more with contacts = "unilateral": beads move in a periodic strip'
         raise SceneError("packing.width", packing.width, allowed)
-    if ask.tolerance is not None and not 0 < ask.tolerance < 1:
-        raise SceneError("ask.tolerance", ask.tolerance, "must lie between 0 and 1")
     if ask.at is not None:
         contact = ask.quantity != "positions"
         layers = (0, packing.height - contact)
@@ -100,34 +88,26 @@ def check(scene: Sections) -> None:
     _check_layers(ask, load, packing.height)
 
 
-def _check_keys(scene: Sections) -> None:
-    """Refuse keys that mean nothing beside what others say, and miss those that are needed."""
-    for needed, rows in ((True, REQUIRED), (False, ONLY_WITH)):
-        for key, other, values in rows:
-            section, _, name = key.partition(".")
-            keys = getattr(scene, section)
-            if keys is None:
-                continue
-            says = keys.quantities if other == "quantity" else (getattr(keys, other),)
-            value = getattr(keys, name) if name in keys.model_fields_set else None
-            fits = any(one in values for one in says)
-            if needed and fits and value is None:
-                form = ', as at = [i, j], or for a contact [i, j, "+"]' if name == "at" else ""
-                raise SceneError(key, None, f'is required with {other} = "{says[0]}"{form}')
-            if not needed and not fits and value is not None:
-                raise SceneError(key, value, f"needs {other} = {either(values)}")
+def _check_need(scene: Scene, need: Need) -> None:
+    """Refuse a key that means nothing beside what another says, and miss one that is needed."""
+    section, _, name = need.key.partition(".")
+    keys = getattr(scene, section)
+    if keys is None:
+        return
+    says = keys.quantities if need.other == "quantity" else (getattr(keys, need.other),)
+    value = getattr(keys, name) if name in keys.model_fields_set else None
+    if value is None and any(word in need.required for word in says):
+        form = ', as at = [i, j], or for a contact [i, j, "+"]' if name == "at" else ""
+        raise SceneError(need.key, None, f'is required with {need.other} = "{says[0]}"{form}')
+    if value is not None and not any(word in need.values for word in says):
+        raise SceneError(need.key, value, f"needs {need.other} = {either(need.values)}")
 
 
-def _check_positive(key: str, value: Fraction | None) -> None:
-    if value is not None and value <= 0:
-        raise SceneError(key, value, "must be greater than 0")
-
-
-def refuse(command: str, scene: Sections, *, reach: bool = False) -> None:
+def refuse(command: str, scene: Scene, *, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
     packing, effects, ask = scene.packing, scene.effects, scene.ask
     for quantity in ask.quantities:
-        found = refusal(
+        asked = Asked(
             command=command,
             quantity=quantity,
             dimension=packing.dimension,
@@ -143,14 +123,14 @@ def refuse(command: str, scene: Sections, *, reach: bool = False) -> None:
             tolerance=ask.tolerance is not None,
             reach=reach,
         )
+        found = refusal(asked)
         if found is not None:
-            section, _, key = found.key.partition(".")
-            value = getattr(getattr(scene, section), key, None)
-            raise SceneError(found.key, value, found.why)
+            key, why = found
+            section, _, name = key.partition(".")
+            raise SceneError(key, getattr(getattr(scene, section), name, None), why)
 
 
 def _check_packing(p: Packing) -> None:
-    _check_positive("packing.radius", p.radius)
     flat, widest = p.dimension == 2, 8 + Fraction(8, p.dimension)  # −1/d < φ = 1 − s²/8r² < 1/2
     if not 4 * p.radius**2 < p.s**2 < widest * p.radius**2 or p.s < 0:
         most = f"{math.sqrt(widest):.6f}"[:6]
@@ -278,10 +258,9 @@ def source_of(scene: Scene, files: dict[str, str] | None = None) -> dict[str, An
     Numbers of the scene are strings, exact. ``sha256`` is that of the ``files_read``, and of the
     doubles of an array, in the order of its rows.
     """
-    named = (("packing", scene.packing), ("disorder", scene.disorder), ("load", scene.load),
-             ("effects", scene.effects), ("ask", scene.ask))  # fmt: skip
-    sections = {name: _said(section) for name, section in named if section is not None}
-    sections["packing"]["spacing"] = _exact(scene.spacing)
+    held = {name: getattr(scene, name) for name in Scene.model_fields if name != "folder"}
+    sections = {name: _said(section) for name, section in held.items() if section is not None}
+    sections["packing"]["spacing"] = _exact(scene.packing.s)
     disorder, hashes = scene.disorder, dict(files_read(scene) if files is None else files)
     if isinstance(disorder, GivenRadii):
         sections["disorder"] = {"kind": "given", disorder.name: list(disorder.values.shape)}

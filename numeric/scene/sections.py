@@ -7,7 +7,6 @@ that Python prints for it.
 import difflib
 import operator
 import textwrap
-from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
 
@@ -33,35 +32,23 @@ class SceneError(ForceDiffusionError, ValueError):
         self.key, self.value, self.allowed = key, value, allowed
 
 
-class Written(Decimal):
-    """A decimal that remembers how it was written."""
-
-    text: str
-
-    def __new__(cls, text: str) -> "Written":
-        """Keep the text."""
-        number = super().__new__(cls, text)
-        number.text = text
-        return number
-
-    def __repr__(self) -> str:
-        return self.text
-
-
 def _shown(value: object) -> str:
-    if isinstance(value, Fraction):
-        return decimal_string(value)
-    if isinstance(value, int) and abs(value) > 10**40:
-        return "a number of more than 40 digits"
-    if isinstance(value, bool):
-        text = str(value).lower()
-    elif isinstance(value, Written):
-        text = value.text
-    else:
-        try:
-            text = f'"{value}"' if isinstance(value, str) else str(value).replace("'", '"')
-        except (RecursionError, ValueError):  # nested deeply, or an integer of thousands of digits
-            text = "…"
+    """Quote a value by at most 60 characters."""
+    match value:
+        case bool():
+            text = str(value).lower()
+        case int() if abs(value) > 10**40:
+            return "a number of more than 40 digits"
+        case Fraction():
+            text = decimal_string(value)
+        case str():
+            text = f'"{value}"'
+        case list() | tuple():
+            text = f"[{', '.join(map(_shown, value[:20]))}]"
+        case dict():
+            return "a table"
+        case _:
+            text = str(value)
     return text if len(text) <= 60 else text[:57] + "…"
 
 
@@ -120,12 +107,8 @@ class Section(BaseModel):
             raise explained(error, type(self), values) from None
 
     def __repr__(self) -> str:
-        said = {name: getattr(self, name) for name in type(self).model_fields}
-        shown = [
-            f"{name}={_brief(value)}"
-            for name, value in said.items()
-            if name in self.model_fields_set and value is not None
-        ]
+        said = {name: getattr(self, name) for name in self.model_fields_set}
+        shown = [f"{name}={_brief(said[name])}" for name in type(self).model_fields if name in said]
         return f"{type(self).__name__}({', '.join(shown)})"
 
 
@@ -152,7 +135,7 @@ class Packing(Section):
     section = "packing"
     height: Whole = Field(ge=1, le=10_000_000)
     width: Whole | None = Field(default=None, ge=1, le=10**12)
-    radius: Number = Fraction(1)
+    radius: Number = Field(default=Fraction(1), gt=0)
     spacing: Number | None = None
     dimension: Whole = Field(default=2, ge=2, le=3)
     allow_images: bool = False
@@ -161,6 +144,11 @@ class Packing(Section):
     def s(self) -> Fraction:
         """s; 3 r unless ``spacing`` names it."""
         return 3 * Fraction(self.radius) if self.spacing is None else Fraction(self.spacing)
+
+    @property
+    def n_x(self) -> Fraction:
+        """n_x = s/4r."""
+        return self.s / (4 * Fraction(self.radius))
 
     @property
     def shape(self) -> tuple[int | None, ...]:
@@ -175,7 +163,7 @@ class Disorder(Section):
     kind: Literal["uniform", "normal", "two-point", "file"]
     relative_std: Number | None = Field(default=None, ge=0)
     seed: Whole = Field(default=0, ge=0, lt=2**64)
-    file: str | None = None
+    file: str | None = Field(default=None, max_length=1000)
 
 
 def _refuse_infinite(values: Array) -> None:
@@ -262,10 +250,10 @@ class Load(Section):
 
     section = "load"
     kind: Literal["surface", "bulk", "point", "file"] = "surface"
-    magnitude: Number = Fraction(1)
-    angle_deg: Number = Fraction(0)
+    magnitude: Number = Field(default=Fraction(1), gt=0)
+    angle_deg: Number = Field(default=Fraction(0), ge=-90, le=90)
     at: Bead | None = None
-    file: str | None = None
+    file: str | None = Field(default=None, max_length=1000)
 
 
 class SurfaceLoad(Load):
@@ -298,7 +286,7 @@ class Effects(Section):
     geometry: Literal["ordered", "first-order", "exact"] = "exact"
     contacts: Literal["bilateral", "unilateral"] = "bilateral"
     most_programs: Whole | None = Field(default=None, ge=1)
-    most_seconds: Number | None = None
+    most_seconds: Number | None = Field(default=None, gt=0)
 
 
 class Ask(Section):
@@ -311,7 +299,7 @@ class Ask(Section):
     section = "ask"
     quantity: Questions
     at: Place | None = None
-    tolerance: Number | None = None
+    tolerance: Number | None = Field(default=None, gt=0, lt=1)
     certified: bool = False
     realisations: Whole = Field(default=1, ge=1, le=10**9)
     bins: Whole | None = Field(default=None, ge=1, le=1_000_000)
@@ -321,16 +309,6 @@ class Ask(Section):
     def quantities(self) -> tuple[str, ...]:
         """All that is asked for."""
         return (self.quantity,) if isinstance(self.quantity, str) else self.quantity
-
-
-class Sections(Section):
-    """All sections of a scene."""
-
-    packing: Packing
-    disorder: Disorder | None = None
-    load: Load = Load()
-    effects: Effects = Effects()
-    ask: Ask
 
 
 def unknown(key: str, model: type[Section]) -> str:

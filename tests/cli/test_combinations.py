@@ -10,20 +10,18 @@ import pytest
 from force_diffusion.numeric.scene.combinations import (
     COMMANDS,
     KINDS,
-    ONLY_WITH,
+    NEEDS,
     QUANTITIES,
-    TABLE,
+    Asked,
     answered,
     either,
-    guide,
-    limits,
     refusal,
 )
 
 from force_diffusion.__main__ import main
 from tests.numeric.scenes import toml
 
-ROOT = Path(__file__).parents[2]
+GUIDE = (Path(__file__).parents[2] / "scenes" / "README.md").read_text(encoding="utf-8")
 FORMATS = ("csv", "npz", "parquet")
 
 
@@ -103,23 +101,23 @@ def ways(command: str, quantity: str) -> list[list[str]]:
     return every
 
 
-def features(quantity: str, kind: str, load: str, said: str) -> dict[str, Any]:
-    """What the scene of a cell is, as the table has it."""
-    found = {"quantity": quantity, **KINDS[kind]}
-    if load:
-        keys = OTHER_LOADS[load]
-        found |= {"load": keys["kind"]}
-    return found | (SAID[said][2] if said else {})
-
-
 def why_not(command: str, quantity: str, kind: str, load: str, said: str) -> str:
-    """Say what the tables refuse of a cell."""
-    keys = {f"{SAID[said][0]}.{key}" for key in SAID[said][1]} if said else set()
-    for key, other, values in ONLY_WITH:
-        if other == "quantity" and key in keys and quantity not in values:
-            return f"needs quantity = {either(values)}"
-    found = refusal(command=command, **features(quantity, kind, load, said))
-    return found.why if found else ""
+    """Say what is refused of a cell, and see that the guide says the same."""
+    section, keys, features = SAID[said] if said else ("", {}, {})
+    for need in NEEDS:
+        here = need.other == "quantity" and need.key in {f"{section}.{key}" for key in keys}
+        if here and quantity not in need.values:
+            return f"needs quantity = {either(need.values)}"
+    found = {"at": quantity == "contact", **KINDS[kind], **features}
+    found["load"] = "point" if quantity == "response" else "surface"
+    if load:
+        found["load"] = OTHER_LOADS[load]["kind"]
+    refused = refusal(Asked(command, quantity, **found))
+    if refused is None:
+        return ""
+    key, why = refused
+    assert f"| `{key}` {why} |" in GUIDE
+    return why
 
 
 def crossed(command: str, quantity: str, kind: str) -> bool:
@@ -168,21 +166,15 @@ def test_a_cell_is_answered_or_refused_as_the_table_says(
             assert len(list((tmp_path / "out").iterdir())) >= 2
 
 
-def test_each_row_refuses_something() -> None:
-    """Features that follow from others come of these."""
-    derived = {"endless": {"slab": True}, "beside": {"layers": True}, "drawing": {}}
-    assert len(TABLE) <= 15
-    for number, row in enumerate(TABLE):
-        own: dict[str, Any] = {"quantity": "contact"} if "drawing" in row.when else {}
-        for name, values in row.when.items():
-            own |= derived.get(name, {name: values[0]})
-        assert refusal(**own) in TABLE[: number + 1]
-
-
-def test_the_guide_says_what_the_table_does() -> None:
-    written = (ROOT / "scenes" / "README.md").read_text(encoding="utf-8")
-    assert guide() in written
-    assert limits() in written
+def test_the_guide_says_which_command_answers_what() -> None:
+    for quantity in QUANTITIES:
+        cells = [
+            ", ".join(kind for kind, own in KINDS.items() if quantity in answered(command, **own))
+            for command in COMMANDS
+        ]
+        assert f"| `{quantity}` | {' | '.join(cell or '–' for cell in cells)} |" in GUIDE
+    for need in NEEDS:
+        assert f"`{need.key}` needs {need.other} = {either(need.values)} |" in GUIDE
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -1,9 +1,8 @@
-"""Small things that users tripped over: what is wrong is said in their words."""
+"""Numbers and arrays as Python users have them: taken exactly, or refused in words."""
 
 import math
 from decimal import Decimal
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import flint
@@ -14,28 +13,8 @@ import sympy
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 
 import force_diffusion as fd
-from force_diffusion.__main__ import main
 
-SCENE = fd.Scene(
-    packing=fd.Packing(height=4, width=8),
-    disorder=fd.Disorder(kind="uniform", relative_std=1e-4),
-    ask=fd.Ask(quantity="profile"),
-)
-
-
-@pytest.mark.parametrize(
-    "wrong",
-    [
-        {"realisations": "a"}, {"realisations": 10.5}, {"workers": "x"}, {"until": "a"},
-        {"confidence": "a"}, {"reach": "a"}, {"store": 5},
-    ],
-)  # fmt: skip
-def test_wrong_types_for_an_ensemble(wrong: dict[str, Any]) -> None:
-    (name,) = wrong
-    with pytest.raises(ForceDiffusionError, match=rf"^{name} = "):
-        fd.ensemble(SCENE, **{"realisations": 10, **wrong})
-
-
+RADII = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (4, 5, 12))
 EXACT = [
     *(Fraction(16, 5), Decimal("3.2"), 3.2, np.float64(3.2)),
     *(sympy.Rational(16, 5), flint.fmpq(16, 5)),
@@ -45,10 +24,8 @@ EXACT = [
 
 @pytest.mark.parametrize("at", range(len(EXACT)))
 def test_exact_numbers_are_taken(at: int) -> None:
-    expected = Fraction(16, 5) if at < 6 else Fraction(3)
-    delta = 1e-3 * np.random.default_rng(1).uniform(-1, 1, (3, 6))
-    assert fd.Packing(height=2, spacing=EXACT[at]).spacing == expected
-    assert fd.solve(delta_r=delta, spacing=EXACT[at]).scene.packing.spacing == expected
+    packing = fd.Packing(height=2, spacing=EXACT[at])
+    assert packing.spacing == (Fraction(16, 5) if at < 6 else Fraction(3))
 
 
 REFUSED = [  # longer than float64, not one number, or too long
@@ -63,7 +40,7 @@ REFUSED = [  # longer than float64, not one number, or too long
 def test_other_numbers_are_refused_in_words(number: Any) -> None:
     for name in ("spacing", "tolerance"):
         with pytest.raises(fd.SceneError, match=rf"^{name} = .*: must (be|have) "):
-            fd.solve(delta_r=np.zeros((3, 6)), **{name: number})
+            fd.solve(RADII, **{name: number})
 
 
 LONGER = [
@@ -85,11 +62,20 @@ def test_radii_that_float64_holds_are_taken(kind: Any) -> None:
     assert fd.solve(radii, radius=64).scene.disorder.values.dtype == np.float64  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize("wrong", [{"heights": 5}, {"realisations": "a"}, {"realisations": -1}])
-def test_wrong_types_for_a_figure(wrong: dict[str, Any]) -> None:
-    (name,) = wrong
-    with pytest.raises(fd.SceneError, match=rf"^{name} = "):
-        fd.figure(3, **wrong)
+@pytest.mark.parametrize(
+    ("wrong", "says"),
+    [
+        ({"radii": RADII[0], "spacing": 9}, r"^spacing = 9: .* \(it is about 8\.99\d* r\)"),
+        ({"radii": RADII[0], "radius": 9}, "^radius = 9"),
+        ({"radii": "a"}, "^radii = "),
+        ({"delta_r": [["a"]]}, "^delta_r = "),
+        ({"radii": RADII[0] * 1.7e308}, r"^radii = .*at most 1e\+300"),
+        ({"radii": RADII[0], "load": fd.PointLoad(at=(3, 8))}, "j must be from 1, above the base"),
+    ],
+)
+def test_solve_names_its_own_arguments(wrong: dict[str, Any], says: str) -> None:
+    with np.errstate(over="ignore"), pytest.raises(fd.SceneError, match=says):
+        fd.solve(**wrong)
 
 
 def test_a_huge_number_can_be_shown() -> None:
@@ -97,43 +83,8 @@ def test_a_huge_number_can_be_shown() -> None:
     assert "radius=2.5" in repr(fd.Packing(height=4, width=9, radius=2.5))
 
 
-def test_a_file_that_is_no_scene_is_named(tmp_path: Path, capsys: Any) -> None:
-    path = tmp_path / "mine.toml"
-    path.write_text("root:x:0")
-    with pytest.raises(fd.SceneError, match=r"mine\.toml: is no scene, which is a TOML file"):
-        fd.read_scene(path)
-    for name in (str(path), "nope.toml"):
-        assert main(["run", name]) == 2
-        assert capsys.readouterr().err.count(Path(name).name) == 1
-    path.write_text("packing = {height = 0}\nask = {quantity = 'profile'}")
-    assert main(["run", str(path)]) == 2
-    assert capsys.readouterr().err.startswith("force-diffusion: mine.toml: packing.height = 0")
-
-
-def test_a_load_above_the_packing_is_told_so() -> None:
-    with pytest.raises(fd.SceneError, match="j must be from 1, above the base, to 4, the surface"):
-        fd.Scene(
-            packing=fd.Packing(height=4, width=8),
-            load=fd.PointLoad(at=(3, 8)),
-            ask=fd.Ask(quantity="contact_forces"),
-        )
-
-
-def test_solve_names_its_own_arguments() -> None:
-    radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (5, 12))
-    wrong: dict[str, Any]
-    for wrong, says in (
-        ({"radii": radii, "spacing": 9}, r"^spacing = 9: .* \(it is about 8\.99\d* r\)"),
-        ({"radii": radii, "radius": 9}, "^radius = 9"),
-        ({"radii": "a"}, "^radii = "),
-        ({"delta_r": [["a"]]}, "^delta_r = "),
-    ):
-        with pytest.raises(fd.SceneError, match=says):
-            fd.solve(**wrong)
-
-
 def test_what_is_odd_about_a_batch_names_the_packing() -> None:
-    radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (4, 5, 12))
+    radii = RADII.copy()
     radii[2] += 0.13 * np.random.default_rng(2).uniform(-1, 1, (5, 12))
     physical = fd.solve(radii).forces.data()["physical"]
     assert physical["smallest_gap_realisation"] == 2
@@ -142,3 +93,15 @@ def test_what_is_odd_about_a_batch_names_the_packing() -> None:
     with pytest.raises(ForceDiffusionError) as caught:
         fd.solve(radii)
     assert caught.value.__notes__ == ["packing 3"]
+
+
+def test_a_shifted_mean_and_a_height_above_the_critical_one_are_said() -> None:
+    delta = RADII[0] - 1
+    found = fd.solve(delta_r=delta + 0.01, spacing=2.88)
+    (note,) = found.forces.plan.notes
+    assert "the mean of the given radii differs" in note
+    assert f"Note: {note}" in str(found)
+    assert fd.solve(delta_r=delta, spacing=2.88).forces.plan.notes == []
+    wide = 0.08 * np.random.default_rng(1).uniform(-1, 1, (9, 12))
+    (note,) = fd.solve(delta_r=wide).forces.plan.notes
+    assert "is above M*" in note

@@ -1,21 +1,17 @@
-"""Files and numbers from elsewhere that nobody would write: each is refused in words."""
+"""Arrays of NumPy that others or nobody would write: read as NumPy does, or refused in words."""
 
 import io
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.foreign import ForeignFileError, read_numbers
 from force_diffusion.numeric.scene.files import TableError
-from force_diffusion.numeric.scene.sections import SceneError
 from hypothesis import given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from force_diffusion.__main__ import main
 
 LAYERS, WIDTH = 4, 5
 GOOD = np.linspace(0.99, 1.01, LAYERS * WIDTH).reshape(LAYERS, WIDTH)
@@ -80,6 +76,11 @@ def read(path: Path) -> Any:
         "length cut": (npy()[:9], "header"),
         "infinite": (npy(GOOD * np.inf), "finite"),
         "large": (npy(GOOD * 1.7e308), "at most 1e\\+300"),
+        "text": (b"i,j,r\n", "is no NumPy file"),
+        "nothing": (b"", "is no NumPy file"),
+        "few layers": (npy(GOOD[1:]), "shape"),
+        "complex": (npy(GOOD.astype(complex)), "real numbers"),
+        "another unit": (npy(GOOD * 2.5), "mean radius"),
     }.values(),
 )
 def test_what_is_no_array_of_numbers(content: bytes, says: str, tmp_path: Path) -> None:
@@ -132,62 +133,3 @@ def test_a_changed_file_is_read_or_refused_as_numpy_would(
     expected = np.load(io.BytesIO(content), allow_pickle=False)
     assert (found.shape, found.dtype) == (expected.shape, expected.dtype)
     assert np.array_equal(found, expected, equal_nan=True)
-
-
-@pytest.mark.parametrize("unit", ["1", "1e-100"])
-@pytest.mark.parametrize("place", ["1e400,0", "0,1e400", "0,1e308", "-1e308,0", "0,1e20"])
-def test_places_that_no_float_holds(place: str, unit: str, tmp_path: Path) -> None:
-    (tmp_path / "radii.csv").write_text(f"x,y,r\n{place},{unit}\n")
-    scene = fd.Scene(
-        packing=fd.Packing(height=3, width=5, radius=Fraction(unit)),
-        disorder=fd.Disorder(kind="file", file="radii.csv"),
-        ask=fd.Ask(quantity="profile"),
-        folder=tmp_path,
-    )
-    with pytest.raises(TableError, match=r"line 2: .*more than 2\^50 r from bead"):
-        scene.run()
-
-
-def test_arrays_whose_mean_is_no_float() -> None:
-    for largest in (1.7e308, 1e302):
-        with pytest.raises(SceneError, match=r"radii.*at most 1e\+300"):
-            fd.solve(GOOD * largest)
-    assert fd.solve(GOOD * 9e299).error < 1e-15
-
-
-SCENE = fd.Scene(
-    packing=fd.Packing(height=3, width=6),
-    disorder=fd.Disorder(kind="uniform", relative_std=0.01),
-    ask=fd.Ask(quantity="profile"),
-)
-
-
-def test_numbers_of_any_kind_say_how_exact_an_ensemble_is() -> None:
-    exact = fd.ensemble(SCENE, 50, until=Fraction(1, 2), confidence=Fraction(9, 10))  # type: ignore[arg-type]
-    assert exact.data() == fd.ensemble(SCENE, 50, until=0.5, confidence=0.9).data()
-
-
-@pytest.mark.parametrize("name", ["until", "confidence"])
-@pytest.mark.parametrize(
-    "value",
-    [Fraction(2), Fraction(10**400), 10**400, Fraction(1, 10**400)],
-    ids=["2", "fraction", "whole", "small"],
-)
-def test_numbers_outside_of_their_range_are_refused(name: str, value: Any) -> None:
-    with pytest.raises(ForceDiffusionError, match=name):
-        fd.ensemble(SCENE, 50, **{name: value})
-
-
-def test_a_share_that_no_ensemble_reaches_is_told_so(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = tmp_path / "scene.toml"
-    path.write_text(
-        "packing = {height = 3, width = 6}\nask = {quantity = 'profile'}\n"
-        "disorder = {kind = 'uniform', relative_std = 0.01}"
-    )
-    words = ["--realisations", "5", "--workers", "1", "--until"]
-    assert main(["ensemble", str(path), *words, "1e-300"]) == 3
-    assert "more realisations are needed" in capsys.readouterr().err
-    assert main(["ensemble", str(path), *words, "1e-3"]) == 3
-    assert "realisations may do" in capsys.readouterr().err

@@ -65,9 +65,17 @@ def test_a_table_of_places(tmp_path: Path, reference: Any) -> None:
     assert same(solved(listed(tmp_path / "places.csv", "x,y,r", rows)), reference)
 
 
-def test_a_place_between_sites_is_refused(tmp_path: Path) -> None:
-    path = listed(tmp_path / "places.csv", "x,y,r", [(1.8, 0.0, R)])
-    with pytest.raises(TableError, match=r"places.csv, line 2: .* nearest site \(0, 0\)"):
+@pytest.mark.parametrize(
+    ("place", "says"),
+    [
+        ("1.8,0", r"nearest site \(0, 0\)"),
+        *((far, r"more than 2\^50 r from bead") for far in ("1e400,0", "0,1e308", "0,-1e20")),
+    ],
+)
+def test_a_place_between_sites_is_refused(place: str, says: str, tmp_path: Path) -> None:
+    path = tmp_path / "places.csv"
+    path.write_text(f"x,y,r\n{place},{R}\n")
+    with pytest.raises(TableError, match=rf"places.csv, line 2: .*{says}"):
         solved(path)
 
 
@@ -79,38 +87,3 @@ def test_another_mean_is_refused(header: str, offset: float, tmp_path: Path) -> 
     rows = [(i, j, start + offset + abs(float(DELTA[j, q]))) for j, q, i in SITES]
     with pytest.raises(TableError, match="mean radius is"):
         solved(listed(tmp_path / "r.csv", header, rows))
-
-
-@pytest.mark.parametrize(
-    ("values", "says"),
-    [
-        (np.ones((M, W)), "shape"),
-        (np.ones((M + 1, W), dtype=complex), "real numbers"),
-        (np.full((M + 1, W), np.nan), "finite"),
-        (np.ones((M + 1, W)), "mean radius"),
-    ],
-)
-def test_wrong_arrays_are_refused(values: Any, says: str, tmp_path: Path) -> None:
-    np.save(tmp_path / "radii.npy", values)
-    with pytest.raises(TableError, match=says):
-        solved(tmp_path / "radii.npy")
-
-
-def test_what_is_no_array_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "radii.npy"
-    np.save(path, np.array([{"a": 1}], dtype=object), allow_pickle=True)
-    for content in (path.read_bytes(), b"", b"\x93NUMPY", b"i,j,r\n"):
-        path.write_bytes(content)
-        with pytest.raises(TableError, match=r"radii.npy: is no NumPy file"):
-            solved(path)
-
-
-def test_a_shifted_mean_and_a_height_above_the_critical_one_are_said(tmp_path: Path) -> None:
-    found = fd.solve(delta_r=DELTA / R + 0.01, spacing=2.88)
-    (note,) = found.forces.plan.notes
-    assert "the mean of the given radii differs" in note
-    assert "Note: the mean of the given radii" in str(found)
-    assert fd.solve(delta_r=DELTA / R, spacing=2.88).forces.plan.notes == []
-    wide = 0.08 * np.random.default_rng(1).uniform(-1, 1, (9, 12))
-    (note,) = fd.solve(delta_r=wide).forces.plan.notes
-    assert "is above M*" in note
