@@ -34,8 +34,8 @@ _PARAMETERS = (
 NAMED = {symbol.name: symbol for symbol in (*INDICES, *_PARAMETERS, *sy.VECTORS)}
 """The symbols of ``force_diffusion.symbols``."""
 
-_PLACE = f"whole numbers and {', '.join(map(text, INDICES))}, times whole numbers, may stand there"
-_WRITTEN = "sums, products, whole powers and quotients of rational numbers and symbols are read"
+_PLACE = f"only whole numbers and {', '.join(map(text, INDICES))}, times whole numbers, are allowed"
+_WRITTEN = "write sums, products, integer powers and quotients of rational numbers and symbols"
 
 
 def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
@@ -49,21 +49,21 @@ def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
             f"{observable!r} is text: write it with the symbols of force_diffusion.symbols"
         )
     if isinstance(observable, type):
-        raise ObservableError(f"{observable.__name__} is of no bead: write its place, as (i, j)")
+        raise ObservableError(f"{observable.__name__} needs a place, such as (i, j)")
     try:
         found = sympy.sympify(observable, strict=True)  # else SymPy evaluates text
     except sympy.SympifyError:
         found = None
     if not isinstance(found, sympy.Expr):
-        raise ObservableError(f"{observable!r} is no SymPy expression")
+        raise ObservableError(f"{observable!r} is not a SymPy expression")
     _check_symbols(found)
     degree, is_vector = _Check(found, dimension, linear).of(found)
     if is_vector:
-        raise ObservableError(f"{text(found)} is a vector: take a component, as dot(e_y, …)")
+        raise ObservableError(f"{text(found)} is a vector: take a component, such as dot(e_y, …)")
     if linear and degree > 1:
         raise ObservableError(
-            f"{text(found)} is not linear in what depends on the radii; mean(…, order=2) takes "
-            "products"
+            f"{text(found)} is not linear in quantities that depend on the radii; "
+            "mean(…, order=2) accepts products"
         )
     return found
 
@@ -79,20 +79,20 @@ def _check_symbols(observable: sympy.Expr) -> None:
         ours = NAMED.get(symbol.name)
         if ours is not None and symbol not in (ours, sy.site_r):
             raise ObservableError(
-                f"{symbol.name} is another symbol than {symbol.name} of force_diffusion.symbols: "
-                "import it from there, or give yours another name"
+                f"{symbol.name} is not the {symbol.name} of force_diffusion.symbols: "
+                "import it from there, or rename yours"
             )
         if symbol in (sy.z, sy.m, sy.n):
-            instead = "write j/M" if symbol == sy.z else "take another symbol"
-            raise ObservableError(f"{symbol.name} may not stand in an observable: {instead}")
+            instead = "write j/M" if symbol == sy.z else "use another symbol"
+            raise ObservableError(f"{symbol.name} can't be used in an observable: {instead}")
         if symbol in FIELD.position or symbol in sy.VECTORS:
             continue
         if symbol.name in own:
-            raise ObservableError(f"there are two symbols with the name {symbol.name}")
+            raise ObservableError(f"two symbols have the name {symbol.name}")
         if not symbol.is_commutative or not symbol.name.isidentifier() or iskeyword(symbol.name):
             raise ObservableError(
-                f"{symbol.name}: a constant has to commute, and its name to be one that Python "
-                "takes for an argument"
+                f"{symbol.name}: a constant has to be commutative, and its name has to be "
+                "a valid name of a Python argument"
             )
         own[symbol.name] = symbol
 
@@ -135,11 +135,13 @@ class _Check:
         if isinstance(part, sympy.Pow) and isinstance(part.exp, sympy.Integer):
             return self._power(part.base, int(part.exp))
         if isinstance(part, sympy.Float):
-            raise ObservableError(f"{part} is a float: write a fraction, as Rational(1, 2)")
+            raise ObservableError(f"{part} is a float: write a fraction, such as Rational(1, 2)")
         if self._linear and part.has(sy.SiteFunction, sy.ForceAlong):
-            raise ObservableError(f"{text(part)} is not linear in what depends on the radii")
+            raise ObservableError(
+                f"{text(part)} is not linear in quantities that depend on the radii"
+            )
         raise ObservableError(
-            f"{text(part)} is not read: {_WRITTEN}; another constant may be a symbol of your own"
+            f"{text(part)} can't be used: {_WRITTEN}; for another constant use a symbol of your own"
         )
 
     def _power(self, base: sympy.Expr, exponent: int) -> tuple[int, bool]:
@@ -147,7 +149,9 @@ class _Check:
         if is_vector:
             raise ObservableError(f"{text(base)} is a vector, which has no powers")
         if degree and exponent < 0:
-            raise ObservableError(f"{text(self._whole)} divides by what depends on the radii")
+            raise ObservableError(
+                f"{text(self._whole)} divides by a quantity that depends on the radii"
+            )
         return degree * exponent, False
 
     def _quantity(self, quantity: sympy.Expr) -> None:
@@ -162,7 +166,9 @@ class _Check:
         if isinstance(quantity, sy.ForceAlong):
             axis, *place = place
             if axis not in (1, 2, 3):
-                raise ObservableError(f"{shown} is along base vector {axis}: 1, 2 and 3 are there")
+                raise ObservableError(
+                    f"{shown} is along base vector {axis}: 1, 2 and 3 are allowed"
+                )
         for one in place:
             try:
                 factors, _ = sets.row(one)
@@ -210,7 +216,7 @@ def domain(observables: Iterable[sympy.Expr], load: Load, *more: sympy.Basic) ->
             relations.append(sympy.Le(layer, top, evaluate=False))
     relations += more
     if sets.where(*relations).is_empty():
-        raise ObservableError("what is named exists nowhere: a layer is too low or too high")
+        raise ObservableError("no packing has these beads: a layer is too low or too high")
     beads = [one.args for one in quantities if isinstance(one, sy.SiteFunction)]
     if under_load and load.loading.place == (sy.k, sy.l):
         beads.append(load.loading.place)
@@ -225,7 +231,7 @@ def domain(observables: Iterable[sympy.Expr], load: Load, *more: sympy.Basic) ->
         _ = found.straight
     except NotExactError:
         raise ObservableError(
-            "no packing has all beads that are named: i + j is even for each bead (i, j)"
+            "no packing has these beads: i + j must be even for each bead (i, j)"
         ) from None
     return found
 

@@ -68,16 +68,16 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
     if number.is_Integer and number < 1:
         raise ObservableError(f"mean_over(…, {number}): a whole number from 1 on is allowed")
     if any(one.has(sy.MeanOver) for inner in averaged.atoms(sy.MeanOver) for one in inner.args):
-        raise ObservableError("an average of averages of averages is not read")
+        raise ObservableError("averages of averages of averages are not supported")
     if across:
         if not {*across} <= {*ACROSS, sy.site_r}:
-            raise ObservableError(f"mean_over(…, {across}): i, k, p and q may go on")
+            raise ObservableError(f"mean_over(…, {across}): the average may run over i, k, p and q")
         return sy.MeanOver(averaged, number, *across)
     places = [one.args[0] for one in averaged.atoms(sy.SiteFunction)]
     indices = [s for s in (sy.i, sy.site_r) if any(one.has(s) for one in places)]
     if not indices or not all(one.has(*indices) for one in places):
         raise ObservableError(
-            f"mean_over({text(averaged)}): name the place across the packing by the index i"
+            f"mean_over({text(averaged)}): write horizontal places with the index i"
         )
     return sy.MeanOver(averaged, number, *indices)
 

@@ -35,50 +35,56 @@ own = sympy.Symbol
 @pytest.mark.parametrize(
     ("observable", "says"),
     [
-        (FORCE * f_minus(i, j), r"f⁻_ij f⁺_ij is not linear in what depends on the radii; mean\("),
+        (
+            FORCE * f_minus(i, j),
+            r"f⁻_ij f⁺_ij is not linear in quantities that depend on the radii; mean\(",
+        ),
         (FORCE**2, r"f⁺_ij² is not linear"),
-        (FORCE / f_minus(i, j), "divides by what depends on the radii"),
+        (FORCE / f_minus(i, j), "divides by a quantity that depends on the radii"),
         (sympy.sin(FORCE), r"sin\(f⁺_ij\) is not linear"),
         (sympy.sqrt(FORCE), r"√\(f⁺_ij\) is not linear"),
-        (sympy.exp(phi) * FORCE, r"exp\(φ\) is not read: .* a symbol of your own"),
-        (sympy.sqrt(2) * FORCE, "is not read"),
-        (0.5 * FORCE, r"is a float: write a fraction, as Rational\(1, 2\)"),
-        (sympy.I * FORCE, "I is not read"),
-        (sympy.nan * FORCE, "nan is not read"),
-        (sympy.oo * FORCE, "oo is not read"),
-        (own("phi") * FORCE, "phi is another symbol than phi of force_diffusion.symbols: import"),
-        (f_plus(own("i"), j), "i is another symbol than i of force_diffusion.symbols"),
-        (own("j", integer=True) * FORCE, "j is another symbol"),
-        (own("a") * own("a", real=True) * FORCE, "there are two symbols with the name a"),
-        (own("a b") * FORCE, "a b: a constant has to commute, and its name to be one that Python"),
-        (own("lambda") * FORCE, "lambda: a constant has to commute"),
-        (own("A", commutative=False) * FORCE, "A: a constant has to commute"),
-        (z * FORCE, "z may not stand in an observable: write j/M"),
-        (f_plus(i + 2 * n, j), "n may not stand in an observable"),
-        (m * FORCE, "m may not stand in an observable"),
-        (f_plus(own("a"), j), "f⁺_aj is at a: whole numbers and i, j, k, l, p, q, M, N, times"),
-        (f_plus(i + sympy.Rational(1, 2), j), r"is at i \+ 1/2: whole numbers"),
-        (f_plus(i, j**2), "is at j²: whole numbers"),
-        (f_plus(i * M, j), "is at M i: whole numbers"),
-        (f_plus(phi, j), "is at φ: whole numbers"),
+        (sympy.exp(phi) * FORCE, r"exp\(φ\) can't be used: .* a symbol of your own"),
+        (sympy.sqrt(2) * FORCE, "can't be used"),
+        (0.5 * FORCE, r"is a float: write a fraction, such as Rational\(1, 2\)"),
+        (sympy.I * FORCE, "I can't be used"),
+        (sympy.nan * FORCE, "nan can't be used"),
+        (sympy.oo * FORCE, "oo can't be used"),
+        (own("phi") * FORCE, "phi is not the phi of force_diffusion.symbols: import"),
+        (f_plus(own("i"), j), "i is not the i of force_diffusion.symbols"),
+        (own("j", integer=True) * FORCE, "j is not the j of"),
+        (own("a") * own("a", real=True) * FORCE, "two symbols have the name a"),
+        (own("a b") * FORCE, "a b: a constant has to be commutative, and its name has to be"),
+        (own("lambda") * FORCE, "lambda: a constant has to be commutative"),
+        (own("A", commutative=False) * FORCE, "A: a constant has to be commutative"),
+        (z * FORCE, "z can't be used in an observable: write j/M"),
+        (f_plus(i + 2 * n, j), "n can't be used in an observable"),
+        (m * FORCE, "m can't be used in an observable"),
+        (
+            f_plus(own("a"), j),
+            "f⁺_aj is at a: only whole numbers and i, j, k, l, p, q, M, N, times",
+        ),
+        (f_plus(i + sympy.Rational(1, 2), j), r"is at i \+ 1/2: only whole numbers"),
+        (f_plus(i, j**2), "is at j²: only whole numbers"),
+        (f_plus(i * M, j), "is at M i: only whole numbers"),
+        (f_plus(phi, j), "is at φ: only whole numbers"),
         (f_plus(i + 2**70, j), "whole numbers"),
-        (FORCE + f_plus(i + 1, j), r"i \+ j is even for each bead \(i, j\)"),
-        (FORCE - f_plus(i + p, j) + f_plus(i + p + 1, j), "no packing has all beads"),
-        (f_plus(1, 2), "no packing has all beads that are named"),
-        (f_plus(1, -1), "what is named exists nowhere: a layer is too low or too high"),
-        (f_plus(1, -1) + FORCE, "what is named exists nowhere: a layer is too low or too high"),
-        (f_plus(i, M), "what is named exists nowhere: a layer is too low or too high"),
+        (FORCE + f_plus(i + 1, j), r"i \+ j must be even for each bead \(i, j\)"),
+        (FORCE - f_plus(i + p, j) + f_plus(i + p + 1, j), "no packing has these beads"),
+        (f_plus(1, 2), "no packing has these beads"),
+        (f_plus(1, -1), "no packing has these beads: a layer is too low or too high"),
+        (f_plus(1, -1) + FORCE, "no packing has these beads: a layer is too low or too high"),
+        (f_plus(i, M), "no packing has these beads: a layer is too low or too high"),
         (f_along(1, i, j, k), "is a force between spheres: give dimension=3"),
         (Load(i, j), "Fˡᵒᵃᵈ_ij does not depend on the radii, or is not known"),
         (Position(i, j), "x_ij does not depend on the radii, or is not known"),
-        (delta_x(i, j), r"δx_ij is a vector: take a component, as dot\(e_y, …\)"),
+        (delta_x(i, j), r"δx_ij is a vector: take a component, such as dot\(e_y, …\)"),
         (delta_x(i, j) ** 2, "δx_ij is a vector, which has no powers"),
         ("f_plus(i, j)", "is text: write it with the symbols of force_diffusion.symbols"),
-        (None, "None is no SymPy expression"),
-        ([FORCE], "is no SymPy expression"),
-        (sympy.Eq(FORCE, 1), "is no SymPy expression"),
-        (sympy.eye(2), "is not read"),
-        (f_plus, r"ForcePlus is of no bead: write its place, as \(i, j\)"),
+        (None, "None is not a SymPy expression"),
+        ([FORCE], "is not a SymPy expression"),
+        (sympy.Eq(FORCE, 1), "is not a SymPy expression"),
+        (sympy.eye(2), "can't be used"),
+        (f_plus, r"ForcePlus needs a place, such as \(i, j\)"),
     ],
 )
 def test_observables(observable: Any, says: str) -> None:
@@ -154,7 +160,7 @@ def test_discs_and_spheres() -> None:
     with pytest.raises(ObservableError, match=r"is a quantity of discs: .* take f_along"):
         fd.variance(FORCE, dimension=3)
     for axis in (0, 4, i):
-        with pytest.raises(ObservableError, match="1, 2 and 3 are there"):
+        with pytest.raises(ObservableError, match="1, 2 and 3 are allowed"):
             fd.variance(f_along(axis, i, j, k), dimension=3)
     with pytest.raises(ObservableError, match="that is not known in three dimensions"):
         fd.mean(f_along(1, i, j, k), order=2, dimension=3)
@@ -169,7 +175,7 @@ def test_orders(order: Any) -> None:
 def test_second_order() -> None:
     with pytest.raises(ObservableError, match="the power 5 of f⁺_ij is not read: up to 4 are"):
         fd.mean(FORCE**5, order=2)
-    with pytest.raises(ObservableError, match="divides by what depends on the radii"):
+    with pytest.raises(ObservableError, match="divides by a quantity that depends on the radii"):
         fd.mean(1 / FORCE, order=2)
 
 
@@ -180,7 +186,7 @@ def test_domains(where: Any) -> None:
 
 
 def test_a_domain_with_nothing_in_it() -> None:
-    with pytest.raises(ObservableError, match="what is named exists nowhere"):
+    with pytest.raises(ObservableError, match="no packing has these beads"):
         fd.variance(FORCE, where=j >= M)
 
 
@@ -194,12 +200,12 @@ def test_numbers_of_neighbours(count: Any) -> None:
     "observable", [f_plus(1, j), f_plus(p, j), FORCE + f_plus(k, l), sympy.S.One]
 )
 def test_neighbours_need_a_place(observable: sympy.Expr) -> None:
-    with pytest.raises(ObservableError, match="name the place across the packing by the index i"):
+    with pytest.raises(ObservableError, match="write horizontal places with the index i"):
         fd.mean_over(observable, N)
 
 
 def test_averages_of_averages_of_averages() -> None:
-    with pytest.raises(ObservableError, match="is not read"):
+    with pytest.raises(ObservableError, match="are not supported"):
         fd.mean_over(fd.mean_over(fd.mean_over(FORCE, 2), 3), N)
 
 
