@@ -285,7 +285,7 @@ class Reader:
             return value
         if not value.parts:
             return self.kind(), self.kind()
-        raise NotExactError(f"{text(expression)} is no vector")
+        raise NotExactError(f"{text(expression)} is not a vector")
 
     def within(self, *relations: sympy.Basic) -> Self:
         """On the part of the domain where relations hold."""
@@ -303,7 +303,7 @@ class Reader:
         if not is_whole(beside):
             beside = sympy.expand(beside.xreplace(self._fixed))
         if not is_whole(beside) or not is_whole(y):
-            raise NotAStatementError(f"no bead is shown to be at ({text(across)}, {text(layer)})")
+            raise NotAStatementError(f"there may be no bead at ({text(across)}, {text(layer)})")
         above = sets.where(sympy.Ge(y, 0, evaluate=False))
         if not self.points.is_subset(above):
             raise NotAStatementError(f"({text(across)}, {text(layer)}) may lie below the base")
@@ -327,7 +327,7 @@ class Reader:
     def _quantity(self, quantity: sy.SiteFunction) -> Value:
         kind, site = type(quantity), self.site(*quantity.args)
         if getattr(sy, kind.__name__, None) is not kind:
-            raise NotExactError(f"{text(quantity)} is no quantity of a packing")
+            raise NotExactError(f"{text(quantity)} is not a quantity of a packing")
         if kind in VERTICAL:
             return self._vertical(kind, quantity)
         left, found = self.points, None
@@ -355,11 +355,11 @@ class Reader:
         """
         kind = type(quantity)
         if self.kind is not Form and kind is not sy.DeltaR:
-            raise NotExactError(f"{text(quantity)} is not given by the radii")
+            raise NotExactError(f"{text(quantity)} is not determined by the radii")
         if kind in FORCES:
             place = kind(*(sympy.expand(one.xreplace(self._fixed)) for one in site))
             if self.summed & place.free_symbols:
-                raise NotExactError(f"{text(quantity)} stands in a sum, and is not known")
+                raise NotExactError(f"{text(quantity)} in a sum is not known")
             one = Weights(((sets.EVERYTHING, FIELD.one),))
             return (self.kind({((place, 1),): one}),)
         here = (sympy.Eq(one, at, evaluate=False) for one, at in zip(SITE, site, strict=False))
@@ -452,18 +452,19 @@ class Reader:
     def _power(self, base: sympy.Expr, exponent: sympy.Expr) -> Form:
         if not isinstance(exponent, sympy.Integer) or abs(exponent) > _HIGHEST:
             raise NotExactError(
-                f"the power {text(exponent)} of {text(base)} is not read: up to {_HIGHEST} are"
+                f"the power {text(exponent)} of {text(base)} is not supported: "
+                f"whole powers up to {_HIGHEST} are"
             )
         if exponent > 0:
             power = self._product([base] * int(exponent))
         elif isinstance(base, FORCES):  # one that others are compared with is one that acts
             (power,) = self._unknown(base, self.site(*base.args))
             if not self._acts(self.number(base)):
-                raise NotExactError(f"{text(base)}, by which is divided, may be zero")
+                raise NotExactError(f"the divisor {text(base)} may be zero")
             (((key, weights),)) = power.parts.items()
             power = self.kind({((key[0][0], int(exponent)),): weights})
         else:
-            raise NotExactError(f"{text(base)}, by which is divided, depends on the radii")
+            raise NotExactError(f"the divisor {text(base)} depends on the radii")
         if isinstance(power, tuple):
             raise NotExactError("a power of a vector")
         return power
@@ -484,7 +485,9 @@ class Reader:
         """Over neighbours two columns apart."""
         step = sy.m if expression.has(sy.MeanOver) else sy.n
         if step in (expression.free_symbols | count.free_symbols) or not self._is_free(step):
-            raise NotExactError(f"a mean over neighbours is not read beside the index {text(step)}")
+            raise NotExactError(
+                f"a mean over neighbours can't be combined with the index {text(step)}"
+            )
         if not {*indices} <= {*sy.INDICES} or not self.points.is_subset(
             sets.where(sympy.Ge(count, 1, evaluate=False))
         ):
@@ -496,7 +499,7 @@ class Reader:
         if any(
             step in f.free_symbols for key in total.parts for f, _ in key if not isinstance(f, str)
         ):
-            raise NotExactError(f"{text(expression)} stands in a mean, and is not known")
+            raise NotExactError(f"{text(expression)} in a mean is not known")
         return total.times(self.number(1 / count))
 
     def _shifted(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
@@ -510,7 +513,7 @@ class Reader:
     def _series(self, series: sympy.Sum) -> Value:
         *others, (index, low, high) = series.limits
         if index not in SUMMATION or index in self.summed or not self._is_free(index):
-            raise NotAStatementError(f"a sum over {text(index)}, which means something else")
+            raise NotAStatementError(f"a sum over {text(index)}, which has another meaning")
         if not self.within(sympy.Lt(high, low - 1, evaluate=False)).points.is_empty():
             raise NotAStatementError(
                 f"the sum over {text(index)} from {text(low)} to {text(high)} may end more than "

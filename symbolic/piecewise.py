@@ -79,7 +79,7 @@ class PiecewiseFunction:
         own = names_for(expression, divisor)
         form = worked_out(expression.xreplace(own), domain, groups)
         if {*form.parts} - {NUMBER}:
-            raise NotExactError("it holds what belongs to single beads")
+            raise NotExactError("it depends on single beads")
         inverse = FIELD.one / FIELD.from_sympy(divisor.xreplace(own))
         weights = form.parts.get(NUMBER, Weights()).scaled(inverse)
         weights = weights.having({s: FIELD.constant(n) for s, n in (values or {}).items()})

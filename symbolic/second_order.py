@@ -102,7 +102,7 @@ class Means:
             total = total + one.value[component].on(one.points - counted)
             counted, left = counted | one.points, left - one.points
         if not left.is_empty():
-            raise NotExactError(f"{kind.__name__} is not given by the radii for every bead")
+            raise NotExactError(f"{kind.__name__} is not determined by the radii for every bead")
         return total
 
     @cached_property

@@ -85,7 +85,7 @@ def condition(relation: sympy.Basic) -> tuple[Row, bool]:
         return row(relation.lhs - relation.rhs - int(isinstance(relation, sympy.Gt))), False
     if isinstance(relation, sympy.Le | sympy.Lt):
         return row(relation.rhs - relation.lhs - int(isinstance(relation, sympy.Lt))), False
-    raise NotExactError(f"{relation} is no relation between whole numbers")
+    raise NotExactError(f"{relation} is not a relation between whole numbers")
 
 
 def where(*relations: sympy.Basic) -> Set:

@@ -475,7 +475,7 @@ class ClosedForm:
         for symbol in by_name(candidate.free_symbols - known):
             return not_a_statement(
                 strange_symbol(symbol, known)
-                or f"{text(symbol)} is no symbol of {text(self.quantity)}"
+                or f"{text(symbol)} is not a symbol of {text(self.quantity)}"
             )
         try:
             return all_of(*self._rulings(candidate, at_place))

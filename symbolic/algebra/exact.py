@@ -71,7 +71,7 @@ class Domain:
         try:
             gen = self._gens[self.position[symbol]]
         except KeyError:
-            raise NotExactError(f"{symbol} is no symbol of the exact domain") from None
+            raise NotExactError(f"{symbol} is not a symbol of the exact domain") from None
         return RationalFunction(self, gen, self.context.constant(1))
 
     def from_sympy(self, expression: sympy.Expr) -> "RationalFunction":
@@ -150,7 +150,7 @@ _MOST_TERMS = 20_000
 def _not_exact(expression: sympy.Expr) -> NotExactError:
     """Why an expression is no rational function."""
     if expression.has(*_NO_NUMBERS):
-        return NotAStatementError(f"{text(expression)} is no number")
+        return NotAStatementError(f"{text(expression)} is not a number")
     if decimals := sorted(map(float, expression.atoms(sympy.Float))):
         return NotExactError(
             f"it holds the decimal {decimals[0]!r}: write exact numbers, such as Rational(3, 2) "
@@ -306,7 +306,7 @@ class RationalFunction:
         """Degree in ``symbol``, which the denominator must not hold."""
         position = self.domain.position[symbol]
         if self.denominator.degrees()[position]:
-            raise NotExactError(f"{symbol} stands in a denominator")
+            raise NotExactError(f"{symbol} is in a denominator")
         return int(self.numerator.degrees()[position])
 
     def substitute(self, images: Mapping[sympy.Expr, "RationalFunction"]) -> "RationalFunction":
@@ -327,7 +327,7 @@ class RationalFunction:
             full[self.domain.position[symbol]] = image.numerator
         denominator = self.denominator.compose(*full)
         if denominator == 0:
-            raise NotExactError("a divisor vanishes for a value that is put in")
+            raise NotExactError("a divisor is zero for one of the values")
         return self._same(self.numerator.compose(*full), denominator)
 
     def _put_in(

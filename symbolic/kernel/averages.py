@@ -84,7 +84,7 @@ def _powers(
             yield from _powers(factor, domain, groups, read, exponent)
     elif isinstance(node, sympy.Pow):
         if not isinstance(node.exp, sympy.Rational):
-            raise NotProvedError(f"the exponent {text(node.exp)} is no number")
+            raise NotProvedError(f"the exponent {text(node.exp)} is not a number")
         yield from _powers(node.base, domain, groups, read, exponent * node.exp)
     elif isinstance(node, sy.UnitHeight):
         scale, power = _growth(node.args[0], domain, groups)

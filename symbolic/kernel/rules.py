@@ -74,7 +74,7 @@ def same(theorem: Theorem) -> Rule:
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         if (formula, domain) != (theorem.formula, theorem.domain):
-            raise NotProvedError("it is another statement than the theorem")
+            raise NotProvedError("the theorem is another statement")
         return theorem
 
     return rule
@@ -104,9 +104,9 @@ def follows(theorem: Theorem, *groups: Group) -> Rule:
         factor = _factor(new, old)
         rest = (a - b.scaled(factor) for a, b in zip(new, old, strict=True))
         if not all(form.is_zero() for form in rest):
-            raise NotProvedError("it is no multiple of what it is to follow from")
+            raise NotProvedError("it is not a multiple of what it should follow from")
         if not never_zero(factor, domain.points, domain.dimension):
-            raise NotProvedError("it is a multiple that may be zero")
+            raise NotProvedError("it is a multiple of it by a factor that may be zero")
         return made(formula, domain, "follows", (theorem, *flat(groups)))
 
     return rule
@@ -126,7 +126,7 @@ def _factor(new: Sequence[Form], old: Sequence[Form]) -> RationalFunction:
 def along(theorem: Theorem, vector: sympy.Expr) -> Theorem:
     """The component of an equation between vectors along a base vector, or along e_x."""
     if vector not in (*sy.VECTORS, sy.e_x):
-        raise NotProvedError(f"{text(vector)} is no base vector")
+        raise NotProvedError(f"{text(vector)} is not a base vector")
     formula = equation(*(sy.Dot(vector, side) for side in theorem.formula.args))
     return made(formula, theorem.domain, "component", (theorem,))
 
@@ -188,7 +188,7 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
         if len(pivot) != 1 or not domain.points.is_subset(pivot[0][0]) or not never_zero(
             pivot[0][1], domain.points, domain.dimension
         ):  # fmt: skip
-            raise NotProvedError("the determinant is not shown to vanish nowhere")
+            raise NotProvedError("the determinant may be zero")
         zero = about * 0 if not about.is_vector else sympy.S.Zero
         claimed = difference(both_sides(equation(value, zero), domain, reader), domain)
         if about.is_vector and len(claimed) == 1:
@@ -265,7 +265,7 @@ def below(*groups: Group) -> Rule:
         about, _ = isolated(formula, domain)
         branch = BRANCHES.get(type(about))
         if branch is None:
-            raise NotProvedError(f"{text(about)} is no contact force")
+            raise NotProvedError(f"{text(about)} is not a contact force")
         across, layer = sympy.expand(about.args[0] + branch), sympy.expand(about.args[1] + 1)
         at = [(sympy.expand(across - side), sympy.expand(layer - 1)) for side in BRANCHES.values()]
         unknowns = [force(*place) for force, place in zip(BRANCHES, at, strict=True)]
@@ -294,7 +294,7 @@ def mirror(theorem: Theorem) -> Theorem:
         NotProvedError: an index across the packing, or a matrix, stands beside its places.
     """
     if any(map(_across_by_itself, theorem.formula.args)):
-        raise NotProvedError("it holds an index across the packing beside its places")
+        raise NotProvedError("it has a horizontal index outside the places of its quantities")
     formula = lattice.mirror(theorem.formula)
     return made(formula, theorem.domain.mirrored(), "mirror", (theorem,))
 
@@ -397,7 +397,7 @@ def inducted(
         if not later.points.is_empty():
             premises.append(proved_by(step(tuple(supposed)), claim, later))
     if any(one.supposed - {supposition} for one in premises):
-        raise NotProvedError("an induction within another one is not read")
+        raise NotProvedError("inductions can't be nested")
     return tuple(
         made(claim, domain, "induction", premises, ended=(supposition,))
         for claim, domain in members
@@ -413,7 +413,7 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         about, value = isolated(formula, domain)
         if about.func not in (sy.Position, sy.DeltaX) or about.args != (sy.i, sy.j):
-            raise NotProvedError(f"{text(about)} is no quantity of bead (i, j)")
+            raise NotProvedError(f"{text(about)} is not a quantity of bead (i, j)")
         others = not {*domain.indices} <= {sy.i, sy.j} or domain.dimension != 2
         if others or not domain.implies(sy.j >= 0):
             raise NotProvedError("the domain is not that of beads (i, j)")
@@ -431,7 +431,7 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
         if origin.formula.lhs != about.func(0, 0) or {one.formula.lhs for one in up} != gained:
             raise NotProvedError("the steps do not reach every bead")
         if any(one.formula.rhs.has(about.func) for one in (origin, *up)):
-            raise NotProvedError("what is gained is said in terms of other beads")
+            raise NotProvedError("the change is given in terms of other beads")
         for one, where in ((origin, Domain()), *((one, beads) for one in up)):
             here = moved(one, {}, where)
             apart = difference(read(said(here.formula), where), where)
@@ -454,7 +454,7 @@ def differentiate(formula: sympy.Eq, domain: Domain) -> Theorem:
     ours = {*sy.PARAMETERS, *sy.INDICES, *sy.VECTORS}
     strange = formula.free_symbols & ours if variables - {sy.z} else formula.free_symbols - ours
     if not variables or strange or formula.free_symbols & {*sy.INDICES}:
-        raise NotProvedError("it holds what may depend on the variable of a derivative")
+        raise NotProvedError("a part of it may depend on the variable of the derivative")
     for one in formula.atoms(sympy.Derivative):
         read(equation(one.expr, one.expr), domain)  # what SymPy cancels has a value
     done = equation(*(_done(side) for side in formula.args))

@@ -113,7 +113,7 @@ class Statistics(Reader):
             raise NotExactError("that is not known in three dimensions")
         form = reader.number(expression).on(self.points).merged()
         if {*form.parts} - {NUMBER, RADII, SHIFT}:
-            raise NotExactError(f"{text(expression)} is not given by the radii")
+            raise NotExactError(f"{text(expression)} is not determined by the radii")
         return form
 
 

@@ -87,7 +87,7 @@ class Theorem:
 
     def __post_init__(self, made_by: object) -> None:
         if made_by is not _MADE_HERE:
-            raise TypeError("a theorem is made by the rules of the kernel alone")
+            raise TypeError("only rules of the kernel make theorems")
 
     def __repr__(self) -> str:
         left, right = map(text, self.formula.args)
@@ -131,7 +131,7 @@ def made(
     """
     premises = tuple(dict.fromkeys(premises))
     if not all(type(one) is Theorem for one in premises):
-        raise TypeError("what a theorem rests on are theorems")
+        raise TypeError("a theorem rests on theorems only")
     supposed = frozenset(supposed).union(*(one.supposed for one in premises)) - frozenset(ended)
     assumed = frozenset(assuming).union(*(one.assuming for one in premises))
     return Theorem(formula, domain, rule, premises, supposed, assumed, _MADE_HERE)
@@ -161,16 +161,16 @@ def check_domain(formula: sympy.Eq, domain: Domain, *, in_a_limit: bool = False)
     if (domain.limit is not None) != in_a_limit:
         raise NotProvedError("it is one in a limit" if domain.limit else "it is not one in a limit")
     if not isinstance(formula, sympy.Eq):
-        raise NotAStatementError("it is no equation")
+        raise NotAStatementError("it is not an equation")
     if domain.points.is_empty():
-        raise NotAStatementError(f"nothing is in its domain: {domain}")
+        raise NotAStatementError(f"its domain is empty: {domain}")
     free = set().union(*(side.free_symbols for side in formula.args))
     for symbol in by_name(free & {*sy.INDICES} - {*domain.indices}):
         raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
     if free & _RESERVED:
-        raise NotAStatementError("it holds a name of the kernel's own")
+        raise NotAStatementError("it uses a name that the kernel reserves")
     if domain.loading and (both := by_name(_summed(formula) & domain.loading.fixed)):
-        raise NotAStatementError(f"{text(both[0])} is the place of the load, and summed over")
+        raise NotAStatementError(f"{text(both[0])} is both the place of the load and summed over")
 
 
 def isolated(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
@@ -184,7 +184,7 @@ def isolated(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]
     factors = sympy.Mul.make_args(formula.lhs)
     about = [one for one in factors if _is_quantity(one)]
     if len(about) != 1 or formula.rhs.has(about[0]):
-        raise NotProvedError(f"{text(formula.lhs)} is not one quantity, times what is known")
+        raise NotProvedError(f"{text(formula.lhs)} is not a single quantity times a known factor")
     others = [one for one in factors if one != about[0]]
     for factor in others:
         if (
@@ -260,7 +260,9 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
     """
     for symbol, at in image.items():
         if symbol not in sy.INDICES or not is_whole(at):
-            raise NotProvedError(f"{text(symbol)} = {text(at)} is no whole number for an index")
+            raise NotProvedError(
+                f"{text(symbol)} = {text(at)} is not a whole number, as an index must be"
+            )
     there = theorem.domain.put_in(image)
     known_here = there.loading is None or (domain.loading and domain.loading.implies(there.loading))
     same = known_here and (there.dimension, there.limit) == (domain.dimension, domain.limit)
@@ -329,7 +331,7 @@ def _what_it_says(theorem: Theorem, later: Mapping[type, tuple[Known, ...]]) -> 
     for form in forms:
         for factor, _ in (pair for key in form.parts for pair in key):
             if not isinstance(factor, str) and factor.free_symbols & {*bound}:
-                raise NotProvedError(f"{text(value)} holds a force at a place that is not given")
+                raise NotProvedError(f"{text(value)} has a force at an unknown place")
     return type(quantity), Known(sets.without(points, *bound), forms)
 
 
@@ -415,7 +417,7 @@ def names_for(*expressions: sympy.Basic) -> dict[sympy.Symbol, sympy.Symbol]:
         strict=True,
     ):
         if len(symbols) > len(names):
-            raise NotProvedError(f"it holds more than {len(names)} symbols of your own")
+            raise NotProvedError(f"it has more than {len(names)} symbols of your own")
         found |= dict(zip(symbols, names, strict=False))
     return found
 

@@ -125,7 +125,7 @@ class Plane:
                 return self.packing.direction(contact)[-1] * self.forces.get(contact, mp.mpf(0))
             case "Load":
                 return self.loads.get(contact[0], (mp.mpf(0), mp.mpf(0)))
-        raise NonsenseError(f"{name} is no quantity of a packing")
+        raise NonsenseError(f"{name} is not a quantity of a packing")
 
     def along(self, axis: int, bead: Site, *, vertical: bool) -> Value:
         """The force that leads up along a base vector, counted from 1; or its share straight up."""

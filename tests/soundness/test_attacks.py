@@ -161,13 +161,13 @@ def over_itself(divisor: sympy.Expr) -> sympy.Expr:
 attack(
     "a theorem by its class",
     lambda: Theorem(equation(r, Integer(0)), BEADS, "mine"),
-    "by the rules of the kernel alone",
+    "only rules of the kernel",
     lambda: prove(rules.rewrite(), r, r, BEADS),
 )
 attack(
     "another formula of a theorem",
     lambda: replace(BASE, formula=equation(r, Integer(0))),
-    "by the rules of the kernel alone",
+    "only rules of the kernel",
     lambda: prove(rules.follows(BASE), 2 * DeltaX(i, j), 0, BASE.domain),
 )
 for name, copied in (
@@ -207,7 +207,7 @@ for name, attempt in (
     attack(
         f"a forged theorem, {name}",
         lambda a=attempt: a(FORGED),  # type: ignore[misc]
-        "are theorems",
+        "theorems only",
         lambda a=attempt, b=MOVED: a(b),  # type: ignore[misc]
     )
 attack(
@@ -231,7 +231,7 @@ attack(
 attack(
     "a premise that is none",
     lambda: made(equation(r, r), BEADS, "mine", (FORGED,)),
-    "are theorems",
+    "theorems only",
     lambda: made(equation(r, r), BEADS, "mine", (BASE,)),
 )
 
@@ -264,7 +264,7 @@ attack(
 attack(
     "a place where no bead is",
     lambda: prove(rules.rewrite(), HERE, 0, BEADS.also(Eq(i + j, 1))),
-    "nothing is in its domain",
+    "its domain is empty",
     lambda: prove(rules.rewrite(), HERE, HERE, BEADS.also(Eq(i + j, 2))),
 )
 attack(
@@ -284,7 +284,7 @@ attack(
     lambda: axioms.loads(
         replace(axioms.SURFACE, everywhere=((equation(Load(site_r, site_s), 0), ()),))
     ),
-    "no loading that is known",
+    "not a known loading",
     lambda: axioms.loads(axioms.SURFACE.put_in({M: M + 1})),
 )
 PLACELESS = Loading("mine", "", (), (), axioms.SURFACE.everywhere)
@@ -323,7 +323,7 @@ for reserved in (SITE[0], UNKNOWNS[0], CONSTANTS[0][0]):
         rules.rewrite(),
         (r, r),
         (reserved, reserved),
-        "name of the kernel's own",
+        "name that the kernel reserves",
         BEADS,
     )
 both(
@@ -347,7 +347,7 @@ both(
     rules.rewrite(),
     (HERE, HERE),
     (DeltaR(i + 1, j), DeltaR(i + 1, j)),
-    "no bead is shown",
+    "there may be no bead",
     BEADS,
 )
 both("below the base", rules.rewrite(), (HERE, HERE), (BETWEEN, BETWEEN), "below the base", BEADS)
@@ -389,7 +389,7 @@ both(
     rules.rewrite(),
     (Sum(n, (n, 1, j)), j * (j + 1) / 2),
     (Sum(l, (l, 1, j)), j * (j + 1) / 2),
-    "means something else",
+    "has another meaning",
     TWO,
 )
 both(
@@ -397,7 +397,7 @@ both(
     rules.rewrite(),
     (Sum(n, (n, 1, m), (m, 1, j)), j * (j + 1) * (j + 2) / 6),
     (Sum(n, (n, 1, 2), (n, 1, j)), 3 * j),
-    "means something else",
+    "has another meaning",
     BEADS,
 )
 both(
@@ -452,7 +452,7 @@ both(
     moment(),
     (Variance(HERE), sigma**2),
     (Variance(Alias(i, j)), sigma**2),
-    "no quantity of a packing",
+    "not a quantity of a packing",
     BEADS,
 )
 
@@ -537,7 +537,7 @@ both(
     rules.follows(DISPLACED),
     DISPLACED.formula.args[::-1],
     (DeltaX(i, j), DeltaX(i, j)),
-    "no multiple",
+    "not a multiple",
     ABOVE,
 )
 attack(
@@ -553,9 +553,9 @@ attack(
     lambda: rules.same(DISPLACED)(DISPLACED.formula, ABOVE),
 )
 attack(
-    "along what is no vector",
+    "along what is not a vector",
     lambda: rules.along(BASE, n_plus / phi),
-    "no base vector",
+    "not a base vector",
     lambda: rules.along(BASE, e_x),
 )
 attack(
@@ -565,7 +565,7 @@ attack(
         *rules.along(DISPLACED, n_minus).formula.args,
         ABOVE,
     ),
-    "no multiple",
+    "not a multiple",
     lambda: prove(
         rules.follows(rules.along(DISPLACED, n_plus)),
         *rules.along(DISPLACED, n_plus).formula.args,
@@ -607,7 +607,7 @@ both(
 PLUS, MINUS, UP_ONLY = (rules.along(DISPLACED, one) for one in (n_plus, n_minus, e_y))
 for name, rows, refused in (
     ("more unknowns than equations", [PLUS], "1 equations for 2"),
-    ("one equation, twice", [PLUS, PLUS], "determinant is not shown"),
+    ("one equation, twice", [PLUS, PLUS], "determinant may be zero"),
     ("equations of another bead", [BASE], "not known there"),
 ):
     attack(
@@ -642,7 +642,7 @@ for name, theorem, image, domain, refused, right_image, right in (
         CIRCLE,
         {phi: Rational(1, 3)},
         BEADS,
-        "no whole number for an index",
+        "not a whole number",
         {j: j + 1, i: i + 1},
         BEADS,
     ),
@@ -651,11 +651,11 @@ for name, theorem, image, domain, refused, right_image, right in (
         CIRCLE,
         {r: Integer(0)},
         BEADS,
-        "no whole number for an index",
+        "not a whole number",
         {i: i + 2},
         BEADS,
     ),
-    ("half an index", HEIGHT, {M: M / 2}, HEIGHTS, "no whole number", {M: 2 * M}, HEIGHTS),
+    ("half an index", HEIGHT, {M: M / 2}, HEIGHTS, "not a whole number", {M: 2 * M}, HEIGHTS),
     (
         "an index that is summed over",
         PLACES,
@@ -716,7 +716,7 @@ both(
     rules.mirror_of(TILTED),
     vertical(VerticalMinus, DeltaNMinus, ForceMinus),
     vertical(VerticalPlus, DeltaNMinus, ForceMinus),
-    "no multiple",
+    "not a multiple",
     BEADS,
 )
 both(
@@ -724,19 +724,19 @@ both(
     rules.mirror_of(DIRECTIONS[0]),
     DIRECTIONS[1].formula.args,
     (DeltaNMinus(i, j), DIRECTIONS[0].formula.rhs),
-    "no multiple",
+    "not a multiple",
     BEADS,
 )
 attack(
     "the mirror image of a place",
     lambda: rules.mirror(prove(rules.rewrite(), i * HERE, HERE * i, BEADS)),
-    "across the packing",
+    "a horizontal index",
     lambda: rules.mirror(prove(rules.rewrite(), j * HERE, HERE * j, BEADS)),
 )
 attack(
     "the mirror image of a matrix",
     lambda: rules.mirror(prove(rules.rewrite(), MatrixTimes(0, 0, 1, 0, n_plus), n_x * e_y, BEADS)),
-    "beside its places",
+    "a horizontal index",
     lambda: rules.mirror(prove(rules.rewrite(), n_plus + n_minus, 2 * n_y * e_y, BEADS)),
 )
 
@@ -796,7 +796,7 @@ for name, size, wrong, refused in (
         rules.induct(q, 0, STAYS, by_instance({q: q + 1})),
         "not known there",
     ),
-    ("what is supposed, by itself", q, rules.induct(q, 0, STAYS, by_instance({})), "no multiple"),
+    ("what is supposed, by itself", q, rules.induct(q, 0, STAYS, by_instance({})), "not a multiple"),
     (
         "a start that is not the domain's",
         q * (q - 1),
@@ -832,7 +832,7 @@ for name, size, wrong, refused in (
         "one within another",
         Integer(0),
         rules.induct(q, 0, STAYS, lambda supposed: leaked),
-        "within another one",
+        "be nested",
     ),
 ):
     attack(
@@ -874,7 +874,7 @@ for name, up, sides, refused, domain in (
         "another place",
         UP,
         (Position(i + 2, j), POSITIONS.formula.rhs),
-        "no quantity of bead",
+        "not a quantity of bead",
         BEADS,
     ),
     (
@@ -967,7 +967,7 @@ both(
     moment(),
     (Variance(HERE), sigma**2),
     (Variance(FORCE), 0),
-    "not given by the radii",
+    "not determined by the radii",
     SURFACE,
 )
 both(
@@ -992,7 +992,7 @@ attack(
     lambda: prove(
         moment(), Variance(MeanOver(n * HERE, N, i)), OF_MEAN, Domain.of(j >= 0, n >= 1, N >= 2)
     ),
-    "beside the index n",
+    "with the index n",
     lambda: prove(
         moment(),
         Variance(MeanOver(l * HERE, N, i)),
@@ -1042,7 +1042,7 @@ both(
     moment(),
     (Shift(HERE**2), sigma**2),
     (Shift(LENGTH), 0),
-    "not given by the radii",
+    "not determined by the radii",
     ABOVE,
 )
 GEOMETRY = DIRECTIONS, (DISPLACED, BASE)
@@ -1214,7 +1214,7 @@ for name, factor, refused in (
     ("that is negative", Integer(-1), "not shown to be positive"),
     ("of another power", M ** Rational(-1, 12), "goes to"),
     ("of nearly no other power", M ** Rational(-1, 1000), "more than 20000 terms"),
-    ("with a power that is no number", 2**phi, "is no number"),
+    ("with a power that is not a number", 2**phi, "is not a number"),
 ):
     attack(
         f"Eq. 15 times a factor {name}",

@@ -351,7 +351,7 @@ def test_what_can_not_be_decided_is_told_with_the_reason(eq: fd.Equation) -> Non
 def test_a_symbol_of_the_same_name_is_no_symbol_of_the_equation() -> None:
     ruling = fd.equation(13).decide(fd.equation(13).rhs * sympy.Symbol("M") / M)
     assert ruling.verdict is Verdict.NOT_A_STATEMENT
-    assert ruling.note == "M is another symbol than the M of the equation"
+    assert ruling.note == "M is not the M of the equation"
 
 
 @pytest.mark.long
