@@ -452,8 +452,7 @@ class Reader:
     def _power(self, base: sympy.Expr, exponent: sympy.Expr) -> Form:
         if not isinstance(exponent, sympy.Integer) or abs(exponent) > _HIGHEST:
             raise NotExactError(
-                f"the power {text(exponent)} of {text(base)} is not supported: "
-                f"whole powers up to {_HIGHEST} are"
+                f"the power {text(exponent)} of {text(base)} is not a whole number up to {_HIGHEST}"
             )
         if exponent > 0:
             power = self._product([base] * int(exponent))

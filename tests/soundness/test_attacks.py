@@ -796,7 +796,12 @@ for name, size, wrong, refused in (
         rules.induct(q, 0, STAYS, by_instance({q: q + 1})),
         "not known there",
     ),
-    ("what is supposed, by itself", q, rules.induct(q, 0, STAYS, by_instance({})), "not a multiple"),
+    (
+        "what is supposed, by itself",
+        q,
+        rules.induct(q, 0, STAYS, by_instance({})),
+        "not a multiple",
+    ),
     (
         "a start that is not the domain's",
         q * (q - 1),
