@@ -138,8 +138,10 @@ def _equations() -> str:
 
 _OTHER_CLASSES = {
     "Accuracy": "force_diffusion.numeric.accuracy",
+    "Beads": "force_diffusion.numeric.run.contacts",
     "Certificate": "force_diffusion.derivations.coq.record",
     "Certification": "force_diffusion.derivations.coq.record",
+    "Contacts": "force_diffusion.numeric.run.contacts",
     "Physicality": "force_diffusion.numeric.mechanics.physicality",
     "Piece": "force_diffusion.derivations.framework.closed_form",
     "Proof": "force_diffusion.derivations.api.proof",

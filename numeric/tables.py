@@ -6,11 +6,17 @@ from collections.abc import Iterable, Mapping, Sequence
 from decimal import Decimal
 from functools import cache
 from html import escape
-from typing import Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from .arithmetic.systems import Array
+from .arithmetic.errors import MissingLibraryError
+from .arithmetic.systems import Array, as_floats
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+    from xarray import Dataset
 
 Row = dict[str, Any]
 SHOWN = 20
@@ -30,6 +36,61 @@ def rows_of(columns: Mapping[str, Array]) -> list[Row]:
         for column in columns.values()
     ]
     return [dict(zip(columns, row, strict=True)) for row in zip(*lists, strict=True)]
+
+
+DIMENSIONS = {"realisation": "packing", "j": "layer", "i": "column"}
+"""Names of dimensions, of columns that number something; others keep theirs."""
+LABELS = ("realisation", "j", "i", "p", "q", "branch", "component")
+
+
+class Tabled:
+    """What has columns of one length, ``arrays``."""
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """The columns."""
+        raise NotImplementedError
+
+    def to_dataframe(self) -> "DataFrame":
+        """The rows as a data frame of pandas (the extra ``tables``); numbers are floats.
+
+        Raises ``MissingLibraryError``.
+        """
+        pandas = _library("pandas")
+        columns = {
+            name: as_floats(v) if v.dtype == object else v for name, v in self.arrays.items()
+        }
+        return pandas.DataFrame(columns)
+
+    def to_xarray(self) -> "Dataset":
+        """The columns as a dataset of xarray (the extra ``tables``), by layer, column and branch.
+
+        A column is that of an array of radii, (i − j mod 2)/2; of spheres there are p and q. Of
+        several packings there is the dimension packing, of a histogram bin; where contacts may
+        open, row. What isn't there is NaN. Raises ``MissingLibraryError``.
+        """
+        dataset = _library("xarray").Dataset
+        frame = self.to_dataframe()
+        names = [name for name in LABELS if name in frame]
+        if "i" in frame:
+            frame["i"] = (frame["i"] - frame["j"] % 2) // 2
+        if not names or frame.duplicated(names).any():
+            indexed = frame.rename_axis("row" if names else "bin")
+        else:
+            dimensions = [DIMENSIONS.get(name, name) for name in names]
+            indexed = frame.rename(columns=DIMENSIONS).set_index(dimensions)
+        found: Dataset = dataset.from_dataframe(indexed)
+        return found
+
+
+def _library(name: str) -> Any:
+    """Import pandas or xarray. Raises ``MissingLibraryError``."""
+    try:
+        return import_module(name)
+    except ModuleNotFoundError:
+        raise MissingLibraryError(
+            f"{name} is missing; pip install 'force-diffusion[tables]'"
+        ) from None
 
 
 def columns_of(rows: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
@@ -127,11 +188,13 @@ def significant(values: Array, digits: Array) -> list[str]:
 
 
 def text_of(column: Array) -> list[str]:
-    """Write whole numbers, or words without quotes and commas.
+    """Write whole numbers, words without quotes and commas, or floats with 15 digits.
 
     >>> text_of(np.array([3, -12])), text_of(np.array(["+", "-"]))
     (['3', '-12'], ['+', '-'])
     """
+    if column.dtype.kind == "f":
+        return significant(column, np.full(len(column), 15))
     shared = cache(str)  # few sites and branches, many times
     return list(map(shared, column.tolist()))
 

@@ -59,7 +59,7 @@ def check(written: Format) -> None:
         except ImportError:
             raise ForceDiffusionError(
                 "--format parquet needs PyArrow, which is missing: "
-                "pip install 'force-diffusion[parquet]', or take npz"
+                "pip install 'force-diffusion[tables]', or take npz"
             ) from None
 
 

@@ -15,7 +15,16 @@ from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.scene import source_of
 from ..statistics.confidence import half_width
 from ..statistics.moments import error_of_std, with_errors
-from ..tables import SHOWN, html_table, latex_table, rows_of, rows_of_text, significant, text_of
+from ..tables import (
+    SHOWN,
+    Tabled,
+    html_table,
+    latex_table,
+    rows_of,
+    rows_of_text,
+    significant,
+    text_of,
+)
 from .sums import Measurement, Sums
 
 if TYPE_CHECKING:
@@ -25,7 +34,7 @@ LEAST = 1e-300  # floats that are smaller have fewer digits
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Ensemble:
+class Ensemble(Tabled):
     """Statistics over N packings of G groups of alike contacts.
 
     A group is a layer and branch of a profile, one contact, or all of a histogram. Forces are in

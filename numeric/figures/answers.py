@@ -12,8 +12,11 @@ from ..scene.sections import SceneError
 from ..unilateral.network import Network
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+# Columns of contacts, which are drawn on the lattice.
+PLACES = {"x", "y", "upper_x", "upper_y"}
 # Numbers that are drawn: floats hold their sums, and the shares that they have of each other.
 LEAST, MOST = 1e-300, 1e280
 
@@ -43,10 +46,33 @@ def figure_of(
         return DRAWN[plan.quantity.name](plan, columns, errors, network)
 
 
+def contacts_of(
+    plan: Plan,
+    ends: Array,
+    forces: Array,
+    surface: Array,
+    *,
+    axes: "Axes | None" = None,
+    values: Array | None = None,
+    label: str = "",
+) -> "Axes":
+    """Draw contacts between ``ends``, (contacts, 2, 2), as thick as ``forces``; lengths in r.
+
+    ``surface``: the beads of the surface, (W, 2); ``values``, (contacts,), colour the contacts.
+    Raises ``MissingLibraryError``, and ``SceneError`` for numbers beyond what floats can draw.
+    """
+    from .style import house_style  # first: it says what to install
+    from . import answers_drawing  # isort: skip
+
+    _check_sizes(plan, {"force": forces})
+    with house_style():
+        return answers_drawing.contacts_of(plan, ends, forces, surface, axes, values, label)
+
+
 def _check_sizes(plan: Plan, columns: Mapping[str, Array]) -> None:
     """Raise ``SceneError`` for numbers beyond what floats can draw."""
     for name, values in columns.items():
-        if values.dtype.kind not in "fO":
+        if values.dtype.kind not in "fO" or (name in PLACES and plan.quantity.name != "positions"):
             continue
         sizes, exact = np.abs(as_floats(values)), values.dtype == object
         if not exact:  # NaN says that something is not known

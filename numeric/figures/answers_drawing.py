@@ -22,6 +22,7 @@ from .beads import (
     draw_base,
     draw_beads,
     draw_chains,
+    draw_coloured,
     draw_cone,
     draw_point_load,
     draw_surface_load,
@@ -83,6 +84,30 @@ def contact_forces(
     return figure
 
 
+def contacts_of(
+    plan: Plan,
+    ends: Array,
+    forces: Array,
+    surface: Array,
+    axes: Axes | None,
+    values: Array | None,
+    label: str,
+) -> Axes:
+    """Draw the contacts of a packing where they are, on ``axes`` or on a page of their own.
+
+    ``values`` colour them, under a bar with their ``label``; without any a page has a legend.
+    """
+    own = axes is None
+    if axes is None:
+        _, (axes,) = panels("a", PAGE, height_of(ends))
+    if values is not None:
+        draw_coloured(axes, ends, forces, values, label)
+    else:
+        draw_chains(axes, ends, forces, named(forces, "f") if own else [])
+    surroundings(axes, plan, ends, surface)
+    return axes
+
+
 def at_rest(plan: Plan, network: Network) -> tuple[Array, Array, Array]:
     """Give both ends of contacts, (contacts, 2, 2), their forces, and the beads of the surface."""
     x, period = as_floats(network.x), float(network.frame.period)
@@ -114,9 +139,14 @@ def chains(
 
     ``surface``: the beads of the surface where they rest, (W, 2); else they are on the lattice.
     """
+    draw_chains(axes, ends, forces, named(forces, what))
+    surroundings(axes, plan, ends, surface)
+
+
+def surroundings(axes: Axes, plan: Plan, ends: Array, surface: Array | None) -> None:
+    """Draw the base and the load around contacts, and nothing else beside these."""
     (left, low), (right, top) = ends.min(axis=(0, 1)), ends.max(axis=(0, 1))
     load, M = plan.scene.load, plan.problem.height
-    draw_chains(axes, ends, forces, named(forces, what))
     if low < 2:  # else layers further below are left out
         draw_base(axes, left, right)
     if load.at is not None:

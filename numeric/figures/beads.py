@@ -115,6 +115,14 @@ def thickness(some: Any, forces: Array) -> Array:
     return np.asarray(WIDEST * (0.1 + 0.9 * (sizes - least) / span))
 
 
+def draw_coloured(axes: Axes, ends: Array, forces: Array, values: Array, label: str) -> None:
+    """Draw contacts as ``draw_chains`` does, coloured by ``values``, (contacts,), with a bar."""
+    widths = thickness(forces, forces).tolist()
+    lines = LineCollection(list(ends), linewidths=widths, array=values, capstyle="round")
+    axes.add_collection(lines)
+    axes.figure.colorbar(lines, ax=axes, shrink=0.8, aspect=18, pad=0.03, label=label)
+
+
 def draw_chains(axes: Axes, ends: Array, forces: Array, shown: Sequence[tuple[float, str]]) -> None:
     """Draw contacts as lines between ``ends``, (contacts, 2, 2), as thick as ``forces``.
 
@@ -130,4 +138,5 @@ def draw_chains(axes: Axes, ends: Array, forces: Array, shown: Sequence[tuple[fl
         Line2D([], [], c=PULLING if f < 0 else PRESSING, lw=float(thickness(f, forces)), label=name)
         for f, name in shown
     ]
-    axes.figure.legend(handles=keys, loc="outside lower center", ncols=3)
+    if keys:
+        axes.figure.legend(handles=keys, loc="outside lower center", ncols=3)

@@ -1,11 +1,19 @@
 """All contact forces."""
 
+import math
+from dataclasses import replace
+from fractions import Fraction
+
 import numpy as np
 
+from ..arithmetic.systems import Array, as_floats
+from ..lattice.branch import axis_names, bead_names
 from ..lattice.layers import Block, Region, full_layer
 from ..mechanics.problem import Problem, Solved
+from ..scene.sections import LARGEST
 from ..unilateral.network import Network, Relaxed
-from .base import ContactQuantity, Table
+from .base import Columns, ContactQuantity, Table
+from .positions import Positions
 
 
 class ContactForces(ContactQuantity):
@@ -16,7 +24,7 @@ class ContactForces(ContactQuantity):
     """
 
     name = "contact_forces"
-    numbers = 2
+    numbers = 7
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """The contacts below each bead above the base."""
@@ -26,12 +34,72 @@ class ContactForces(ContactQuantity):
     def rows(self, problem: Problem, solved: Solved) -> Table:
         """Give a row a contact."""
         if isinstance(solved, Relaxed):
-            return of_network(solved.network)
-        blocks = self.blocks(problem)
-        if self.width is not None:
-            rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
-            blocks = [Block(b, row) for row in rows for b in self.branches]
-        return self.listed(blocks, solved)
+            table = of_network(solved.network)
+        else:
+            blocks = self.blocks(problem)
+            if self.width is not None:
+                rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
+                blocks = [Block(b, row) for row in rows for b in self.branches]
+            table = self.listed(blocks, solved)
+        return replace(table, index=table.index | self._ends(problem, solved, table.index))
+
+    def _ends(self, problem: Problem, solved: Solved, contacts: Columns) -> Columns:
+        """Say where both beads of contacts are, to be drawn; and which contacts cross the seam.
+
+        The upper bead is the image next to the lower one. Centres are rounded to 1e-12 r. NaN: the
+        answer doesn't depend on the bead.
+        """
+        d, packing = problem.dimension, self.scene.packing
+        names, axes = bead_names(d), axis_names(d)
+        spacing = self.scene.spacing / packing.radius
+        usual = packing.model_copy(update={"radius": Fraction(1), "spacing": spacing})
+        beads = Positions(self.scene.model_copy(update={"packing": usual})).rows(problem, solved)
+        there = np.stack([beads.index[name] for name in names])
+        centres = np.stack([as_floats(beads.numbers[axis]) for axis in axes])
+        lower = np.stack([contacts[name] for name in names])
+        if isinstance(solved, Relaxed):
+            upper = np.stack([contacts["upper_i"], contacts["upper_j"]])
+        else:
+            upper = lower + self._steps(contacts["branch"])
+        home = upper.copy()
+        if self.naming.side is not None:
+            home[:-1] %= self.naming.side if d > 2 else 2 * self.naming.side
+        low, high = centres_of(lower, there, centres), centres_of(home, there, centres)
+        turns = (upper - home)[:-1] * float(spacing)
+        if isinstance(solved, Relaxed):
+            period = float(solved.network.frame.period)
+            turns = np.round((low[:1] - high[:1]) / period) * (2 * period)
+        high[0] += turns.sum(axis=0) - turns[-1] / 2
+        high[1] += turns[-1] * (math.sqrt(3) / 2) if d > 2 else 0
+        r = float(packing.radius) if packing.radius < LARGEST else math.inf
+        with np.errstate(all="ignore"):
+            low, high = (np.round(places, 12) * r for places in (low, high))
+        columns = zip([*axes, *(f"upper_{axis}" for axis in axes)], [*low, *high], strict=True)
+        return {**dict(columns), "wraps": turns.any(axis=0).astype(np.int64)}
+
+    def _steps(self, branch: Array) -> Array:
+        """Give the numbers of upper beads less those of lower ones, (2, contacts), or (3, …)."""
+        if self.naming.dimension == 2:
+            steps = {one.value: [one.side, 1] for one in self.branches}
+        else:
+            steps = {one.value: [*(one.number == k for k in (0, 1)), 1] for one in self.branches}
+        return np.array([steps[one] for one in branch.tolist()], dtype=np.int64).T
+
+
+def centres_of(wanted: Array, there: Array, centres: Array) -> Array:
+    """Give the ``centres``, (d, beads), of ``wanted`` beads, NaN where they are not ``there``.
+
+    Beads are columns of their numbers.
+    """
+    both = np.concatenate([there, wanted], axis=1)
+    low = both.min(axis=1, initial=0)[:, None]
+    keys = np.ravel_multi_index(both - low, tuple(both.max(axis=1, initial=0) - low[:, 0] + 1))
+    found, asked = keys[: there.shape[1]], keys[there.shape[1] :]
+    order = np.argsort(found)
+    place = np.searchsorted(found, asked, sorter=order)
+    padded = np.append(centres, np.full((len(centres), 1), np.nan), axis=1)
+    at = np.append(order, -1)[place]
+    return np.where(np.append(found, -1)[at] == asked, padded[:, at], np.nan)
 
 
 def of_network(network: Network) -> Table:

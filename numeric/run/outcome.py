@@ -17,7 +17,7 @@ from ..quantities.answer import Answer, Bins
 from ..quantities.base import Table
 from ..scene.scene import source_of
 from ..statistics import bins
-from ..tables import SHOWN, Row, html_table, rows_of, rows_of_text, text_of
+from ..tables import SHOWN, Row, Tabled, html_table, rows_of, rows_of_text, text_of
 from ..unilateral.network import Network
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result:
+class Result(Tabled):
     """The answer to one question, of a ``plan`` that asks it first.
 
     ``table`` holds the numbers in the arithmetic of the run, ``bins`` those of a histogram.

@@ -7,16 +7,18 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from numbers import Integral
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from ..accuracy import CARRIED, Accuracy
 from ..arithmetic.carried import CARRYING, stated_error
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import ArrayRadii
-from ..lattice.branch import Contact, axis_names
+from ..lattice.branch import Contact, axis_names, bead_names, directions
 from ..lattice.layers import whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import cosine
@@ -26,14 +28,21 @@ from ..mechanics.sweep import deposit, rounded, sweep_down
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..planning.sources import FARTHEST_UNIT
+from ..quantities.base import cartesian
+from ..scene.combinations import either
 from ..scene.scene import Scene
 from ..scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
+from ..tables import Tabled
+from .contacts import Beads, Contacts, box_of, dump, dump_local, lattice_pairs, vtk
 from .outcome import Outcome
 from .running import read_tolerance, run
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Solution:
+class Solution(Tabled):
     """Periodic packings on an ordered base, solved exactly; shapes are for a single packing.
 
     A batch of N packings adds a first axis of length N everywhere. M layers lie above the base, W
@@ -79,12 +88,12 @@ class Solution:
 
         Compressive forces are positive. Of spheres (3, M, W, W): axis, layer j, p and q.
         """
-        return self._contacts("force") if self.found is None else self.found.force
+        return self._lattice("force") if self.found is None else self.found.force
 
     @property
     def change(self) -> Array:
         """Each force less its value in the ordered packing, found without cancelling."""
-        return self._contacts("change") if self.found is None else self.found.change
+        return self._lattice("change") if self.found is None else self.found.change
 
     @property
     def position(self) -> Array:
@@ -95,6 +104,170 @@ class Solution:
     def displacement(self) -> Array:
         """Bead centres less those of the ordered packing (Eqs. 1 to 3), as ``position``."""
         return self._beads("d")
+
+    @cached_property
+    def beads(self) -> Beads:
+        """All beads as arrays side by side: positions, radii and layers."""
+        d, given, shape = self._dimension, self._given, self._shape
+        radii = given.values
+        if given.delta_r is not None:
+            radii = radii + float(self.scene.packing.radius)
+        lead, layers = shape[:-d], np.arange(shape[-d])
+        return Beads(
+            self.position.reshape(*lead, -1, d),
+            radii.reshape(*lead, -1),
+            np.repeat(layers, math.prod(shape[1 - d :])),
+        )
+
+    @cached_property
+    def contacts(self) -> Contacts:
+        """All contacts as arrays side by side, whose numbers of beads are those of ``beads``.
+
+        >>> radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (5, 12))
+        >>> solution = solve(radii)
+        >>> solution.contacts
+        <96 contacts, 4 of them across the seam>
+        >>> lower, upper = solution.contacts.pairs.T
+        >>> solution.contacts.points.shape, solution.beads.layers[upper].min()
+        ((96, 2), np.int64(1))
+        """
+        d, problem, beads = self._dimension, self.plan.problem, self.beads
+        lead = self._shape[:-d]
+        pairs, number, wraps = lattice_pairs(problem.height, self._shape[-1], d)
+        lower, upper = pairs.T
+        steps = list(2 * float(self.scene.packing.radius) * np.eye(d))
+        with FLOAT64.active():
+            straight = np.stack(cartesian(steps, problem, FLOAT64, raised=True), axis=-1)
+        moved = as_floats(self.displacement).reshape(*lead, -1, d)
+        first = as_floats(beads.positions)[..., lower, :]
+        apart = straight[number] + (moved[..., upper, :] - moved[..., lower, :])
+        own, other = beads.radii[..., lower, None], beads.radii[..., upper, None]
+        normals = apart / (own + other)
+        force, change = (
+            np.moveaxis(values, -d - 1, -1).reshape(*lead, -1)
+            for values in (self.force, self.change)
+        )
+        return Contacts(
+            pairs=pairs,
+            branch=np.array(directions(d))[number],
+            wraps=wraps,
+            force=force,
+            change=change,
+            points=first + own * normals,
+            normals=normals,
+            force_vector=as_floats(force)[..., None] * normals,
+            ends=np.stack([first, first + apart], axis=-2),
+        )
+
+    @property
+    def arrays(self) -> dict[str, Array]:
+        """The columns of a table of contacts: as ``contact_forces`` has them, and both radii."""
+        d, contacts, beads = self._dimension, self.contacts, self.beads
+        lower, upper = contacts.pairs.T
+        j, *columns = np.unravel_index(lower, self._shape[-d:])
+        if d == 2:
+            columns[0] = 2 * columns[0] + j % 2
+        packings = math.prod(self._shape[:-d])
+        named = dict(zip(bead_names(d), [*columns, j], strict=True)) | {"branch": contacts.branch}
+        named |= {"lower": lower, "upper": upper, "wraps": contacts.wraps}
+        found = {name: np.tile(column, packings) for name, column in named.items()}
+        if len(self._shape) > d:
+            found["realisation"] = np.repeat(np.arange(packings), len(lower))
+        ends = contacts.ends.reshape(-1, 2, d)
+        for k, (before, bead) in enumerate((("", lower), ("upper_", upper))):
+            found |= {before + a: ends[:, k, x] for x, a in enumerate(axis_names(d))}
+            found[before + "radius"] = beads.radii[..., bead].reshape(-1)
+        return found | {"force": contacts.force.reshape(-1), "change": contacts.change.reshape(-1)}
+
+    def plot(
+        self,
+        ax: "Axes | None" = None,
+        *,
+        color: str | ArrayLike | None = None,
+        least: float = 0,
+        packing: int = 0,
+    ) -> "Axes":
+        """Draw force chains: a line a contact, as thick as its force; lengths in units of r.
+
+        Args:
+            ax: axes of matplotlib to draw on; without them on a new figure, ``.figure`` of the
+                axes that come back.
+            color: a column of ``contacts`` that colours the lines, "force", "change", "branch" or
+                "wraps", or an array of your own, (n,). Without it contacts that pull stand out.
+            least: the smallest force, be it push or pull, that is drawn.
+            packing: which one of several packings.
+
+        Raises:
+            SceneError: there is no such column or packing, spheres were solved, or no contact bears
+                so much.
+            MissingLibraryError: matplotlib is missing.
+        """
+        from ..figures.answers import contacts_of
+
+        if self._dimension > 2:
+            allowed = "can't be drawn in the plane: write them for ParaView by .to_vtk(path)"
+            raise SceneError("plot", None, f"spheres {allowed}")
+        at, r = self._packing(packing), float(self.scene.packing.radius)
+        contacts, beads = (
+            self.contacts.of(at),
+            as_floats(self.position).reshape(-1, *self._shape[-2:], 2),
+        )
+        forces = as_floats(contacts.force)
+        some = np.abs(forces) >= least
+        if not some.any():
+            raise SceneError(
+                "least", least, f"no contact bears more than {np.abs(forces).max():.3g}"
+            )
+        values = None if color is None else _colours(contacts, color)[some]
+        return contacts_of(
+            self.plan,
+            contacts.ends[some] / r,
+            forces[some],
+            beads[at, -1] / r,
+            axes=ax,
+            values=values,
+            label=color if isinstance(color, str) else "",
+        )
+
+    def to_vtk(self, path: str | Path, *, packing: int = 0) -> None:
+        """Write the contacts of one packing as lines for ParaView: legacy VTK, with their forces.
+
+        Lengths and forces are as in ``contacts``; ``radius`` belongs to the points.
+        """
+        at = self._packing(packing)
+        Path(path).write_text(vtk(*self._places(at), self.contacts.of(at)), encoding="utf-8")
+
+    def to_dump(self, path: str | Path, *, packing: int = 0) -> None:
+        """Write the beads of one packing as a *dump* of LAMMPS, which OVITO opens."""
+        places = self._places(self._packing(packing))
+        Path(path).write_text(dump(*places, self._box(places)), encoding="utf-8")
+
+    def to_dump_local(self, path: str | Path, *, packing: int = 0) -> None:
+        """Write the contacts of one packing as a *dump local* of LAMMPS, a line each.
+
+        ``batom1`` and ``batom2`` are the lower and the upper bead, numbered from 1 on as in
+        ``to_dump``. OVITO reads it with its modifier *Load trajectory*, once it has the beads.
+        """
+        at = self._packing(packing)
+        text = dump_local(self.contacts.of(at), self._box(self._places(at)))
+        Path(path).write_text(text, encoding="utf-8")
+
+    def _packing(self, number: int) -> int:
+        """The number of a packing. Raises ``SceneError``."""
+        count = math.prod(self._shape[: -self._dimension])
+        if not isinstance(number, Integral) or not 0 <= number < count:
+            raise SceneError("packing", number, f"must be a whole number from 0 to {count - 1}")
+        return int(number)
+
+    def _places(self, packing: int) -> tuple[Array, Array]:
+        """Centres and radii of one packing."""
+        beads = self.beads
+        count = len(beads.layers)
+        positions = as_floats(beads.positions).reshape(-1, count, self._dimension)
+        return positions[packing], beads.radii.reshape(-1, count)[packing]
+
+    def _box(self, places: tuple[Array, Array]) -> list[str]:
+        return box_of(*places, self._shape[-1] * float(self.scene.packing.s))
 
     @property
     def accuracy(self) -> Accuracy:
@@ -133,13 +306,17 @@ class Solution:
         return self.scene.packing.dimension
 
     @property
-    def _shape(self) -> tuple[int, ...]:
-        """(…, M + 1, W), or of spheres (…, M + 1, W, W)."""
+    def _given(self) -> GivenRadii:
         given = self.scene.disorder
         assert isinstance(given, GivenRadii)
-        return given.values.shape
+        return given
 
-    def _contacts(self, name: str) -> Array:
+    @property
+    def _shape(self) -> tuple[int, ...]:
+        """(…, M + 1, W), or of spheres (…, M + 1, W, W)."""
+        return self._given.values.shape
+
+    def _lattice(self, name: str) -> Array:
         d = self._dimension
         *batch, layers = self._shape[: 1 - d]
         width = self._shape[1 - d :]
@@ -164,6 +341,21 @@ class Solution:
         return str(self.forces)
 
     __repr__ = __str__
+
+
+def _colours(contacts: Contacts, color: Any) -> Array:
+    """A column of contacts, or numbers of one's own, as numbers. Raises ``SceneError``."""
+    names = ("force", "change", "branch", "wraps")
+    if isinstance(color, str):
+        if color not in names:
+            raise SceneError("color", color, f"must be {either(names)}, or an array of numbers")
+        values = getattr(contacts, color)
+        return np.unique(values, return_inverse=True)[1] if color == "branch" else as_floats(values)
+    values = np.asarray(color)
+    if values.shape != contacts.branch.shape or values.dtype.kind not in "biuf":
+        allowed = f"must hold a number for each of the {len(contacts.pairs)} contacts"
+        raise SceneError("color", None, allowed)
+    return values
 
 
 @dataclass(frozen=True)

@@ -101,7 +101,7 @@ def test_rows_are_printed_or_written_and_quiet_is_quiet(
     scene = SCENES / "measured.toml"
     _, whole, _ = call(capsys, "run", scene)
     first = [line for line in whole.splitlines() if not line.startswith("#")]
-    assert first[0] == "i,j,branch,force,change"
+    assert first[0] == "i,j,branch,x,y,upper_x,upper_y,wraps,force,change"
     assert "# 38 more rows: --quiet prints all, --out DIR writes them" in whole
     _, alone, _ = call(capsys, "run", scene, "--quiet")
     rows = alone.splitlines()
@@ -123,7 +123,7 @@ def test_a_format_needs_a_folder_and_its_library(
     arguments = ("run", SCENES / "measured.toml", "--out", tmp_path / "x", "--format", "parquet")
     status, _, err = call(capsys, *arguments)
     assert status == 2
-    assert "force-diffusion[parquet]" in err
+    assert "force-diffusion[tables]" in err
     assert not (tmp_path / "x").exists()
 
 

@@ -181,7 +181,8 @@ def test_the_json_of_a_run_has_the_keys_that_are_told(tmp_path, capsys) -> None:
     pulling = f"{PACKING}[ask]\n{ASKED['contact_forces']}".replace("1e-3", "0.1").replace(
         "height = 2", "height = 6"
     )
-    told = set(re.findall(r"\w+", _answers("The JSON of `run`") + _part(SCENES, "`contact`")))
+    columns = _part(SCENES, "`contact`") + _part(SCENES, "`contact_forces`")
+    told = set(re.findall(r"\w+", _answers("The JSON of `run`") + columns))
     told |= set(ASKED)
     for text, *more in ((pulling,), (f"{PACKING}[ask]\n{ASKED['contact']}", "--tolerance", "1e-9")):
         assert main(["run", _scene(tmp_path, text), "--json", *more]) == 0

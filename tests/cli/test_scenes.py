@@ -121,7 +121,7 @@ def test_out_writes_the_rows_that_are_printed(
     assert sorted(p.name for p in out.iterdir()) == ["contact_forces.csv", "result.json"]
     assert json.loads((out / "result.json").read_text())["results"] == json.loads(shown)["results"]
     lines = (out / "contact_forces.csv").read_text().splitlines()
-    assert lines[0] == "i,j,branch,force,change"
+    assert lines[0] == "i,j,branch,x,y,upper_x,upper_y,wraps,force,change"
     assert len(lines) == 1 + 2 * 6 * 4
 
 

@@ -354,7 +354,8 @@ def test_units_of_length_change_no_digit(name: str, power: int, how: dict[str, A
     usual, other = (
         fd.solve(**{name: np.ldexp(given, k)}, radius=Fraction(2) ** k, **how) for k in (0, power)
     )
-    assert other.forces.decimals() == usual.forces.decimals()
+    for column in ("force", "change"):
+        assert other.forces.text[column] == usual.forces.text[column]
     assert other.error == pytest.approx(usual.error)
 
 

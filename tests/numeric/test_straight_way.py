@@ -51,7 +51,7 @@ def test_forces_are_those_of_the_scene(
     assert solution.found is not None
     outcome = solution.forces
     for name in ("force", "change"):
-        rows = solution._contacts(name)
+        rows = solution._lattice(name)
         assert_array_equal(getattr(solution, name), rows)
     assert solution.error == outcome.accuracy.error_bound
     assert solution.physical == outcome.physical

@@ -78,7 +78,11 @@ def test_files_hold_all_tables(
             assert len(np.load(out / f"{name}.npz")["j"]) == count
             continue
         with (out / f"{name}.csv").open(newline="") as file:
-            rows = [{**row, "i": int(row["i"]), "j": int(row["j"])} for row in csv.DictReader(file)]
+            whole = ("i", "j", "wraps")
+            rows = [
+                {name: int(word) if name in whole else word for name, word in row.items()}
+                for row in csv.DictReader(file)
+            ]
         assert rows == results[name]
         assert len(rows) == count
 

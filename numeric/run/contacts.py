@@ -1,0 +1,185 @@
+"""Beads and contacts of solved packings as arrays side by side, and as files of other programs."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from ..arithmetic.systems import Array, as_floats
+
+
+@dataclass(frozen=True, eq=False)
+class Beads:
+    """All beads, layer after layer from the base up; of N packings with a first axis of length N.
+
+    Attributes:
+        positions: centres, (beads, 2), of spheres (beads, 3); in the unit of the radii.
+        radii: (beads,).
+        layers: j, (beads,).
+    """
+
+    positions: Array
+    radii: Array
+    layers: Array
+
+    def __repr__(self) -> str:
+        return f"<{len(self.layers)} beads in {self.layers[-1] + 1} layers>"
+
+
+@dataclass(frozen=True, eq=False)
+class Contacts:
+    """All n contacts, in the order of rows: by layer and column of the lower bead, and branch.
+
+    Of N packings all but ``pairs``, ``branch`` and ``wraps`` have a first axis of length N. Points,
+    normals and force vectors are float64.
+
+    Attributes:
+        pairs: numbers of the lower and the upper bead, (n, 2): their rows in ``beads``.
+        branch: "+" or "-", of spheres "1", "2" or "3", (n,).
+        wraps: whether the contact crosses the seam of the periodic packing, (n,). Its upper bead is
+            then the image beside the lower one.
+        force: positive where it pushes, (n,).
+        change: the force less that of the ordered packing, (n,).
+        points: where the beads touch, (n, 2), of spheres (n, 3).
+        normals: unit vectors from the lower to the upper bead, (n, 2) or (n, 3).
+        force_vector: the force on the upper bead, (n, 2) or (n, 3).
+        ends: centres of both beads, (n, 2, 2) or (n, 2, 3).
+    """
+
+    pairs: Array
+    branch: Array
+    wraps: Array
+    force: Array
+    change: Array
+    points: Array
+    normals: Array
+    force_vector: Array
+    ends: Array
+
+    def __repr__(self) -> str:
+        return f"<{len(self.pairs)} contacts, {int(self.wraps.sum())} of them across the seam>"
+
+    def of(self, packing: int) -> "Contacts":
+        """Those of one of several packings."""
+        if self.force.ndim == 1:
+            return self
+        shared = {"pairs", "branch", "wraps"}
+        values = vars(self).items()
+        return Contacts(**{name: v if name in shared else v[packing] for name, v in values})
+
+
+def lattice_pairs(height: int, width: int, dimension: int) -> tuple[Array, Array, Array]:
+    """Number of the lower and the upper bead, (n, 2), direction and wrap of all contacts, (n,)."""
+    shape = (height + 1, *[width] * (dimension - 1))
+    j, *columns, branch = np.indices((height, *shape[1:], dimension))
+    if dimension == 2:
+        steps = [j % 2 - branch]
+    else:
+        steps = [branch == axis for axis in range(dimension - 1)]
+    beyond = [column + step for column, step in zip(columns, steps, strict=True)]
+    upper = [column % width for column in beyond]
+    wraps = np.any([a != b for a, b in zip(beyond, upper, strict=True)], axis=0)
+    pairs = [np.ravel_multi_index(at, shape) for at in ((j, *columns), (j + 1, *upper))]
+    return np.stack(pairs, axis=-1).reshape(-1, 2), branch.reshape(-1), wraps.reshape(-1)
+
+
+def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:
+    """Legacy VTK of the contacts of one packing: lines between centres, with forces.
+
+    Beads come first among the points; the images beside the seam that contacts end on follow.
+    """
+    ends = contacts.pairs.copy()
+    images = np.flatnonzero(contacts.wraps)
+    ends[images, 1] = len(beads) + np.arange(len(images))
+    points = _three(np.concatenate([beads, contacts.ends[images, 1]]))
+    radii = np.concatenate([radii, radii[contacts.pairs[images, 1]]])
+    n, (_, branch) = len(ends), np.unique(contacts.branch, return_inverse=True)
+    columns = {
+        "force double": as_floats(contacts.force),
+        "change double": as_floats(contacts.change),
+        "wraps int": contacts.wraps.astype(int),
+        "branch int": branch,
+    }
+    return "\n".join(
+        [
+            "# vtk DataFile Version 3.0",
+            "force-diffusion: contacts of a packing",
+            "ASCII",
+            "DATASET POLYDATA",
+            f"POINTS {len(points)} double",
+            *_lines(points),
+            f"LINES {n} {3 * n}",
+            *(f"2 {a} {b}" for a, b in ends.tolist()),
+            f"POINT_DATA {len(points)}",
+            *_scalars("radius double", radii),
+            f"CELL_DATA {n}",
+            *(line for name, column in columns.items() for line in _scalars(name, column)),
+            "VECTORS force_vector double",
+            *_lines(_three(contacts.force_vector)),
+            "",
+        ]
+    )
+
+
+def dump_local(contacts: Contacts, box: list[str]) -> str:
+    """LAMMPS's format *dump local*: a line a contact, with the numbers of its beads from 1 on."""
+    pairs = contacts.pairs + 1
+    rows = zip(
+        pairs.tolist(),
+        as_floats(contacts.force).tolist(),
+        _three(contacts.force_vector).tolist(),
+        strict=True,
+    )
+    header = _header("ENTRIES", len(pairs), box, "index batom1 batom2 force fx fy fz")
+    lines = (_words([k, *pair, force, *v]) for k, (pair, force, v) in enumerate(rows, 1))
+    return "\n".join([*header, *lines, ""])
+
+
+def dump(beads: Array, radii: Array, box: list[str]) -> str:
+    """LAMMPS's format *dump*: a line a bead, with its number from 1 on."""
+    header = _header("ATOMS", len(beads), box, "id type x y z radius")
+    rows = zip(_three(beads).tolist(), radii.tolist(), strict=True)
+    return "\n".join([*header, *(_words([k, 1, *x, r]) for k, (x, r) in enumerate(rows, 1)), ""])
+
+
+def box_of(beads: Array, radii: Array, period: float) -> list[str]:
+    """Bounds of a packing for LAMMPS: periodic across, open upwards; of spheres it leans."""
+    low, high = (beads[:, -1] - radii).min(), (beads[:, -1] + radii).max()
+    largest = float(radii.max())
+    if beads.shape[1] == 2:
+        bounds = [[0, period], [low, high], [-largest, largest]]
+        return ["pp ff pp", *(_words(map(float, pair)) for pair in bounds)]
+    lean, deep = period / 2, period * 3**0.5 / 2
+    leaning = [[0, period + lean, lean], [0, deep, 0], [low, high, 0]]
+    return ["xy xz yz pp pp ff", *(_words(map(float, three)) for three in leaning)]
+
+
+def _header(item: str, count: int, box: list[str], columns: str) -> list[str]:
+    kinds, *bounds = box
+    return [
+        "ITEM: TIMESTEP",
+        "0",
+        f"ITEM: NUMBER OF {item}",
+        str(count),
+        f"ITEM: BOX BOUNDS {kinds}",
+        *bounds,
+        f"ITEM: {item} {columns}",
+    ]
+
+
+def _scalars(name: str, values: Array) -> list[str]:
+    return [f"SCALARS {name} 1", "LOOKUP_TABLE default", *map(repr, values.tolist())]
+
+
+def _three(vectors: Array) -> Array:
+    """Vectors of the plane with a third component, 0."""
+    return np.pad(vectors, ((0, 0), (0, 3 - vectors.shape[1])))
+
+
+def _lines(rows: Array) -> Iterable[str]:
+    return map(_words, rows.tolist())
+
+
+def _words(values: Iterable[Any]) -> str:
+    return " ".join(map(repr, values))

@@ -1,0 +1,226 @@
+"""Contacts and beads of solved packings: their geometry, tables, pictures and files."""
+
+import sys
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import force_diffusion as fd
+
+ROUNDING = 1e-14  # a few roundings of numbers of about 1
+
+
+def radii_of(*shape: int) -> Any:
+    return 1 + 0.01 * np.random.default_rng(7).standard_normal(shape)
+
+
+SOLVED = {
+    "discs": lambda: fd.solve(radii_of(5, 8), spacing=2.7),
+    "bulk": lambda: fd.solve(radii_of(6, 9), load=fd.BulkLoad()),
+    "balls": lambda: fd.solve(radii_of(4, 6), tolerance=1e-25),
+    "spheres": lambda: fd.solve(radii_of(4, 6, 6), dimension=3),
+    "packings": lambda: fd.solve(radii_of(3, 4, 6)),
+    "deviations": lambda: fd.solve(delta_r=2.5 * (radii_of(4, 6) - 1), radius=2.5, spacing=7),
+}
+
+
+@pytest.mark.parametrize("name", SOLVED)
+def test_beads_touch_and_stand(name: str) -> None:
+    """From first principles: centres are two radii apart, and each bead's forces add up to 0."""
+    solution = SOLVED[name]()
+    contacts, beads = solution.contacts, solution.beads
+    lower, upper = contacts.pairs.T
+    length, scale = contacts.ends[..., 1, :] - contacts.ends[..., 0, :], beads.radii.max()
+    apart = beads.radii[..., lower] + beads.radii[..., upper]
+    assert np.abs(np.linalg.norm(length, axis=-1) - apart).max() < ROUNDING * scale
+    assert np.abs(np.linalg.norm(contacts.normals, axis=-1) - 1).max() < ROUNDING
+    touches = contacts.ends[..., 0, :] + beads.radii[..., lower, None] * contacts.normals
+    assert np.abs(touches - contacts.points).max() < ROUNDING * scale
+    centres = beads.positions.astype(float)
+    straight = ~contacts.wraps
+    assert np.allclose(contacts.ends[..., 1, :][..., straight, :], centres[..., upper[straight], :])
+    assert (np.abs(length - (centres[..., upper, :] - centres[..., lower, :])).max(-1) > 1)[
+        ..., contacts.wraps
+    ].all()  # a period, and no rounding
+    bulk = name == "bulk"
+    for packing in np.ndindex(*centres.shape[:-2]):
+        total = np.zeros_like(centres[packing])
+        np.add.at(total, upper, contacts.force_vector[packing])
+        np.add.at(total, lower, -contacts.force_vector[packing])
+        loaded = beads.layers > 0 if bulk else beads.layers == beads.layers.max()
+        total[loaded, -1] -= 1
+        assert np.abs(total[beads.layers > 0]).max() < 10 * ROUNDING
+
+
+def test_columns_stand_side_by_side_with_the_lattice() -> None:
+    for name in ("discs", "spheres", "packings"):
+        solution = SOLVED[name]()
+        data, d = solution.to_xarray(), solution.position.shape[-1]
+        across = ("column",) if d == 2 else ("p", "q")
+        lead = ("packing",) if name == "packings" else ()
+        force = data.force.transpose(*lead, "branch", "layer", *across)
+        assert np.array_equal(force.values, solution.force)
+        frame = solution.to_dataframe()
+        assert np.array_equal(frame["upper_radius"], data.upper_radius.values.reshape(-1))
+        scene = solution.forces
+        assert np.allclose(frame["upper_x"], scene.arrays["upper_x"], atol=1e-10)
+        assert np.array_equal(frame["wraps"], scene.arrays["wraps"])
+        assert np.array_equal(frame["force"], scene.to_dataframe()["force"])
+
+
+def test_contact_forces_say_where_contacts_are() -> None:
+    """Places are those of positions; beads that the answer doesn't depend on have none."""
+    disorder = fd.Disorder(kind="uniform", relative_std=1e-2, seed=3)
+    questions = fd.Ask(quantity=["contact_forces", "positions"])
+    scene = fd.Scene(packing=fd.Packing(height=4, width=9), disorder=disorder, ask=questions)
+    found = scene.run().results
+    places = {(r["i"], r["j"]): (r["x"], r["y"]) for r in found["positions"].rows()}
+    for row in found["contact_forces"].rows():
+        assert (row["x"], row["y"]) == pytest.approx(places[row["i"], row["j"]], abs=1e-10)
+        i = row["i"] + (1 if row["branch"] == "+" else -1)
+        turns, home = divmod(i, 18)
+        x, y = places[home, row["j"] + 1]
+        assert (row["upper_x"], row["upper_y"]) == pytest.approx((x + 27 * turns, y), abs=1e-10)
+        assert row["wraps"] == (turns != 0)
+    ask = fd.Ask(quantity="contact_forces")
+    load = fd.PointLoad(at=(4, 4))
+    cone = fd.Scene(packing=scene.packing, disorder=disorder, load=load, ask=ask).run()
+    unreached = np.isnan(cone.arrays["upper_x"])
+    assert unreached.any()
+    assert not cone.arrays["force"][unreached].any()
+    assert {cone.text["upper_x"][k] for k in np.flatnonzero(unreached)} == {""}
+
+
+def test_profiles_and_histograms_become_tables() -> None:
+    packing = fd.Packing(height=4, width=10)
+    disorder = fd.Disorder(kind="normal", relative_std=1e-3)
+    for quantity, sizes in (("profile", {"layer": 4, "branch": 2}), ("histogram", None)):
+        ask = fd.Ask(quantity=quantity, realisations=3)
+        scene = fd.Scene(packing=packing, disorder=disorder, ask=ask)
+        for found in (scene.run(), fd.ensemble(scene, 3)):
+            data = found.to_xarray()
+            assert dict(data.sizes) == (sizes or {"bin": len(found.arrays["low"])})
+            frame = found.to_dataframe()
+            assert list(frame) == list(found.arrays)
+    assert data["count"].values.tolist() == found.arrays["count"].tolist()
+
+
+def test_without_the_libraries_tables_say_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "pandas", None)
+    with pytest.raises(fd.ForceDiffusionError, match=r"pip install 'force-diffusion\[tables\]'"):
+        SOLVED["discs"]().to_dataframe()
+
+
+def vtk_of(path: Path) -> tuple[Any, Any, dict[str, Any]]:
+    """Read points, lines and columns of legacy VTK, by its description."""
+    words = path.read_text().split("\n", 3)[3].split()
+    assert words[:3] == ["DATASET", "POLYDATA", "POINTS"]
+    n = int(words[3])
+    assert words[4] == "double"
+    points = np.array(words[5 : 5 + 3 * n], float).reshape(-1, 3)
+    at = 5 + 3 * n
+    assert words[at] == "LINES"
+    lines, size = int(words[at + 1]), int(words[at + 2])
+    ends = np.array(words[at + 3 : at + 3 + size], int).reshape(lines, -1)
+    assert (ends[:, 0] == 2).all()
+    at += 3 + size
+    columns: dict[str, Any] = {}
+    count = 0
+    while at < len(words):
+        if words[at] in {"POINT_DATA", "CELL_DATA"}:
+            count = int(words[at + 1])
+            at += 2
+        elif words[at] == "SCALARS":
+            assert words[at + 4 : at + 6] == ["LOOKUP_TABLE", "default"]
+            columns[words[at + 1]] = np.array(words[at + 6 : at + 6 + count], float)
+            at += 6 + count
+        else:
+            assert words[at] == "VECTORS"
+            vectors = np.array(words[at + 3 : at + 3 + 3 * count], float)
+            columns[words[at + 1]] = vectors.reshape(-1, 3)
+            at += 3 + 3 * count
+    return points, ends[:, 1:], columns
+
+
+@pytest.mark.parametrize("name", ["discs", "spheres", "packings"])
+def test_vtk_has_lines_as_long_as_two_radii(name: str, tmp_path: Path) -> None:
+    solution, packing = SOLVED[name](), 2 if name == "packings" else 0
+    solution.to_vtk(tmp_path / "a.vtk", packing=packing)
+    points, ends, columns = vtk_of(tmp_path / "a.vtk")
+    length = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
+    radius = columns["radius"]
+    assert np.abs(length - radius[ends].sum(axis=1)).max() < ROUNDING * 100
+    assert np.array_equal(columns["force"], solution.contacts.of(packing).force)
+    assert np.allclose(np.linalg.norm(columns["force_vector"], axis=1), np.abs(columns["force"]))
+    assert columns["wraps"].sum() == solution.contacts.wraps.sum() > 0
+
+
+def dumped(path: Path, item: str) -> tuple[list[list[float]], dict[str, Any]]:
+    """Read bounds and columns of a dump of LAMMPS."""
+    lines = path.read_text().splitlines()
+    assert lines[:3] == ["ITEM: TIMESTEP", "0", f"ITEM: NUMBER OF {item}"]
+    assert lines[4].startswith("ITEM: BOX BOUNDS ")
+    head, *names = lines[8].removeprefix("ITEM: ").split()
+    assert head == item
+    rows = np.array([line.split() for line in lines[9:]], float)
+    assert len(rows) == int(lines[3])
+    bounds = [[float(word) for word in line.split()] for line in lines[5:8]]
+    return bounds, dict(zip(names, rows.T, strict=True))
+
+
+@pytest.mark.parametrize("name", ["discs", "spheres"])
+def test_dumps_of_beads_and_contacts_fit_together(name: str, tmp_path: Path) -> None:
+    """Numbers of beads are those of the other file; periods make all contacts two radii long."""
+    solution = SOLVED[name]()
+    solution.to_dump(tmp_path / "beads")
+    solution.to_dump_local(tmp_path / "contacts")
+    bounds, beads = dumped(tmp_path / "beads", "ATOMS")
+    same, contacts = dumped(tmp_path / "contacts", "ENTRIES")
+    assert bounds == same
+    assert contacts["index"].tolist() == list(range(1, len(contacts["index"]) + 1))
+    first, second = (np.searchsorted(beads["id"], contacts[name]) for name in ("batom1", "batom2"))
+    places = np.stack([beads[x] for x in "xyz"], axis=1)
+    lean = bounds[0][2] if name == "spheres" else 0.0
+    periods = [[bounds[0][1] - bounds[0][0] - lean, 0, 0]]
+    if name == "spheres":
+        periods.append([lean, bounds[1][1] - bounds[1][0], 0])
+    apart = places[second] - places[first]
+    for shift in np.ndindex(*[3] * len(periods)):
+        turned = places[second] - places[first] + (np.array(shift) - 1) @ np.array(periods)
+        shorter = (turned**2).sum(axis=1) < (apart**2).sum(axis=1)
+        apart[shorter] = turned[shorter]
+    both = beads["radius"][first] + beads["radius"][second]
+    assert np.abs(np.linalg.norm(apart, axis=1) - both).max() < 100 * ROUNDING
+    force = np.stack([contacts[x] for x in ("fx", "fy", "fz")], axis=1)
+    assert np.allclose(force, contacts["force"][:, None] * apart / both[:, None])
+
+
+def test_a_plot_has_a_line_for_each_contact_that_bears_enough() -> None:
+    plt = pytest.importorskip("matplotlib.pyplot")
+    from matplotlib.collections import LineCollection
+
+    solution = SOLVED["discs"]()
+    figure, ax = plt.subplots()
+    assert solution.plot(ax, color="change", least=0.7) is ax
+    (lines,) = (one for one in ax.collections if isinstance(one, LineCollection))
+    some = solution.contacts.force >= 0.7
+    assert np.array_equal(lines.get_array(), solution.contacts.change[some])
+    r = radii_of(5, 8).mean()
+    assert np.allclose(lines.get_segments(), solution.contacts.ends[some] / r)
+    widths = lines.get_linewidths()
+    assert np.argmax(widths) == np.argmax(solution.contacts.force[some])
+    plt.close(figure)
+    drawn = solution.plot()
+    assert sum(len(c.get_segments()) for c in drawn.collections if hasattr(c, "get_segments")) == 64
+    for wrong, words in (
+        ({"color": "colour"}, '"force", "change", "branch" or "wraps"'),
+        ({"color": [1, 2]}, "a number for each of the 64 contacts"),
+        ({"least": 9}, "no contact bears more than"),
+        ({"packing": 1}, "from 0 to 0"),
+    ):
+        with pytest.raises(fd.SceneError, match=words):
+            solution.plot(**wrong)
+    with pytest.raises(fd.SceneError, match="to_vtk"):
+        SOLVED["spheres"]().plot()
