@@ -51,7 +51,7 @@ class ContactForces(ContactQuantity):
         """
         d, packing = problem.dimension, self.scene.packing
         names, axes = bead_names(d), axis_names(d)
-        spacing = self.scene.spacing / packing.radius
+        spacing = packing.s / packing.radius
         usual = packing.model_copy(update={"radius": Fraction(1), "spacing": spacing})
         beads = Positions(self.scene.model_copy(update={"packing": usual})).rows(problem, solved)
         there = np.stack([beads.index[name] for name in names])
