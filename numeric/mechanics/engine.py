@@ -1,15 +1,18 @@
 """The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 from importlib.util import find_spec
 from typing import Any
 
 from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, NumberSystem
-from ..disorder.radii import beads_of
+from ..disorder.radii import Radii, beads_of
 from ..lattice.branch import Branch
-from ..lattice.layers import Layer
+from ..lattice.layers import Region, Rows
 from . import first_order
+from .loads import LoadSpec
+from .local import cosine
 from .physicality import Physicality
 from .problem import Problem, Route, Solved, rounded
 from .sweep import Forces, deposit, radii_named, sweep_down
@@ -56,12 +59,8 @@ def packings(
         chunk = realisations[at : at + size]
         solved = solve(problem, chunk, system, work, carried=carried)
         if physical is not None:
-            physical.looks_at = chunk
-            if solved.packing is not None:
-                physical.look_at_gaps(solved.packing)
-            if solved.forces is not None:
-                physical.look_at_forces(solved.forces)
-            work.did_rows("checked", problem.region.rows, problem.region.beads * len(chunk))
+            physical.look_at(solved, chunk)
+            work.did("checked", problem.region.beads * len(chunk))
         yield solved, chunk
 
 
@@ -76,22 +75,43 @@ def solve(
     """Solve some realisations together; the caller activates ``system``."""
     if problem.route == Route.ORDERED:
         return _ordered(problem, system)
-    own: Any = CARRYING if carried else system
     if problem.route == Route.LINE_SUMS:
-        found = _line_sums(problem, realisations[0], own, work)
+        found = _line_sums(problem, realisations[0], CARRYING if carried else system, work)
         return rounded(found) if carried else found
-    region, rows, n = problem.region, problem.force_rows, len(realisations)
+    load = problem.load if problem.needs_forces else None
     linear = problem.route != Route.EXACT
+    found = swept(
+        problem.n_x, problem.radii, load, problem.region, problem.force_rows, realisations, system,
+        linear=linear, carried=carried,
+    )  # fmt: skip
+    work.did("summed" if linear else "deposited", problem.region.beads * len(realisations))
+    return found
+
+
+def swept(
+    n_x: Fraction,
+    radii: Radii,
+    load: LoadSpec | None,
+    region: Region,
+    rows: Rows,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    *,
+    linear: bool = False,
+    carried: bool = False,
+) -> Solved:
+    """Give packings at rest, and the forces on the beads of ``rows`` under a load, if there is one.
+
+    To first order only if ``linear``. The caller activates ``system``. Raises ``RadiusError``, and
+    what ``deposit`` and ``sweep_down`` raise.
+    """
+    own: Any = CARRYING if carried else system
     with radii_named(region):
-        rho = beads_of(problem.radii, region.rows, realisations, own)
-    work.did_rows("radii", region.rows, region.beads * n)
-    packing = deposit(problem.phi, region, rho, own, linear=linear)
-    work.did_rows("summed" if linear else "deposited", region.rows, region.beads * n)
-    forces = None
-    if problem.needs_forces:
-        F = problem.load.ordered(rows, problem.load.strength(problem.n_x, own), own)
+        rho = beads_of(radii, region.rows, realisations, own)
+    packing, forces = deposit(cosine(n_x), region, rho, own, linear=linear), None
+    if load is not None:
+        F = load.ordered(rows, load.strength(n_x, own), own)
         forces = sweep_down(packing, rows, F, linear=linear)
-        work.did_rows("balanced", rows[1:], F.shape[1] * n)
     found = Solved(own, packing, forces, None)
     return rounded(found) if carried else found
 
@@ -112,7 +132,7 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
 
 def _line_sums(problem: Problem, realisation: int, system: NumberSystem, work: Work) -> Solved:
     known = _along(problem, realisation, system, work)
-    return Solved(system, None, None, _summed(problem, known, system, work))
+    return Solved(system, None, None, _summed(problem, known, system))
 
 
 def _along(
@@ -130,18 +150,16 @@ def _along(
     for at in range(0, len(sites), BLOCK):
         block = sites[at : at + BLOCK]
         known.update(zip(block, problem.radii.at(block, realisation, system), strict=True))
-        for i, m in block:
-            work.did("radii", Layer(m, i, 1))
+        work.did("summed", len(block))
     return known
 
 
 def _summed(
-    problem: Problem, known: dict[tuple[int, int], Any], system: NumberSystem, work: Work
+    problem: Problem, known: dict[tuple[int, int], Any], system: NumberSystem
 ) -> tuple[Any, Any]:
     """Give (c⁺, c⁻) of the one bead, or (force, change) of the one contact."""
 
     def radius_at(i: int, j: int) -> Any:
-        work.did("summed", Layer(j, i, 1))
         return known[i, j]
 
     n_x = problem.n_x

@@ -26,6 +26,7 @@ from ..lattice.layers import Layer
 from . import local
 from .local import RESOLUTION
 from .loops import loops
+from .problem import Solved
 from .sweep import Forces, SolvedPacking, metric_array, shift_of, starts_above
 
 Steps = tuple[int, ...]
@@ -60,6 +61,14 @@ class Physicality:
         """Whether no two beads overlap and no contact pulls, as far as was looked, and surely."""
         pulls = self.tensile or self.undecided_signs
         return not (self.overlaps or self.undecided_gaps or pulls)
+
+    def look_at(self, solved: Solved, realisations: Sequence[int]) -> None:
+        """Look at packings, which are these realisations."""
+        self.looks_at = realisations
+        if solved.packing is not None:
+            self.look_at_gaps(solved.packing)
+        if solved.forces is not None:
+            self.look_at_forces(solved.forces)
 
     def look_at_gaps(self, packing: SolvedPacking) -> None:
         """Measure the gaps of all pairs of beads that could meet."""

@@ -60,7 +60,6 @@ def answer(
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     work = Work() if work is None else work
-    work.uses(system.name)
     physical, network, sizes, bins = None, None, NONE, None
     if problem.route == Route.EXACT:
         physical = Physicality(looks_at=realisations)

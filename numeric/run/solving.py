@@ -14,17 +14,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..accuracy import CARRIED, Accuracy
-from ..arithmetic.carried import CARRYING, stated_error
+from ..arithmetic.carried import stated_error
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import ArrayRadii
 from ..lattice.branch import Contact, axis_names, bead_names, directions
 from ..lattice.layers import whole
+from ..mechanics.engine import swept
 from ..mechanics.loads import LoadSpec
-from ..mechanics.local import cosine
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
-from ..mechanics.sweep import deposit, rounded, sweep_down
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..planning.sources import FARTHEST_UNIT
@@ -390,25 +389,21 @@ def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
     region, spec = whole(row, layers - 1, d), LoadSpec(load.kind, layers - 1, row, dimension=d)
     origin = r if given.delta_r is None else Fraction(0)
     radii = ArrayRadii(given.values.reshape(-1, layers, row), origin, r)
-    realisations = range(len(radii.values))
-    physical = Physicality(looks_at=realisations)
+    packings, physical = range(len(radii.values)), Physicality()
     with FLOAT64.active():
-        rho = radii.layers(layers, realisations, CARRYING)
         try:
-            deposited = deposit(cosine(n_x), region, rho, CARRYING)
-            F = spec.ordered(region.rows, spec.strength(n_x, CARRYING), CARRYING)
-            balanced = sweep_down(deposited, region.rows, F)
+            found = swept(n_x, radii, spec, region, region.rows, packings, FLOAT64, carried=True)
         except ForceDiffusionError:
             return None
-        solved, forces, sizes = rounded(deposited, balanced)
-        physical.look_at_gaps(solved)
-        physical.look_at_forces(forces)
-        largest, unseen = float(np.abs(forces.g).max()), sizes.unseen(layers - 1)[0]
+        physical.look_at(found, packings)
+        forces, unseen = found.forces, found.sizes.unseen(layers - 1)[0]
+        assert forces is not None
         change, force = forces.g, forces.g + forces.F
+        largest = max(float(change.max()), -float(change.min()))
         if load.magnitude != 1:
             magnitude = FLOAT64.number(load.magnitude)
             change, force = change * magnitude, force * magnitude
-    if not (largest > SMALL and sizes.moved + unseen < math.inf):
+    if not (largest > SMALL and found.sizes.moved + unseen < math.inf):
         return None
     roundings = 1 if load.magnitude == 1 else 3
     bound = stated_error(roundings, Fraction(unseen) / Fraction(largest))

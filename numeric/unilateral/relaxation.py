@@ -71,9 +71,7 @@ def _proved(problem: Problem, realisation: int, found: Settled, system: Balls) -
 def settle(problem: Problem, realisation: int, work: Work) -> Settled:
     """Let beads come to rest. Raises ``UnfinishedError`` where they don't."""
     grains, supports = start(problem, realisation)
-    for row in problem.region.rows:
-        work.did("radii", row)
-        work.did("balanced", row)
+    work.did("balanced", problem.region.beads)
     if supports is not None:
         forces = balanced(grains, supports)
         if forces.min() >= -SLACK * np.abs(forces).max():
@@ -93,8 +91,7 @@ def _limited(problem: Problem, work: Work) -> Callable[[int], None]:
     begin, seconds = process_time(), problem.most_seconds
 
     def progress(programs: int) -> None:
-        if work.progress is not None:
-            work.progress(f"linear programs: {programs}", 0)
+        work.did(f"linear programs: {programs}", 0)
         if seconds is not None and process_time() - begin > seconds:
             raise UnfinishedError(
                 f"not at rest after effects.most_seconds = {short(seconds)} and {programs} "

@@ -333,7 +333,7 @@ def solved_or_refused(sections: dict[str, dict[str, Any]], folder: Path = Path()
     try:
         made = planned(sections, folder)
         made.data()
-        if made.beads < 1500 and made.system.bits <= 2000:
+        if made.beads < 1500 and getattr(made.system, "bits", 53) <= 2000:
             outcome = run(made)
             json.dumps(outcome.data(), allow_nan=False)
             accuracy = outcome.accuracy
