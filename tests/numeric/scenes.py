@@ -1,13 +1,19 @@
 """Small scenes for the tests, and strategies that draw them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.arithmetic.systems import NumberSystem
+from force_diffusion.numeric.disorder.radii import Radii
+from force_diffusion.numeric.lattice.layers import Layer
 from force_diffusion.numeric.mechanics import engine, physicality, sweep
+from force_diffusion.numeric.mechanics.engine import solve
+from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run import Scene, run
@@ -121,3 +127,30 @@ def site(draw: st.DrawFn, width: int, low: int, high: int) -> list[int]:
 
 def exact(text: str) -> Fraction:
     return Fraction(text)
+
+
+@dataclass(frozen=True)
+class _Noted:
+    """Radii that note whose they are, as they are asked for."""
+
+    radii: Radii
+    sites: list[tuple[int, int]] = field(default_factory=list)
+
+    def relative_std(self) -> Fraction:
+        return self.radii.relative_std()
+
+    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
+        self.sites.extend((i, layer.j) for i in layer.sites())
+        return self.radii.row(layer, realisations, system)
+
+    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
+        self.sites.extend(sites)
+        return self.radii.at(sites, realisation, system)
+
+
+def radii_read(plan: Plan) -> tuple[Any, list[tuple[int, int]]]:
+    """Solve the first realisation, and give the sites of the beads whose radii were read."""
+    noted = _Noted(plan.problem.radii)
+    with plan.system.active():
+        solved = solve(replace(plan.problem, radii=noted), [0], plan.system, Work())
+    return solved, noted.sites

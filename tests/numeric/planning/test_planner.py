@@ -22,15 +22,7 @@ from force_diffusion.numeric.run import run
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.numeric.scenes import answer, basic, planned
-
-
-def beads_of(plan: Plan) -> tuple[Work, set[tuple[int, int]]]:
-    """Run one realisation and give the work and the sites whose radii were asked for."""
-    work = Work(trace=True)
-    with plan.system.active():
-        solve(plan.problem, [0], plan.system, work)
-    return work, {(i, row.j) for row in work.rows.get("radii", []) for i in row.sites()}
+from tests.numeric.scenes import answer, basic, planned, radii_read
 
 
 contacts = st.integers(1, 12).flatmap(
@@ -48,15 +40,14 @@ def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(
     sections = basic(M, None, quantity="contact", at=[2 * abs(column) + j % 2, j, branch])
     sections["effects"] = {"geometry": geometry}
     plan = planned(sections)
-    work, sites = beads_of(plan)
+    solved, sites = radii_read(plan)
     count = (regions if geometry == "exact" else first_order).contact_beads(j, M)
-    assert len(sites) == work.radii == count
+    assert len(sites) == len(set(sites)) == count
     if geometry == "exact":
-        assert work.deposited == count
-        assert work.balanced == (M - j) * (M - j + 1) // 2
-        assert work.summed == 0
+        assert solved.packing.block.shape[-1] == count
+        assert solved.forces.g.shape[-1] == (M - j) * (M - j + 1) // 2
     else:
-        assert work.deposited == work.balanced == 0
+        assert solved.packing is solved.forces is None
     assert plan.beads == count
 
 
@@ -129,11 +120,11 @@ def test_first_order_depends_on_exactly_the_beads_it_reads(
         layer = data.draw(st.integers(1, M))
         sections["load"]["at"] = [2 * data.draw(st.integers(0, W - 1)) + layer % 2, layer]
     plan = planned(sections)
-    work, visited = beads_of(plan)
+    _, visited = radii_read(plan)
     if plan.problem.route == "ordered":
         assert not visited
         return
-    assert work.radii == len(visited)
+    assert len(visited) == len(set(visited))
     sites = {(i % (2 * W), m) for i, m in visited}
     weights = _weights(plan, contact, W, M)
     assert {site for site, weight in weights.items() if weight} == sites
@@ -165,23 +156,20 @@ def test_without_disorder_nothing_is_swept() -> None:
         sections = basic(quantity=quantity)
         del sections["disorder"]
         plan = planned(sections)
-        w, _ = beads_of(plan)
-        assert (w.radii, w.deposited, w.balanced, w.summed) == (0, 0, 0, 0)
+        solved, sites = radii_read(plan)
+        assert not sites
+        assert solved.packing is None
         assert plan.beads == 0
 
 
 def test_a_point_load_stays_in_its_cone() -> None:
     sections = basic(8, 20, quantity="response")
     sections["load"] = {"kind": "point", "at": [5, 7]}
-    work = Work(trace=True)
-    plan = planned(sections)
-    with plan.system.active():
-        solve(plan.problem, [0], plan.system, work)
-    for row in work.rows["balanced"]:
-        for i in row.sites():
-            assert abs(i - 5) <= 7 - row.j
-    assert work.balanced == sum(7 - j + 1 for j in range(1, 8))
-    assert work.deposited == regions.triangle_beads(7)
+    solved, _ = radii_read(planned(sections))
+    for row in solved.forces.rows:
+        assert all(abs(i - 5) <= 7 - row.j for i in row.sites())
+    assert solved.forces.g.shape[-1] == sum(7 - j + 1 for j in range(1, 8))
+    assert solved.packing.block.shape[-1] == regions.triangle_beads(7)
 
 
 def test_cost_grows_with_the_region_not_with_the_packing() -> None:
