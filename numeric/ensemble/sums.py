@@ -20,8 +20,8 @@ from ..arithmetic.systems import FLOAT64, Array
 from ..disorder.radii import RadiusError
 from ..lattice.branch import PerBranch
 from ..mechanics import engine
-from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.sweep import NotStandingError, UnbuildableError
+from ..mechanics.problem import Problem, Route
+from ..mechanics.sweep import NotStandingError, Solved, UnbuildableError
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std

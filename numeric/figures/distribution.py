@@ -14,7 +14,7 @@ from scipy import stats
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
-from ..mechanics.problem import Solved
+from ..mechanics.sweep import Solved
 from ..quantities.base import ContactQuantity
 from .packings import Made, Medium, Options, gathered, planned, table
 from .style import PAGE, panels, points

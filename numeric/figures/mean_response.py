@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from ..arithmetic.systems import Array
-from ..mechanics.problem import Solved
+from ..mechanics.sweep import Solved
 from ..scene.sections import PointLoad
 from . import packings
 from .mean_forces import STD, cosine

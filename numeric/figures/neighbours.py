@@ -10,7 +10,7 @@ import numpy as np
 from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
-from ..mechanics.problem import Solved
+from ..mechanics.sweep import Solved
 from . import packings
 from .packings import PAPER, PAPER_STD, PHI, Comparison, Made, Options
 from .style import COLUMN, GREY, label_logarithmic, panels, points

@@ -10,8 +10,7 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
 from ..mechanics.engine import packings
-from ..mechanics.problem import Solved
-from ..mechanics.sweep import Forces, SolvedPacking
+from ..mechanics.sweep import Forces, Solved, SolvedPacking
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity

@@ -16,7 +16,7 @@ from matplotlib.axes import Axes
 
 from ..arithmetic.systems import Array
 from ..closed_forms import bead_response, contact_response, response
-from ..mechanics.problem import Solved
+from ..mechanics.sweep import Solved
 from ..planning.plan import Plan
 from ..quantities import response as quantities
 from ..scene.sections import PointLoad

@@ -144,6 +144,11 @@ class Rows(Sequence[Layer]):
         """How many there are."""
         return int(self.counts.sum())
 
+    @cached_property
+    def starts_above(self) -> Array:
+        """The number of each row's first bead of those above the base, and of all; (rows + 1,)."""
+        return np.concatenate(([0], np.cumsum(np.where(np.arange(len(self)), self.counts, 0))))
+
     def are_whole(self, width: int) -> bool:
         """Say whether each is the whole layer of a periodic packing."""
         return bool(((self.counts == width) & (self.firsts == self.layers % 2)).all())

@@ -1,21 +1,16 @@
 """The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
 from collections.abc import Iterator, Sequence
-from fractions import Fraction
 from importlib.util import find_spec
 from typing import Any
 
 from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, NumberSystem
-from ..disorder.radii import Radii, beads_of
 from ..lattice.branch import Branch
-from ..lattice.layers import Region, Rows
 from . import first_order
-from .loads import LoadSpec
-from .local import cosine
 from .physicality import Physicality
-from .problem import Problem, Route, Solved, rounded
-from .sweep import Forces, deposit, radii_named, sweep_down
+from .problem import Problem, Route
+from .sweep import Forces, Solved, rounded, swept
 from .work import Work
 
 # Beads of diagonals that are drawn together.
@@ -86,34 +81,6 @@ def solve(
     )  # fmt: skip
     work.did("summed" if linear else "deposited", problem.region.beads * len(realisations))
     return found
-
-
-def swept(
-    n_x: Fraction,
-    radii: Radii,
-    load: LoadSpec | None,
-    region: Region,
-    rows: Rows,
-    realisations: Sequence[int],
-    system: NumberSystem,
-    *,
-    linear: bool = False,
-    carried: bool = False,
-) -> Solved:
-    """Give packings at rest, and the forces on the beads of ``rows`` under a load, if there is one.
-
-    To first order only if ``linear``. The caller activates ``system``. Raises ``RadiusError``, and
-    what ``deposit`` and ``sweep_down`` raise.
-    """
-    own: Any = CARRYING if carried else system
-    with radii_named(region):
-        rho = beads_of(radii, region.rows, realisations, own)
-    packing, forces = deposit(cosine(n_x), region, rho, own, linear=linear), None
-    if load is not None:
-        F = load.ordered(rows, load.strength(n_x, own), own)
-        forces = sweep_down(packing, rows, F, linear=linear)
-    found = Solved(own, packing, forces, None)
-    return rounded(found) if carried else found
 
 
 def _ordered(problem: Problem, system: NumberSystem) -> Solved:

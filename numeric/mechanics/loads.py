@@ -18,7 +18,6 @@ from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, flint
 from ..lattice.branch import Branch, Site
 from ..lattice.layers import Rows
 from .local import level, vertical_square
-from .sweep import starts_above
 
 Components = tuple[Any, ...]
 
@@ -127,7 +126,7 @@ class LoadSpec:
 
         A load goes straight down, along each direction by itself.
         """
-        starts = starts_above(rows)
+        starts = rows.starts_above
         found = system.zeros(self.dimension, int(starts[-1]))
         if self.loaded is None:
             times = np.ones(len(rows))

@@ -26,8 +26,7 @@ from ..lattice.layers import Layer
 from . import local
 from .local import RESOLUTION
 from .loops import loops
-from .problem import Solved
-from .sweep import Forces, SolvedPacking, metric_array, shift_of, starts_above
+from .sweep import Forces, Solved, SolvedPacking, metric_array, shift_of
 
 Steps = tuple[int, ...]
 # A number that bounds, and was rounded a few times.
@@ -92,7 +91,7 @@ class Physicality:
         self.tensile += int(np.count_nonzero(pulls))
         self.undecided_signs += int(np.count_nonzero(undecided))
         if self.first_tensile is None and np.any(pulls):
-            starts = starts_above(forces.rows)
+            starts = forces.rows.starts_above
             first = int(np.argmax(pulls.any(axis=(0, 1))))
             j = int(np.searchsorted(starts, first, "right")) - 1
             row = pulls[:, :, starts[j] : starts[j + 1]]
@@ -114,7 +113,7 @@ def pulling(forces: Forces) -> tuple[Any, Any]:
     within 2^-40 of the largest change of its layer and branch in all packings, far above their
     measured error below M*. Nothing is told of them, False, where plainly none pulls.
     """
-    F, g, starts = forces.F, forces.g, starts_above(forces.rows)
+    F, g, starts = forces.F, forces.g, forces.rows.starts_above
     if forces.system.dtype is object:
         pulls, holds = forces.system.signs(-(F + g))
         return pulls, ~(pulls | holds)

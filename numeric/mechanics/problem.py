@@ -1,23 +1,20 @@
 """What is to be solved: beads, radii, loads, and by which theory."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from functools import cached_property
 from math import isqrt
 from typing import Any
 
-from ..arithmetic.carried import NONE, Sizes
-from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..arithmetic.systems import NumberSystem
 from ..disorder.radii import Radii
 from ..lattice.branch import Contact, Site
 from ..lattice.layers import Layer, Region, Rows
 from ..lattice.regions import reached
-from . import sweep
 from .loads import LoadSpec
 from .local import cosine
-from .sweep import Forces, SolvedPacking
 
 
 def axes(n_x: Fraction, system: NumberSystem) -> tuple[Any, Any]:
@@ -90,41 +87,3 @@ class Problem:
         if self.load.loaded is None:
             return self.force_rows
         return reached(self.load.loaded, self.force_rows, self.region)
-
-
-@dataclass(frozen=True)
-class Solved:
-    """Some realisations, solved; what the question does not need is None.
-
-    ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
-    line sums give alone. Where the sweep carried errors, all numbers are rounded only once, and
-    ``sizes`` says how large errors were.
-    """
-
-    system: NumberSystem
-    packing: SolvedPacking | None
-    forces: Forces | None
-    single: tuple[Any, Any] | None
-    sizes: Sizes = NONE
-
-    def one(self, number: int) -> "Solved":
-        """Give the ``number``-th realisation of those that were solved together."""
-        at = slice(number, number + 1)
-        packing, forces = self.packing, self.forces
-        if packing is not None:
-            packing = replace(packing, rho=packing.rho[at], block=packing.block[at])
-        if forces is not None:
-            forces = replace(forces, g=forces.g[at])
-        return replace(self, packing=packing, forces=forces)
-
-
-def rounded(solved: Solved) -> Solved:
-    """Round numbers that carry their errors once, and say how large errors were."""
-    if solved.packing is not None:
-        packing, forces, sizes = sweep.rounded(solved.packing, solved.forces)
-        return Solved(FLOAT64, packing, forces, None, sizes)
-    assert solved.single is not None
-    errors = [abs(float(one.error)) for one in solved.single]
-    force = max(abs(float(one.value)) for one in solved.single)
-    single = solved.single[0].nearest, solved.single[1].nearest
-    return Solved(FLOAT64, None, None, single, Sizes(max(errors), 0.0, max(errors), force))

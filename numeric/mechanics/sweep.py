@@ -15,13 +15,14 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.carried import Carried, Carrying, Sizes
+from ..arithmetic.carried import CARRYING, NONE, Carried, Carrying, Sizes
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
-from ..disorder.radii import RadiusError
+from ..disorder.radii import Radii, RadiusError, beads_of
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows, RowView, bead_of
-from .local import balance, balance_linear, metric, nested, rest, rest_linear
+from .loads import LoadSpec
+from .local import balance, balance_linear, cosine, metric, nested, rest, rest_linear
 from .loops import Loops, loops
 
 
@@ -114,13 +115,13 @@ class Forces:
     @cached_property
     def ordered(self) -> PerBranch[Sequence[Any]]:
         """F^a of each row, (count,)."""
-        starts = starts_above(self.rows)
+        starts = self.rows.starts_above
         return per_direction([RowView(self.F[a], starts) for a in range(len(self.F))])
 
     @cached_property
     def change(self) -> PerBranch[Sequence[Any]]:
         """g^a of each row, (count,) or (packings, count)."""
-        starts = starts_above(self.rows)
+        starts = self.rows.starts_above
         return per_direction([RowView(_of_one(self.g[:, a]), starts) for a in range(len(self.F))])
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
@@ -133,8 +134,41 @@ class Forces:
         return self.region.contact_below(layer, branch, column)
 
 
-def rounded(packing: SolvedPacking, forces: Forces | None) -> tuple[Any, Any, Sizes]:
+@dataclass(frozen=True)
+class Solved:
+    """Some realisations, solved; what the question does not need is None.
+
+    ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
+    line sums give alone. Where the sweep carried errors, all numbers are rounded only once, and
+    ``sizes`` says how large errors were.
+    """
+
+    system: NumberSystem
+    packing: SolvedPacking | None
+    forces: Forces | None
+    single: tuple[Any, Any] | None
+    sizes: Sizes = NONE
+
+    def one(self, number: int) -> "Solved":
+        """Give the ``number``-th realisation of those that were solved together."""
+        at = slice(number, number + 1)
+        packing, forces = self.packing, self.forces
+        if packing is not None:
+            packing = replace(packing, rho=packing.rho[at], block=packing.block[at])
+        if forces is not None:
+            forces = replace(forces, g=forces.g[at])
+        return replace(self, packing=packing, forces=forces)
+
+
+def rounded(solved: Solved) -> Solved:
     """Round numbers that carry their errors once, in place; say how large the errors were."""
+    packing, forces = solved.packing, solved.forces
+    if packing is None:
+        assert solved.single is not None
+        most = max(abs(float(one.error)) for one in solved.single)
+        force = max(abs(float(one.value)) for one in solved.single)
+        single = solved.single[0].nearest, solved.single[1].nearest
+        return Solved(FLOAT64, None, None, single, Sizes(most, 0.0, most, force))
     d, block = packing.region.dimension, packing.block
     sizes = Sizes(_most(block.error[:, :d]), _most(block.error[:, d:]))
     block.value[...] += block.error
@@ -145,7 +179,7 @@ def rounded(packing: SolvedPacking, forces: Forces | None) -> tuple[Any, Any, Si
         sizes |= Sizes(changed=_most(g.error), force=force)
         g.value[...] += g.error
         forces = replace(forces, system=FLOAT64, F=forces.F.nearest, g=g.value)
-    return packing, forces, sizes
+    return Solved(FLOAT64, packing, forces, None, sizes)
 
 
 def _most(values: Array) -> float:
@@ -158,11 +192,32 @@ def _of_one(values: Any) -> Any:
     return values[0] if len(values) == 1 else values
 
 
-def starts_above(rows: Rows) -> Array:
-    """Give the number of each row's first bead of those above the base; (rows + 1,)."""
-    counts = rows.counts.copy()
-    counts[:1] = 0
-    return np.concatenate(([0], np.cumsum(counts)))
+def swept(
+    n_x: Fraction,
+    radii: Radii,
+    load: LoadSpec | None,
+    region: Region,
+    rows: Rows,
+    realisations: Sequence[int],
+    system: NumberSystem,
+    *,
+    linear: bool = False,
+    carried: bool = False,
+) -> Solved:
+    """Give packings at rest, and the forces on the beads of ``rows`` under a load, if there is one.
+
+    To first order only if ``linear``. The caller activates ``system``. Raises ``RadiusError``, and
+    what ``deposit`` and ``sweep_down`` raise.
+    """
+    own: Any = CARRYING if carried else system
+    with radii_named(region):
+        rho = beads_of(radii, region.rows, realisations, own)
+    packing, forces = deposit(cosine(n_x), region, rho, own, linear=linear), None
+    if load is not None:
+        F = load.ordered(rows, load.strength(n_x, own), own)
+        forces = sweep_down(packing, rows, F, linear=linear)
+    found = Solved(own, packing, forces, None)
+    return rounded(found) if carried else found
 
 
 def deposit(
@@ -225,7 +280,7 @@ def sweep_down(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool = Fal
 def _balanced(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool) -> Any:
     region, system, block = packing.region, packing.system, packing.block
     d, top = region.dimension, len(rows) - 1
-    at, beads = starts_above(rows).tolist(), region.starts.tolist()
+    at, beads = rows.starts_above.tolist(), region.starts.tolist()
     g = system.zeros(len(block), d, at[-1])
     zero = 0.0 if isinstance(system, Carrying) else system.zeros(1)[0]
     layers, deposited = tuple(rows), tuple(region.rows)
@@ -346,7 +401,7 @@ def _compiled_deposit(phi: Fraction, region: Region, rho: Any, system: NumberSys
 @lru_cache(maxsize=4)
 def _reached(region: Region, rows: Rows) -> Array:
     """Give the rows of ``loops.sweep_down``."""
-    near, deposited = starts_above(rows), region.rows[: len(rows)]
+    near, deposited = rows.starts_above, region.rows[: len(rows)]
     return np.stack(
         [
             near[:-1],

@@ -17,7 +17,7 @@ BALL_BEAD, LISTED, FILE_LINE = 2200, 2700, 600
 PLAN_LAYER, SOLVED_LAYER = 150, 750
 # What a row of the answer takes: its names, a number, and that as text.
 NAMES, FLOAT_NUMBER, TEXT, BALL_ROW = 100, 60, 190, 1300
-INTERPRETER = 90_000_000
+INTERPRETER = 84_000_000
 # The library that loads compiled loops. Compiling them, once on a machine, takes 150 MB more.
 COMPILED = 60_000_000
 

@@ -12,8 +12,8 @@ from ..disorder.radii import ArrayRadii, RadiusError
 from ..lattice.branch import Contact
 from ..mechanics.engine import chunk_size, packings
 from ..mechanics.physicality import Physicality
-from ..mechanics.problem import Problem, Route, Solved
-from ..mechanics.sweep import NotStandingError, UnbuildableError
+from ..mechanics.problem import Problem, Route
+from ..mechanics.sweep import NotStandingError, Solved, UnbuildableError
 from ..mechanics.work import Work
 from ..statistics.bins import histogram
 from ..unilateral.network import Network, Relaxed

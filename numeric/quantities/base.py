@@ -21,7 +21,8 @@ from ..lattice.layers import Block, Naming, Region, Rows, pick, standing_on_base
 from ..mechanics.engine import solve
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
-from ..mechanics.problem import Problem, Route, Solved
+from ..mechanics.problem import Problem, Route
+from ..mechanics.sweep import Solved
 from ..mechanics.work import Work
 from ..scene.scene import Scene
 from ..theory.expected import std_of_spheres, stds_of_discs

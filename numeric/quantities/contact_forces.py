@@ -9,7 +9,8 @@ import numpy as np
 from ..arithmetic.systems import Array, as_floats
 from ..lattice.branch import axis_names, bead_names
 from ..lattice.layers import Block, Region, full_layer
-from ..mechanics.problem import Problem, Solved
+from ..mechanics.problem import Problem
+from ..mechanics.sweep import Solved
 from ..scene.sections import LARGEST
 from ..unilateral.network import Network, Relaxed
 from .base import Columns, ContactQuantity, Table

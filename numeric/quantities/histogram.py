@@ -4,7 +4,8 @@ from typing import Any
 
 from ..arithmetic.systems import Array
 from ..lattice.layers import Region
-from ..mechanics.problem import Problem, Solved
+from ..mechanics.problem import Problem
+from ..mechanics.sweep import Solved
 from ..scene.scene import Scene
 from .base import ContactQuantity, Table, contact_forces
 from .contact import SingleContact

@@ -8,7 +8,8 @@ from ..lattice import regions
 from ..lattice.branch import axis_names
 from ..lattice.layers import Layer, Region, Rows, pick, whole
 from ..mechanics.loads import LoadSpec
-from ..mechanics.problem import Problem, Solved
+from ..mechanics.problem import Problem
+from ..mechanics.sweep import Solved
 from ..unilateral.network import Relaxed
 from .base import Columns, Listed, Table, cartesian, column, joined
 

@@ -8,7 +8,8 @@ from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.branch import direction
 from ..lattice.layers import Block, Region, full_layer
-from ..mechanics.problem import Problem, Solved
+from ..mechanics.problem import Problem
+from ..mechanics.sweep import Solved
 from .base import RATIO, Table, contact_forces, first_order_std
 from .statistics import Merged, Statistics
 

@@ -7,7 +7,8 @@ import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.layers import Block, Region, pick
-from ..mechanics.problem import Problem, Route, Solved
+from ..mechanics.problem import Problem, Route
+from ..mechanics.sweep import Solved
 from .base import Table, contact_forces, slope
 from .statistics import Merged, Statistics
 

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem, as_floats
-from ..mechanics.problem import Problem, Solved
+from ..mechanics.problem import Problem
+from ..mechanics.sweep import Solved
 from ..statistics.moments import Moments, Scatter, unit_near
 from .base import ContactQuantity, Gatherer, Table
 

@@ -20,10 +20,10 @@ from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import ArrayRadii
 from ..lattice.branch import Contact, axis_names, bead_names, directions
 from ..lattice.layers import whole
-from ..mechanics.engine import swept
 from ..mechanics.loads import LoadSpec
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
+from ..mechanics.sweep import swept
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..planning.sources import FARTHEST_UNIT

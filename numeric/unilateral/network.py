@@ -8,7 +8,7 @@ import numpy as np
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
-from ..mechanics.problem import Solved
+from ..mechanics.sweep import Solved
 
 
 class UnfinishedError(ForceDiffusionError, ArithmeticError):

@@ -9,7 +9,8 @@ import pytest
 from force_diffusion.numeric import quantities
 from force_diffusion.numeric.arithmetic.systems import NumberSystem
 from force_diffusion.numeric.lattice.layers import Region
-from force_diffusion.numeric.mechanics.problem import Problem, Solved
+from force_diffusion.numeric.mechanics.problem import Problem
+from force_diffusion.numeric.mechanics.sweep import Solved
 from force_diffusion.numeric.quantities.base import Gatherer, Quantity, Table, column
 from force_diffusion.numeric.run import run
 

@@ -27,7 +27,7 @@ def balance(solution: fd.Solution, weights: Array) -> float:
     """
     centres, forces = solution.position, solution.force
     M, W = forces.shape[1:]
-    period = float(solution.scene.spacing) * W
+    period = float(solution.scene.packing.s) * W
     worst = 0.0
     for j in range(1, M + 1):
         for q in range(W):

@@ -40,8 +40,7 @@ from force_diffusion.numeric.figures.packings import (
 )
 from force_diffusion.numeric.mechanics import engine, first_order
 from force_diffusion.numeric.mechanics.loads import LoadSpec
-from force_diffusion.numeric.mechanics.problem import Solved
-from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
+from force_diffusion.numeric.mechanics.sweep import Solved, deposit, sweep_down
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.scene.sections import PointLoad
 from matplotlib.axes import Axes

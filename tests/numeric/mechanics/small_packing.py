@@ -15,7 +15,8 @@ from force_diffusion.numeric.lattice.branch import Branch
 from force_diffusion.numeric.lattice.layers import column, whole
 from force_diffusion.numeric.mechanics import engine
 from force_diffusion.numeric.mechanics.loads import LoadSpec
-from force_diffusion.numeric.mechanics.problem import Problem, Route, Solved, axes
+from force_diffusion.numeric.mechanics.problem import Problem, Route, axes
+from force_diffusion.numeric.mechanics.sweep import Solved
 from force_diffusion.numeric.mechanics.work import Work
 
 Site = tuple[int, int]

@@ -22,8 +22,7 @@ from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
-from force_diffusion.numeric.mechanics.problem import Solved
-from force_diffusion.numeric.mechanics.sweep import Forces, sweep_down
+from force_diffusion.numeric.mechanics.sweep import Forces, Solved, sweep_down
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.theory.expected import critical_height

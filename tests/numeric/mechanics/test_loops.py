@@ -19,7 +19,6 @@ from force_diffusion.numeric.mechanics.sweep import (
     NotStandingError,
     SolvedPacking,
     UnbuildableError,
-    starts_above,
 )
 from hypothesis import assume, given
 from hypothesis import strategies as st
@@ -76,7 +75,7 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
     region, rows = case
     rng = np.random.default_rng(seed)
     rho = rng.uniform(-1, 1, (batch, region.beads)) * size
-    F = rng.uniform(-3, 3, (2, int(starts_above(rows)[-1])))
+    F = rng.uniform(-3, 3, (2, int(rows.starts_above[-1])))
     usual = solved(phi, region, rho, rows, F, FLOAT64)
     carried = solved(
         phi, region, CARRYING.from_floats(rho), rows, CARRYING.from_floats(F), CARRYING
@@ -110,7 +109,7 @@ def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed:
     region, rows = case
     rng = np.random.default_rng(seed)
     rho = rng.uniform(-1, 1, (2, region.beads)) * 10.0 ** rng.uniform(-9, -1)
-    found = solved(phi, region, rho, rows, np.zeros((2, int(starts_above(rows)[-1]))), FLOAT64)
+    found = solved(phi, region, rho, rows, np.zeros((2, int(rows.starts_above[-1]))), FLOAT64)
     assume(found is not None)
     assert found is not None
     ours = physicality.gaps(found[0])
