@@ -54,7 +54,15 @@ def pytest_report_header(config: pytest.Config) -> str | None:
     return None
 
 
+DERIVING = "derivations/", "symbolic/", "cli/test_derive", "cli/test_show", "soundness/test_hostile"
+"""Tests that prove equations and work out closed forms: in one process, which does so once."""
+
+
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    for item in items:
+        if any(f"tests/{place}" in item.nodeid for place in DERIVING):
+            item.add_marker(pytest.mark.xdist_group("derivations"))
     of_ci = config.getoption("--hypothesis-profile") == "ci"
     if not _leaves_out(config) and not of_ci:
         return

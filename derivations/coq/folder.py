@@ -134,13 +134,15 @@ class CoqFolder:
         return said
 
     def compile(self, sources: Mapping[str, str], notice: Notice) -> None:
-        """Compile files, those first that others import; ``said`` tells of each.
+        """Compile these files, those first that others import; ``said`` tells of each.
 
         What is under way is ended when this is interrupted.
         """
         for name, source in sources.items():
             (self.folder / name).write_text(source, encoding="utf-8")
-        order = TopologicalSorter({name: imports(source) for name, source in sources.items()})
+        order = TopologicalSorter(
+            {name: sources.keys() & imports(source) for name, source in sources.items()}
+        )
         order.prepare()
         ready: list[str] = []
         running: dict[str, _Running] = {}

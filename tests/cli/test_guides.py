@@ -73,7 +73,7 @@ def test_its_commands_run_as_written(page: Path, folder: Path) -> None:
         assert done.stdout, command
 
 
-@pytest.mark.long(sample=4)
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "python")], ids=_name)
 def test_its_python_runs_as_written(page: Path, folder: Path) -> None:
     _save_files(page, folder)

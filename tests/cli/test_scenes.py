@@ -151,6 +151,7 @@ def test_an_interrupted_run(
     assert not out.exists()
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="asks Linux for the peak")
 @pytest.mark.parametrize("tolerance", ["", "tolerance = 1e-30"])
 def test_memory_stays_within_what_was_announced(tolerance: str, tmp_path: Path) -> None:

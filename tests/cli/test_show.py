@@ -63,7 +63,7 @@ def test_list_names_every_equation(capsys: pytest.CaptureFixture[str]) -> None:
     assert "surface_diffusion" in lines[12]
 
 
-@pytest.mark.long(sample=96)
+@pytest.mark.long(sample=24)
 @pytest.mark.parametrize("number", NUMBERS)
 @pytest.mark.parametrize("form", ["text", "latex", "sympy", "python", "steps"])
 def test_every_form_of_every_equation(capsys, number: int, form: str) -> None:
@@ -96,7 +96,7 @@ def test_python_source_is_python(capsys: pytest.CaptureFixture[str], number: int
     compile(shown(capsys, str(number), "--as", "python"), "shown", "exec")
 
 
-@pytest.mark.long(sample=8)
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize("number", [number for number in NUMBERS if load(number).exact])
 def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int | str) -> None:
     """SymPy source, Python source, JSON and text are those of the closed forms."""

@@ -2,7 +2,8 @@
 
 import os
 import shutil
-from dataclasses import replace
+from contextlib import nullcontext
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -12,7 +13,7 @@ from force_diffusion.derivations.api import certificates
 from force_diffusion.derivations.api.certificates import certificate, certify
 from force_diffusion.derivations.coq.files import Statement, theory
 from force_diffusion.derivations.coq.folder import ALLOWED, CoqFolder
-from force_diffusion.derivations.coq.record import Certificate
+from force_diffusion.derivations.coq.record import Certificate, Certification
 from force_diffusion.derivations.coq.statements import statements
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
@@ -27,25 +28,36 @@ pytestmark = pytest.mark.skipif(
 
 
 @pytest.fixture(scope="module")
-def coq(tmp_path_factory: pytest.TempPathFactory) -> CoqFolder:
-    made = CoqFolder(tmp_path_factory.mktemp("coq"))
-    made.compile(theory(), print)
-    assert made.trouble(theory()) == ""
-    return made
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("coq")
 
 
-def ask(coq: CoqFolder, made: Statement) -> Certificate:
-    for name in made.files:
-        coq.said.pop(name, None)
-    coq.compile(made.files, print)
-    return certificate(coq, 0, [made])
+@pytest.fixture(scope="module")
+def certified(folder: Path) -> Certification:
+    """What ``certify`` finds, in a folder that stays."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(certificates, "TemporaryDirectory", lambda: nullcontext(str(folder)))
+        return certify()
 
 
-def test_every_equation_is_accepted() -> None:
-    found = certify()
-    assert found.passed
-    assert [one.number for one in found.equations] == paper()
-    for one in found.equations:
+@pytest.fixture
+def coq(folder: Path, certified: Certification) -> CoqFolder:
+    """A folder in which the theory is compiled."""
+    assert certified.passed
+    return CoqFolder(folder)
+
+
+def accepted(coq: CoqFolder, asked: dict[str, Statement]) -> dict[str, Certificate]:
+    """What Coq says of statements, each in files of its own."""
+    named = {key: replace(one, name=f"asked_{n}") for n, (key, one) in enumerate(asked.items())}
+    coq.compile({name: text for one in named.values() for name, text in one.files.items()}, print)
+    return {key: certificate(coq, 0, [one]) for key, one in named.items()}
+
+
+def test_every_equation_is_accepted(certified: Certification) -> None:
+    assert certified.passed
+    assert [one.number for one in certified.equations] == paper()
+    for one in certified.equations:
         assert one.accepted, one
         assert set(one.axioms) <= ALLOWED
 
@@ -62,23 +74,15 @@ def wrong(number: int) -> Statement:
     return replace(statements(changed)[0], companions=())
 
 
-@pytest.mark.parametrize("number", paper())
-def test_another_equation_is_not_accepted(coq: CoqFolder, number: int) -> None:
-    true = replace(statements(load(number))[0], companions=())
-    assert ask(coq, true).accepted
-    assert not ask(coq, wrong(number)).accepted
-
-
-@pytest.mark.parametrize("number", [13, 14])
-def test_another_exact_variance_is_not_accepted(coq: CoqFolder, number: int) -> None:
+def wrong_variance(number: int) -> Statement:
+    """The exact variance of an equation with a thousandth more in one case."""
     derivation = load(number)
     ((name, form),) = derivation.exact_forms.items()
     first, *others = form.pieces
-    wrong = replace(first, expr=first.expr + sympy.Rational(1, 1000) * sy.phi)
-    other = SimpleNamespace(pieces=(wrong, *others))
-    changed = replace(derivation, exact=lambda: {name: other})
+    other = replace(first, expr=first.expr + sympy.Rational(1, 1000) * sy.phi)
+    changed = replace(derivation, exact=lambda: {name: SimpleNamespace(pieces=(other, *others))})
     (made,) = (one for one in statements(changed) if one.name.endswith("_exact"))
-    assert not ask(coq, replace(made, companions=())).accepted
+    return replace(made, companions=())
 
 
 def reworded(true: Statement, words: str, others: str) -> Statement:
@@ -92,44 +96,43 @@ def reworded(true: Statement, words: str, others: str) -> Statement:
     )
 
 
-@pytest.mark.parametrize(
-    ("name", "true", "false"),
-    [
-        ("equation_10_else_nothing", "(k - i > l - j", "(k - i >= l - j"),
-        ("equation_10_else_nothing", "i - k >= l - j)", "i - k >= l - j - 2)"),
-        ("equation_10_else_nothing_mirrored", "(i - k > l - j", "(i - k >= l - j"),
-        ("equation_12_second_difference", "6 * sigma", "5 * sigma"),
-        ("equation_14_maximum", "M = 6 * j", "M = 7 * j"),
-        ("equation_13_exact", "f_load / (2 * n_y G)", "f_load / (2 * n_x G)"),
-    ],
-)
-def test_what_is_stated_beside_is_not_accepted_otherwise(
-    coq: CoqFolder, name: str, true: str, false: str
-) -> None:
-    number = int(name.split("_")[1])
-    (made,) = (one for one in statements(load(number)) if one.name == name)
-    assert not ask(coq, reworded(made, true, false)).accepted
+BESIDE = [
+    ("equation_10_else_nothing", "(k - i > l - j", "(k - i >= l - j"),
+    ("equation_10_else_nothing", "i - k >= l - j)", "i - k >= l - j - 2)"),
+    ("equation_10_else_nothing_mirrored", "(i - k > l - j", "(i - k >= l - j"),
+    ("equation_12_second_difference", "6 * sigma", "5 * sigma"),
+    ("equation_14_maximum", "M = 6 * j", "M = 7 * j"),
+    ("equation_13_exact", "f_load / (2 * n_y G)", "f_load / (2 * n_x G)"),
+]
+"""What is stated beside an equation, words in it, and others that make it false."""
 
 
-@pytest.mark.parametrize(
-    ("says", "proof", "trouble"),
-    [
-        ("0 = 1", "exact I. Qed.", "0 = 1"),
-        ("0 = 1", "lra. Qed.", "Cannot find witness"),
-        ("0 = 1", "Admitted.", "rests on Planted.statement"),
-        (
-            "True \\/ ~ True",
-            "apply Classical_Prop.classic. Qed.",
-            "rests on Classical_Prop.classic",
-        ),
-    ],
-)
-def test_what_is_not_proved_is_not_accepted(
-    coq: CoqFolder, says: str, proof: str, trouble: str
-) -> None:
-    found = ask(coq, Planted("planted", (), says, proof))
-    assert not found.accepted
-    assert trouble in found.note
+def test_what_is_false_is_not_accepted(coq: CoqFolder) -> None:
+    asked = {f"Eq. {number}": wrong(number) for number in paper()}
+    asked |= {f"the variance of Eq. {number}": wrong_variance(number) for number in (13, 14)}
+    for name, true, false in BESIDE:
+        (made,) = (one for one in statements(load(int(name.split("_")[1]))) if one.name == name)
+        asked[f"{name}: {false}"] = reworded(made, true, false)
+    assert not [what for what, found in accepted(coq, asked).items() if found.accepted]
+
+
+UNPROVED = {
+    "0 = 1": ("exact I. Qed.", "0 = 1"),
+    "0 = 2": ("lra. Qed.", "Cannot find witness"),
+    "0 = 3": ("Admitted.", "rests on Asked_2.statement"),
+    "True \\/ ~ True": (
+        "apply Classical_Prop.classic. Qed.",
+        "rests on Classical_Prop.classic",
+    ),
+}
+"""Statements, what is said to prove them, and what is found."""
+
+
+def test_what_is_not_proved_is_not_accepted(coq: CoqFolder) -> None:
+    asked = {says: Planted("", (), says, proof) for says, (proof, _) in UNPROVED.items()}
+    for says, found in accepted(coq, asked).items():
+        assert not found.accepted
+        assert UNPROVED[says][1] in found.note
 
 
 class Planted(Statement):
@@ -146,31 +149,45 @@ class Planted(Statement):
 BENT = {
     "a word": "Definition first_order_vector (one other : R -> vector) : Prop := True.",
     "a notation": "Notation \"'first_order_vector'\" := (fun _ _ => True).",
-    "a file": "Module Equation_3_statement.\n"
-    "Definition statement : Prop := True. End Equation_3_statement.",
-    "a library": "Module ForceDiffusion. Module Equation_3_statement.\n"
-    "Definition statement : Prop := True. End Equation_3_statement. End ForceDiffusion.",
+    "a file": "Module STATED. Definition statement : Prop := True. End STATED.",
+    "a library": "Module ForceDiffusion. Module STATED.\n"
+    "Definition statement : Prop := True. End STATED. End ForceDiffusion.",
     "an axiom": "Axiom trust_me : forall P : Prop, P.",
 }
 """What a file of the theory may say to change what a statement says, or what proves it."""
-AT_ONCE = "Ltac prove_3 ::= intros; first [exact I|exact (trust_me _)]."
 
 
-@pytest.mark.parametrize("kind", BENT)
-def test_no_file_of_the_theory_can_change_what_is_stated(
-    coq: CoqFolder, tmp_path: Path, kind: str
-) -> None:
+@dataclass(frozen=True)
+class Bent(Statement):
+    """A statement with a proof that imports such a file, which has a tactic for it."""
+
+    bent: str = ""
+
+    @property
+    def proof(self) -> str:
+        """The file that would prove it."""
+        return super().proof.replace("Import Certify.", f"Import {self.module}_bent.")
+
+    @property
+    def files(self) -> dict[str, str]:
+        """The three, and the one that is imported."""
+        at_once = "intros; first [exact I" + "|exact (trust_me _)" * ("Axiom" in self.bent) + "]"
+        source = (
+            "From ForceDiffusion Require Export Certify.\n"
+            f"{self.bent.replace('STATED', self.statement_in)}\nLtac prove_3 ::= {at_once}.\n"
+        )
+        return {f"{self.module}_bent.v": source, **super().files}
+
+
+def test_no_file_of_the_theory_can_change_what_is_stated(coq: CoqFolder) -> None:
     """Twice the right side of Eq. 3, with a tactic that proves what is bent at once."""
-    folder = tmp_path / "bent"
-    shutil.copytree(coq.folder, folder)
-    bent = CoqFolder(folder)
-    bent.said = {name: said for name, said in coq.said.items() if name != "Certify.v"}
-    at_once = AT_ONCE if kind == "an axiom" else AT_ONCE.replace("|exact (trust_me _)", "")
-    bent.compile({"Certify.v": f"{theory()['Certify.v']}\n{BENT[kind]}\n{at_once}\n"}, print)
-    found = ask(bent, wrong(3))
-    assert not found.accepted
-    assert not bent.trouble(["Certify.v", "Equation_3_statement.v"])
-    assert kind != "an axiom" or found.note == "it rests on Certify.trust_me"
+    twice = {field.name: getattr(wrong(3), field.name) for field in fields(Statement)}
+    found = accepted(coq, {kind: Bent(**twice, bent=said) for kind, said in BENT.items()})
+    for number, (kind, one) in enumerate(found.items()):
+        assert not one.accepted
+        files = [f"Asked_{number}_{part}.v" for part in ("bent", "statement")]
+        assert not coq.trouble(files)
+        assert (kind == "an axiom") == (one.note == f"it rests on Asked_{number}_bent.trust_me")
 
 
 def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch: pytest.MonkeyPatch) -> None:

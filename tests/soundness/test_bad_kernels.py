@@ -185,12 +185,13 @@ def nothing_is_remembered() -> Iterator[None]:
     forget()
 
 
+@pytest.mark.long
 @pytest.mark.usefixtures("nothing_is_remembered")
 def test_the_kernel_without_a_fault_is_right() -> None:
     assert not list(noticed())
 
 
-@pytest.mark.long(sample=12)
+@pytest.mark.long(sample=6, share=2)
 @pytest.mark.usefixtures("nothing_is_remembered")
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_noticed(monkeypatch: pytest.MonkeyPatch, fault: str) -> None:

@@ -81,6 +81,7 @@ STANDARD = {
 }  # fmt: skip
 
 
+@pytest.mark.long(sample=8)
 @every_equation
 def test_notebooks_can_set_it(eq: fd.Equation) -> None:
     for formula in (eq, *map(eq.exact, eq.forms)):
@@ -92,6 +93,7 @@ def test_notebooks_can_set_it(eq: fd.Equation) -> None:
         assert shown.isascii()
 
 
+@pytest.mark.long(sample=8, share=2)
 @pytest.mark.parametrize("columns", [1, 2])
 @every_equation
 def test_the_lines_of_exact_forms_fit(eq: fd.Equation, columns: int) -> None:

@@ -19,6 +19,7 @@ def again(thing: Any) -> Any:
     return pickle.loads(pickle.dumps(thing))
 
 
+@pytest.mark.long(sample=6, share=2)
 @pytest.mark.parametrize("number", NUMBERS)
 def test_every_equation(number: Any) -> None:
     found = fd.equation(number)

@@ -300,6 +300,7 @@ def test_nothing_is_left_of_the_source(whole: str) -> None:
         assert whole.count(f"\\begin{{{kind}}}") == whole.count(f"\\end{{{kind}}}") > 0
 
 
+@pytest.mark.long
 def test_the_supplement_has_every_form_and_its_domains() -> None:
     made = supplement([])
     assert made.isascii()

@@ -229,7 +229,7 @@ def test_a_broken_fraction_shows_no_stand_in() -> None:
         assert "GAP" not in " ".join(lines)
 
 
-@pytest.mark.long(sample=26)
+@pytest.mark.long(sample=10, share=2)
 @pytest.mark.parametrize("room", [120, 222, 330])
 @pytest.mark.parametrize("number", list(modules()))
 def test_lines_put_together_are_the_formula(number: int | str, room: float) -> None:
@@ -249,6 +249,7 @@ def test_lines_put_together_are_the_formula(number: int | str, room: float) -> N
         assert all(part.count(r"\left") == part.count(r"\right") for part in lines)
 
 
+@pytest.mark.long(sample=10)
 @pytest.mark.parametrize("number", list(modules()))
 def test_a_polynomial_in_order_is_the_same(number: int | str) -> None:
     """Its parts are factored, each with its sign, and add up to it."""
