@@ -196,6 +196,6 @@ def _below_load(form: Callable[..., Any], i: Any, j: Any, k: Any, l: Any, phi: A
     i, k = _whole("i", i, None), _whole("k", k, None)
     for across, layer in ((i, j), (k, l)):
         if (across + layer) % 2:
-            raise ValueError(f"({across}, {layer}) is no site: an even sum is allowed")
+            raise ValueError(f"({across}, {layer}) is not a site: their sum must be even")
     phi = _endless(phi)
     return form(i, j, k, l, phi) if j < l else 0 * phi

@@ -25,7 +25,7 @@ STATUSES = (
 def certify(
     numbers: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[N...]", help="Equations of the paper; by default all."),
+        typer.Argument(metavar="[N...]", help="Numbers of the paper's equations, by default all."),
     ] = None,
     out: Annotated[
         Path | None, out_option("the theory, the statements and the verdicts as JSON")

@@ -38,11 +38,11 @@ COMMANDS = {
     ),
     "ensemble": (
         "ensemble.ensemble",
-        "Statistics over many packings, on many cores, kept in a file as they come.",
+        "Gather statistics over many packings, on all cores, and save them in a file.",
     ),
     "ensemble-status": (
         "ensemble.ensemble_status",
-        "Say what the store of an ensemble holds, and check it.",
+        "Check the store of an ensemble, and say what it holds.",
     ),
     "figures": (
         "figures.figures",

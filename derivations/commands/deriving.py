@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 def derive(
     numbers: Annotated[
         list[str] | None,
-        typer.Argument(metavar="[N...]", help="Numbers of equations; all of them by default."),
+        typer.Argument(metavar="[N...]", help="Numbers of equations, by default all."),
     ] = None,
     out: Annotated[Path | None, out_option("LaTeX and a manifest")] = None,
     as_json: Json = False,
@@ -41,7 +41,7 @@ def derive(
 ) -> None:
     """Prove equations and all that they rest on.
 
-    Of a single equation all steps and claims are printed, of several a line each.
+    For a single equation it prints all steps and claims, for several a line each.
     """
     wanted = [equation_number(word) for word in numbers or ()] or list(modules())
     from ..export.document import DOCUMENT, MANIFEST, fragment_name

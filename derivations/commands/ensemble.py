@@ -43,29 +43,33 @@ def ensemble(
     ],
     realisations: Annotated[
         int | None,
-        typer.Option(metavar="N", help="Packings to solve, at most; by default as the scene says."),
+        typer.Option(metavar="N", help="Largest number of packings; by default that of the scene."),
     ] = None,
     store: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Keep what is done in this file, and go on from there."),
+        typer.Option(
+            metavar="FILE", help="Save finished packings in this file, and continue from it."
+        ),
     ] = None,
     until: Annotated[
         float | None,
-        typer.Option(metavar="R", help="Stop when every σ_f is known to this share of itself."),
+        typer.Option(metavar="R", help="Stop when every σ_f is known to this relative error."),
     ] = None,
     confidence: Annotated[
-        float, typer.Option(metavar="C", help="With which confidence all are known.")
+        float, typer.Option(metavar="C", help="Confidence of --until, for all σ_f together.")
     ] = 0.95,
     workers: Annotated[
         int | None,
         typer.Option(
             metavar="K",
-            help="Threads of compiled loops, or else processes; by default as many as cores.",
+            help="Threads, or processes if loops are not compiled; by default one per core.",
         ),
     ] = None,
     scheduler: Annotated[
         str | None,
-        typer.Option(metavar="ADDRESS", help="Let the Dask cluster there work: tcp://host:8786."),
+        typer.Option(
+            metavar="ADDRESS", help="Use the Dask cluster at this address, such as tcp://host:8786."
+        ),
     ] = None,
     reach: Annotated[
         float | None,
@@ -77,7 +81,7 @@ def ensemble(
     quiet: Quiet = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Statistics over many packings, on many cores, kept in a file as they come."""
+    """Gather statistics over many packings, on all cores, and save them in a file."""
     if scheduler is not None and workers is not None:
         raise ForceDiffusionError("--scheduler and --workers exclude each other: leave one out")
     with about(scene.name):
@@ -166,7 +170,7 @@ def ensemble_status(
     store: Annotated[Path, typer.Argument(metavar="FILE", help="The store of an ensemble.")],
     as_json: Json = False,
 ) -> None:
-    """Say what the store of an ensemble holds, and check it."""
+    """Check the store of an ensemble, and say what it holds."""
     found = fd.read_store(store)
     if as_json:
         print(json.dumps(found.data(), indent=2))

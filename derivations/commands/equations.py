@@ -27,7 +27,7 @@ class Form(StrEnum):
 
 
 Columns = Annotated[
-    int, typer.Option(min=1, max=2, help="Columns of the text that the LaTeX goes into.")
+    int, typer.Option(min=1, max=2, help="Columns of the page that the LaTeX is for.")
 ]
 
 
@@ -48,7 +48,8 @@ def show(
     numbers: Annotated[list[str], typer.Argument(metavar="N", help="Numbers of equations.")],
     form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
     exact: Annotated[
-        bool, typer.Option("--exact", help="The exact forms at finite size, where there are any.")
+        bool,
+        typer.Option("--exact", help="Print the exact forms at finite size, if there are any."),
     ] = False,
     columns: Columns = 1,
 ) -> None:
@@ -109,7 +110,7 @@ def _displayed(bodies: Iterable[str]) -> str:
 def list_equations() -> None:
     """List the equations.
 
-    Beside each stands what Coq said of it when it was last asked.
+    With what Coq said about each when it was last asked.
     """
     for one in map(fd.equation, modules()):
         print(f"{one.number!s:>3}  {one.name:<26}  {one.coq:<22}  {one.title}")

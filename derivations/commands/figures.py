@@ -72,8 +72,8 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
-            help=f"Figures: {', '.join(FIGURES)}; by default all. A scene of your own, FILE.toml, "
-            f"is answered and drawn; it asks for {either(answered('figures'))}, or of spheres for "
+            help=f"Figures: {', '.join(FIGURES)}; by default all. Or your own scene, FILE.toml, "
+            f"that asks for {either(answered('figures'))}; of spheres for "
             f"{either(answered('figures', dimension=3))}.",
         ),
     ] = None,
@@ -98,13 +98,15 @@ def figures(
     seed: Annotated[
         int | None,
         typer.Option(
-            metavar="N", min=0, max=2**63 - 1, help="Seed of all radii; scenes have theirs. [1]"
+            metavar="N", min=0, max=2**63 - 1, help="Seed of the radii; a scene has its own. [1]"
         ),
     ] = None,
     beside: Annotated[
         list[str] | None,
         typer.Option(
-            "--with", metavar="MODEL", help="Draw q-model beside figure 3, double-y beside 4."
+            "--with",
+            metavar="MODEL",
+            help="Add the simpler model: q-model to figure 3, double-y to 4.",
         ),
     ] = None,
     spacing: Annotated[
@@ -114,7 +116,7 @@ def figures(
     relative_std: Annotated[
         str | None,
         typer.Option(
-            metavar="X", help=f"σ/r of figures {', '.join(OWN_STD)}, in place of their own."
+            metavar="X", help=f"σ/r of figures {', '.join(OWN_STD)}, instead of the defaults."
         ),
     ] = None,
     as_json: Json = False,

@@ -42,7 +42,7 @@ def out_option(what: str) -> Any:
 
 Overwrite = Annotated[
     bool,
-    typer.Option("--overwrite", help="Replace the folder, if it holds such files and no others."),
+    typer.Option("--overwrite", help="Replace the folder, if it contains only files of this kind."),
 ]
 
 
@@ -58,7 +58,9 @@ class Output:
         self._check()
         above = next(one for one in path.parents if os.path.lexists(one))
         if not above.is_dir():
-            raise OutputError(f"'{above}' is a file or a link. Give a folder that is not there.")
+            raise OutputError(
+                f"'{above}' is a file or a link. Give a folder that doesn't exist yet."
+            )
         trial = above / self._new().name
         trial.mkdir()
         trial.rmdir()
@@ -71,15 +73,17 @@ class Output:
         path = self.path
         if os.path.lexists(self._old):
             raise OutputError(
-                f"'{self._old}' is there: a command was ended while it replaced '{path}', and this "
-                "is what that held before. Rename it, or delete it."
+                f"'{self._old}' exists: a command was stopped while it replaced '{path}', and this "
+                "is the old content. Rename it, or delete it."
             )
         if not os.path.lexists(path):
             return
         if path.is_symlink() or not path.is_dir():
-            raise OutputError(f"'{path}' is a file or a link. Give a folder that is not there.")
+            raise OutputError(
+                f"'{path}' is a file or a link. Give a folder that doesn't exist yet."
+            )
         if not self.overwrite:
-            raise OutputError(f"'{path}' is there. Give another folder, or --overwrite.")
+            raise OutputError(f"'{path}' exists already. Give another folder, or --overwrite.")
         try:
             there = list(path.iterdir())
         except FileNotFoundError:  # another command replaces it just now
@@ -88,8 +92,8 @@ class Output:
         others = [one.name for one in there if one not in own or not one.is_file()]
         if others:
             raise OutputError(
-                f"'{path}' holds what this command does not write, such as '{min(others)}'. Give "
-                "another folder."
+                f"'{path}' contains files that this command doesn't write, such as "
+                f"'{min(others)}'. Give another folder."
             )
 
     def write(self, files: Mapping[str, str | bytes]) -> None:
@@ -115,14 +119,14 @@ class Output:
             replaced = self._rename(new)
         except (OutputError, OSError) as failure:
             why = failure if isinstance(failure, OutputError) else f"{failure.strerror}."
-            raise OutputError(f"{why} What was found is in '{new}'.") from None
+            raise OutputError(f"{why} The results are in '{new}'.") from None
         if replaced:
             with suppress(OSError):
                 for name in self.names:
                     (self._old / name).unlink(missing_ok=True)
                 self._old.rmdir()
             if self._old.is_dir():  # as where something came into it meanwhile
-                tell(f"'{self._old}' can't be deleted. It is what '{self.path}' held before.")
+                tell(f"'{self._old}' can't be deleted. It has the old content of '{self.path}'.")
 
     def _rename(self, new: Path) -> bool:
         """Take the place of the folder; say whether one was there."""

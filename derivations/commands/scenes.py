@@ -47,11 +47,11 @@ _Tolerance = Annotated[
     str | None,
     typer.Option(
         metavar="T",
-        help="Relative error allowed, such as 1e-30; the cheapest way that meets it is taken.",
+        help="Largest relative error allowed, such as 1e-30.",
     ),
 ]
 _Certified = Annotated[
-    bool, typer.Option("--certified", help="With a tolerance: only a rigorous bound will do.")
+    bool, typer.Option("--certified", help="With a tolerance: accept only a rigorous bound.")
 ]
 
 
@@ -158,7 +158,9 @@ def _answer(
 
 def cost(
     scene: Annotated[Path, _scene("cost")],
-    seconds: Annotated[float, typer.Option(help="Time for all; longer ways are estimated.")] = 20,
+    seconds: Annotated[
+        float, typer.Option(help="Time for the whole command; what takes longer is extrapolated.")
+    ] = 20,
     out: Annotated[Path | None, out_option("the study as CSV, JSON and a plot")] = None,
     as_json: Json = False,
     overwrite: Overwrite = False,

@@ -30,7 +30,7 @@ Quiet = Annotated[
 ]
 Written = Annotated[
     Format,
-    typer.Option("--format", help="How --out writes the rows; npz and parquet for many of them."),
+    typer.Option("--format", help="Format of the rows; npz and parquet are for many rows."),
 ]
 
 

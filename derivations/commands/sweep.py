@@ -13,12 +13,13 @@ Settings = Annotated[
     typer.Option(
         "--set",
         metavar="KEY=V,V...",
-        help="Take these values for a key of the scene, as packing.height=8,16,32; each is "
-        "answered, into a folder of its own where there is --out.",
+        help="Use these values for a key of the scene, such as packing.height=8,16,32. With --out "
+        "each answer gets its own folder.",
     ),
 ]
 Seed = Annotated[
-    int | None, typer.Option(metavar="N", help="The seed of the radii, as --set disorder.seed=N.")
+    int | None,
+    typer.Option(metavar="N", help="Seed of the radii, the same as --set disorder.seed=N."),
 ]
 
 

@@ -45,13 +45,13 @@ def opened(path: Path, most: int | None = None) -> Iterator[BinaryIO]:
     """Open an ordinary file of at most ``most`` bytes. Raises ``ForeignFileError``."""
     if not path.is_file():  # a device or a pipe may have no end
         raise ForeignFileError(
-            "must be an ordinary file" if path.exists() else "there is no such file"
+            "must be a regular file" if path.exists() else "there is no such file"
         )
     try:
         with path.open("rb") as file:
             found = os.fstat(file.fileno())
             if not stat.S_ISREG(found.st_mode):
-                raise ForeignFileError("must be an ordinary file")
+                raise ForeignFileError("must be a regular file")
             if most is not None and found.st_size > most:
                 raise ForeignFileError(f"must have at most {most} bytes, and has {found.st_size}")
             yield file
@@ -81,7 +81,7 @@ def _shown(shape: tuple[int, ...]) -> str:
 
 
 def _no_numbers(why: str) -> ForeignFileError:
-    return ForeignFileError(f"is no NumPy file of numbers: {why}")
+    return ForeignFileError(f"is not a NumPy file of numbers: {why}")
 
 
 def _header(file: BinaryIO) -> tuple[np.dtype[Any], bool, tuple[int, ...]]:
@@ -100,7 +100,7 @@ def _header(file: BinaryIO) -> tuple[np.dtype[Any], bool, tuple[int, ...]]:
     text = file.read(length).decode("latin-1")
     found = [re.search(key, text) for key in _KEYS]
     if len(text) < length or not _HEADER.fullmatch(text) or None in found:
-        raise _no_numbers("its header is damaged, or tells of something else")
+        raise _no_numbers("its header is damaged, or doesn't match the data")
     descr, order, shape = (one[1] for one in found if one)
     if not _REAL.fullmatch(descr):
         raise _no_numbers(f"real numbers are needed, and it holds '{descr}'")

@@ -52,7 +52,7 @@ def column(i: int, j: int, width: int) -> int:
     3
     """
     if (i + j) % 2:
-        raise ValueError(f"({i}, {j}) is no lattice site: i + j must be even")
+        raise ValueError(f"({i}, {j}) is not a lattice site: i + j must be even")
     return (i - lowest_column(j)) // 2 % width
 
 

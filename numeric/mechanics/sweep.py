@@ -442,7 +442,7 @@ def moved(function: Callable[[Array], Array], values: Any) -> Any:
 def _check_radii(rho: Any, layer: Layer, region: Region, system: NumberSystem) -> None:
     _, bad = system.signs(1 + rho)
     if bad.any():
-        raise UnbuildableError(_site(bad, layer, region), "its radius is no positive number")
+        raise UnbuildableError(_site(bad, layer, region), "its radius is not a positive number")
 
 
 # What is wrong where one of the measures of ``local.rest`` is not positive.

@@ -124,7 +124,7 @@ class Plan:
         if tension is None and problem.needs_forces and problem.height > highest:
             notes.append(
                 f"the height M = {problem.height} is above M* = {highest:.3g}, where forces "
-                "scatter as widely as they are large: many contacts may pull"
+                "scatter by about their own mean: many contacts may pull"
             )
         return notes
 

@@ -55,7 +55,7 @@ def plan(
     tolerance = tolerance or scene.ask.tolerance
     certified = certified or scene.ask.certified
     if certified and tolerance is None:
-        raise SceneError("ask.certified", True, "needs a tolerance, as tolerance = 1e-30")
+        raise SceneError("ask.certified", True, "needs a tolerance, such as tolerance = 1e-30")
     limit = _free(int(monotonic()), free_memory) if memory_limit is None else memory_limit
 
     quantities = quantities_of(scene)
@@ -199,7 +199,7 @@ def why_balls(
     if certified:
         return "only balls certify"
     if beyond_floats(scene, problem.radii, problem.load):
-        return "float64 does not hold numbers so small or so large"
+        return "float64 can't hold numbers so small or so large"
     if tolerance is None:
         return ""
     if error is None:

@@ -302,7 +302,7 @@ def _run(planned: Plan, name: str, digits: int) -> _Timed:
         else:
             found = run(planned)
             if found.accuracy.certified and name == "float64":
-                raise ToleranceError("float64 does not hold such small changes: balls do")
+                raise ToleranceError("float64 can't hold such small changes; balls can")
             table, stated = found.table, float(found.accuracy.error_bound)
         spent.append(max(process_time() - start, TICK))
     numbers = np.concatenate([table.numbers[column] for column in table.small])

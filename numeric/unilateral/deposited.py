@@ -51,9 +51,7 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
         raise UnbuildableError((0, 0), "a radius is not positive")
     apart = 2 * float(radii.max()) * (1 + 1e-9)
     if apart >= 8 * nx:
-        raise UnfinishedError(
-            "no start without overlaps is known: some radius is the spacing or more"
-        )
+        raise UnfinishedError("can't start without overlaps: some radius is at least the spacing")
     rise, turn = np.sqrt(max(apart**2 - (2 * nx) ** 2, (2 * ny) ** 2)), np.zeros(width)
     if apart >= 4 * nx:  # neighbours in a layer would overlap: every second one is a step higher
         turn[1::2] = 1
@@ -108,7 +106,7 @@ def as_deposited(problem: Problem, realisation: int, known: Frame, system: Balls
     seen = Physicality()
     seen.look_at_forces(forces)
     if seen.tensile:
-        raise UnfinishedError("a contact pulls by less than float64 tells")
+        raise UnfinishedError("a contact pulls by less than float64 can resolve")
     if seen.undecided_signs:
         raise UndecidedError("the enclosures are too wide to tell whether a contact pulls")
     width, height = len(known.base), problem.height

@@ -124,8 +124,8 @@ def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
             found, best = k + 1, sizes[k] / following
     if found is None:
         raise UnfinishedError(
-            "degenerate: no set of contacts that bear force is as many as the coordinates of its "
-            "beads, which a strict minimum needs; some force may be exactly zero"
+            "degenerate: a strict minimum needs as many contacts with force as their beads have "
+            "coordinates, and there is no such set; some force may be exactly zero"
         )
     return np.asarray(candidates[:found])
 

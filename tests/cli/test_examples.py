@@ -27,7 +27,7 @@ def test_all_are_copied_and_named(tmp_path: Path, capsys: pytest.CaptureFixture[
         assert capsys.readouterr().out.splitlines() == [str(out / name) for name in sorted(SCENES)]
     (out / "mine.toml").write_text("mine")
     assert main(["examples", str(out), "--overwrite"]) == 2
-    assert "does not write, such as 'mine.toml'" in capsys.readouterr().err
+    assert "doesn't write, such as 'mine.toml'" in capsys.readouterr().err
     assert contents(out) == {**SCENES, "mine.toml": b"mine"}
 
 

@@ -53,7 +53,7 @@ def test_a_new_folder_holds_the_files_and_nothing_is_beside_it(out: str) -> None
 
 def test_what_is_there_is_replaced_if_that_is_asked_for_and_it_is_ours_alone() -> None:
     write("out", OLD)
-    with pytest.raises(OutputError, match=r"^'out' is there\. .* --overwrite\.$"):
+    with pytest.raises(OutputError, match=r"^'out' exists already\. .* --overwrite\.$"):
         write("out", NEW)
     assert found("out") == OLD
     write("out", NEW, overwrite=True)
@@ -75,12 +75,14 @@ def test_what_others_put_there_is_never_replaced(kind: str, meanwhile: bool) -> 
     if meanwhile:
         folder = Output(Path("out"), NAMES, True)
         IN_THE_WAY[kind](Path("out"))
-        with pytest.raises(OutputError, match=r"such as .* What was found is in '(.*)'") as told:
+        with pytest.raises(OutputError, match=r"such as .* The results are in '(.*)'") as told:
             folder.write(OLD)
         assert found(str(told.value).split("'")[-2]) == OLD  # the answer is not lost either
     else:
         IN_THE_WAY[kind](Path("out"))
-        with pytest.raises(OutputError, match="'out' holds what this command does not write, such"):
+        with pytest.raises(
+            OutputError, match="'out' contains files that this command doesn't write, such"
+        ):
             Output(Path("out"), NAMES, True)
     assert (Path("out") / "a").read_text() == "new"
     assert len(list(Path("out").iterdir())) == 2
@@ -93,7 +95,7 @@ PLACES: dict[str, tuple[Callable[[], object], str]] = {
     "a dangling link": (lambda: Path("out").symlink_to("nowhere"), IN_PLACE),
     "a loop": (lambda: Path("out").symlink_to("out"), IN_PLACE),
     "below a file": (lambda: Path("out").write_text("mine"), IN_PLACE),
-    "a replaced one": (lambda: Path("out.old").mkdir(), "'out.old' is there: .* ended while it"),
+    "a replaced one": (lambda: Path("out.old").mkdir(), "'out.old' exists: .* stopped while it"),
 }
 
 
@@ -194,7 +196,7 @@ def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is(
         replaced = there.get("out") == {"a": "new", "b": "new"}
         assert whole or replaced
         if "out.old" in there:
-            with pytest.raises(OutputError, match=r"^'out\.old' is there: .* what that held"):
+            with pytest.raises(OutputError, match=r"^'out\.old' exists: .* the old content"):
                 Output(Path("out"), NAMES, False)
         else:
             write("out", NEW, overwrite=True)
@@ -210,7 +212,9 @@ def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is(
 def test_of_two_at_once_the_second_is_told_and_both_answers_are_there() -> None:
     first, second = (Output(Path("out"), NAMES, False) for _ in range(2))
     first.write(OLD)
-    with pytest.raises(OutputError, match=r"^'out' is there\. .* What was found is in '(.*)'\.$"):
+    with pytest.raises(
+        OutputError, match=r"^'out' exists already\. .* The results are in '(.*)'\.$"
+    ):
         second.write(NEW)
     (other,) = set(Path().iterdir()) - {Path("out")}
     assert (found("out"), found(other)) == (OLD, NEW)
@@ -272,5 +276,5 @@ def test_every_command_refuses_before_it_solves(
     assert main([*command.split(), *out]) == 2
     printed = capsys.readouterr()
     assert printed.out == ""
-    assert "' is there. Give another folder, or --overwrite." in printed.err
+    assert "' exists already. Give another folder, or --overwrite." in printed.err
     assert everything() == before

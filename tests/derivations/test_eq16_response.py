@@ -130,8 +130,8 @@ def test_only_the_height_matters_but_next_to_the_load_and_the_base() -> None:
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        ((1, 0, 0, 4), r"\(1, 0\) is no site"),
-        ((0, 0, 1, 4), r"\(1, 4\) is no site"),
+        ((1, 0, 0, 4), r"\(1, 0\) is not a site"),
+        ((0, 0, 1, 4), r"\(1, 4\) is not a site"),
         ((0.5, 0, 0, 4), "i = 0.5: one whole number is allowed"),
         ((0, -2, 0, 4), "j = -2: one whole number from 0 on"),
         ((0, 0, float("nan"), 4), "k = nan"),

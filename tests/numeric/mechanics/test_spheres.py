@@ -342,7 +342,7 @@ def test_contacts_in_one_plane_hold_nothing_up() -> None:
 def test_a_radius_below_zero_is_named_in_any_layer(layer: int) -> None:
     rho = [np.zeros((2, 2)), np.zeros((2, 2))]
     rho[layer][0, 1] = -1.5
-    with FLOAT64.active(), pytest.raises(UnbuildableError, match="no positive number") as raised:
+    with FLOAT64.active(), pytest.raises(UnbuildableError, match="not a positive number") as raised:
         deposit(Fraction(1, 5), *spheres(rho), FLOAT64)
     assert raised.value.site == (0, 1, layer)
 

@@ -163,7 +163,7 @@ def test_what_only_balls_decide_is_left_to_them() -> None:
     tiny = basic(tolerance="=1e-3")
     tiny["disorder"]["relative_std"] = "=1e-400"
     sharp = basic(tolerance="=1e-20", realisations=9)
-    for sections, why in ((high, r"M*/2"), (tiny, "float64 does not hold"), (sharp, "to err by")):
+    for sections, why in ((high, r"M*/2"), (tiny, "float64 can't hold"), (sharp, "to err by")):
         plan = planned(sections)
         assert plan.certified
         assert why in plan.reason
