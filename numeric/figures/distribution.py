@@ -6,7 +6,7 @@ exact finite-M σ_f (Eq. 13). To first order f is a weighted sum of independent 
 Gaussian as M grows, and isn't at M = 2 with two-point radii.
 """
 
-from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -16,38 +16,13 @@ from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..mechanics.sweep import Solved
 from ..quantities.base import ContactQuantity
-from .packings import Made, Medium, Options, gathered, planned, table
+from .packings import Made, Options, gathered, planned, table
 from .style import PAGE, panels, points
 
 CASES = (("uniform", 32), ("two-point", 2))
 SIMULATED_TESTS = 999
 LEAST_P = 1 / (SIMULATED_TESTS + 1)
 LEVEL = 0.01
-
-
-@dataclass(frozen=True)
-class Sample:
-    """Forces f⁺ at the base as (f − ⟨f⟩)/σ_f, shape (realisations,), and p-values of two tests."""
-
-    kind: str
-    height: int
-    deviates: Array
-    smirnov: float
-    anderson: float
-
-    @property
-    def rejected(self) -> bool:
-        """Whether either test rejects the Gaussian, both together at ``LEVEL``."""
-        return min(self.smirnov, self.anderson) < LEVEL / 2
-
-    def verdict(self) -> str:
-        """Say what the tests find."""
-        return (
-            f"{self.kind} radii, M = {self.height}: "
-            f"{'the tests reject' if self.rejected else 'no test rejects'} the Gaussian "
-            f"(Kolmogorov–Smirnov {in_words(self.smirnov)}, "
-            f"Anderson–Darling {in_words(self.anderson)})"
-        )
 
 
 def in_words(p: float) -> str:
@@ -64,9 +39,12 @@ def p_values(deviates: Array, seed: int) -> tuple[float, float]:
     return float(stats.kstest(deviates, "norm").pvalue), float(anderson.pvalue)
 
 
-def simulated(o: Options, medium: Medium, number: int) -> Sample:
-    """Draw one contact from each realisation of a case, and test; samples share no radii."""
-    kind, M = CASES[number]
+def simulated(o: Options, number: int) -> tuple[Array, dict[str, Any]]:
+    """Draw f⁺ at the base from each realisation of a case, and test; cases share no radii.
+
+    Gives (f − ⟨f⟩)/σ_f, shape (realisations,), and what the tests find.
+    """
+    (kind, M), medium = CASES[number], o.medium()
     plan = planned(
         "contact", at=(0, 0, "+"), height=M, width=None, seed=o.seed, kind=kind,
         realisations=o.realisations, std=medium.std, spacing=medium.spacing,
@@ -80,31 +58,35 @@ def simulated(o: Options, medium: Medium, number: int) -> Sample:
 
     (found,) = gathered(plan, o.notice, f"P(f), {kind} radii, M = {M}", each, number << 32)
     std = np.sqrt(closed_forms.surface_variance(M, 0, float(medium.phi), medium.std, 1.0))
-    return Sample(kind, M, found / std, *p_values(found / std, o.seed))
+    smirnov, anderson = p_values(found / std, o.seed)
+    return found / std, {
+        "radii": kind,
+        "height": M,
+        "p_kolmogorov_smirnov": smirnov,
+        "p_anderson_darling": anderson,
+        "gaussian_rejected": min(smirnov, anderson) < LEVEL / 2,
+    }
 
 
 def figure(o: Options) -> Made:
     """P(f) of one contact at the base, for two laws of the radii and two heights."""
-    medium = o.medium()
-    found = [simulated(o, medium, number) for number in range(len(CASES))]
+    medium, rows, samples, lines = o.medium(), [], [], []
     drawn, axes = panels("ab", PAGE, 2.6)
-    for c, (panel, one) in enumerate(zip(axes, found, strict=True)):
-        _draw(panel, one, c)
-    rows = [
-        (one.kind, one.height, k, value)
-        for one in found
-        for k, value in enumerate(one.deviates.tolist())
-    ]
-    samples = [
-        {
-            "radii": one.kind,
-            "height": one.height,
-            "p_kolmogorov_smirnov": one.smirnov,
-            "p_anderson_darling": one.anderson,
-            "gaussian_rejected": one.rejected,
-        }
-        for one in found
-    ]
+    for c, panel in enumerate(axes):
+        deviates, found = simulated(o, c)
+        kind, M = CASES[c]
+        smirnov, anderson = (
+            f"{name} {in_words(found[f'p_{key}'])}"
+            for name, key in (
+                ("Kolmogorov–Smirnov", "kolmogorov_smirnov"),
+                ("Anderson–Darling", "anderson_darling"),
+            )
+        )
+        _draw(panel, deviates, c, f"{kind} radii, $M={M}$", f"{smirnov}\n{anderson}")
+        rows += [(kind, M, k, value) for k, value in enumerate(deviates.tolist())]
+        samples.append(found)
+        verdict = "the tests reject" if found["gaussian_rejected"] else "no test rejects"
+        lines.append(f"{kind} radii, M = {M}: {verdict} the Gaussian ({smirnov}, {anderson})")
     facts = {
         "spacing_over_r": float(medium.spacing),
         "relative_std": medium.std,
@@ -112,19 +94,16 @@ def figure(o: Options) -> Made:
         "level_of_both_tests_together": LEVEL,
         "samples": samples,
     }
-    tables = {"pf": table("radii height realisation deviate", rows)}
-    return Made(drawn, tables, facts, [one.verdict() for one in found])
+    return Made(drawn, {"pf": table("radii height realisation deviate", rows)}, facts, lines)
 
 
-def _draw(axes: Axes, one: Sample, c: int) -> None:
+def _draw(axes: Axes, deviates: Array, c: int, name: str, tests: str) -> None:
     edges, v = np.linspace(-4, 4, 41), np.linspace(-4, 4, 321)
-    counts, _ = np.histogram(one.deviates, edges)
-    some, unit = counts > 0, len(one.deviates) * (edges[1] - edges[0])
+    counts, _ = np.histogram(deviates, edges)
+    some, unit = counts > 0, len(deviates) * (edges[1] - edges[0])
     middle = ((edges[1:] + edges[:-1]) / 2)[some]
     axes.plot(v, stats.norm.pdf(v), "k", label="Gaussian")
-    name = f"{one.kind} radii, $M={one.height}$"
     points(axes, middle, counts[some] / unit, c, name, np.sqrt(counts[some]) / unit)
     axes.set(xlim=(-4, 4), yscale="log", ylim=(8e-5, 1))
     axes.set(xlabel=r"$(f-\langle f\rangle)\,/\,\sigma_f$", ylabel=r"$\sigma_f\,P(f)$")
-    tests = f"Kolmogorov–Smirnov {in_words(one.smirnov)}\nAnderson–Darling {in_words(one.anderson)}"
     axes.legend(loc="lower center", title=tests)  # below the curve

@@ -17,8 +17,8 @@ from .packings import Comparison, Made, Options
 from .style import COLUMN, GREY, curve, panels, points
 
 APEX, LAYER = 8, 2
-SPACINGS = (Fraction(11, 5), Fraction(3))
-"""s in units of r: φ = 0.395 with a positive plateau, φ = −1/8 with a negative one."""
+SPACINGS = (Fraction(21, 10), Fraction(3))
+"""s in units of r: φ = 0.449 with a positive plateau, φ = −1/8 with a negative one."""
 REACH = APEX - LAYER
 OFFSETS = np.arange(2 - REACH, REACH, 2)
 """Columns i − k of the contacts' lower beads."""
@@ -38,7 +38,8 @@ def theory(spacing: Fraction) -> Array:
 
 def beside(answer: Solved, number: int) -> tuple[Array]:
     """Changes of f⁺ inside of the cone, averaged with their mirror images; (number, l − j − 1)."""
-    change = packings.forces_of(answer).change
+    assert answer.forces is not None
+    change = answer.forces.change
     # row m holds what lies below the beads of layer m: l − m + 1 of them, from the left
     plus, minus = (side[LAYER + 1].reshape(number, -1) for side in (change.plus, change.minus))
     return (np.asarray((plus[:, 1:] + minus[:, ::-1][:, 1:]) / 2),)
@@ -70,7 +71,7 @@ def figure(o: Options) -> Made:
     axes.plot([], [], color=GREY, label="exact second order")
     for c, (one, spacing) in enumerate(zip(found, SPACINGS, strict=True)):
         curve(axes, OFFSETS, one.theory, slice(1, None), c)
-        name = rf"$\phi={cosine(spacing):g}$, simulated"
+        name = rf"$\phi={cosine(spacing):.3g}$, simulated"
         points(axes, OFFSETS, one.band.value, c, name, one.bars)
     axes.set(xlabel=r"$i-k$ of a contact $f^{+}$ inside of the cone", ylim=(-2.3, 3))
     mean = r"$2n_y\langle f^{+}\rangle\,/\,[f^{\rm load}(\sigma_{\delta r}/r)^2]$"

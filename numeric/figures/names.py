@@ -33,7 +33,7 @@ FIGURES = {
     ),
     "B7": Entry("figureB7", "Fluctuation of the mean over N neighbours", "neighbours", 1000),
     "B9": Entry(
-        "figureB9", "Mean response to a point load at second order", "mean_response", 100_000
+        "figureB9", "Mean response to a point load at second order", "mean_response", 300_000
     ),
     "B13": Entry("figureB13", "Diffusion of forces in packings of spheres", "spheres", 100),
 }  # fmt: skip

@@ -1,6 +1,6 @@
 """Ensembles for figures: planned, solved batch after batch by the engine, and held to theory."""
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import sqrt
@@ -171,23 +171,10 @@ def planned(
     return plan(scene)
 
 
-def solved(
-    ensemble: Plan, realisations: range, notice: Notice | None = None, what: str = ""
-) -> Iterator[tuple[Solved, int]]:
-    """Solve realisations; give what was solved together with the number of its realisations.
-
-    Arrays of a batch of one have no axis of realisations.
-    """
-    with FLOAT64.active():
-        for answer, chunk in packings(ensemble.problem, realisations, FLOAT64):
-            yield answer, len(chunk)
-            if notice is not None:
-                notice(f"{what}: realisation {chunk[-1] - realisations[0]} of {len(realisations)}")
-
-
 def one_packing(ensemble: Plan) -> tuple[SolvedPacking, Forces | None]:
     """Solve the first realisation."""
-    answer = next(solved(ensemble, range(1)))[0]
+    with FLOAT64.active():
+        answer, _ = next(iter(packings(ensemble.problem, [0], FLOAT64)))
     assert answer.packing is not None
     return answer.packing, answer.forces
 
@@ -199,9 +186,16 @@ def gathered(
     each: Callable[[Solved, int], tuple[Array, ...]],
     start: int = 0,
 ) -> tuple[Array, ...]:
-    """Solve all realisations from ``start`` on; join what ``each`` gives, (realisations, …)."""
-    numbers = range(start, start + ensemble.scene.ask.realisations)
-    found = [each(*solution) for solution in solved(ensemble, numbers, notice, what)]
+    """Solve all realisations from ``start`` on; join what ``each`` gives, (realisations, …).
+
+    ``each`` takes what was solved, and of how many realisations; arrays of one have no axis of
+    them.
+    """
+    count, found = ensemble.scene.ask.realisations, []
+    with FLOAT64.active():
+        for answer, chunk in packings(ensemble.problem, range(start, start + count), FLOAT64):
+            found.append(each(answer, len(chunk)))
+            notice(f"{what}: realisation {chunk[-1] - start} of {count}")
     return tuple(np.concatenate(parts) for parts in zip(*found, strict=True))
 
 
@@ -256,12 +250,6 @@ def band_of_shift(
     each = (changes("exact") - changes("first-order")) / unit
     mean = each.mean(axis=0)
     return simultaneous(averaged(mean, each - mean), LEVEL, seed, logarithmic=False)
-
-
-def forces_of(answer: Solved) -> Forces:
-    """Give the forces of an ensemble that asked for them."""
-    assert answer.forces is not None
-    return answer.forces
 
 
 def centres(packing: SolvedPacking, j: int) -> tuple[Array, Array, Array, Array]:

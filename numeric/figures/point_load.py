@@ -7,9 +7,7 @@ contact carries all of p, half of the load on average, and fluctuates less. The 
 l are the closed forms, exact to first order; the simulation is exact and nonlinear.
 """
 
-from dataclasses import dataclass
 from math import asin
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -34,50 +32,15 @@ SITES = [(i, j) for j in range(APEX) for i in range(-(APEX - j), APEX - j + 1, 2
 """The beads of the cone, legs included, layer by layer from the base up."""
 COLUMN, LAYER = np.array(SITES).T
 LEG = np.abs(COLUMN) == APEX - LAYER
-ORDERED = np.where(LEG, 0.5, 0.0)
-"""The mean in the ordered packing."""
 ON_CUTS = np.flatnonzero(np.isin(LAYER, CUTS))
 
 
-@dataclass(frozen=True)
-class Response:
-    """The response on ``SITES``, in units of the load; shapes (sites,).
+def simulated(o: Options) -> tuple[Table, Comparison]:
+    """Evaluate the closed forms, and simulate: a row a bead, in units of the load.
 
-    ``variance`` and ``one_contact`` (upper contacts "+", the bead's upper right) are exact to first
-    order, in (σ/r)², ``printed`` is Eq. 16; ``mean`` and ``simulated`` variances are those of the
-    ensemble. ``cuts`` compares σ on the beads of ``ON_CUTS``.
+    Variances are in units of (σ/r)²; ``variance_upper_plus_contact`` is that of the bead's upper
+    right contact alone. Compared is σ on the beads of ``ON_CUTS``.
     """
-
-    variance: Array
-    one_contact: Array
-    printed: Array
-    mean: Array
-    standard_error: Array
-    simulated: Array
-    cuts: Comparison
-
-    def table(self) -> Table:
-        """One row a bead."""
-        low, high = (np.full(len(SITES), "", dtype=object) for _ in range(2))
-        low[ON_CUTS], high[ON_CUTS] = (edge**2 for edge in self.cuts.band.limits)
-        return {
-            "i": COLUMN,
-            "j": LAYER,
-            "on_cone": LEG.astype(int),
-            "mean_ordered": ORDERED,
-            "mean_simulated": self.mean,
-            "mean_standard_error": self.standard_error,
-            "variance_exact": self.variance,
-            "variance_printed": np.where(LEG, "", self.printed.astype(object)),
-            "variance_simulated": self.simulated,
-            "variance_upper_plus_contact": self.one_contact,
-            "band_low": low,
-            "band_high": high,
-        }
-
-
-def simulated(o: Options) -> Response:
-    """Evaluate the closed forms, and simulate."""
     medium = o.medium(MEDIUM)
     ensemble = packings.planned(
         "response", height=APEX, width=None, seed=o.seed, std=medium.std, spacing=medium.spacing,
@@ -89,18 +52,29 @@ def simulated(o: Options) -> Response:
     )  # fmt: skip
     phi, square = medium.phi, change.var(axis=0) / medium.std**2
     exact = np.array([bead_response(i, j, 0, APEX, phi, 1, 1) for i, j in SITES], dtype=float)
-    one = [float(contact_response(i, j, 0, APEX, "+", phi, 1, 1)) for i, j in SITES]
     off = (change - change.mean(axis=0))[:, ON_CUTS] / medium.std
+    band = packings.band_of_roots(off**2, o.seed)
+    low, high = (np.full(len(SITES), "", dtype=object) for _ in range(2))
+    low[ON_CUTS], high[ON_CUTS] = (edge**2 for edge in band.limits)
+    ordered = np.where(LEG, 0.5, 0.0)
+    printed = np.array([float(response(APEX, j, phi, 1, 1)) for j in LAYER.tolist()], dtype=object)
+    one = [float(contact_response(i, j, 0, APEX, "+", phi, 1, 1)) for i, j in SITES]
+    table = {
+        "i": COLUMN,
+        "j": LAYER,
+        "on_cone": LEG.astype(int),
+        "mean_ordered": ordered,
+        "mean_simulated": ordered + change.mean(axis=0),
+        "mean_standard_error": medium.std * np.sqrt(square / (o.realisations - 1)),
+        "variance_exact": exact,
+        "variance_printed": np.where(LEG, "", printed),
+        "variance_simulated": square,
+        "variance_upper_plus_contact": np.array(one),
+        "band_low": low,
+        "band_high": high,
+    }
     what = f"apex l = {APEX}: exact first-order fluctuation"
-    return Response(
-        variance=exact,
-        one_contact=np.array(one),
-        printed=np.array([float(response(APEX, j, phi, 1, 1)) for _, j in SITES]),
-        mean=ORDERED + change.mean(axis=0),
-        standard_error=medium.std * np.sqrt(square / (o.realisations - 1)),
-        simulated=square,
-        cuts=Comparison(what, packings.band_of_roots(off**2, o.seed), np.sqrt(exact[ON_CUTS])),
-    )
+    return table, Comparison(what, band, np.sqrt(exact[ON_CUTS]))
 
 
 def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
@@ -121,49 +95,48 @@ def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
 
 def figure(o: Options) -> Made:
     """Maps of mean and fluctuation, line cuts, and the double Y where it is asked for."""
-    found, medium = simulated(o), o.medium(MEDIUM)
+    (table, cuts), medium = simulated(o), o.medium(MEDIUM)
     models = double_y.profiles(asin(medium.n_x), o.seed) if "double-y" in o.models else {}
     if models:
         drawn, axes = panels("ab;cd", PAGE, 4.7, height_ratios=(1, 1.05))
     else:
         drawn, axes = panels("ac;bc", PAGE, 3.4, width_ratios=(0.85, 1.1))
     step = np.array([2 * float(medium.n_x), 2 * medium.n_y])
-    highest = float(found.variance[APEX - 2 == LAYER][1])
+    variance = table["variance_exact"]
+    highest = float(variance[APEX - 2 == LAYER][1])
     for panel, shades, most, label in (
-        (axes[0], found.mean, 0.5, r"$\langle p\rangle\,/\,f^{\rm load}$"),
-        (axes[1], found.variance, highest, r"$\sigma^2(p)$, unit of (c)"),
+        (axes[0], table["mean_simulated"], 0.5, r"$\langle p\rangle\,/\,f^{\rm load}$"),
+        (axes[1], variance, highest, r"$\sigma^2(p)$, unit of (c)"),
     ):
         apex, location = (0.0, APEX * step[1]), "bottom" if models else "right"
         centres = np.array(SITES) * step
         draw_cone(panel, centres, shades, apex, most, location=location, label=label)
-    _draw_cuts(axes[2], found)
+    _draw_cuts(axes[2], table)
     drawn.legend(*axes[2].get_legend_handles_labels(), loc="outside lower center", ncols=5)
-    parameters: dict[str, Any] = {
-        "apex": APEX,
-        "spacing_over_r": float(medium.spacing),
-        "relative_std": medium.std,
-    }
-    made = packings.compared(drawn, "figure4", o, [found.cuts], {}, **parameters)
-    tables = {"figure4": found.table()}
+    made = packings.compared(
+        drawn, "figure4", o, [cuts], {}, apex=APEX, spacing_over_r=float(medium.spacing),
+        relative_std=medium.std,
+    )  # fmt: skip
+    tables = {"figure4": table}
     if models:
         double_y.draw(axes[3], models, float(medium.n_x) / medium.n_y)
         tables["figure4_double_y"] = double_y.table(models)
     return Made(drawn, tables, made.facts, made.lines)
 
 
-def _draw_cuts(axes: Axes, found: Response) -> None:
+def _draw_cuts(axes: Axes, table: Table) -> None:
     """Draw variances over the horizontal position, layer by layer."""
-    low, high = np.zeros(len(SITES)), np.zeros(len(SITES))
-    low[ON_CUTS], high[ON_CUTS] = (edge**2 for edge in found.cuts.band.limits)
+    x, variance, one = COLUMN / APEX, table["variance_exact"], table["variance_upper_plus_contact"]
     for c, j in enumerate(CUTS):
-        here, inside, colour = j == LAYER, (j == LAYER) & ~LEG, f"C{c}"
-        x, legs = COLUMN / APEX, here & LEG
-        axes.fill_between(x[inside], low[inside], high[inside], color=colour, alpha=0.2, lw=0)
-        axes.vlines(x[legs], low[legs], high[legs], color=colour, alpha=0.2, lw=3)
-        axes.plot(x[inside], found.variance[inside], color=colour)
-        axes.plot(x[legs], found.variance[legs], "_", color=colour, ms=7, mew=0.9)
-        points(axes, x[here], found.simulated[here], c, ms=2.6)
-        reach, printed = 1 - j / APEX, float(found.printed[here][0])
+        here, colour = j == LAYER, f"C{c}"
+        inside, legs = here & ~LEG, here & LEG
+        low, high = (table[edge][here].astype(float) for edge in ("band_low", "band_high"))
+        axes.fill_between(x[inside], low[1:-1], high[1:-1], color=colour, alpha=0.2, lw=0)
+        axes.vlines(x[legs], low[[0, -1]], high[[0, -1]], color=colour, alpha=0.2, lw=3)
+        axes.plot(x[inside], variance[inside], color=colour)
+        axes.plot(x[legs], variance[legs], "_", color=colour, ms=7, mew=0.9)
+        points(axes, x[here], table["variance_simulated"][here], c, ms=2.6)
+        reach, printed = 1 - j / APEX, float(table["variance_printed"][inside][0])
         axes.plot([-reach, reach], [printed, printed], "k--", lw=0.8)
         axes.annotate(
             f"$j={j}$", (reach, printed), (3, -1), textcoords="offset points", color=colour,
@@ -174,11 +147,8 @@ def _draw_cuts(axes: Axes, found: Response) -> None:
     axes.plot([], [], "k--", label="Eq. (16), printed")
     points(axes, [], [], 0, "simulated", ms=2.6)
     axes.fill_between([], [], color=GREY, alpha=0.2, lw=0, label=f"{LEVEL:.0%} band of all")
-    own = (LAYER == ALONE) & ~LEG
-    axes.plot(
-        COLUMN[own] / APEX, found.one_contact[own], ":", color=f"C{CUTS.index(ALONE)}",
-        label=f"one contact, $j={ALONE}$",
-    )  # fmt: skip
+    own, colour = (LAYER == ALONE) & ~LEG, f"C{CUTS.index(ALONE)}"
+    axes.plot(x[own], one[own], ":", color=colour, label=f"one contact, $j={ALONE}$")
     axes.set(xlabel="horizontal position $i/l$", xlim=(-1.08, 1.4))
     axes.set_ylabel(r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2$")
     axes.set_ylim(bottom=0)

@@ -4,6 +4,7 @@ import csv
 import json
 import math
 from collections import defaultdict
+from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
 from typing import Any
@@ -32,14 +33,13 @@ from force_diffusion.numeric.figures.catalogue import csv_file
 from force_diffusion.numeric.figures.packings import (
     N_X,
     PAPER_STD,
+    Comparison,
     Made,
     Medium,
     Options,
-    forces_of,
+    Table,
     planned,
 )
-from force_diffusion.numeric.mechanics import engine, first_order
-from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.sweep import Solved, deposit, sweep_down
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.scene.sections import PointLoad
@@ -107,27 +107,6 @@ def test_widths_of_figure_2_are_those_of_the_packing() -> None:
         assert found_y == pytest.approx(np.full(found_y.shape, y[j]), rel=1e-12)
 
 
-def test_figure_3_is_the_same_however_it_is_batched(monkeypatch: pytest.MonkeyPatch) -> None:
-    together = comparison.averages(4, range(10), 3, silent)
-    monkeypatch.setattr(engine, "TOGETHER", 1)
-    alone = comparison.averages(4, range(10), 3, silent)
-    monkeypatch.setattr(engine, "TOGETHER", 4 * 45)
-    some = comparison.averages(4, range(10), 3, silent)
-    for one, other, third in zip(together, alone, some, strict=True):
-        # only sums along rows of different memory layout may round differently
-        assert one == pytest.approx(other, rel=1e-12, abs=1e-18)
-        assert one == pytest.approx(third, rel=1e-12, abs=1e-18)
-
-
-def test_figure_3_finds_theory_within_the_band_and_a_wrong_theory_outside() -> None:
-    o = Options((3, 6), 300)
-    for M in o.heights:
-        one = comparison.simulated(M, o)
-        assert one.deviation() <= 1
-        assert one.deviation(one.theory * 1.2) > 1
-        assert one.deviation(comparison.curves(M)[1]) > 1  # printed: at these heights far off
-
-
 def drawn(axes: Axes, label: str) -> tuple[Any, Any]:
     """Give x and y of the markers with this name."""
     (markers,) = (one.lines[0] for one in axes.containers if one.get_label() == label)
@@ -179,14 +158,13 @@ def test_figure_4_conserves_the_load() -> None:
         load=PointLoad(at=(1, 9)),
         realisations=3,
     )
-    for answer, number in packings.solved(plan, range(3)):
-        # every layer bears the whole load, exactly
-        for change in point_load.vertical(plan, answer, number):
-            assert change.sum(axis=1) == pytest.approx(np.zeros(3), abs=1e-16)
+    layers = packings.gathered(plan, silent, "", lambda *of: point_load.vertical(plan, *of))
+    for change in layers:  # every layer bears the whole load, exactly
+        assert change.sum(axis=1) == pytest.approx(np.zeros(3), abs=1e-16)
 
 
 @pytest.fixture(scope="module")
-def figure4() -> point_load.Response:
+def figure4() -> tuple[Table, Comparison]:
     return point_load.simulated(Options(realisations=400))
 
 
@@ -195,28 +173,32 @@ def on_layer(values: Any, j: int) -> Any:
     return values[j == point_load.LAYER]
 
 
-def test_figure_4_does_not_depend_on_the_horizontal_position(figure4: point_load.Response) -> None:
+def test_figure_4_does_not_depend_on_the_horizontal_position(
+    figure4: tuple[Table, Comparison],
+) -> None:
+    table, cuts = figure4
     for j in range(1, point_load.APEX - 1):
-        inside = on_layer(figure4.variance, j)[1:-1]
+        inside = on_layer(table["variance_exact"], j)[1:-1]
         assert inside == pytest.approx(np.full(inside.shape, inside[0]), rel=1e-12)
         # Eq. 16 is the leading order in l + j: here it is off by no more than 2/(l + j)
-        printed = on_layer(figure4.printed, j)[0]
+        printed = on_layer(table["variance_printed"], j)[1]
         assert inside[0] == pytest.approx(printed, rel=2 / (point_load.APEX + j))
         if len(inside) > 1:
-            single = on_layer(figure4.one_contact, j)[1:-1]
+            single = on_layer(table["variance_upper_plus_contact"], j)[1:-1]
             assert (np.diff(single) < -0.5).all()
-    assert figure4.cuts.deviation() <= 1
-    off = np.abs(figure4.mean - 0.5)[point_load.LEG]
-    assert (off < 5 * figure4.standard_error[point_load.LEG]).all()
+    assert cuts.deviation() <= 1
+    off = np.abs(table["mean_simulated"] - 0.5)[point_load.LEG]
+    assert (off < 5 * table["mean_standard_error"][point_load.LEG]).all()
 
 
-def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: point_load.Response) -> None:
+def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: tuple[Table, Comparison]) -> None:
     """The engine's own weights, legs of the cone included."""
     l = point_load.APEX  # noqa: E741
     plan = planned("response", height=l, width=None, seed=1, load=PointLoad(at=(0, l)))
     weights = impulses(plan)
-    packing, forces = weights.packing, forces_of(weights)
+    packing, forces = weights.packing, weights.forces
     assert packing is not None
+    assert forces is not None
     for j in range(l):
         plus, minus = (
             NY * (change + ordered * (tilt[0] + tilt[1]))
@@ -229,38 +211,9 @@ def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: point_load.Respo
         right = np.concatenate((plus, nothing), axis=1)
         both = right + np.concatenate((nothing, minus), axis=1)
         assert np.abs(both.sum(axis=1)).max() < 1e-13  # every layer bears the whole load
-        assert on_layer(figure4.variance, j) == pytest.approx((both**2).sum(axis=0), rel=1e-12)
-        assert on_layer(figure4.one_contact, j) == pytest.approx((right**2).sum(axis=0), rel=1e-12)
-
-
-@pytest.mark.parametrize(("i", "j"), [(0, 8), (5, 3), (-7, 1)])
-def test_figure_4_agrees_with_line_sums(i: int, j: int, figure4: point_load.Response) -> None:
-    """The weights of the upper right contact of a bead, one radius at a time, by line sums."""
-    load = LoadSpec("point", point_load.APEX, None, at=(0, point_load.APEX))
-    contact = (i, j, "+")
-    strength = load.strength(N_X, FLOAT64)
-    above, below = first_order.crossing_layers(contact, load)
-    square = 0.0
-    sites = {
-        (line.at(m), m)
-        for line in first_order.lines_read(contact, load)
-        for m in range(line.top + 1)
-    }
-    for site in sites:
-        change, _ = first_order.contact_change(
-            contact,
-            own=None,
-            above={m: load.ordered_force((i + m - j, m, "-"), strength, FLOAT64) for m in above},
-            below={
-                m: load.ordered_force((i + m - j + 1, m - 1, "-"), strength, FLOAT64) for m in below
-            },
-            radius_at=lambda a, b, site=site: float((a, b) == site),
-            n_x=N_X,
-            system=FLOAT64,
-        )
-        square += float(change) ** 2
-    q = (i + point_load.APEX - j) // 2
-    assert on_layer(figure4.one_contact, j)[q] == pytest.approx(NY**2 * square, rel=1e-12)
+        for weights, name in ((both, "variance_exact"), (right, "variance_upper_plus_contact")):
+            variance = (weights**2).sum(axis=0)
+            assert on_layer(figure4[0][name], j) == pytest.approx(variance, rel=1e-12)
 
 
 def test_chains_balance_as_drawn() -> None:
@@ -289,9 +242,9 @@ def test_chains_balance_as_drawn() -> None:
 def test_distributions() -> None:
     o = Options(realisations=200)
     for number, (kind, M) in enumerate(distribution.CASES):
-        one = distribution.simulated(o, Medium(), number)
-        assert (one.kind, one.height, len(one.deviates)) == (kind, M, 200)
-        assert one.deviates.std() == pytest.approx(1, abs=5 / np.sqrt(2 * 200))
+        deviates, found = distribution.simulated(o, number)
+        assert (found["radii"], found["height"], len(deviates)) == (kind, M, 200)
+        assert deviates.std() == pytest.approx(1, abs=5 / np.sqrt(2 * 200))
 
 
 def test_goodness_of_fit_rejects_what_it_should() -> None:
@@ -301,13 +254,6 @@ def test_goodness_of_fit_rejects_what_it_should() -> None:
         assert max(distribution.p_values(wrong, 1)) < 0.01
 
 
-def test_the_disorder_is_that_of_the_paper() -> None:
-    plan = planned("profile", height=2, width=4, seed=0)
-    assert float(plan.problem.radii.relative_std()) == PAPER_STD
-    assert pytest.approx(1e-6 / 12, rel=1e-15) == PAPER_STD**2
-    assert Fraction(3, 4) == N_X
-
-
 def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory() -> None:
     s, usual = Fraction(12, 5), Fraction(3)
     one = comparison.simulated(6, Options(realisations=300, spacing=s, relative_std=1e-3))
@@ -315,7 +261,7 @@ def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory() -> No
     assert one.deviation(comparison.curves(6)[0]) > 1
     assert one.deviation(comparison.curves(6, Medium(std=1e-3))[0]) > 1
     narrow, paper = (
-        point_load.simulated(Options(realisations=300, spacing=spacing)).cuts
+        point_load.simulated(Options(realisations=300, spacing=spacing))[1]
         for spacing in (Fraction(21, 10), usual)
     )
     assert narrow.deviation() <= 1
@@ -326,57 +272,49 @@ def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory() -> No
     assert chains.figure(Options(relative_std=1e-4)).facts["tensile"] == 0
 
 
-def test_figure_b2_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
-    one = directions.simulated(Options(realisations=60))
+S = mean_forces.SPACINGS[0]
+COMPARED: dict[str, tuple[Callable[[], Comparison], Callable[[Comparison], Any]]] = {
+    # the printed curve: at this height far off
+    "3": (
+        lambda: comparison.simulated(6, Options(realisations=300)),
+        lambda _: comparison.curves(6)[1],
+    ),
+    # the branches exchanged
+    "B2": (
+        lambda: directions.simulated(Options(realisations=60)),
+        lambda one: np.roll(one.theory, len(directions.ANGLES)),
+    ),
+    "B5": (
+        lambda: mean_forces.simulated(Options(realisations=400), "surface", S),
+        lambda _: mean_forces.theory("bulk", mean_forces.HEIGHT, S),
+    ),
+    "B6": (
+        lambda: mean_forces.simulated(Options(realisations=400), "bulk", S),
+        lambda one: 1.2 * one.theory,
+    ),
+    "B7": (
+        lambda: neighbours.simulated(Options(realisations=200)),
+        lambda one: 1.1 * one.theory,
+    ),
+    "B9": (
+        lambda: mean_response.simulated(Options(realisations=6000), mean_response.SPACINGS[0]),
+        lambda one: 0 * one.theory,
+    ),
+    # discs
+    "B13": (
+        lambda: spheres.simulated(Options(realisations=40), 0),
+        lambda _: comparison.curves(8)[0],
+    ),
+}
+
+
+@pytest.mark.parametrize("name", COMPARED)
+def test_theory_is_within_the_band_and_a_wrong_one_outside(name: str) -> None:
+    simulated, wrong = COMPARED[name]
+    one = simulated()
     assert one.deviation() <= 1
-    half = len(directions.ANGLES)
-    assert one.deviation(np.roll(one.theory, half)) > 1  # the branches exchanged
-    assert one.deviation(one.theory * 1.2) > 1
-    assert directions.ratio(0) == 1
-    assert directions.ratio(-20) == pytest.approx(1 / directions.ratio(20), rel=1e-14)
-
-
-def test_the_components_of_figure_b2_are_those_of_scenes() -> None:
-    for angle in directions.ANGLES:
-        load = LoadSpec("surface", 3, 6, Fraction(angle))
-        plus, minus = load.strength(N_X, FLOAT64).unit
-        assert float(minus / plus) == pytest.approx(directions.ratio(angle), rel=1e-14)
-
-
-def test_figure_b5_finds_theory_within_the_bands_and_wrong_ones_outside() -> None:
-    o = Options(realisations=400)
-    found = {case: mean_forces.simulated(o, *case) for case in mean_forces.CASES}
-    for one in found.values():
-        assert one.deviation() <= 1
-        assert one.deviation(np.zeros(mean_forces.HEIGHT)) > 5
-        assert one.deviation(1.2 * one.theory) > 1
-    s = mean_forces.SPACINGS[0]
-    assert found["surface", s].deviation(found["bulk", s].theory) > 1
-
-
-def test_figure_b7_finds_theory_within_the_band_and_a_wrong_one_outside() -> None:
-    one = neighbours.simulated(Options(realisations=200))
-    assert one.deviation() <= 1
-    assert one.deviation(1.1 * one.theory) > 1
-    own, pair = one.band.value[:2]
-    assert pair < own / 2  # independent ones would have own/√2
-
-
-def test_figure_b9_finds_theory_within_the_bands_and_a_wrong_one_outside() -> None:
-    o = Options(realisations=6000)
-    first, second = (mean_response.simulated(o, spacing) for spacing in mean_response.SPACINGS)
-    for one in (first, second):
-        assert one.deviation() <= 1
-        assert one.deviation(np.zeros(len(mean_response.OFFSETS))) > 1
-    assert first.deviation(second.theory) > 1
-
-
-def test_figure_b13_holds_spheres_to_theory_and_would_not_to_that_of_discs() -> None:
-    one = spheres.simulated(Options(realisations=40), 0)
-    assert one.deviation() <= 1
-    discs, _ = comparison.curves(8)
-    assert one.deviation(discs) > 10
-    assert "outside" in replace(one, theory=discs).verdict()
+    assert one.deviation(wrong(one)) > 1
+    assert "outside" in replace(one, theory=wrong(one)).verdict()
 
 
 @pytest.mark.parametrize(
