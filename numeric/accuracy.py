@@ -94,15 +94,15 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
         largest = system.number(floor)
         note = "no change can be told from zero; the error is relative to σ/r instead"
     printed = (radius / largest).upper() * CUT_OFF + flint().arb(10) ** (1 - most_digits(system))
-    return Accuracy(_up(printed), True, system.name, note)
+    return Accuracy(upper(printed), True, system.name, note)
 
 
-def _up(value: Any) -> float | Fraction:
+def upper(value: Any) -> float | Fraction:
     """Round a small positive ball up to a float; below the range of floats, to a fraction."""
-    upper = midpoint(value.upper())
-    if upper < Fraction(1, 10**300):
-        return upper
-    return float(upper) * (1 + 1e-15) if upper < 10**300 else math.inf
+    bound = midpoint(value.upper())
+    if bound < Fraction(1, 10**300):
+        return bound
+    return float(bound) * (1 + 1e-15) if bound < 10**300 else math.inf
 
 
 def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:

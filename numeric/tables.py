@@ -3,7 +3,6 @@
 import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from decimal import Decimal
 from functools import cache
 from html import escape
 from importlib import import_module
@@ -91,26 +90,6 @@ def _library(name: str) -> Any:
         raise MissingLibraryError(
             f"{name} is missing; pip install 'force-diffusion[tables]'"
         ) from None
-
-
-def columns_of(rows: Sequence[Mapping[str, Any]]) -> dict[str, Array]:
-    """Give rows as arrays of shape (rows,); where a number is missing, it is NaN.
-
-    >>> columns_of([{"way": "a", "bound": None}, {"way": "b", "bound": 0.5}])
-    {'way': array(['a', 'b'], dtype='<U1'), 'bound': array([nan, 0.5])}
-    """
-    columns = {name: [row[name] for row in rows] for name in (rows[0] if rows else {})}
-    return {
-        name: np.array(
-            [math.nan if value is None else value for value in column] if None in column else column
-        )
-        for name, column in columns.items()
-    }
-
-
-def plain(row: Mapping[str, Any]) -> Row:
-    """Give a row with floats in place of decimals, ready for a data frame."""
-    return {n: float(value) if isinstance(value, Decimal) else value for n, value in row.items()}
 
 
 def text_table(rows: Sequence[Mapping[str, Any]]) -> list[str]:

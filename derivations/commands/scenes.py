@@ -2,10 +2,9 @@
 
 import json
 import sys
-from collections.abc import Callable
-from contextlib import AbstractContextManager, ExitStack, nullcontext
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from time import perf_counter
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -24,10 +23,7 @@ from .sweep import Seed, Settings, name_of, variants
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
-    from force_diffusion.numeric.run.outcome import Outcome
 
-# Seconds from which on progress is shown.
-MOMENT = 1.0
 STATUSES = (
     "Exit status: 0 answered, 2 wrong usage or input, 3 what was asked for can't be reached, or "
     "something outside the program failed, such as the disk, 130 interrupted."
@@ -59,25 +55,20 @@ def _planned(
     scene: Path, tolerance: str | None, certified: bool, changes: dict[str, str] | None = None
 ) -> "Plan":
     """Read and plan a scene."""
-    from force_diffusion.numeric.arithmetic.decimals import parse
     from force_diffusion.numeric.arithmetic.machine import memory_limit
+    from force_diffusion.numeric.run.running import read_tolerance
 
-    asked = None
-    if tolerance is not None:
-        try:
-            asked = parse(tolerance)
-        except ValueError as error:
-            raise ForceDiffusionError(f"--tolerance: {error}") from None
-        if not 0 < asked < 1:
-            raise ForceDiffusionError(f"--tolerance = {tolerance}: must lie between 0 and 1")
+    try:
+        asked = None if tolerance is None else read_tolerance(tolerance)
+    except fd.SceneError as error:
+        raise ForceDiffusionError(f"--{error}") from None
     try:
         with named(scene.name):
             found = fd.read_scene(scene, changes)
-        if certified and asked is None and found.ask.tolerance is None:
-            raise ForceDiffusionError(
-                "--certified needs a tolerance: give --tolerance T, such as 1e-30"
-            )
-        with named(scene.name):
+            if certified and asked is None and found.ask.tolerance is None:
+                raise ForceDiffusionError(
+                    "--certified needs a tolerance: give --tolerance T, such as 1e-30"
+                )
             return found.explain(asked, certified=certified)
     except MemoryError:
         raise ForceDiffusionError(
@@ -145,7 +136,8 @@ def _answer(
     from force_diffusion.numeric.run.outcome import outcome_lines
 
     warn(scene, planned)
-    found = _solved(planned, scene, quiet)
+    with named(scene.name), in_range(), _bar(planned, quiet) as progress:
+        found = fd.run(planned, progress)
     answers = list(found.results.values())
     about = found.data(rows=False)
     about["source"] = sourced(about["source"], scene, command_line())
@@ -168,6 +160,7 @@ def cost(
     """Measure what accuracy costs: error and seconds of one packing, in each arithmetic."""
     from force_diffusion.numeric.run.cost import HEAD
     from force_diffusion.numeric.scene.scene import source_of
+    from force_diffusion.numeric.tables import csv_bytes
 
     command = command_line()
     folder = Output(out, ["cost.json", "cost.csv", *images("cost")], overwrite) if out else None
@@ -186,42 +179,28 @@ def cost(
         title = f"Cost of accuracy: {printable(scene.stem)}"
         plots = drawn(lambda: found.plot(title), "cost", title, command)
         text = json.dumps(data, indent=2) + "\n"
-        folder.write({"cost.json": text, "cost.csv": found.csv(command), **plots})
+        columns = {name: [str(row[name]) for row in found.rows()] for name in found.rows()[0]}
+        folder.write({"cost.json": text, "cost.csv": csv_bytes(columns), **plots})
     if as_json:
         print(json.dumps(data, indent=2))
     for name, why in found.skipped.items():
         tell(f"{name}: {why}")
 
 
-def _solved(planned: "Plan", scene: Path, quiet: bool) -> "Outcome":
-    """Run a plan under a progress bar."""
-    bar, progress = (nullcontext(), None) if quiet else _progress(planned)
-    with named(scene.name), in_range(), bar:
-        return fd.run(planned, progress)
-
-
-def _progress(
-    planned: "Plan",
-) -> tuple[AbstractContextManager[object], Callable[[str, int], None] | None]:
-    """A bar on a terminal, for work that takes longer than a moment, whatever was estimated."""
-    if not sys.stderr.isatty():
-        return nullcontext(), None
+@contextmanager
+def _bar(planned: "Plan", quiet: bool) -> Iterator[Callable[[str, int], None] | None]:
+    """A bar on a terminal for many packings; where there is one, nobody knows how far it is."""
+    if quiet or planned.problem.realisations == 1 or not sys.stderr.isatty():
+        yield None
+        return
     from rich.console import Console
     from rich.progress import Progress
 
-    bar = Progress(console=Console(stderr=True), transient=True)
-    task = bar.add_task("solving", total=planned.beads)
-    done, shown = 0, perf_counter() + MOMENT
-    stack = ExitStack()
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("solving", total=planned.beads)
 
-    def progress(kind: str, beads: int) -> None:
-        nonlocal done, shown
-        done += beads if kind in {"deposited", "summed"} else 0
-        if perf_counter() < shown:  # single beads may come a million a second
-            return
-        if not bar.live.is_started:
-            stack.enter_context(bar)
-        bar.update(task, completed=done)
-        shown = perf_counter() + MOMENT / 10
+        def progress(kind: str, beads: int) -> None:
+            if kind in {"deposited", "summed"}:
+                bar.advance(task, beads)
 
-    return stack, progress
+        yield progress

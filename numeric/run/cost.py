@@ -4,21 +4,17 @@ Errors are relative to the largest |change| of the answer, and are distances fro
 enclose it. What would take too long is extrapolated from fewer layers.
 """
 
-import csv
-import io
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
-from decimal import ROUND_CEILING, Context, Decimal
 from fractions import Fraction
-from functools import cached_property
 from time import process_time
 from typing import TYPE_CHECKING, Any
 
-import flint
 import numpy as np
 
 from .. import tables
-from ..accuracy import ToleranceError
+from ..accuracy import ToleranceError, upper
+from ..arithmetic.decimals import bound_string
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError, printable
 from ..arithmetic.systems import Array, Balls, BigFloat, as_ball, largest_of
 from ..mechanics.problem import Route
@@ -61,7 +57,7 @@ class Way:
 
     way: str
     digits: int
-    error: Decimal
+    error: float
     error_is: str
     seconds: float
     relative_cost: float
@@ -69,8 +65,9 @@ class Way:
 
     def __str__(self) -> str:
         mark = f"  {ESTIMATED}" if self.extrapolated else ""
+        error = bound_string(Fraction(self.error)) if self.error else "0"
         return (
-            f"{self.way:<9}{self.digits:>6}  {short(self.error):<10}{self.error_is:<10}"
+            f"{self.way:<9}{self.digits:>6}  {error:<10}{self.error_is:<10}"
             f"{self.seconds:>10.3g}  {self.relative_cost:>13.3g}{mark}"
         )
 
@@ -84,38 +81,18 @@ class CostStudy:
     skipped: dict[str, str]
 
     def rows(self) -> list[tables.Row]:
-        """One row a way, ready for a data frame; errors below 1e-323 read 0."""
-        return [tables.plain(asdict(way)) for way in self.ways]
-
-    @cached_property
-    def arrays(self) -> dict[str, Array]:
-        """The columns of ``rows``, each of shape (rows,)."""
-        return tables.columns_of(self.rows())
+        """One row a way, ready for a data frame."""
+        return [asdict(way) for way in self.ways]
 
     def data(self) -> dict[str, Any]:
-        """Give it as JSON can hold it; errors are decimal strings."""
-        rows = [
-            asdict(way)
-            | {"error": short(way.error)}
-            | {name: float(f"{getattr(way, name):.4g}") for name in ("seconds", "relative_cost")}
-            for way in self.ways
-        ]
+        """Give it as JSON can hold it."""
         relative = "the largest |change| of the answer"
         return {
             "quantity": self.quantity,
             "errors_relative_to": relative,
-            "rows": rows,
+            "rows": self.rows(),
             "skipped": self.skipped,
         }
-
-    def csv(self, command: str) -> str:
-        """Write the rows as CSV, each with the command that made them."""
-        rows = [row | {"command": command} for row in self.data()["rows"]]
-        text = io.StringIO()
-        writer = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
-        writer.writeheader()
-        writer.writerows(rows)
-        return text.getvalue()
 
     def plot(self, title: str = "") -> "Figure":
         """Draw error over time, both logarithmic; needs matplotlib (the extra ``plots``)."""
@@ -126,11 +103,11 @@ class CostStudy:
             axes = figure.subplots()
             for name, marker in zip(DIGITS, "os^", strict=True):
                 ways = [way for way in self.ways if way.way == name]
-                seconds, errors = [w.seconds for w in ways], [float(w.error) for w in ways]
+                seconds, errors = [w.seconds for w in ways], [w.error for w in ways]
                 (line,) = axes.loglog(seconds, errors, ":", label=name)
                 for way in ways:
                     face = "none" if way.extrapolated else line.get_color()
-                    at, color = (way.seconds, float(way.error)), line.get_color()
+                    at, color = (way.seconds, way.error), line.get_color()
                     axes.plot(*at, marker, color=color, markerfacecolor=face)
                     axes.annotate(f" {way.digits} digits", at, va="bottom")
             axes.set_xlabel("seconds of the processor (hollow: estimated from fewer layers)")
@@ -147,7 +124,7 @@ class CostStudy:
 
     def _repr_html_(self) -> str:
         """Show the table in a notebook."""
-        return tables.html_table(self.data()["rows"], [])
+        return tables.html_table(self.rows(), [])
 
 
 def cost(
@@ -195,7 +172,10 @@ def cost(
 
 @dataclass(frozen=True)
 class _Timed:
-    """A run: its seconds, and what was found, None where it was one of fewer layers."""
+    """A run: its seconds, what was found, and the error that is stated.
+
+    ``numbers`` is None where it was a run of fewer layers, whose seconds are extrapolated.
+    """
 
     seconds: float
     numbers: Array | None
@@ -226,28 +206,24 @@ class _Study:
             allowed = max(self.end - process_time(), 0) / (len(every) - place)
             try:
                 timed = self._timed(name, digits, allowed)
+                unit = timed.seconds if unit is None else unit
+                waiting.append((name, digits, timed))
             except FAILURES as error:
                 self.failures[f"{name}, {digits} digits"] = error
-                continue
-            unit = timed.seconds if unit is None else unit
-            waiting.append((name, digits, timed))
             if self.true is not None or name == "mpmath":
-                yield from (self._way(*one, unit) for one in waiting)
+                yield from (self._way(*one, unit or 1) for one in waiting)
                 waiting = []
-        yield from (self._way(*one, unit or 1) for one in waiting)
 
     def _way(self, name: str, digits: int, timed: _Timed, unit: float) -> Way:
-        error, kind = Decimal(10) ** -digits, ESTIMATED
-        if timed.numbers is not None and name == "balls":
-            error, kind = self._error(timed.numbers), CERTIFIED
-        elif timed.numbers is not None and self.true is not None:
-            error, kind = self._error(timed.numbers), MEASURED
+        error, kind = float(f"1e-{digits}"), ESTIMATED
+        if timed.numbers is not None and self.true is not None:
+            error, kind = self._error(timed.numbers), CERTIFIED if name == "balls" else MEASURED
         elif timed.numbers is not None and name == "float64":
-            error, kind = Decimal(timed.stated), STATED
+            error, kind = timed.stated, STATED
         relative = timed.seconds / unit
         return Way(name, digits, error, kind, timed.seconds, relative, timed.numbers is None)
 
-    def _error(self, found: Array) -> Decimal:
+    def _error(self, found: Array) -> float:
         """Bound the largest distance from balls, over the largest number; of balls, their radius.
 
         Raises ``SceneError`` where all of them are zero.
@@ -258,12 +234,12 @@ class _Study:
             largest = largest_of(ball.abs_lower() for ball in true)
             if not largest > 0:
                 self._refuse_zero()
-            if isinstance(found[0], flint.arb):
+            if hasattr(found[0], "rad"):
                 off = largest_of(ball.rad() for ball in found)
             else:
                 pairs = zip(found, true, strict=True)
                 off = largest_of((as_ball(one) - ball).abs_upper() for one, ball in pairs)
-            return _decimal(off / largest)
+            return float(upper(off / largest))
 
     def _timed(self, name: str, digits: int, allowed: float) -> _Timed:
         """Run a packing of more and more layers, and the whole one if it takes what is allowed."""
@@ -323,19 +299,3 @@ def _smaller(whole: Plan, layers: int) -> Scene:
         effects=scene.effects,
         ask=ask,
     )
-
-
-def _decimal(value: Any) -> Decimal:
-    """Round an arb up; a Decimal's exponent has no end where a float's has."""
-    up = Decimal(value.upper().str(20, radius=False)) * (1 + Decimal("1e-18"))
-    return Context(prec=5, rounding=ROUND_CEILING).create_decimal(up)
-
-
-def short(value: Decimal) -> str:
-    """Print an error to three digits, rounded up.
-
-    >>> short(Decimal("1.23456E-337")), short(Decimal(0))
-    ('1.24e-337', '0')
-    """
-    up = Context(prec=3, rounding=ROUND_CEILING).create_decimal(value)
-    return f"{up:.2e}" if value else "0"

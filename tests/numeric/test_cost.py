@@ -1,7 +1,6 @@
 """What accuracy costs: what the rows say; nothing here depends on how long anything takes."""
 
 import json
-from decimal import Decimal
 from fractions import Fraction
 from typing import Any
 
@@ -11,7 +10,7 @@ from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import midpoint
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
 from force_diffusion.numeric.run import cost as module
-from force_diffusion.numeric.run.cost import CostStudy, Way, short
+from force_diffusion.numeric.run.cost import CostStudy, Way
 from force_diffusion.numeric.scene.sections import SceneError
 
 import force_diffusion as fd
@@ -49,7 +48,7 @@ def test_errors_are_those_of_the_digits(name: str) -> None:
     assert names(found) == EVERY
     assert not found.skipped
     for way in found.ways:
-        assert 0 < way.error < Decimal(10) ** (2 - way.digits)
+        assert 0 < way.error < 10.0 ** (2 - way.digits)
         assert way.error_is == ("certified" if way.way == "balls" else "measured")
         assert not way.extrapolated
         assert way.seconds > 0
@@ -79,7 +78,7 @@ def test_what_takes_too_long_is_extrapolated(quantity: str, spheres: bool) -> No
     for way in found.ways:
         assert way.extrapolated
         assert way.error_is == "estimated"
-        assert way.error == Decimal(10) ** -way.digits
+        assert way.error == float(f"1e-{way.digits}")
         assert "estimated" in str(way)
         assert len(str(way)) <= 80
 
@@ -162,12 +161,6 @@ def test_a_packing_that_can_not_be_built() -> None:
         fd.cost(scene(sections))
 
 
-@pytest.mark.parametrize("seconds", [0, -1, float("nan"), float("inf")])
-def test_a_time_that_is_none(seconds: float) -> None:
-    with pytest.raises(SceneError, match=r"seconds = .*positive"):
-        fd.cost(scene(basic()), seconds)
-
-
 def test_disorder_that_float64_can_not_hold() -> None:
     sections = basic(3, 8)
     sections["disorder"] |= {"relative_std": "=1e-400"}
@@ -177,27 +170,22 @@ def test_disorder_that_float64_can_not_hold() -> None:
 
 
 @pytest.mark.parametrize("std", ["1e-200", "1e-5"])
-def test_rows_data_and_arrays_say_the_same(std: str) -> None:
+def test_rows_and_tables_say_the_same(std: str) -> None:
     sections = basic(3, 8)
     sections["disorder"] |= {"relative_std": f"={std}"}
     found = fd.cost(scene(sections))
-    data = json.loads(json.dumps(found.data()))
-    assert len(data["rows"]) == len(found.rows()) == len(found.ways)
-    for way, row, printed in zip(found.ways, found.rows(), data["rows"], strict=True):
-        assert list(row) == list(printed)
-        assert printed["error"] == short(way.error)
-        assert Decimal(printed["error"]) >= way.error
-        assert printed["seconds"] == pytest.approx(way.seconds, rel=1e-3)
-    assert found.arrays["seconds"].tolist() == [way.seconds for way in found.ways]
+    assert json.loads(json.dumps(found.data()))["rows"] == found.rows()
+    for way, row, line in zip(found.ways, found.rows(), str(found).splitlines()[1:], strict=True):
+        assert row["error"] == way.error
+        assert way.error <= float(line.split()[2]) <= 1.01 * way.error
     assert found._repr_html_().count("<tr>") == 1 + len(found.ways)
-    assert len(str(found).splitlines()) == 1 + len(found.ways) + len(found.skipped)
 
 
 def test_the_plot_shows_every_way() -> None:
     pytest.importorskip("matplotlib")
     ways = (
-        Way("float64", 16, Decimal("1e-16"), "measured", 0.01, 1, False),
-        Way("balls", 100, Decimal("1e-100"), "estimated", 50, 5000, True),
+        Way("float64", 16, 1e-16, "measured", 0.01, 1, False),
+        Way("balls", 100, 1e-100, "estimated", 50, 5000, True),
     )
     figure = CostStudy("profile", ways, {}).plot("$name")
     (axes,) = figure.axes
