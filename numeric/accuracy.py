@@ -122,7 +122,7 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
             f"the most; ask for about 1e-{int(first_bits * 0.30102)} at best"
         )
     floors = [
-        spread * (plan.scene.load.magnitude if quantity.needs_forces else 1)
+        spread * (plan.scene.load.magnitude if quantity.of_forces else 1)
         for quantity in plan.quantities
     ]
     while True:
@@ -169,7 +169,7 @@ def of_carried(quantity: Quantity, table: Table, sizes: Sizes, plan: Plan) -> Ac
     leave out themselves (``Sizes.unseen``), which is doubled for sums of a few numbers.
     """
     problem, scene = plan.problem, plan.scene
-    largest = _largest(table)
+    largest = Fraction(table.largest) if math.isfinite(table.largest) else Fraction(0)
     force, moved = sizes.unseen(problem.height)
     if not math.isfinite(force + moved):
         return Accuracy(math.inf, False, FLOAT64.name, "nothing is left of the answer")
@@ -180,18 +180,12 @@ def of_carried(quantity: Quantity, table: Table, sizes: Sizes, plan: Plan) -> Ac
             return Accuracy(0.0, False, FLOAT64.name, CARRIED)
         note = "every change is zero here, and only balls (a tolerance) tell whether that is exact"
         return Accuracy(math.inf, False, FLOAT64.name, note)
-    if quantity.needs_forces:
+    if quantity.of_forces:
         unseen = Fraction(force) * scene.load.magnitude
     else:
         unseen = Fraction(moved * float(1 / problem.n_x)) * scene.packing.radius
     bound = stated_error(gathering(quantity, problem), unseen / largest)
     return Accuracy(bound, False, FLOAT64.name, CARRIED)
-
-
-def _largest(table: Table) -> Fraction:
-    """Give the largest change."""
-    most = max((float(np.abs(table.numbers[n]).max(initial=0)) for n in table.small), default=0.0)
-    return Fraction(most) if math.isfinite(most) else Fraction(0)
 
 
 def shortfall(plan: Plan, found: Answer, judged: Sequence[Accuracy]) -> str:
@@ -210,17 +204,13 @@ def shortfall(plan: Plan, found: Answer, judged: Sequence[Accuracy]) -> str:
 
 def edge_in_doubt(table: Table, bins: Bins, accuracy: Accuracy) -> bool:
     """Say whether a change lies within its error of the edge of a bin: counts may be off."""
-    edges = [bins[0][0], *(high for _, high, _ in bins)]
-    values, largest = table.numbers["change"], _largest(table)
-    # bins are counted in float64, whatever the arithmetic
-    error = Fraction(accuracy.error_bound) * largest + largest / 2**52
-    sorted_values = np.sort(np.array([float(v) for v in values]))
-    for edge in edges:
-        near = np.searchsorted(sorted_values, float(edge))
-        for value in sorted_values[max(near - 1, 0) : near + 1].tolist():
-            if abs(Fraction(value) - edge) <= error:
-                return True
-    return False
+    edges = np.array([float(bins[0][0]), *(float(high) for _, high, _ in bins)])
+    values = np.sort(as_floats(table.numbers["change"]))
+    # bins are counted in float64, whatever the arithmetic; edges are rounded, too
+    error = (float(accuracy.error_bound) + 2.0**-51) * table.largest
+    after = np.searchsorted(values, edges)
+    near = values[np.clip([after - 1, after], 0, len(values) - 1)]
+    return bool((abs(near - edges) <= error).any())
 
 
 def most_digits(system: Balls) -> int:
@@ -257,9 +247,9 @@ def of_errors(errors: Array) -> list[str]:
 
 def _of_arithmetic(table: Table, name: str, accuracy: Accuracy) -> Array | float:
     """Give the absolute error of a column, but for how it would scatter."""
-    small = [as_floats(abs(table.numbers[k])) for k in table.small]
-    largest = max((float(one.max(initial=0)) for one in small), default=0)
-    bound = float(accuracy.error_bound) * largest if math.isfinite(accuracy.error_bound) else np.inf
+    bound = np.inf
+    if math.isfinite(accuracy.error_bound):
+        bound = float(accuracy.error_bound) * table.largest
     return bound / _over(table, name)
 
 

@@ -8,12 +8,10 @@ tolerance, balls answer (see ``run``), whose bits are raised until their bound f
 names is never replaced: both answer the same question about the same packings.
 """
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
-from functools import lru_cache
 from math import isqrt
-from time import monotonic
 
 from ..arithmetic.carried import PRINTED, UNIT
 from ..arithmetic.decimals import short
@@ -56,36 +54,29 @@ def plan(
     certified = certified or scene.ask.certified
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, such as tolerance = 1e-30")
-    limit = _free(int(monotonic()), free_memory) if memory_limit is None else memory_limit
-
+    limit = free_memory() if memory_limit is None else memory_limit
     quantities = quantities_of(scene)
     problem, skipped = _problem(scene, quantities, limit, text=text)
     error = expected(FLOAT64, quantities, problem)
-    reason = why_balls(scene, problem, error, tolerance, certified=certified)
-    system: NumberSystem = FLOAT64
+    made = Plan(scene, quantities, problem, tolerance, FLOAT64, "", error, 0, tuple(skipped))
+    reason = why_balls(made, certified=certified)
     if reason:
-        system = Balls(_bits(problem, tolerance))
-        error = expected(system, quantities, problem)
-    needed = memory(quantities, problem, system, text=text)
+        return in_balls(made, reason, limit, text=text)
+    needed = memory(quantities, problem, FLOAT64, text=text)
     refuse_memory(scene, needed, limit)
-    return Plan(
-        scene, quantities, problem, tolerance, system, reason, error, needed, tuple(skipped)
-    )
+    return replace(made, memory=needed)
 
 
-def in_balls(made: Plan, reason: str) -> Plan:
+def in_balls(made: Plan, reason: str, limit: int | None = None, *, text: bool = True) -> Plan:
     """Plan the same in balls. Raises ``TooLargeError`` where they take too much memory."""
-    system = Balls(_bits(made.problem, made.tolerance))
-    needed = memory(made.quantities, made.problem, system, text=True)
-    refuse_memory(made.scene, needed, free_memory())
+    tolerance, height = made.tolerance or UNIT, made.problem.height
+    if made.problem.route == Route.UNILATERAL:
+        tolerance, height = made.tolerance or TOUCHING, 1
+    system = Balls(initial_bits(tolerance, height))
+    needed = memory(made.quantities, made.problem, system, text=text)
+    refuse_memory(made.scene, needed, free_memory() if limit is None else limit)
     error = expected(system, made.quantities, made.problem)
     return replace(made, system=system, reason=reason, error=error, memory=needed)
-
-
-@lru_cache(maxsize=1)
-def _free(second: int, look: Callable[[], int]) -> int:
-    """Give the free memory; it is looked up once in a second."""
-    return look()
 
 
 def _problem(
@@ -97,16 +88,18 @@ def _problem(
     ``TableError``.
     """
     skipped: list[Skipped] = []
-    ordered = _why_ordered(scene)
-    needs_forces = any(quantity.needs_forces for quantity in quantities)
-    single = quantities[0].single and bool(ordered or scene.effects.geometry == "first-order")
+    effects, realisations = scene.effects, scene.ask.realisations
+    ordered, unilateral = _why_ordered(scene), effects.contacts == "unilateral"
+    single = quantities[0].single and bool(ordered or effects.geometry == "first-order")
     beads = 5 * scene.packing.height
     if not single:
         beads = max(quantity.most_beads() for quantity in quantities)
     if ordered and scene.packing.dimension == 2:
         beads = 0
     refuse_beads(quantities, beads, limit, text=text)
+
     load = load_of(scene)
+    needs_forces = any(quantity.needs_forces for quantity in quantities)
     if not needs_forces and "load" in scene.model_fields_set:
         skipped.append(Skipped("load", "positions follow from the radii alone"))
     rows, region = Rows(), Region(load.width, Rows())
@@ -117,22 +110,28 @@ def _problem(
     radii: Radii = Monodisperse()
     if not ordered:
         radii = radii_of(scene, region.rows)
-        unloaded = not region.rows or (needs_forces and load.loaded == [])
-        ordered = _why_ordered_once_read(scene, radii, unloaded=unloaded, single=single)
-    route = Route.ORDERED
-    if not ordered:
-        route = _route(scene, skipped, single=single)
-        if not region.is_whole:
-            what = "only those that the answer depends on are solved"
-            skipped.append(Skipped("other beads", what))
-    elif scene.disorder is not None:
-        radii = Monodisperse()
-        skipped.append(Skipped("disorder", ordered))
-    realisations = scene.ask.realisations
-    if realisations > 1 and route == Route.ORDERED:
-        why = "without disorder all realisations are the same: one is solved"
-        skipped.append(Skipped("realisations", why))
-        realisations = 1
+        if not single and not unilateral:
+            if not radii.relative_std():
+                ordered = "every delta_r in the file is 0"
+            elif not region.rows or (needs_forces and load.loaded == []):
+                ordered = "no load reaches what is asked for: the forces are exactly zero"
+    if ordered:
+        route, radii = Route.ORDERED, Monodisperse()
+        if scene.disorder is not None:
+            skipped.append(Skipped("disorder", ordered))
+        if realisations > 1:
+            why = "without disorder all realisations are the same: one is solved"
+            skipped.append(Skipped("realisations", why))
+            realisations = 1
+    elif effects.geometry == "first-order":
+        route = Route.LINE_SUMS if single else Route.FIRST_ORDER
+        why = 'geometry = "first-order" sums the radii along diagonals'
+        skipped.append(Skipped("nonlinear geometry", why))
+    else:
+        route = Route.UNILATERAL if unilateral else Route.EXACT
+    if not ordered and not region.is_whole:
+        what = "only those that the answer depends on are solved"
+        skipped.append(Skipped("other beads", what))
     problem = Problem(
         scene.packing.n_x,
         radii,
@@ -144,8 +143,8 @@ def _problem(
         scene.contact,
         scene.site,
         realisations,
-        scene.effects.most_programs,
-        scene.effects.most_seconds,
+        effects.most_programs,
+        effects.most_seconds,
     )
     return problem, skipped
 
@@ -163,42 +162,16 @@ def _why_ordered(scene: Scene) -> str:
     return "its relative_std is 0" if drawn and not disorder.relative_std else ""
 
 
-def _why_ordered_once_read(scene: Scene, radii: Radii, *, unloaded: bool, single: bool) -> str:
-    """Say why the radii that were found decide nothing; nothing where they do."""
-    if single or scene.effects.contacts == "unilateral":
-        return ""
-    if not radii.relative_std():
-        return "every delta_r in the file is 0"
-    return "no load reaches what is asked for: the forces are exactly zero" if unloaded else ""
-
-
-def _route(scene: Scene, skipped: list[Skipped], *, single: bool) -> Route:
-    """Say by which theory a disordered packing is solved."""
-    if scene.effects.contacts == "unilateral":
-        return Route.UNILATERAL
-    if scene.effects.geometry == "exact":
-        return Route.EXACT
-    why = 'geometry = "first-order" sums the radii along diagonals'
-    skipped.append(Skipped("nonlinear geometry", why))
-    return Route.LINE_SUMS if single else Route.FIRST_ORDER
-
-
-def why_balls(
-    scene: Scene,
-    problem: Problem,
-    error: Fraction | None,
-    tolerance: Fraction | None,
-    *,
-    certified: bool,
-) -> str:
-    """Say why float64 won't do, whose ``error`` is expected; nothing where it should."""
+def why_balls(made: Plan, *, certified: bool) -> str:
+    """Say why float64 won't do for a plan in float64; nothing where it should."""
+    problem, tolerance, error = made.problem, made.tolerance, made.error
     if problem.route == Route.ORDERED:
         return "exactly known, whatever is asked"
     if problem.route == Route.UNILATERAL:
         return "found in float64, and proved in balls"
     if certified:
         return "only balls certify"
-    if beyond_floats(scene, problem.radii, problem.load):
+    if beyond_floats(made.scene, problem.radii, problem.load):
         return "float64 can't hold numbers so small or so large"
     if tolerance is None:
         return ""
@@ -206,13 +179,6 @@ def why_balls(
         half = critical_height(problem.radii.relative_std()) * SOUND
         return f"the height is above M*/2 = {half:.3g}, where rounding errors grow with it"
     return f"float64 is expected to err by {short(error)}" if error > tolerance else ""
-
-
-def _bits(problem: Problem, tolerance: Fraction | None) -> int:
-    """Choose a first precision for balls."""
-    if problem.route == Route.UNILATERAL:
-        return initial_bits(tolerance or TOUCHING, 1)
-    return initial_bits(tolerance or UNIT, problem.height)
 
 
 def initial_bits(tolerance: Fraction, height: int) -> int:
@@ -229,7 +195,7 @@ def gathering(quantity: Quantity, problem: Problem) -> int:
     is three times what was measured, of 3 × 5 to 40 × 90 beads and up to 300 realisations.
     """
     units = quantity.roundings
-    if problem.needs_forces and quantity.scene.load.magnitude != 1:
+    if quantity.of_forces and quantity.scene.load.magnitude != 1:
         units += 2
     if quantity.merged:
         units += problem.region.widest.bit_length() // 2 + isqrt(problem.realisations)

@@ -13,7 +13,7 @@ from typing import Any, ClassVar, Protocol
 
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import ORDER, PerBranch, per_direction
@@ -59,6 +59,12 @@ class Table:
     def rows(self) -> int:
         """How many rows there are."""
         return len(next(iter(self.numbers.values()), []))
+
+    @property
+    def largest(self) -> float:
+        """The largest size of a small number, as a float."""
+        sizes = (as_floats(abs(self.numbers[name])).max(initial=0) for name in self.small)
+        return float(max(sizes, default=0))
 
     def sorted(self) -> "Table":
         """Give the rows by realisation, j, i (or p, q) and branch as numbers, "+" before "-"."""

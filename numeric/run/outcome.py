@@ -10,7 +10,7 @@ import numpy as np
 
 from ..accuracy import Accuracy, printed
 from ..arithmetic.decimals import bound_string, short
-from ..arithmetic.systems import Array, as_floats
+from ..arithmetic.systems import Array
 from ..mechanics.physicality import Physicality
 from ..planning.plan import Plan
 from ..quantities.answer import Answer, Bins
@@ -107,10 +107,8 @@ class Result(Tabled):
         errors = [e[np.isfinite(e)] for e in table.errors.values()]
         if not any(len(e) for e in errors):
             return None
-        sizes = (as_floats(abs(table.numbers[k])).max(initial=0) for k in table.small)
-        largest = float(max(sizes, default=0))
         found = max((float(e.max(initial=0)) for e in errors), default=0.0)
-        return found / largest if found and largest else None
+        return found / table.largest if found and table.largest else None
 
     @property
     def standard_errors(self) -> dict[str, Array]:

@@ -103,7 +103,7 @@ def test_force_balance_at_every_bead_within_the_enclosure(
     assert f is not None
     width = height + 1
     with system.active():
-        own = plan.problem.load.strength(plan.scene.n_x, system).unit
+        own = plan.problem.load.strength(plan.scene.packing.n_x, system).unit
         for j in range(1, height + 1):
             for i in Layer(j, j % 2, width).sites():
                 q = column(i, j, width)
@@ -186,7 +186,7 @@ def test_the_smallest_gap_is_that_of_the_positions(height: int, seed: int, spaci
     for layer in plan.problem.region.rows:
         for i, u in zip(layer.sites(), drawn.deviates(layer, 0), strict=True):
             rho[i, layer.j] = Fraction(float(u)) * drawn.std
-    n_x = plan.scene.n_x
+    n_x = plan.scene.packing.n_x
     p = solve_small(
         width, height, n_x=n_x, rho=rho, loads={(1, height): (0, -1)} if height % 2 else {},
         strength=1, system=system,
