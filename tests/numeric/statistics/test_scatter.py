@@ -5,7 +5,8 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.statistics.moments import Scatter
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.statistics.moments import Moments, Scatter
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -24,6 +25,16 @@ def errors(x: np.ndarray) -> tuple[float, float]:
     of_mean, of_std = scatter.errors()
     # σ (e^2ε − 1)/2 is what is stated of σ
     return float(of_mean[0]), float(np.log1p(2 * of_std[0] / x.std())) / 2 if x.std() else math.nan
+
+
+@given(PACKINGS, st.integers(1, 8))
+def test_moments_of_groups_are_those_of_all(packings: list[list[float]], first: int) -> None:
+    samples, moments = np.array(packings), Moments()
+    for group in (samples[:first], samples[first:]):
+        if len(group):
+            moments.add(group)
+    assert moments.average() == pytest.approx(samples.mean(axis=0), abs=1e-12)
+    assert moments.std(FLOAT64) == pytest.approx(samples.std(axis=0), abs=1e-12)
 
 
 @given(PACKINGS)

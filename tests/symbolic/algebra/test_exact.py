@@ -62,6 +62,20 @@ def test_direction_cosines_are_reduced() -> None:
     assert not vanishes(n_x**2 + n_y**2 - 2)
 
 
+@given(st.integers(0, 5), st.integers(0, 5))
+def test_what_is_reduced_is_the_same(across: int, up: int) -> None:
+    one = FIELD.from_sympy(n_x**across * n_y**up + M)
+    assert (one.reduced() - one).is_zero()
+    assert one.reduced().degree(n_x) == across % 2
+    assert one.reduced().degree(n_y) == up % 2
+
+
+@given(fractions_)
+def test_derivatives_are_those_of_sympy(function: sympy.Expr) -> None:
+    found = FIELD.from_sympy(function).derivative(phi).to_sympy()
+    assert THEIRS.from_expr(found) == THEIRS.from_expr(sympy.diff(function, phi))
+
+
 @pytest.mark.parametrize("expression", [sympy.sqrt(r), sympy.Float(0.5), sympy.exp(phi)])
 def test_nothing_inexact_comes_in(expression: sympy.Expr) -> None:
     with pytest.raises(NotExactError):
