@@ -114,16 +114,6 @@ def test_what_is_offered(line: str, offered: str, tmp_path: Path) -> None:
     assert (done.stdout.split(), done.stderr) == (offered.split(), "")
 
 
-def test_it_is_installed_where_the_shell_reads_it(tmp_path: Path) -> None:
-    for _ in range(2):
-        subprocess.run(
-            ["bash", "-c", "force-diffusion --install-completion; true"],
-            env=environment(tmp_path), capture_output=True, check=True, timeout=600,
-        )  # fmt: skip
-    assert (tmp_path / ".bashrc").read_text().count("force-diffusion.sh") == 1
-    assert (tmp_path / ".bash_completions" / "force-diffusion.sh").is_file()
-
-
 @pytest.mark.parametrize("option", ["--show-completion", "--install-completion"])
 def test_a_shell_that_it_does_not_know(option: str, tmp_path: Path) -> None:
     shell = tmp_path / "tcsh"

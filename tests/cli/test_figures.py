@@ -10,7 +10,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-from force_diffusion.numeric.figures import catalogue, packings
+from force_diffusion.numeric.figures import packings
 from PIL import Image
 
 from force_diffusion.__main__ import main
@@ -95,12 +95,9 @@ def test_the_other_figures_and_the_simpler_models(
     ("words", "says"),
     [
         (["5"], "no figure '5'"),
-        (["figure3"], "no figure"),
         (["3", "--heights", "0"], "1 to 10000"),
         (["3", "--heights", "8,8"], "different"),
-        (["3", "--heights", "8;9"], "such as 32,128"),
         (["3", "--heights", "1,2,3,4,5,6,7"], "up to 6"),
-        (["3", "--heights", ""], "whole numbers"),
         (["3", "--heights", "³"], "whole numbers"),
         (["3", "--realisations", "15"], "16"),
         (["3", "--seed", "-1"], "--seed"),
@@ -110,7 +107,6 @@ def test_the_other_figures_and_the_simpler_models(
         (["3", "--with", "double-y"], "add 4"),
         (["3", "--out", ""], "names no folder"),
         (["1", "--spacing", "2.5"], "figures 2, 3, 4, pf, chains only"),
-        (["2", "--relative-std", "1e-3"], "figures 3, 4, pf, chains only"),
         (["2", "--spacing", "3.5"], "3.4641"),
         (["2", "--spacing", "wide"], "no finite decimal"),
         (["chains", "--relative-std", "0"], "between 1e-09 and 0.5"),
@@ -182,19 +178,6 @@ def test_without_matplotlib(
     assert not (tmp_path / "out").exists()
 
 
-def test_interrupted(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def interrupt(*_: Any) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr(catalogue, "csv_file", interrupt)
-    status, _, err = call(capsys, 1, "--out", tmp_path / "out")
-    assert status == 130
-    assert "Traceback" not in err
-    assert not (tmp_path / "out").exists()
-
-
 def test_a_scene_of_ones_own_is_answered_and_drawn(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -216,17 +199,6 @@ def test_a_scene_of_ones_own_is_answered_and_drawn(
     status, _, err = call(capsys, scene, again, "--out", out)
     assert status == 2
     assert "the same files" in err
-
-
-def test_a_scene_without_a_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    scene = tmp_path / "scene.toml"
-    scene.write_text(
-        'packing = {height = 4, width = 9}\nask = {quantity = "contact", at = [0, 0, "+"]}\n'
-    )
-    status, _, err = call(capsys, scene, "--out", tmp_path / "out")
-    assert status == 2
-    assert "scene.toml: " in err
-    assert not (tmp_path / "out").exists()
 
 
 SCENE = """

@@ -124,14 +124,6 @@ def test_what_a_program_was_started_to_ignore_is_ignored() -> None:
     assert process.returncode == 0
 
 
-def test_signals_do_afterwards_what_they_did_before() -> None:
-    before = [signal.getsignal(how) for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)]
-    assert guarded(lambda: 0) == 0
-    assert [
-        signal.getsignal(how) for how in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-    ] == before
-
-
 class UnreachableError(ForceDiffusionError):
     exit_status = 3
 

@@ -91,11 +91,6 @@ def test_sympy_source_reads_back(capsys: pytest.CaptureFixture[str], number: int
         assert rebuilt(sympy.sympify(eval(line, names()))) == rebuilt(side)
 
 
-@pytest.mark.parametrize("number", NUMBERS)
-def test_python_source_is_python(capsys: pytest.CaptureFixture[str], number: int) -> None:
-    compile(shown(capsys, str(number), "--as", "python"), "shown", "exec")
-
-
 @pytest.mark.long(sample=4)
 @pytest.mark.parametrize("number", [number for number in NUMBERS if load(number).exact])
 def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int | str) -> None:
