@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, NumberSystem
-from force_diffusion.numeric.disorder.radii import DrawnRadii, beads_of
+from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.loads import LoadSpec
@@ -44,7 +44,7 @@ class Problem:
         """δr/r, (1, beads); the same numbers in every system."""
         source = DrawnRadii("uniform", self.relative_std, SEED, self.width)
         with system.active():
-            return beads_of(source, self.region.rows, range(1), system)
+            return source.of(self.region.rows, range(1), system)
 
     def ordered(self, system: NumberSystem = FLOAT64) -> Any:
         """The ordered forces of the surface load."""

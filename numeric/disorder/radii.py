@@ -7,11 +7,10 @@ system solves the very same packing.
 """
 
 import math
-import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, Protocol
 
 import numpy as np
@@ -19,12 +18,13 @@ import numpy as np
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array, NumberSystem
-from ..lattice.layers import Layer, Rows
-from .compiled import OFFSET, drawn
-from .normal import normal_deviates
+from ..lattice.layers import Rows
+from .drawing import deviates
 
-# Rows with a radius below r/1000 are looked through bead by bead.
-NEARLY = Fraction(999, 1000)
+# Columns of a slab may be negative; counters must not be.
+OFFSET = np.uint64(2**62)
+# Beads that are drawn together.
+TOGETHER = 200_000
 
 
 class RadiusError(ForceDiffusionError, ValueError):
@@ -37,10 +37,10 @@ class RadiusError(ForceDiffusionError, ValueError):
 
 
 class Radii(Protocol):
-    """A source of δr/r for the beads of a row."""
+    """A source of δr/r."""
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
-        """Give δr/r; shape (count,) for one realisation, (realisations, count) for more."""
+    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
+        """Give δr/r of beads that lie row after row, (realisations, beads)."""
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Give δr/r of single beads, the same as in their rows; shape (sites,)."""
@@ -49,34 +49,13 @@ class Radii(Protocol):
         """σ_δr/r: of the distribution, or as measured."""
 
 
-class _Streams(threading.local):
-    """A generator for each thread, which is set anew for each row: making one takes far longer."""
-
-    def __init__(self) -> None:
-        self._generator = np.random.Philox(key=0)
-        self._counter, self._key = np.zeros(4, np.uint64), np.zeros(2, np.uint64)
-        self._state = self._generator.state
-        self._state["state"] = {"counter": self._counter, "key": self._key}
-
-    def words(self, low: int, count: int, high: int, key: tuple[int, int]) -> Array:
-        """Give ``philox`` of the counters (low, high) … (low + count − 1, high); (2, count)."""
-        self._counter[:2] = low - 1, high  # NumPy steps it before each block of four words
-        self._key[:] = key
-        self._generator.state = self._state
-        return np.asarray(self._generator.random_raw(4 * count).reshape(count, 4)[:, :2].T)
-
-
-_streams = _Streams()
-
-
 @dataclass(frozen=True)
 class Monodisperse:
     """No disorder: δr = 0 everywhere."""
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
+    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Zeros."""
-        shape = (layer.count,) if len(realisations) == 1 else (len(realisations), layer.count)
-        return system.zeros(*shape)
+        return system.zeros(len(realisations), rows.beads)
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Zeros."""
@@ -85,6 +64,19 @@ class Monodisperse:
     def relative_std(self) -> Fraction:
         """Zero."""
         return Fraction(0)
+
+
+@lru_cache(maxsize=4)
+def counters(rows: Rows, width: int | None) -> tuple[Array, Array]:
+    """Give the counters of beads that lie row after row."""
+    return _counters_of(*rows.sites, width)
+
+
+def _counters_of(i: Array, j: Array, width: int | None) -> tuple[Array, Array]:
+    columns = (i - j % 2) // 2
+    return (columns if width is None else columns % width).astype(np.uint64) + OFFSET, j.astype(
+        np.uint64
+    )
 
 
 @dataclass(frozen=True)
@@ -100,57 +92,36 @@ class DrawnRadii:
         """σ_δr/r of the distribution."""
         return self.std
 
-    def deviates(self, layer: Layer, realisation: int) -> Array:
-        """Give deviates of zero mean and unit variance; shape (count,), float64."""
-        return np.asarray(self._drawn(layer, [realisation])[0])
-
-    def _drawn(self, layer: Layer, realisations: Sequence[int]) -> Array:
-        words = np.empty((2, len(realisations), layer.count), dtype=np.uint64)
-        column = (layer.first - layer.j % 2) // 2
+    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
+        """Scale deviates; a radius that is not positive raises ``RadiusError``."""
+        found = np.empty((len(realisations), rows.beads))
         at = 0
-        while at < layer.count:  # up to where a periodic packing begins anew
-            q = column + at if self.width is None else (column + at) % self.width
-            n = layer.count - at if self.width is None else min(layer.count - at, self.width - q)
-            for row, k in enumerate(realisations):
-                key = (self.seed, k)
-                words[:, row, at : at + n] = _streams.words(q + OFFSET, n, layer.j, key)
-            at += n
-        return self._deviates(*words)
-
-    def _deviates(self, first: Array, second: Array) -> Array:
-        if self.kind == "two-point":
-            return np.asarray(np.where(first >> np.uint64(63), 1.0, -1.0))
-        if self.kind == "uniform":
-            odd = ((first >> np.uint64(11)) << np.uint64(1)).astype(np.int64) + 1 - 2**53
-            return np.asarray(odd.astype(np.float64) * 2.0**-53 * np.sqrt(3.0))
-        return normal_deviates(first, second)
-
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
-        """Scale the deviates; a radius that is not positive raises ``RadiusError``."""
-        deviates = self._drawn(layer, realisations)
-        if deviates.size and self.std * Fraction(float(deviates.min())) < -NEARLY:
-            for row in deviates:
-                self._check_sites(row, [(i, layer.j) for i in layer.sites()])
-        values = deviates[0] if len(deviates) == 1 else deviates
-        return system.from_floats(values) * system.number(self.std)
+        for part in rows.parts(TOGETHER):
+            low, high = counters(part, self.width)
+            end = at + part.beads
+            found[:, at:end] = deviates(self.kind, self.seed, realisations, low, high)
+            at = end
+        self._check(found, lambda q: _site(rows, q))
+        return system.from_floats(found) * system.number(self.std)
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
-        """Put all counters through Philox at once: a generator for each bead would be slow."""
-        columns = ((i - j % 2) // 2 for i, j in sites)
-        if self.width is not None:
-            columns = (q % self.width for q in columns)
-        low = np.fromiter((q + OFFSET for q in columns), np.uint64, len(sites))
-        high = np.fromiter((j for _, j in sites), np.uint64, len(sites))
-        deviates = self._deviates(*philox(low, high, (self.seed, realisation)))
-        if deviates.size and deviates.min() * float(self.std) < -0.999:
-            self._check_sites(deviates, sites)
-        return system.from_floats(deviates) * system.number(self.std)
+        """Scale deviates of single beads."""
+        i, j = np.array(sites, dtype=np.int64).reshape(-1, 2).T
+        found = deviates(self.kind, self.seed, [realisation], *_counters_of(i, j, self.width))
+        self._check(found, sites.__getitem__)
+        return system.from_floats(found[0]) * system.number(self.std)
 
-    def _check_sites(self, deviates: Array, sites: Sequence[tuple[int, int]]) -> None:
-        for site, u in zip(sites, deviates, strict=True):
-            if self.std * Fraction(float(u)) <= -1:
-                shown = short(1 + self.std * Fraction(float(u)))
-                raise RadiusError(site, f"the drawn radius is {shown} r, not positive")
+    def _check(self, found: Array, site: Callable[[int], tuple[int, int]]) -> None:
+        least = Fraction(float(found.min(initial=0)))
+        if self.std * least <= -1:
+            bead = int(np.argwhere(found == float(least))[0][1])
+            shown = short(1 + self.std * least)
+            raise RadiusError(site(bead), f"the drawn radius is {shown} r, not positive")
+
+
+def _site(rows: Rows, bead: int) -> tuple[int, int]:
+    i, j = rows.sites
+    return int(i[bead]), int(j[bead])
 
 
 @dataclass(frozen=True)
@@ -183,10 +154,10 @@ class MeasuredRadii:
         """The smallest |δr|/r that is not 0; 0 if all are 0."""
         return min((abs(v) for v in self.rho.values() if v), default=Fraction(0))
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
+    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
-        one = self.at([(i, layer.j) for i in layer.sites()], 0, system)
-        return one if len(realisations) == 1 else np.stack([one] * len(realisations))
+        i, j = (one.tolist() for one in rows.sites)
+        return self.at(list(zip(i, j, strict=True)), 0, system)[None][[0] * len(realisations)]
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Look single beads up."""
@@ -231,17 +202,13 @@ class ArrayRadii:
         """Mean of δr/r."""
         return float(self.values.mean() - float(self.origin)) / float(self.radius)
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
+    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look the radii up."""
-        rows = self.values[np.asarray(realisations), layer.j]
-        columns = (np.arange(layer.first, layer.last + 2, 2) - layer.j % 2) // 2
-        picked = rows[:, columns % self.values.shape[-1]]
-        return self._deltas(picked[0] if len(realisations) == 1 else picked, system)
-
-    def layers(self, count: int, realisations: Sequence[int], system: NumberSystem) -> Any:
-        """Look whole layers up, the lowest ones; shape (realisations, beads)."""
-        values = self.values[np.asarray(realisations), :count]
-        return self._deltas(values.reshape(len(realisations), -1), system)
+        values = self.values[np.asarray(realisations)]
+        if rows.are_whole(self.values.shape[-1]):
+            return self._deltas(values[:, : len(rows)].reshape(len(values), -1), system)
+        i, j = rows.sites
+        return self._deltas(values[:, j, (i - j % 2) // 2 % values.shape[-1]], system)
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Look single beads up."""
@@ -252,48 +219,3 @@ class ArrayRadii:
     def _deltas(self, values: Array, system: NumberSystem) -> Any:
         origin, radius = system.number(self.origin), system.number(self.radius)
         return (system.from_floats(values) - origin) / radius
-
-
-def philox(low: Array, high: Array, key: tuple[int, int]) -> tuple[Array, Array]:
-    """Give the first two words of Philox4x64-10 for each counter (low, high, 0, 0).
-
-    The same words as NumPy's generator, which can only count upwards from one counter.
-    """
-    a, b = low, high
-    c = d = np.zeros(len(low), dtype=np.uint64)
-    for k in range(10):
-        first, second = (
-            np.uint64((word + k * weyl) % 2**64)
-            for word, weyl in zip(key, (0x9E3779B97F4A7C15, 0xBB67AE8584CAA73B), strict=True)
-        )
-        a_high, a_low = _product(0xD2E7470EE14C6C93, a)
-        c_high, c_low = _product(0xCA5A826395121157, c)
-        a, b, c, d = c_high ^ b ^ first, c_low, a_high ^ d ^ second, a_low
-    return a, b
-
-
-def _product(factor: int, values: Array) -> tuple[Array, Array]:
-    """Give the upper and lower 64 bits of products, from halves of 32 bits."""
-    half, mask = np.uint64(32), np.uint64(2**32 - 1)
-    f1, f0 = np.uint64(factor >> 32), np.uint64(factor & (2**32 - 1))
-    v1, v0 = values >> half, values & mask
-    middle = f1 * v0 + (f0 * v0 >> half)
-    cross = f0 * v1 + (middle & mask)
-    return f1 * v1 + (middle >> half) + (cross >> half), values * np.uint64(factor)
-
-
-def beads_of(radii: Radii, layers: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
-    """Give δr/r of beads that lie row after row, (realisations, beads)."""
-    if isinstance(radii, ArrayRadii) and layers.are_whole(radii.values.shape[-1]):
-        return radii.layers(len(layers), realisations, system)
-    if isinstance(radii, DrawnRadii) and system.dtype is not object:
-        deviates = drawn(radii.kind, radii.seed, radii.width, layers, realisations)
-        if deviates is not None and float(radii.std) * deviates.min(initial=0) > -NEARLY:
-            return system.from_floats(deviates) * system.number(radii.std)
-    rows = [radii.row(layer, realisations, system) for layer in layers]
-    found: Any = system.zeros(len(realisations), sum(layer.count for layer in layers))
-    at = 0
-    for layer, row in zip(layers, rows, strict=True):
-        found[:, at : at + layer.count] = row
-        at += layer.count
-    return found

@@ -12,6 +12,7 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
+from itertools import pairwise
 from typing import Any, NamedTuple, TypeVar, overload
 
 import numpy as np
@@ -148,6 +149,18 @@ class Rows(Sequence[Layer]):
     def starts_above(self) -> Array:
         """The number of each row's first bead of those above the base, and of all; (rows + 1,)."""
         return np.concatenate(([0], np.cumsum(np.where(np.arange(len(self)), self.counts, 0))))
+
+    @property
+    def sites(self) -> tuple[Array, Array]:
+        """The columns i and j of all beads, row after row."""
+        starts = np.cumsum(self.counts) - self.counts
+        steps = np.arange(self.beads) - starts.repeat(self.counts)
+        return self.firsts.repeat(self.counts) + 2 * steps, self.layers.repeat(self.counts)
+
+    def parts(self, beads: int) -> "Iterator[Rows]":
+        """Cut into parts of about so many beads."""
+        ends = np.flatnonzero(np.diff(np.cumsum(self.counts) // beads, append=-1)) + 1
+        return (self[a:b] for a, b in pairwise([0, *ends.tolist()]))
 
     def are_whole(self, width: int) -> bool:
         """Say whether each is the whole layer of a periodic packing."""

@@ -18,7 +18,7 @@ import numpy as np
 from ..arithmetic.carried import CARRYING, NONE, Carried, Carrying, Sizes
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
-from ..disorder.radii import Radii, RadiusError, beads_of
+from ..disorder.radii import Radii, RadiusError
 from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
 from ..lattice.layers import Layer, Region, Rows, RowView, bead_of
 from .loads import LoadSpec
@@ -211,7 +211,7 @@ def swept(
     """
     own: Any = CARRYING if carried else system
     with radii_named(region):
-        rho = beads_of(radii, region.rows, realisations, own)
+        rho = radii.of(region.rows, realisations, own)
     packing, forces = deposit(cosine(n_x), region, rho, own, linear=linear), None
     if load is not None:
         F = load.ordered(rows, load.strength(n_x, own), own)

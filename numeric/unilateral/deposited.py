@@ -7,7 +7,6 @@ import numpy as np
 
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
-from ..disorder.radii import beads_of
 from ..lattice.branch import Branch
 from ..lattice.layers import Rows, column, whole
 from ..mechanics.engine import solve
@@ -29,7 +28,7 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
     width = problem.width
     assert width is not None
     rows = whole(width, problem.height).rows
-    (rho,) = beads_of(problem.radii, rows, [realisation], FLOAT64)
+    (rho,) = problem.radii.of(rows, [realisation], FLOAT64)
     radii = 1 + rho
     nx, ny = (float(n) for n in axes(problem.n_x, FLOAT64))
     load = as_floats(loads(problem, FLOAT64))
@@ -128,7 +127,7 @@ def frame(problem: Problem, realisation: int, system: NumberSystem) -> Frame:
     """Give what is exactly known of a packing."""
     assert problem.width is not None
     rows = whole(problem.width, problem.height).rows
-    (rho,) = beads_of(problem.radii, rows, [realisation], system)
+    (rho,) = problem.radii.of(rows, [realisation], system)
     base = system.zeros(problem.width, 2)
     base[:, 0] = [system.number(4 * problem.n_x * q) for q in range(problem.width)]
     return Frame(

@@ -9,8 +9,9 @@ from typing import Any
 
 import pytest
 from force_diffusion.numeric.arithmetic.systems import NumberSystem
+from force_diffusion.numeric.disorder import drawing
 from force_diffusion.numeric.disorder.radii import Radii
-from force_diffusion.numeric.lattice.layers import Layer
+from force_diffusion.numeric.lattice.layers import Rows
 from force_diffusion.numeric.mechanics import engine, physicality, sweep
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
@@ -28,6 +29,7 @@ def by_numpy() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
         for module in (sweep, physicality):
             patch.setattr(module, "loops", lambda: None)
+        patch.setattr(drawing, "_loop", lambda: None)
         patch.setattr(engine, "compiles", lambda *_: False)
         yield
 
@@ -139,9 +141,9 @@ class _Noted:
     def relative_std(self) -> Fraction:
         return self.radii.relative_std()
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Any:
-        self.sites.extend((i, layer.j) for i in layer.sites())
-        return self.radii.row(layer, realisations, system)
+    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
+        self.sites.extend(zip(*(one.tolist() for one in rows.sites), strict=True))
+        return self.radii.of(rows, realisations, system)
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         self.sites.extend(sites)

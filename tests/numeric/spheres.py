@@ -39,10 +39,10 @@ def drawn(asked: fd.Scene) -> dict[tuple[int, int, int], Fraction]:
     problem = asked.explain().problem
     assert asked.packing.width is not None
     found = {}
-    for row in problem.region.rows:
-        with Balls(200).active():
-            values = problem.radii.row(row, [0], Balls(200))
-        for column, value in enumerate(values):
-            p, q = divmod(column, asked.packing.width)
-            found[p, q, row.j] = Fraction(*map(int, (value.mid().fmpq().p, value.mid().fmpq().q)))
+    with Balls(200).active():
+        (values,) = problem.radii.of(problem.region.rows, [0], Balls(200))
+    for number, value in enumerate(values):
+        j, column = divmod(number, asked.packing.width**2)
+        p, q = divmod(column, asked.packing.width)
+        found[p, q, j] = Fraction(*map(int, (value.mid().fmpq().p, value.mid().fmpq().q)))
     return found

@@ -419,13 +419,13 @@ def test_some_layers_of_a_response_are_those_of_the_whole(
 def test_measured_radii_are_read_exactly(tmp_path: Path) -> None:
     """The same radii, once drawn and once written to a file as exact decimals, in other units."""
     from force_diffusion.numeric.disorder.radii import DrawnRadii
-    from force_diffusion.numeric.lattice.layers import full_layer
+    from force_diffusion.numeric.lattice.layers import whole
 
     drawn = DrawnRadii("two-point", Fraction(1, 10**4), 3, 9)
     lines = ["i,j,delta_r"]
-    for j in range(5):
-        for i, u in zip(full_layer(j, 9).sites(), drawn.deviates(full_layer(j, 9), 0), strict=True):
-            lines.append(f"{i},{j},{'-' if u < 0 else ''}2.5e-4")
+    rows = whole(9, 4).rows
+    for i, j, u in zip(*rows.sites, drawn.of(rows, [0], FLOAT64)[0], strict=True):
+        lines.append(f"{i},{j},{'-' if u < 0 else ''}2.5e-4")
     (tmp_path / "radii.csv").write_text("\n".join(lines) + "\n")
     one = basic(4, 9, tolerance="=1e-20")
     one["disorder"]["kind"] = "two-point"

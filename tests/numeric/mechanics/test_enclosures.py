@@ -15,9 +15,9 @@ from force_diffusion.numeric.arithmetic.systems import (
     NumberSystem,
     midpoint,
 )
-from force_diffusion.numeric.disorder.normal import cosine_of_turn, logarithm
-from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii, beads_of
-from force_diffusion.numeric.lattice.layers import Layer, column, whole
+from force_diffusion.numeric.disorder.drawing import cosine_of_turn, deviates, logarithm
+from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii, counters
+from force_diffusion.numeric.lattice.layers import Layer, Rows, column, whole
 from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.loads import LoadSpec
@@ -103,7 +103,7 @@ def test_force_balance_at_every_bead_within_the_enclosure(
     assert f is not None
     width = height + 1
     with system.active():
-        own = plan.problem.load.strength(plan.scene.packing.n_x, system).unit
+        own = plan.problem.load.strength(plan.problem.n_x, system).unit
         for j in range(1, height + 1):
             for i in Layer(j, j % 2, width).sites():
                 q = column(i, j, width)
@@ -137,7 +137,7 @@ def test_first_order_sweep_is_the_first_taylor_coefficient(case: Case) -> None:
     spec = LoadSpec("file", case.height, case.width, single=case.loads)
     with system.active():
         radii = MeasuredRadii(rho, case.width)
-        rho_of = beads_of(radii, region.rows, [0], system)
+        rho_of = radii.of(region.rows, [0], system)
         F = spec.ordered(region.rows, rational_strength(spec, case.n, system), system)
         p = sweep.deposit(cosine(case.n[0]), region, rho_of, system, linear=True)
         f = sweep_down(p, region.rows, F, linear=True)
@@ -182,11 +182,13 @@ def test_the_smallest_gap_is_that_of_the_positions(height: int, seed: int, spaci
     system = BigFloat(40)
     drawn = plan.problem.radii
     assert isinstance(drawn, DrawnRadii)
-    rho = {}
-    for layer in plan.problem.region.rows:
-        for i, u in zip(layer.sites(), drawn.deviates(layer, 0), strict=True):
-            rho[i, layer.j] = Fraction(float(u)) * drawn.std
-    n_x = plan.scene.packing.n_x
+    rows = plan.problem.region.rows
+    (u,) = deviates(drawn.kind, drawn.seed, [0], *counters(rows, width))
+    rho = {
+        (i, j): Fraction(float(one)) * drawn.std
+        for i, j, one in zip(*(sites.tolist() for sites in rows.sites), u, strict=True)
+    }
+    n_x = plan.problem.n_x
     p = solve_small(
         width, height, n_x=n_x, rho=rho, loads={(1, height): (0, -1)} if height % 2 else {},
         strength=1, system=system,
@@ -240,7 +242,7 @@ def test_an_unbuildable_packing_names_the_bead() -> None:
     for system in (Balls(128), BigFloat(30)):
         region = whole(3, 1)
         with system.active():
-            rho = beads_of(MeasuredRadii(radii, 3), region.rows, [0], system)
+            rho = MeasuredRadii(radii, 3).of(region.rows, [0], system)
             with pytest.raises(sweep.UnbuildableError, match=r"\(1, 1\)"):
                 sweep.deposit(Fraction(-1, 8), region, rho, system)
 
@@ -261,6 +263,12 @@ def test_a_radius_that_is_none_names_the_bead(wrong: float, layer: int) -> None:
 # Radii
 
 
+def row(radii: DrawnRadii, layer: Layer, k: int) -> np.ndarray[Any, Any]:
+    """Give δr/r of a row of beads."""
+    (found,) = radii.of(Rows([layer.first], [layer.count], layer.j), [k], FLOAT64)
+    return found  # type: ignore[no-any-return]
+
+
 @given(
     st.integers(0, 2**64 - 1), st.integers(0, 10**9), st.integers(-(2**40), 2**40),
     st.integers(0, 10**7), st.sampled_from(["uniform", "normal", "two-point"]),
@@ -268,21 +276,22 @@ def test_a_radius_that_is_none_names_the_bead(wrong: float, layer: int) -> None:
 def test_radii_are_a_function_of_the_site(seed: int, k: int, q: int, j: int, kind: str) -> None:
     """A region asked for alone gives the same radii, bit for bit."""
     drawn = DrawnRadii(kind, Fraction(1, 100), seed, None)
-    wide = drawn.deviates(Layer(j, 2 * q + j % 2, 9), k)
+    wide = row(drawn, Layer(j, 2 * q + j % 2, 9), k)
     for skip in (1, 5):
-        narrow = drawn.deviates(Layer(j, 2 * (q + skip) + j % 2, 3), k)
+        narrow = row(drawn, Layer(j, 2 * (q + skip) + j % 2, 3), k)
         assert (wide[skip : skip + 3] == narrow).all()
 
 
 def test_periodic_radii_wrap_around() -> None:
     drawn = DrawnRadii("uniform", Fraction(1, 100), 5, 4)
-    ring = drawn.deviates(Layer(3, 1, 4), 0)
-    assert (drawn.deviates(Layer(3, -3, 7), 0) == np.concatenate([ring[2:], ring, ring[:1]])).all()
+    ring = row(drawn, Layer(3, 1, 4), 0)
+    assert (row(drawn, Layer(3, -3, 7), 0) == np.concatenate([ring[2:], ring, ring[:1]])).all()
 
 
 def test_streams_differ_between_seeds_and_realisations() -> None:
     def draw(seed: int, k: int, j: int) -> np.ndarray[Any, Any]:
-        return DrawnRadii("uniform", Fraction(1), seed, None).deviates(Layer(j, j % 2, 50), k)
+        drawn = DrawnRadii("uniform", Fraction(1, 100), seed, None)
+        return row(drawn, Layer(j, j % 2, 50), k)
 
     drawn = [draw(1, 0, 2), draw(2, 0, 2), draw(1, 1, 2), draw(1, 0, 4)]
     for a in range(4):
@@ -296,19 +305,18 @@ def test_rows_drawn_together_are_numpys_words_for_every_seed(kind: str, seed: in
     """Words of NumPy's own generator, its key given as 64-bit words: no seed is rounded."""
     radii = DrawnRadii(kind, Fraction(1, 100), seed, 5)
     ring, together = Layer(3, 1, 5), [7, 0, 2**40]
-    rows = radii.row(ring, together, FLOAT64)
-    for row, k in zip(rows, together, strict=True):
+    rows = radii.of(Rows([1], [5], 3), together, FLOAT64)
+    for own, k in zip(rows, together, strict=True):
         key = np.array([seed, k], dtype=np.uint64)
         words = np.random.Philox(counter=[2**62 - 1, 3, 0, 0], key=key).random_raw(20)
-        alone = radii.row(ring, [k], FLOAT64)
-        assert row.tolist() == alone.tolist()
-        assert row.tolist() == radii.at([(i, 3) for i in ring.sites()], k, FLOAT64).tolist()
+        assert own.tolist() == row(radii, ring, k).tolist()
+        assert own.tolist() == radii.at([(i, 3) for i in ring.sites()], k, FLOAT64).tolist()
         if kind == "two-point":
-            assert (np.sign(row) == np.where(words[::4] >= 2**63, 1, -1)).all()
+            assert (np.sign(own) == np.where(words[::4] >= 2**63, 1, -1)).all()
         elif kind == "uniform":  # the upper 53 bits, in units of 2^-53
             whole = [Fraction(int(w) >> 11) + Fraction(1, 2) for w in words[::4]]
             exact = [float((2 * w / 2**53 - 1) / 100) * math.sqrt(3) for w in whole]
-            assert row == pytest.approx(exact, rel=1e-14)
+            assert own == pytest.approx(exact, rel=1e-14)
 
 
 @pytest.mark.parametrize(
@@ -317,7 +325,7 @@ def test_rows_drawn_together_are_numpys_words_for_every_seed(kind: str, seed: in
 def test_deviates_have_the_moments_of_their_distribution(kind: str, fourth: float) -> None:
     """n = 4e5: five standard errors of each moment (those of x⁴ at most √96/√n)."""
     n = 400_000
-    x = DrawnRadii(kind, Fraction(1), 12, None).deviates(Layer(0, 0, n), 3)
+    x = 100 * row(DrawnRadii(kind, Fraction(1, 100), 12, None), Layer(0, 0, n), 3)
     room = 5 / math.sqrt(n)
     assert abs(x.mean()) < room
     assert abs((x**2).mean() - 1) < room * math.sqrt(2)

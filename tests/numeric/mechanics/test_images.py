@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem
 from force_diffusion.numeric.disorder.radii import DrawnRadii
-from force_diffusion.numeric.lattice.layers import Layer
+from force_diffusion.numeric.lattice.layers import Rows
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import run
 
@@ -31,8 +31,9 @@ class Known:
         values = [self.special.get(s, _rule(s[0] % self.period, s[1])) for s in sites]
         return system.array(values)
 
-    def row(self, layer: Layer, realisations: Sequence[int], system: NumberSystem) -> Array:
-        return self.at([(i, layer.j) for i in layer.sites()], 0, system)
+    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Array:
+        i, j = (one.tolist() for one in rows.sites)
+        return self.at(list(zip(i, j, strict=True)), 0, system)[None]
 
 
 def _rule(i: int, j: int) -> Fraction:

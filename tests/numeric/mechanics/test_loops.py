@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.carried import CARRYING, Carried
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, Balls, as_floats
-from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError, beads_of
+from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError
 from force_diffusion.numeric.lattice.branch import Branch, Contact
 from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
 from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
@@ -27,7 +27,7 @@ from tests.numeric.scenes import by_numpy
 
 pytest.importorskip("numba")
 from force_diffusion.numeric.arithmetic import compiling
-from force_diffusion.numeric.disorder import compiled as drawing
+from force_diffusion.numeric.disorder import drawing
 from force_diffusion.numeric.mechanics import local, loops
 
 # Between the directions at which beads of the ordered packing overlap.
@@ -173,22 +173,20 @@ def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
 ) -> None:
     source = DrawnRadii(kind, Fraction(1, 10**6), seed, width)
     layers = Rows([2 * i + j % 2 for j, (i, _) in enumerate(rows)], [n for _, n in rows])
-    for system in (FLOAT64, CARRYING):
-        parts = [source.row(layer, realisations, system) for layer in layers]
-        found = beads_of(source, layers, realisations, system)
-        for name in ("value", "error") if system is CARRYING else ("",):
-            usual = [
-                (getattr(one, name) if name else one).reshape(len(realisations), -1)
-                for one in parts
-            ]
-            ours = getattr(found, name) if name else found
-            assert ours.tobytes() == np.concatenate(usual, axis=-1).tobytes()
+    found = source.of(layers, realisations, FLOAT64)
+    with by_numpy():
+        assert source.of(layers, realisations, FLOAT64).tobytes() == found.tobytes()
+    parts = [
+        source.of(Rows([layer.first], [layer.count], layer.j), realisations, FLOAT64)
+        for layer in layers
+    ]
+    assert np.concatenate(parts, axis=1).tobytes() == found.tobytes()
 
 
 def test_a_drawn_radius_that_is_not_positive_is_named() -> None:
     source = DrawnRadii("normal", Fraction(1, 3), 5, 40)
     with pytest.raises(RadiusError, match="the drawn radius is -"):
-        beads_of(source, whole(40, 9).rows, [3, 4], FLOAT64)
+        source.of(whole(40, 9).rows, [3, 4], FLOAT64)
 
 
 def test_products_of_words_are_exact() -> None:

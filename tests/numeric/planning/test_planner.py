@@ -11,7 +11,7 @@ from force_diffusion.numeric.accuracy import enclosed
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
 from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
 from force_diffusion.numeric.lattice import regions
-from force_diffusion.numeric.lattice.layers import Layer
+from force_diffusion.numeric.lattice.layers import Rows
 from force_diffusion.numeric.mechanics import first_order
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
@@ -244,7 +244,7 @@ def test_a_bead_drawn_alone_is_the_one_in_its_row(
 ) -> None:
     radii = DrawnRadii(kind, Fraction(1, 1000), seed, width)
     sites = [(2 * column + j % 2, j) for column, j in where]
-    rows = [radii.row(Layer(j, i, 1), [k], FLOAT64)[0] for i, j in sites]
+    rows = [radii.of(Rows([i], [1], j), [k], FLOAT64)[0, 0] for i, j in sites]
     assert radii.at(sites, k, FLOAT64).tolist() == rows
 
 
