@@ -136,7 +136,7 @@ def draw(
 @lru_cache(maxsize=1)
 def _loop() -> Any:
     kinds = ("number", *["word"] * 3, "float", "word", "word", "number", "number")
-    called = [product, words, two_point, uniform, logarithm, cosine_of_turn, normal]
+    called: list[Any] = [product, words, two_point, uniform, logarithm, cosine_of_turn, normal]
     made = compiling.compiled([(draw, kinds)], called)
     return None if made is None else made[0]
 
