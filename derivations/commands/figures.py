@@ -1,6 +1,7 @@
 """The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
+from enum import StrEnum
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -39,17 +40,23 @@ STATUSES = (
 )
 
 
-def _heights(text: str) -> tuple[int, ...]:
+class Model(StrEnum):
+    """A simpler model that may be drawn beside a figure."""
+
+    Q_MODEL = "q-model"
+    DOUBLE_Y = "double-y"
+
+
+def _heights(text: str | None) -> tuple[int, ...] | None:
     """Read heights from outside text: whole numbers between commas."""
-    words = [word.strip() for word in text.split(",")]
-    plain = all(word.isascii() and word.isdigit() and len(word) <= 5 for word in words)
-    heights = tuple(int(word) for word in words) if plain else ()
-    if (
-        not heights
-        or not all(1 <= M <= HIGHEST for M in heights)
-        or len(set(heights)) < len(heights)
-        or len(heights) > MOST_HEIGHTS
-    ):
+    if text is None:
+        return None
+    try:
+        heights = tuple(map(int, text.split(",")))
+    except ValueError:
+        heights = ()
+    different = len(set(heights)) == len(heights) <= MOST_HEIGHTS
+    if not heights or not different or not all(1 <= M <= HIGHEST for M in heights):
         raise typer.BadParameter(
             f"'{text}' names no heights. Give up to {MOST_HEIGHTS} different whole numbers from 1 "
             f"to {HIGHEST}, with commas between them, such as 32,128.",
@@ -102,7 +109,7 @@ def figures(
         ),
     ] = None,
     beside: Annotated[
-        list[str] | None,
+        list[Model] | None,
         typer.Option(
             "--with",
             metavar="MODEL",
@@ -124,7 +131,7 @@ def figures(
 ) -> None:
     """Draw the paper's figures from new simulations of exact packings."""
     wanted = list(dict.fromkeys(which or FIGURES))
-    scenes = {name: Path(name).stem for name in wanted if name.endswith(".toml")}
+    scenes = [name for name in wanted if name.endswith(".toml")]
     for name in wanted:
         if name not in FIGURES and name not in scenes:
             raise typer.BadParameter(
@@ -132,51 +139,57 @@ def figures(
                 "scene, FILE.toml.",
                 param_hint="WHICH",
             )
-    own = {
+    limited: dict[str, tuple[Any, tuple[str, ...]]] = {
+        "heights": (_heights(heights), ("3",)),
+        "realisations": (realisations, OF_ENSEMBLES),
         "spacing": (_number("--spacing", spacing), OWN_SPACING),
         "relative_std": (_number("--relative-std", relative_std), OWN_STD),
     }
-    limited = {"heights": (heights, ("3",)), "realisations": (realisations, OF_ENSEMBLES), **own}
-    for key, (value, those) in limited.items():
+    for key, (value, those) in [
+        *limited.items(), *((f"with {model}", (model, (MODELS[model],))) for model in beside or [])
+    ]:  # fmt: skip
         if value is not None and not set(those) & set(wanted):
             add = those[0] if len(those) == 1 else "one of them"
             raise typer.BadParameter(
                 f"goes with figure{'s' * (len(those) > 1)} {', '.join(those)} only; add {add}.",
                 param_hint=f"--{key.replace('_', '-')}",
             )
-    chosen = None if heights is None else _heights(heights)
-    if seed is not None and len(scenes) == len(wanted):
+    if seed is not None and scenes == wanted:
         raise typer.BadParameter(
             "is of the paper's figures; a scene has its own, disorder.seed.", param_hint="--seed"
         )
-    for model in beside or []:
-        if model not in MODELS:
-            raise typer.BadParameter(
-                f"There is no model '{model}'. Give {' or '.join(MODELS)}.", param_hint="--with"
-            )
-        if MODELS[model] not in wanted:
-            raise typer.BadParameter(
-                f"{model} stands beside figure {MODELS[model]}; add {MODELS[model]}.",
-                param_hint="--with",
-            )
-    import force_diffusion.numeric.figures.style  # noqa: F401  or leave before anything is solved
-
-    command = command_line()
-    stems = [scenes.get(name) or FIGURES[name].file for name in wanted]
+    stems = [FIGURES[name].file if name in FIGURES else Path(name).stem for name in wanted]
     if len(set(stems)) < len(stems):
         raise typer.BadParameter(
             "several figures would have the same files; give scenes other names.",
             param_hint="WHICH",
         )
-    possible = {*scenes.values(), *(one.file for one in FIGURES.values())}
-    of_models = [f"{table}.csv" for table in OF_MODELS.values()]
+    import force_diffusion.numeric.figures.style  # noqa: F401  or leave before anything is solved
+
+    possible = {*stems, *(one.file for one in FIGURES.values())}
     own_files = (f"{stem}.{kind}" for stem in possible for kind in (*KINDS, "json", "csv"))
-    folder = Output(out, [*own_files, *of_models], overwrite)
-    with noticing() as notice:
-        data, files = _made(
-            wanted, command, beside or [], own, **({} if chosen is None else {"heights": chosen}),
-            realisations=realisations, seed=1 if seed is None else seed, notice=notice,
-        )  # fmt: skip
+    folder = Output(out, [*own_files, *(f"{table}.csv" for table in OF_MODELS.values())], overwrite)
+    data: dict[str, Any] = {"command": command_line(), "figures": {}}
+    files: dict[str, str | bytes] = {}
+    for name, stem in zip(wanted, stems, strict=True):
+        with noticing() as notice, about(Path(name).name if name in scenes else f"figure {name}"):
+            if name in scenes:
+                made = _own(Path(name), data["command"], notice)
+            else:
+                chosen: dict[str, Any] = {
+                    key: value
+                    for key, (value, those) in limited.items()
+                    if value is not None and name in those
+                }
+                chosen["beside"] = [model for model in beside or [] if MODELS[model] == name]
+                seeded = 1 if seed is None else seed
+                made = fd.figure(
+                    name, seed=seeded, notice=notice, command=data["command"], **chosen
+                )
+        found = {"title": made.title, "files": list(made.files), "says": made.lines, **made.facts}
+        data["figures"][name] = found
+        text = json.dumps({"command": data["command"], **found}, indent=2, allow_nan=False)
+        files |= {**made.files, f"{stem}.json": text + "\n"}
     folder.write(files)
     if as_json:
         print(json.dumps(data, indent=2))
@@ -184,34 +197,6 @@ def figures(
     for name, one in data["figures"].items():
         say(f"{name}: {out / one['files'][0]}")
         print("\n".join(f"  {line}" for line in one["says"]))
-
-
-def _made(
-    wanted: list[str],
-    command: str,
-    beside: list[str],
-    own: dict[str, tuple[Fraction | None, tuple[str, ...]]],
-    **options: Any,
-) -> tuple[dict[str, Any], dict[str, str | bytes]]:
-    """Make figures: what was found, and all files."""
-    data: dict[str, Any] = {"command": command, "figures": {}}
-    files: dict[str, str | bytes] = {}
-    for name in wanted:
-        with about(Path(name).name if name.endswith(".toml") else f"figure {name}"):
-            if name.endswith(".toml"):
-                made = _own(Path(name), command, options["notice"])
-            else:
-                models = [model for model in beside if MODELS[model] == name]
-                chosen: dict[str, Any] = {
-                    key: value for key, (value, those) in own.items() if name in those
-                }
-                made = fd.figure(name, command=command, beside=models, **options, **chosen)
-        found = {"title": made.title, "files": list(made.files), "says": made.lines, **made.facts}
-        data["figures"][name] = found
-        text = json.dumps({"command": command, **found}, indent=2, allow_nan=False)
-        stem = next(iter(made.files)).partition(".")[0]
-        files |= {**made.files, f"{stem}.json": text + "\n"}
-    return data, files
 
 
 def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":

@@ -69,28 +69,6 @@ def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
     assert [row["of"].partition(":")[0] for row in one["comparisons"]] == ["M = 2", "M = 4"]
 
 
-@pytest.mark.long
-def test_the_other_figures_and_the_simpler_models(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    out = tmp_path / "out"
-    status, printed, err = call(
-        capsys, 3, 4, "pf", "chains", "--heights", "3", "--realisations", 32,
-        "--with", "q-model", "--with", "double-y", "--out", out, "--json",
-    )  # fmt: skip
-    assert (status, err) == (0, "")
-    data = json.loads(printed)
-    for name, file in {"3": "figure3", "4": "figure4", "pf": "pf", "chains": "chains"}.items():
-        check_images(out, file, data["command"])
-        own = json.loads((out / f"{file}.json").read_text())
-        assert own == {"command": data["command"], **data["figures"][name]}
-    assert {"figure3_q_model.csv", "figure4_double_y.csv"} <= {path.name for path in out.iterdir()}
-    assert call(capsys, 1, "--out", out, "--overwrite")[0] == 0
-    assert {path.name for path in out.iterdir()} == {
-        "figure1.csv", "figure1.json", "figure1.pdf", "figure1.png", "figure1.svg"
-    }  # fmt: skip
-
-
 @pytest.mark.parametrize(
     ("words", "says"),
     [
@@ -103,13 +81,15 @@ def test_the_other_figures_and_the_simpler_models(
         (["3", "--seed", "-1"], "--seed"),
         (["1", "--heights", "8"], "add 3"),
         (["2", "--realisations", "100"], "3, 4, pf, B2, B5, B7, B9, B13 only"),
-        (["3", "--with", "triple-z"], "q-model or double-y"),
+        (["3", "--with", "triple-z"], "'q-model', 'double-y'"),
         (["3", "--with", "double-y"], "add 4"),
         (["3", "--out", ""], "names no folder"),
         (["1", "--spacing", "2.5"], "figures 2, 3, 4, pf, chains only"),
         (["2", "--spacing", "3.5"], "3.4641"),
         (["2", "--spacing", "wide"], "no finite decimal"),
         (["chains", "--relative-std", "0"], "between 1e-09 and 0.5"),
+        (["3", "--relative-std=-0.01"], "must be at least 0"),
+        (["3", "--spacing=5"], "or beads of the ordered packing overlap"),
         (["pf", "--relative-std", "nan"], "no finite decimal"),
         (["3", "--heights", "10000"], "memory"),
     ],
@@ -148,22 +128,6 @@ def test_heights_that_cannot_be_built(
     assert not out.exists()
 
 
-@pytest.mark.parametrize(
-    ("option", "value", "ends"),
-    [
-        ("--relative-std", -0.01, "must be at least 0"),
-        ("--relative-std", 0.9, "would reach a radius ≤ 0"),
-        ("--spacing", 5, "or beads of the ordered packing overlap"),
-    ],
-)
-def test_of_a_wrong_value_no_height_is_blamed(
-    option: str, value: float, ends: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    status, printed, err = call(capsys, 3, f"{option}={value}", "--out", tmp_path / "out")
-    assert (status, printed) == (2, "")
-    assert err.endswith(f"{ends}\n")
-
-
 def test_without_matplotlib(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -178,56 +142,36 @@ def test_without_matplotlib(
     assert not (tmp_path / "out").exists()
 
 
-def test_a_scene_of_ones_own_is_answered_and_drawn(
+@pytest.mark.long
+def test_simpler_models_are_drawn_and_leave_with_their_figures(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    out, models = tmp_path / "out", ["--with", "q-model", "--with", "double-y"]
+    words = [3, 4, "--heights", "3", "--realisations", 32, *models, "--out", out]
+    assert call(capsys, *words)[0] == 0
+    assert {"figure3_q_model.csv", "figure4_double_y.csv"} <= {path.name for path in out.iterdir()}
+    assert call(capsys, 1, "--out", out, "--overwrite")[0] == 0
+    assert {path.stem for path in out.iterdir()} == {"figure1"}
+
+
+def test_a_scene_is_answered_and_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     scene, out = tmp_path / "my $cene.toml", tmp_path / "out"
     scene.write_text(
         "packing = {height = 4, width = 9, spacing = 2.6}\n"
-        'disorder = {kind = "two-point", relative_std = 1e-3}\nask = {quantity = "profile"}\n'
+        'disorder = {kind = "two-point", relative_std = 1e-3, seed = 4}\n'
+        'ask = {quantity = "profile"}\n'
     )
-    status, printed, err = call(capsys, scene, "--out", out)
+    status, _, err = call(capsys, scene, "--out", out)
     assert (status, err) == (0, "")
-    assert "float64" in printed
-    command = json.loads((out / "my $cene.json").read_text())["command"]
-    check_images(out, "my $cene", command)
-    lines = (out / "my $cene.csv").read_text().splitlines()
-    assert [line[0] for line in lines[:2]] == ["#", "#"]
-    table = list(csv.DictReader(lines[2:]))
-    assert len(table) == 8
+    found = json.loads((out / "my $cene.json").read_text())
+    check_images(out, "my $cene", found["command"])
+    hashed = hashlib.sha256(scene.read_bytes()).hexdigest()
+    source = found["answer"]["source"]
+    assert (source["seed"], source["sha256"]["scene"], source["file"]) == (4, hashed, scene.name)
+    title, command, *rows = (out / "my $cene.csv").read_text().splitlines()
+    assert (title, command) == ("# my $cene: profile", f"# {found['command']}")
+    assert len(list(csv.DictReader(rows))) == 8
     again = tmp_path / "other" / scene.name
-    status, _, err = call(capsys, scene, again, "--out", out)
-    assert status == 2
-    assert "the same files" in err
-
-
-SCENE = """
-[packing]
-height = 2
-width = 4
-[disorder]
-kind = "uniform"
-relative_std = 1e-3
-seed = 4
-[ask]
-quantity = "positions"
-"""
-
-
-def test_a_figure_of_a_scene_says_where_it_came_from(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    Path("mine.toml").write_text(SCENE)
-    assert call(capsys, "mine.toml", "--out", "out")[0] == 0
-    hashed = hashlib.sha256(SCENE.encode()).hexdigest()
-    found = json.loads(Path("out/mine.json").read_text())
-    assert found["answer"]["source"]["seed"] == 4
-    assert found["answer"]["source"]["sha256"] == {"scene": hashed}
-    assert found["answer"]["source"]["file"] == "mine.toml"
-    assert not [line for line in found["says"] if line.startswith("What is")]
-    title, command, *_ = Path("out/mine.csv").read_text().splitlines()
-    assert (title, command) == ("# mine: positions", f"# {found['command']}")
-    assert "--seed" not in command  # the scene has its own
-    status, _, err = call(capsys, "mine.toml", "--seed", "5", "--out", "out")
-    assert (status, "--seed" in err) == (2, True)
+    for words, says in (([scene, again], "the same files"), ([scene, "--seed", 5], "--seed")):
+        status, _, err = call(capsys, *words, "--out", out)
+        assert (status, says in err) == (2, True)

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.ensemble import ensemble as module
 from force_diffusion.numeric.ensemble import sums
-from force_diffusion.numeric.ensemble.ensemble import RealisationError, WorkersError
+from force_diffusion.numeric.ensemble.ensemble import WorkersError
 from force_diffusion.numeric.ensemble.result import Ensemble
 from force_diffusion.numeric.ensemble.store import read_store
 from force_diffusion.numeric.ensemble.sums import solve_block, why_left_out
@@ -153,15 +153,6 @@ def test_where_it_stops_depends_on_nothing_but_the_sums(seed: int) -> None:
     assert (found.looks, found.half_width) == (usual.looks, usual.half_width)
 
 
-def test_a_file_with_more_does_not_change_where_it_stops(tmp_path: Path) -> None:
-    usual = fd.ensemble(SCENE, 300, until=0.12, confidence=0.9)
-    path = tmp_path / "ensemble.fd"
-    fd.ensemble(SCENE, 300, store=path)
-    found = fd.ensemble(SCENE, 300, until=0.12, confidence=0.9, store=path, executor=Nobody())
-    assert bytes_of(found) == bytes_of(usual)
-    assert found.looks == usual.looks
-
-
 def test_a_rule_that_is_not_met() -> None:
     found = fd.ensemble(SCENE, 40, until=1e-6, confidence=0.9)
     assert found.reached is False
@@ -200,12 +191,6 @@ def test_a_pool_is_given_few_blocks_at_a_time_and_they_are_withdrawn() -> None:
         next(found)
         found.close()
     assert len(done) <= 2 * module.AHEAD
-
-
-def test_where_hardly_a_packing_can_be_built_one_is_named() -> None:
-    sections = {**WILD, "disorder": {**WILD["disorder"], "relative_std": "=0.4"}}
-    with pytest.raises(RealisationError, match=r"60 of 60 .* realisation 0: bead \("):
-        fd.ensemble(scene(sections), 60)
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -1,6 +1,5 @@
 """The file: what is damaged, foreign or in use is refused with a message, and never written to."""
 
-import gc
 import os
 import signal
 import sqlite3
@@ -8,7 +7,6 @@ import subprocess
 import sys
 from contextlib import closing, suppress
 from pathlib import Path
-from types import FrameType
 from typing import Any
 
 import pytest
@@ -270,48 +268,3 @@ def test_an_ensemble_that_can_not_be_built_blocks_no_corrected_scene(tmp_path: P
     assert not path.stat().st_size
     fd.ensemble(scene(PROFILE), 30, store=path)
     assert fd.read_store(path).realisations == 30
-
-
-class _Interrupt:
-    """Raise ``KeyboardInterrupt`` before the ``at``-th instruction of the store, as Ctrl-C may."""
-
-    def __init__(self, at: int) -> None:
-        self.left = at
-
-    def __call__(self, frame: FrameType, event: str, _: object) -> "_Interrupt | None":
-        if Path(frame.f_code.co_filename).name not in {"store.py", "contextlib.py"}:
-            return None
-        frame.f_trace_opcodes = True
-        if event == "opcode":
-            self.left -= 1
-            if not self.left:
-                sys.settrace(None)
-                raise KeyboardInterrupt
-        return self
-
-
-def test_interrupted_at_every_instruction(
-    sound: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """A block is there or not, and nothing touches the file once it is closed."""
-    complaints: list[object] = []
-    monkeypatch.setattr(sys, "unraisablehook", complaints.append)
-    path, before = tmp_path / "ensemble.fd", sys.gettrace()
-    added, content = (SIZE, SIZE + 8), solve_block(M, 0, 8)
-    held, ended = set[int](), False
-    for at in range(1, 10_000):
-        path.write_bytes(sound)
-        with suppress(KeyboardInterrupt), closing(Store(path, KEY)) as store:
-            try:
-                sys.settrace(_Interrupt(at))
-                store.put(added, content)
-                ended = True
-            finally:
-                sys.settrace(before)
-        gc.collect(0)
-        assert not complaints, at
-        held.add(read_store(path).realisations)
-        if ended:
-            break
-    assert ended
-    assert held == {SIZE, added[1]}

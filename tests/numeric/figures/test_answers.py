@@ -113,14 +113,6 @@ def test_a_point_load_near_the_edge_has_one_cone() -> None:
     assert vertical.sum() == pytest.approx(M, abs=1e-3 * M)
 
 
-def test_some_layers_of_a_response_are_drawn_alone() -> None:
-    one, layers = fd.PointLoad(at=(0, M)), [0, M // 2]
-    asked = scene("response", load=one, packing=fd.Packing(height=M, width=2 * M))
-    some = asked.model_copy(update={"ask": asked.ask.model_copy(update={"layers": layers})})
-    beads, _ = (c for c in some.run().plot().axes[0].collections if isinstance(c, PatchCollection))
-    assert len(beads.get_paths()) == sum(M - j + 1 for j in layers)
-
-
 def test_a_profile_stands_beside_theory() -> None:
     for load, number in ((fd.SurfaceLoad(), 13), (fd.BulkLoad(), 14)):
         outcome = scene("profile", realisations=20, load=load).run()
@@ -149,13 +141,6 @@ def test_theory_of_a_load_at_an_angle_is_drawn_for_either_branch() -> None:
         theory = [float(v) for v in outcome.arrays["first_order_std"][own]]
         assert np.asarray(exact.get_ydata()) == pytest.approx(theory)
         assert exact.get_label() == f"exact at finite $M$, $f^{branch}$"
-
-
-def test_no_theory_is_drawn_where_none_applies() -> None:
-    outcome = scene("profile", load=fd.PointLoad(at=(0, M))).run()
-    assert "first_order_std" not in outcome.arrays
-    labels = [text.get_text() for text in outcome.plot().axes[0].get_legend().get_texts()]
-    assert labels == ["simulated, $f^+$", "simulated, $f^-$"]
 
 
 @pytest.mark.parametrize("at", [None, (0, 0, "+")])
@@ -200,13 +185,6 @@ def test_an_ensemble_is_drawn_too(quantity: str) -> None:
         widths = np.array(lines(figure)[0].get_linewidths())
         assert widths == pytest.approx(np.maximum(3 * found.std / found.std.max(), 0.05))
     assert figure._repr_png_()[1:4] == b"PNG"  # type: ignore[attr-defined]
-
-
-def test_digits_beyond_float64_are_drawn() -> None:
-    outcome = scene("contact_forces", std=0.04).run(1e-30, certified=True)
-    assert outcome.arrays["force"].dtype == object
-    pressing, pulling = lines(outcome.plot())
-    assert len(pressing.get_segments()) + len(pulling.get_segments()) == 2 * M * W
 
 
 def test_it_looks_the_same_whatever_a_user_has_set() -> None:
@@ -255,12 +233,6 @@ def test_chains_that_differ_little_are_as_thick_as_they_exceed_the_smallest() ->
     )
 
 
-def test_of_equal_forces_none_is_thicker() -> None:
-    figure = scene("contact_forces", disorder=None).run().plot()
-    assert len(set(lines(figure)[0].get_linewidths())) == 1
-    assert legend(figure) == ["all, $f=0.756$"]
-
-
 def arrows(figure: Figure) -> np.ndarray[Any, Any]:
     """Tips of all arrows, (arrows, 2)."""
     return np.array([text.xy for text in figure.axes[0].texts if text.arrow_patch is not None])  # type: ignore[attr-defined]
@@ -286,16 +258,22 @@ def test_arrows_stand_on_the_beads_of_a_packing_at_rest() -> None:
     assert arrows(free.plot()) - beads == pytest.approx(np.tile((0, 1.1), (W, 1)))
 
 
-def test_branches_that_agree_are_both_seen() -> None:
-    figure = scene("profile", load=fd.SurfaceLoad()).run().plot()
-    first, second = (container.lines[0] for container in figure.axes[0].containers)
-    assert first.get_markersize() > 1.4 * second.get_markersize()
-    assert first.get_zorder() <= second.get_zorder()
-
-
 def test_a_profile_of_spheres_is_drawn() -> None:
     packing = fd.Packing(height=3, width=7, dimension=3)
     figure = scene("profile", packing=packing).run().plot()
     sizes = [container.lines[0].get_markersize() for container in figure.axes[0].containers]
     assert len(sizes) == 3
     assert sizes == sorted(sizes, reverse=True)
+
+
+def test_no_theory_is_drawn_where_none_applies() -> None:
+    outcome = scene("profile", load=fd.PointLoad(at=(0, M))).run()
+    assert "first_order_std" not in outcome.arrays
+    labels = [text.get_text() for text in outcome.plot().axes[0].get_legend().get_texts()]
+    assert labels == ["simulated, $f^+$", "simulated, $f^-$"]
+
+
+def test_of_equal_forces_none_is_thicker() -> None:
+    figure = scene("contact_forces", disorder=None).run().plot()
+    assert len(set(lines(figure)[0].get_linewidths())) == 1
+    assert legend(figure) == ["all, $f=0.756$"]
