@@ -13,6 +13,7 @@ from typing import Any
 
 import math_core
 from docutils import nodes
+from force_diffusion.derivations.commands.cli import COMMANDS
 from force_diffusion.derivations.export import article
 from force_diffusion.derivations.export.prose import prose_markdown
 from force_diffusion.derivations.framework.catalogue import modules
@@ -136,6 +137,15 @@ def _equations() -> str:
     return "\n\n".join(parts)
 
 
+def _options() -> str:
+    """The help of every command."""
+    blocks = (
+        f"### `{command}`\n\n```{{program-output}} force-diffusion {command} --help\n```"
+        for command in COMMANDS
+    )
+    return "\n\n".join(blocks)
+
+
 _OTHER_CLASSES = {
     "Accuracy": "force_diffusion.numeric.accuracy",
     "Beads": "force_diffusion.numeric.run.contacts",
@@ -183,6 +193,8 @@ def _generated(_app: Any, name: str, source: list[str]) -> None:
         source[0] = article.page(article.source())
     if name == "reference/calls":
         source[0] = f"{source[0]}\n{_calls()}\n"
+    if name == "reference/commands":
+        source[0] = f"{source[0]}\n{_options()}\n"
     if name == "reference/equations":
         source[0] = f"{source[0]}\n{_equations()}\n"
     if name == "reference/python":

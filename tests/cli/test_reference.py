@@ -123,7 +123,7 @@ def test_every_command_is_told(capsys) -> None:
     listed = capsys.readouterr().out.partition("Commands:\n")[2].partition("\n\n")[0]
     commands = set(re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE))
     page = (REFERENCE / "commands.md").read_text(encoding="utf-8")
-    assert set(re.findall(r"^### `([\w-]+)`$", page, re.MULTILINE)) == commands
+    assert set(re.findall(r"^\| `(?!force-)([a-z][\w-]+)", page, re.MULTILINE)) == commands
 
 
 def _described() -> dict[str, str]:
