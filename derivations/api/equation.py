@@ -1,4 +1,4 @@
-"""One equation of the paper as a Python user holds it: SymPy objects, numbers, and its proof."""
+"""An equation for Python users: SymPy objects, values, and its proof."""
 
 import inspect
 from collections.abc import Callable, Iterable, Mapping
@@ -33,7 +33,7 @@ from .proof import Proof, StepList
 
 
 class NoSuchFormError(ForceDiffusionError, ValueError):
-    """There is no such equation, or it has no such exact form; the message names those there are.
+    """No such equation, or no such exact form; the message lists those that exist.
 
     ``hint``: "number" or "exact", for what of the request is wrong.
     """
@@ -153,7 +153,7 @@ class Equation:
 
     @property
     def expr(self) -> sympy.Basic:
-        """The formula as a SymPy ``Eq``, or a ``Tuple`` of them where several lines are printed.
+        """The formula as a SymPy ``Eq``, or a ``Tuple`` of them if several lines are printed.
 
         ``Eq`` stands for the printed sign too where that is ≈, ∼ or ∝.
 
@@ -167,9 +167,9 @@ class Equation:
 
     @property
     def rhs(self) -> sympy.Basic:
-        """The right-hand side, or a ``Tuple`` of them where several lines are printed.
+        """The right-hand side, or a ``Tuple`` of them if several lines are printed.
 
-        A string is no symbol of it: take symbols from :attr:`symbols`, or use :meth:`at`.
+        Strings are not symbols: take symbols from :attr:`symbols`, or use :meth:`at`.
 
         >>> import force_diffusion as fd
         >>> eq = fd.equation(13)
@@ -202,7 +202,7 @@ class Equation:
         return _names([*named, *self._derivation.printed, *by_layer, *exact])
 
     def latex(self, columns: int = 1) -> str:
-        r"""LaTeX for mathematics mode, which needs amsmath alone; long formulas in several lines.
+        r"""LaTeX for mathematics mode, which needs only amsmath; long formulas have several lines.
 
         The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
 
@@ -219,7 +219,7 @@ class Equation:
         return rf"$\displaystyle {self.latex()}$"
 
     def displays(self, columns: int = 1) -> list[str]:
-        """The same for displays that fit pages: one, or for long closed forms one a formula."""
+        """The same as displays that fit a page: one, or for long closed forms one per formula."""
         return self._derivation.displays(columns)
 
     def data(self) -> dict[str, Any]:
@@ -233,7 +233,7 @@ class Equation:
         return statement_data(self._derivation)
 
     def sympy_code(self) -> str:
-        """SymPy source of the right-hand side, in the names of :attr:`symbols`; a line for each.
+        """SymPy source of the right-hand side, in the names of :attr:`symbols`.
 
         >>> import force_diffusion as fd
         >>> fd.equation(13).sympy_code()
@@ -277,7 +277,7 @@ class Equation:
 
     @property
     def forms(self) -> tuple[str, ...]:
-        """The names of its exact forms at finite size, the usual one first; none for most.
+        """The names of its exact forms at finite size, the default first; most have none.
 
         >>> import force_diffusion as fd
         >>> fd.equation(16).forms
@@ -317,10 +317,10 @@ class Equation:
     # numbers
 
     def at(self, **arguments: Any) -> Any:
-        """The right-hand side for given numbers: exact for exact ones, else a float.
+        """The value of the right-hand side: exact for exact numbers, otherwise a float.
 
-        For equations whose right-hand side is a number, as those of Eqs. 13 to 16; ``j`` may be
-        given in place of z. Of one beyond the paper, the value of its first closed form. int,
+        For equations whose right-hand side is a number, such as Eqs. 13 to 16; ``j`` may be
+        given in place of z. For one beyond the paper, the value of its first closed form. int,
         Fraction, Decimal and SymPy's Rational are exact. A float is the exact value for the floats
         that were given, rounded once. Arrays, lists and ranges are broadcast as NumPy does: an
         array of float64 where anything given is a float, else one of exact numbers.
@@ -407,7 +407,7 @@ class Equation:
         return StepList.of(self._derivation)
 
     def prove(self) -> Proof:
-        """Prove it, its steps and its claims, and all that it rests on.
+        """Prove the equation with its steps and claims, and all that it rests on.
 
         >>> import force_diffusion as fd
         >>> proof = fd.equation(9).prove()
@@ -419,7 +419,7 @@ class Equation:
         return Proof(tuple(run_all([self.number])))
 
     def decide(self, candidate: Any, **at: Any) -> Ruling:
-        """Rule on a formula of your own, by the rule that proves the printed equation and others.
+        """Decide whether your formula is true in place of the printed one, by the same rule.
 
         The formula is decided with the printed sign: for "∼", whether it is right to leading order.
         ``exact().decide`` decides it with "=", at finite size. Of an equation between
@@ -471,7 +471,7 @@ def _expression_or_tuple(parts: Iterable[sympy.Basic]) -> sympy.Basic:
 
 
 def _value_side(line: Any) -> sympy.Expr:
-    """The side that says what the other one is; of a balance, the side that must vanish."""
+    """The side that gives the value of the other; for a balance, the side that must vanish."""
     return line.lhs if line.rhs == 0 else line.rhs
 
 

@@ -14,7 +14,7 @@ RECORD = "certificate.json"
 
 @dataclass(frozen=True)
 class Certificate:
-    """What came of one equation.
+    """Coq's verdict on one equation.
 
     Attributes:
         number: of the equation.
@@ -40,7 +40,7 @@ class Certificate:
 
 @dataclass(frozen=True)
 class Certification:
-    """All that Coq was asked.
+    """Coq's verdicts on several equations.
 
     Attributes:
         equations: the printed equations.

@@ -76,7 +76,7 @@ class Piece:
 
 
 class ClosedForm:
-    """An exact statistic: a formula on each of a few parts of its domain.
+    """An exact statistic: a formula on each part of its domain.
 
     >>> import force_diffusion as fd
     >>> from force_diffusion.symbols import f_plus, i, j
@@ -112,7 +112,7 @@ class ClosedForm:
         return ClosedForm, (*own, self.divisor, self.values)
 
     def named(self, quantity: sympy.Expr) -> "ClosedForm":
-        """The same, shown as a symbol."""
+        """The same form, printed with a symbol for its quantity."""
         _, (_, *others) = self.__reduce__()
         form = ClosedForm(quantity, *others)
         form.function = self.function
@@ -140,7 +140,7 @@ class ClosedForm:
 
     @property
     def premises(self) -> tuple[EquationNumber, ...]:
-        """The equations that it rests on, as the theorems say."""
+        """The equations it rests on, read off its theorems."""
         return equations_of(flat(self.groups))
 
     def on(self, *relations: sympy.Basic) -> sympy.Expr:
@@ -182,12 +182,12 @@ class ClosedForm:
 
     @property
     def equation(self) -> sympy.Eq:
-        """That the quantity is this expression."""
+        """The equation: quantity = expression."""
         return equation(self.quantity, self.expr)
 
     @property
     def domain(self) -> str:
-        """Where it holds, in words: where all contacts and beads that it names exist."""
+        """Where it holds, in words: wherever its contacts and beads exist."""
         return ", ".join(self.conditions())
 
     def conditions(self, style: words.Style = words.TEXT) -> list[str]:
@@ -327,7 +327,7 @@ class ClosedForm:
     # how it is written
 
     def latex(self, columns: int = 1) -> str:
-        """LaTeX for mathematics mode, which needs amsmath: a formula, or ``cases`` of them.
+        """LaTeX for mathematics mode, which needs amsmath: a formula, or several in ``cases``.
 
         The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
         """
@@ -359,7 +359,7 @@ class ClosedForm:
         return self._shown(self.pieces[:1], columns)
 
     def displays(self, columns: int = 1) -> list[str]:
-        """The same in displays that fit a page: several, if one for all formulas would not."""
+        """The same as displays that fit a page, several if needed."""
         return self._displays(self.pieces, columns)
 
     def _displays(self, pieces: Sequence[Piece], columns: int) -> list[str]:
@@ -379,7 +379,7 @@ class ClosedForm:
         return rf"$\displaystyle {self.latex()}$"
 
     def data(self) -> list[dict[str, str]]:
-        """Its pieces as JSON has them: domain, text and LaTeX of each.
+        """Its pieces for JSON: domain, text and LaTeX of each.
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
@@ -392,7 +392,7 @@ class ClosedForm:
         ]
 
     def python(self, name: str = "closed_form") -> str:
-        """Python source of a function that refuses what :meth:`at` refuses; it needs no import."""
+        """Python source of a function like :meth:`at`; it needs no import."""
         lines = [f"def {name}({', '.join(self.symbols)}):"]
         lines.append(f'    """{text(self.quantity)}, exact{self._for_domain}."""')
         relations, even = self._conditions_of(self._needed)
@@ -438,7 +438,7 @@ class ClosedForm:
     # a candidate
 
     def decide(self, candidate: Any, **at: int) -> Ruling:
-        """Rule on a formula of your own: is it this statistic, on all of the domain?
+        """Decide whether your formula equals this statistic on its whole domain.
 
         The verdict is *proved*; *refuted*, with a point at which it differs; *undecided*; or *not a
         statement*. ``.note`` says why.

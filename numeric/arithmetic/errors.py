@@ -24,7 +24,7 @@ def printable(text: str) -> str:
 
 
 class ForceDiffusionError(Exception):
-    """Something that a user can mend; the message says what was wrong, where, and what to do.
+    """Bad input or a failed environment; the message says what was wrong, where, and what to do.
 
     ``exit_status``: 2 where the input is wrong; 3 where what was asked for can't be reached, or
     something outside the program failed.

@@ -151,7 +151,7 @@ class Store:
 
 @dataclass(frozen=True)
 class StoreContent:
-    """What the store of an ensemble holds; every block of it has been checked.
+    """What the store of an ensemble holds, with every block checked.
 
     Attributes:
         realisations: packings in all, those that could not be built included.

@@ -39,7 +39,7 @@ class Skipped:
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan:
-    """What will be done, and what is known of it before.
+    """How a scene will be solved, and what is known beforehand.
 
     ``system`` is the arithmetic, ``reason`` why it is no other. ``memory``: bytes at the peak.
     ``error``: expected relative to the largest change; None where only the sweep can tell.
@@ -98,12 +98,12 @@ class Plan:
 
     @cached_property
     def critical_height(self) -> float:
-        """M*, where contacts begin to pull; infinite where radii are equal."""
+        """M* = (σ/r)^(-2/3), where forces scatter by about their mean; infinite for equal radii."""
         return critical_height(self.problem.radii.relative_std())
 
     @property
     def notes(self) -> list[str]:
-        """What should be known before an answer is used."""
+        """What to know before using the answer."""
         notes = []
         problem, tension = self.problem, self.tension
         if tension is not None and tension.typical:
@@ -129,7 +129,7 @@ class Plan:
         return notes
 
     def data(self) -> dict[str, Any]:
-        """Give what JSON can hold of it."""
+        """Give it as JSON can hold it."""
         tension = self.tension
         expected = None
         if tension is not None:

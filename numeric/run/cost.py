@@ -46,7 +46,7 @@ HEAD = f"{'way':<9}{'digits':>6}  {'error':<10}{'':<10}{'seconds':>10}  relative
 
 @dataclass(frozen=True)
 class Way:
-    """One way to the answer: an arithmetic, and its decimal digits.
+    """An arithmetic with its decimal digits, error and time.
 
     ``error`` is relative to the largest |change|. It is "measured" (the distance from balls),
     "certified" (the radius of balls), "stated" (of float64, where balls take too long) or
@@ -74,7 +74,7 @@ class Way:
 
 @dataclass(frozen=True)
 class CostStudy:
-    """What each way to an answer costs; ``skipped`` are those that fail, and why."""
+    """Error and time in each arithmetic; ``skipped`` says which failed, and why."""
 
     quantity: str
     ways: tuple[Way, ...]

@@ -131,7 +131,7 @@ class Result(Tabled):
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Outcome(Result):
-    """A finished run: the answer to its question, or to the first, and all that is said of it.
+    """A finished run: the answer to its question (or to the first), with its error and source.
 
     ``results`` has the answer to each question by its name. ``source`` says where they came from:
     program, version, scene, seed and the SHA-256 of what was read; ``files``: those of files.
@@ -161,7 +161,7 @@ class Outcome(Result):
         return source_of(self.plan.scene, self.files)
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
-        """Give what JSON can hold of it; the guide to scenes has the schema of each quantity.
+        """Give it as JSON can hold it; the page on answers explains the keys.
 
         Without ``rows`` the lists of results are empty: there may be millions. Of several
         questions ``accuracy`` is that of the least accurate answer.

@@ -63,12 +63,12 @@ class Solution(Tabled):
 
     @cached_property
     def scene(self) -> Scene:
-        """The scene that would be answered so."""
+        """The same packing as a scene."""
         return Scene(**self.sections)
 
     @cached_property
     def plan(self) -> Plan:
-        """What is done for the forces, method and expected error."""
+        """How the forces are computed: method and expected error."""
         return plan(self.scene, self.tolerance, certified=self.only_certified, text=False)
 
     @cached_property

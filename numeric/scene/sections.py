@@ -23,7 +23,7 @@ LARGEST = 1e300
 
 
 class SceneError(ForceDiffusionError, ValueError):
-    """Something in a scene is wrong: which key, what it says, and what is allowed."""
+    """A scene is wrong: the message gives the key, its value, and what is allowed."""
 
     def __init__(self, key: str, value: object, allowed: str) -> None:
         """Say all three."""
@@ -275,7 +275,7 @@ class PointLoad(Load):
 
 
 class Effects(Section):
-    """What is simulated of the packing.
+    """Which effects are simulated.
 
     ``contacts``: "bilateral" ones stay closed and may pull; "unilateral" ones open instead, and
     beads move by linear programs, one after another, until none pulls. A packing is given up after

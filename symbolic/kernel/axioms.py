@@ -102,7 +102,7 @@ def loads(loading: Loading) -> tuple[Theorem, ...]:
 
 
 GAUSSIAN_FORCES = "Gaussian forces"
-"""An assumption that no rule ends: forces are normally distributed, given mean and variance."""
+"""An assumption that is not proved: forces are normally distributed, given mean and variance."""
 
 
 # loads

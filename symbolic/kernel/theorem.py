@@ -74,7 +74,7 @@ class Theorem:
         rule: the rule that proved it, in words.
         premises: the theorems that it rests on.
         supposed: the suppositions that it rests on, each of an induction not yet ended.
-        assuming: what it rests on that no rule ends, in words, such as "Gaussian forces".
+        assuming: unproved assumptions that it rests on, in words, such as "Gaussian forces".
     """
 
     formula: sympy.Eq
