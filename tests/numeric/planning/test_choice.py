@@ -1,32 +1,27 @@
 """A tolerance is kept, whatever method is taken to it; choices are sound."""
 
-import itertools
 from collections.abc import Iterator
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+from force_diffusion.numeric.accuracy import Accuracy, edge_in_doubt
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, midpoint
-from force_diffusion.numeric.planning import sources
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import in_balls
 from force_diffusion.numeric.quantities.answer import answer
+from force_diffusion.numeric.quantities.base import Table
 from force_diffusion.numeric.run import run
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene.sections import SceneError
 from hypothesis import given
 from hypothesis import strategies as st
 
-import force_diffusion as fd
 from tests.numeric.scenes import basic, planned, scenes
 from tests.numeric.test_run import numbers
 
-QUANTITIES = ("contact", "contact_forces", "positions", "profile", "histogram", "response")
 TOLERANCES = ("1e-3", "1e-6", "1e-9", "1e-11", "1e-12", "1e-14", "1e-16", "1e-18", "1e-30", "1e-60")
-SPACINGS = ("2.05", "2.75", "3.0", "3.4")
-# height, width (None: the slab); 4 on 3 is a strip that sees its images
-SHAPES: tuple[tuple[int, int | None], ...] = ((4, 9), (3, 4), (5, None), (4, 3))
 
 
 def both(plan: Plan) -> Iterator[Plan]:
@@ -72,48 +67,11 @@ def assert_kept(outcome: Outcome, true: Outcome, tolerance: Fraction) -> None:
     assert error <= Fraction(outcome.accuracy.error_bound) * largest * Fraction(1001, 1000)
 
 
-def grid() -> Iterator[Any]:
-    """Every quantity, geometry and load; shapes, spacings, disorder and tolerances take turns."""
-    loads: tuple[dict[str, Any], ...] = (
-        {"kind": "surface"}, {"kind": "bulk", "angle_deg": 12}, {"kind": "point"}
-    )  # fmt: skip
-    turn = itertools.count()
-    for quantity, geometry, load in itertools.product(QUANTITIES, ("exact", "first-order"), loads):
-        k = next(turn)
-        height, width = SHAPES[k % len(SHAPES)]
-        point = quantity == "response" or load["kind"] == "point"
-        listed = quantity in {"positions", "profile", "histogram", "contact_forces"}
-        if width is None and listed:
-            height, width = SHAPES[0]
-        here = {"kind": "point", "at": [height % 2, height]} if point else load
-        sections = basic(height, width, quantity=quantity)
-        sections["packing"] |= {"spacing": f"={SPACINGS[k % 3 + k % 2]}", "allow_images": True}
-        std = ("=2e-3", "=1e-7", "=1e-40")[k % 3 if quantity != "histogram" else 1]
-        sections["disorder"] |= {"relative_std": std, "kind": ("uniform", "normal")[k % 2]}
-        sections |= {"load": here, "effects": {"geometry": geometry}}
-        if quantity == "contact":
-            sections["ask"]["at"] = [k % 2, k % 2, "+-"[k // 2 % 2]]
-        if k % 4 >= 2:
-            sections["ask"]["realisations"] = 5
-        for step in (0, 5) if geometry == "exact" else (0,):
-            tolerance = TOLERANCES[(k + step) % len(TOLERANCES)]
-            ask = {**sections["ask"], "tolerance": f"={tolerance}"}
-            name = f"{quantity}-{geometry}-{here['kind']}-{tolerance}"
-            yield pytest.param({**sections, "ask": ask}, id=name)
-
-
-@pytest.mark.long(sample=36)
-@pytest.mark.parametrize("sections", list(grid()))
-def test_every_way_that_may_answer_keeps_the_tolerance(
-    sections: dict[str, dict[str, Any]],
-) -> None:
-    """Not only the first."""
-    plan, true = planned(sections), reference(sections)
-    assert plan.tolerance is not None
-    for way in both(plan):
-        outcome = run(way)
-        assert_kept(outcome, true, plan.tolerance)
-        assert outcome.accuracy.certified == outcome.plan.certified
+@pytest.mark.parametrize(("value", "near"), [(0.5, True), (0.5 + 1e-9, True), (0.51, False)])
+def test_changes_near_the_edge_of_a_bin_are_left_to_balls(value: float, near: bool) -> None:
+    table = Table({}, {"change": np.array([0.9, 1.0, value])}, ("change",))
+    bins = [(Fraction(0), Fraction(1, 2), 0), (Fraction(1, 2), Fraction(2), 3)]
+    assert edge_in_doubt(table, bins, Accuracy(1e-8, False, "float64")) == near
 
 
 def test_changes_that_float64_can_not_hold_are_left_to_balls() -> None:
@@ -175,17 +133,6 @@ def test_an_effect_is_never_replaced() -> None:
         assert {way.problem.route for way in both(planned(sections))} == {geometry}
 
 
-def test_a_contact_that_no_load_comes_near_has_one_row_a_realisation() -> None:
-    """Its sweep would be the ordered packing, and that one solved once."""
-    sections = basic(6, 21, quantity="contact", at=[30, 2, "+"], realisations=5)
-    sections |= {"effects": {"geometry": "first-order"}, "load": {"kind": "point", "at": [6, 6]}}
-    plain = run(planned(sections)).decimals()
-    sections["ask"]["tolerance"] = "=1e-6"
-    rows = run(planned(sections)).decimals()
-    assert [row["realisation"] for row in rows] == [0, 1, 2, 3, 4]
-    assert rows == plain
-
-
 def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> None:
     """Two-point radii leave changes of second order, here 9e-16 of the largest one."""
     sections = basic(11, 6, quantity="positions", realisations=6, tolerance="=1e-12")
@@ -205,19 +152,3 @@ def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> N
     outcome = run(plan)
     assert outcome.accuracy.certified
     assert "float64 was tried: the error is still" in outcome.data()["plan"]["reason"]
-
-
-def test_radii_from_a_file_are_looked_through_once(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A plan asks for their scatter again and again; each look takes as long as an answer."""
-    looks = []
-
-    class Counted(dict[tuple[int, int], Fraction]):
-        def values(self) -> Any:
-            looks.append(1)
-            return super().values()
-
-    found = sources.read_radii
-    monkeypatch.setattr(sources, "read_radii", lambda *a, **k: Counted(found(*a, **k)))
-    measured = fd.read_scene(Path(__file__).parents[3] / "scenes" / "measured.toml")
-    measured.run("1e-12")
-    assert len(looks) == 2  # for the scatter, and for the smallest

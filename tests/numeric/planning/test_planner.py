@@ -1,23 +1,19 @@
 """Only what is called for: tests on the work that was executed, and on what it depends on."""
 
 import sys
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-import flint
 import pytest
 from force_diffusion.numeric.accuracy import enclosed
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
-from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice import regions
 from force_diffusion.numeric.lattice.layers import Rows
 from force_diffusion.numeric.mechanics import first_order
-from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning import planner
 from force_diffusion.numeric.planning.memory import float_bead
-from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run import run
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -50,106 +46,6 @@ def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(
     assert plan.beads == count
 
 
-def gradient(M: int, contact: tuple[int, int, str], load: dict[str, Any]) -> set[tuple[int, int]]:
-    """Sites whose radius changes the contact's exact force, found with balls far from order."""
-    j = contact[1]
-    sections = basic(M, None, quantity="contact", at=list(contact), tolerance="=1e-20")
-    sections["load"] = load
-    plan = planned(sections)
-    reach = 2 * M + 2
-    rho = {
-        (i, m): Fraction((7 * i + 3 * m * m) % 11 - 5, 3000)
-        for m in range(M + 1)
-        for i in range(contact[0] - 2 * reach, contact[0] + 2 * reach)
-        if (i + m) % 2 == 0
-    }
-    system = Balls(256)
-
-    def force(radii: dict[tuple[int, int], Fraction]) -> Any:
-        changed = replace(plan.problem, radii=MeasuredRadii(radii, None))
-        with system.active():
-            solved = solve(changed, [0], system, Work())
-            if solved.forces is None:
-                return flint.arb(0)
-            g = solved.forces.change.plus if contact[2] == "+" else solved.forces.change.minus
-            return g[j + 1][0]
-
-    start = force(rho)
-    found = set()
-    for site, value in rho.items():
-        moved = force({**rho, site: value + Fraction(1, 1000)})
-        if not moved.overlaps(start):
-            found.add(site)
-        else:  # the same computation, bit for bit: the radius was never looked at
-            assert (moved - start).contains(0)
-    return found
-
-
-@pytest.mark.parametrize("contact", [(0, 0, "+"), (1, 1, "-"), (0, 2, "+")])
-@pytest.mark.parametrize(
-    "load", [{"kind": "surface"}, {"kind": "bulk"}, {"kind": "point", "at": [2, 4]}]
-)
-def test_exactly_the_visited_beads_matter(
-    contact: tuple[int, int, str], load: dict[str, Any]
-) -> None:
-    """Every visited bead changes the exact force, and no other bead does."""
-    M = 4
-    sections = basic(M, None, quantity="contact", at=list(contact))
-    sections["load"] = load
-    _, visited = radii_read(planned(sections))
-    assert gradient(M, contact, load) == set(visited)
-
-
-@pytest.mark.long
-@settings(deadline=None)
-@given(contacts, st.sampled_from(["surface", "bulk", "point"]), st.data())
-def test_first_order_depends_on_exactly_the_beads_it_reads(
-    where: tuple[int, int, int, str], kind: str, data: st.DataObject
-) -> None:
-    """The weights of all other beads vanish: exact Taylor coefficients of a wide packing."""
-    M, j, column, branch = where
-    M = min(M, 5)
-    j = min(j, M - 1)
-    W = 2 * M + 1
-    contact = (2 * (column % W) + j % 2, j, branch)
-    sections = basic(M, W, quantity="contact", at=list(contact))
-    sections["effects"] = {"geometry": "first-order"}
-    sections["load"] = {"kind": kind}
-    if kind == "point":
-        layer = data.draw(st.integers(1, M))
-        sections["load"]["at"] = [2 * data.draw(st.integers(0, W - 1)) + layer % 2, layer]
-    plan = planned(sections)
-    _, visited = radii_read(plan)
-    if plan.problem.route == "ordered":
-        assert not visited
-        return
-    assert len(visited) == len(set(visited))
-    sites = {(i % (2 * W), m) for i, m in visited}
-    weights = _weights(plan, contact, W, M)
-    assert {site for site, weight in weights.items() if weight} == sites
-
-
-def _weights(
-    plan: Plan, contact: tuple[int, int, str], W: int, M: int
-) -> dict[tuple[int, int], Fraction]:
-    """d force / d radius of every bead at order ε, from the exact nonlinear solution."""
-    from tests.numeric.mechanics import taylor
-    from tests.numeric.strategies import sites
-
-    n = (Fraction(3, 5), Fraction(4, 5))
-    if plan.problem.load.kind == "point":
-        assert plan.problem.load.at is not None
-        loads = {plan.problem.load.at: (Fraction(0), Fraction(-1))}
-    else:
-        layers = range(M + 1) if plan.problem.load.kind == "bulk" else [M]
-        loads = {s: (Fraction(0), Fraction(-1)) for s in sites(W, M) if s[1] in layers}
-    weights = {}
-    for site in sites(W, M):
-        t = taylor.solve(W, M, n=n, rho={site: Fraction(1)}, loads=loads)
-        weights[site] = t.force(*contact)[1]
-    return weights
-
-
 def test_without_disorder_nothing_is_swept() -> None:
     for quantity in ("contact_forces", "profile", "positions", "histogram"):
         sections = basic(quantity=quantity)
@@ -177,22 +73,6 @@ def test_cost_grows_with_the_region_not_with_the_packing() -> None:
         assert planned(sections).beads == regions.contact_beads(10, 12)
     small, large = map(answer, scenes)
     assert small.decimals() == large.decimals()
-
-
-@pytest.mark.parametrize(
-    "named",
-    [
-        {"effects": {"contacts": "bilateral"}},
-        {"load": {"kind": "surface", "angle_deg": 0}},
-        {"effects": {"geometry": "exact"}},
-        {"load": {"kind": "surface", "magnitude": "=1.0"}},
-    ],
-)
-def test_an_effect_switched_off_changes_no_bit(named: dict[str, dict[str, Any]]) -> None:
-    without = answer(basic())
-    off = answer({**basic(), **named})
-    assert off.decimals() == without.decimals()
-    assert off.accuracy == without.accuracy
 
 
 def test_disorder_of_zero_width_is_no_disorder() -> None:
