@@ -2,6 +2,7 @@
 
 import sys
 from fractions import Fraction
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -55,6 +56,15 @@ def test_without_disorder_nothing_is_swept() -> None:
         assert not sites
         assert solved.packing is None
         assert plan.beads == 0
+
+
+def test_where_no_load_is_nothing_is_swept(tmp_path: Path) -> None:
+    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n4,4,0,0\n")
+    sections = basic() | {"load": {"kind": "file", "file": "loads.csv"}}
+    plan = planned(sections, tmp_path)
+    assert [skipped.effect for skipped in plan.skipped] == ["disorder"]
+    assert plan.beads == 0
+    assert all(force == 0 for force in run(plan).arrays["force"])
 
 
 def test_a_point_load_stays_in_its_cone() -> None:
