@@ -17,7 +17,7 @@ from .sections import SceneError, unknown
 LARGEST_FILE = 16_000  # bytes of a scene file, in which nothing takes long to read
 LONGEST_VALUE = 6000
 S = TypeVar("S", bound=Scene)
-_NO_SCENE = "is no scene, which is a TOML file with [packing] and [ask]"
+_NO_SCENE = "is not a scene, which is a TOML file with [packing] and [ask]"
 _WORD = re.compile(r"(?!(true|false|inf|nan)$)[A-Za-z][A-Za-z_-]*", re.ASCII)
 
 
@@ -58,7 +58,7 @@ def _value(name: str, written: str) -> object:
             raise ValueError
         found: object = tomllib.loads(f"value = {written}", parse_float=Decimal)["value"]
     except (ValueError, ArithmeticError, RecursionError):
-        why = "is no value of TOML, such as 8, 1e-4 or [0, 10]"
+        why = "is not a TOML value, such as 8, 1e-4 or [0, 10]"
         if len(written) <= LONGEST_VALUE and re.match(r"[A-Za-z_./~]", written):
             text = json.dumps(written, ensure_ascii=False)  # quotes, which shells take away
             why += f"; text goes in quotes: say --set {shlex.quote(f'{name}={text}')}"
@@ -96,6 +96,6 @@ def parse_scene(
         section, _, key = name.partition(".")
         keys = raw.setdefault(section, {})
         if not key or "." in key or not isinstance(keys, dict):
-            raise SceneError(name, None, "is no key of a section, such as packing.height")
+            raise SceneError(name, None, "is not a key of a section, such as packing.height")
         keys[key] = _value(name, written)
     return kind(**raw, folder=folder)

@@ -189,16 +189,14 @@ def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
             f"{beads} beads: give {wanted}, or (packings, …) for several",
         )
     if not 1 <= packing.radius * FARTHEST <= FARTHEST**2:
-        allowed = (
-            "must lie between 1e-307 and 1e307 beside an array of float64: choose another unit"
-        )
+        allowed = "must lie between 1e-307 and 1e307 with an array of float64: choose another unit"
         raise SceneError("packing.radius", packing.radius, allowed)
     mean = float(given.values.mean()) - (packing.radius if given.delta_r is None else 0)
     if abs(mean) > packing.radius / 2:
         raise SceneError(
             "packing.radius",
             packing.radius,
-            f"must be near the mean radius of the beads, which differs from it by {mean:.3g}",
+            f"must be close to the mean radius of the beads, which differs from it by {mean:.3g}",
         )
     packings = shape[0] if len(shape) > rank else 1
     if ask.realisations > packings:

@@ -134,7 +134,7 @@ def test_equal_radii_are_the_ordered_packing() -> None:
         ({"radii": np.full((3, 4), np.nan)}, "[0, 0] is not"),
         ({"radii": np.ones((1, 4))}, "at least 2 layers"),
         ({"radii": np.ones((3, 4)), "spacing": 5}, "strictly between 2 r and 2√3 r"),
-        ({"radii": np.ones((3, 4)), "radius": 0.1}, "near the mean radius"),
+        ({"radii": np.ones((3, 4)), "radius": 0.1}, "close to the mean radius"),
         ({"radii": np.ones((3, 4)), "load": "surface"}, "must be SurfaceLoad()"),
         ({"radii": np.ones((3, 4)), "load": fd.PointLoad(at=(1, 2))}, "i + j must be even"),
         ({"radii": np.ones((3, 4)), "tolerance": "x"}, "no finite decimal number"),

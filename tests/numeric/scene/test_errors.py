@@ -125,7 +125,7 @@ def test_missing_sections_and_keys() -> None:
         ("[packing]\nhieght = 3\n[ask]\nquantity = 'profile'", 'hieght: .* mean "height"'),
         ("[packing]\nheight = 3\n[ask]\nquantitiy = 'profile'", 'quantitiy: .* mean "quantity"'),
         ("packing = 3\n", "must be a section"),
-        ("[packing\n", "is no scene, which is a TOML file"),
+        ("[packing\n", "is not a scene, which is a TOML file"),
         ("a = " + "[" * 5000, "nested too deeply"),
         ("[packing]\nheight = 1" + "0" * 6000, "more than 4300 digits"),
         ("[ask]\ntolerance = 1e-" + "9" * 30, "a number with a huge exponent"),
@@ -293,7 +293,7 @@ def test_endless_files_are_refused_at_once(tmp_path: Path) -> None:
     large = tmp_path / "large"
     for content, says in (
         (b"#" * 16_001, "at most 16000 bytes"),
-        (b"a.b = '" + 300 * b".", "is no scene"),
+        (b"a.b = '" + 300 * b".", "is not a scene"),
     ):
         large.write_bytes(content)
         with pytest.raises(SceneError, match=says):

@@ -125,5 +125,5 @@ def test_a_path_is_run(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> No
         assert main(["run", str(tmp_path / name)]) == 2
         said = capsys.readouterr().err
         assert said.count(name) == 1
-        assert ("is no scene, which is a TOML file" if content else "no such file") in said
+        assert ("is not a scene, which is a TOML file" if content else "no such file") in said
         assert ('disorder = {kind = "file", file = "radii.csv"}' in said) == ("csv" in name)
