@@ -10,7 +10,6 @@ from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
-from scipy import stats
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
@@ -32,6 +31,8 @@ def in_words(p: float) -> str:
 
 def p_values(deviates: Array, seed: int) -> tuple[float, float]:
     """Test against N(0, 1), nothing fitted: Kolmogorov–Smirnov (exact), Anderson–Darling."""
+    from scipy import stats
+
     anderson = stats.goodness_of_fit(
         stats.norm, deviates, known_params={"loc": 0, "scale": 1}, statistic="ad",
         n_mc_samples=SIMULATED_TESTS, rng=np.random.default_rng(seed),
@@ -102,7 +103,7 @@ def _draw(axes: Axes, deviates: Array, c: int, name: str, tests: str) -> None:
     counts, _ = np.histogram(deviates, edges)
     some, unit = counts > 0, len(deviates) * (edges[1] - edges[0])
     middle = ((edges[1:] + edges[:-1]) / 2)[some]
-    axes.plot(v, stats.norm.pdf(v), "k", label="Gaussian")
+    axes.plot(v, np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi), "k", label="Gaussian")
     points(axes, middle, counts[some] / unit, c, name, np.sqrt(counts[some]) / unit)
     axes.set(xlim=(-4, 4), yscale="log", ylim=(8e-5, 1))
     axes.set(xlabel=r"$(f-\langle f\rangle)\,/\,\sigma_f$", ylabel=r"$\sigma_f\,P(f)$")

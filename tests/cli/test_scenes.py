@@ -55,7 +55,7 @@ def test_a_tolerance_can_be_given(capsys: pytest.CaptureFixture[str]) -> None:
     assert accuracy["error_bound"] <= 1e-60
 
 
-@pytest.mark.parametrize("tolerance", ["0", "ten", "1e-9999999"])
+@pytest.mark.parametrize("tolerance", ["0", "1", "ten", "1e-9999999"])
 def test_a_wrong_tolerance(tolerance: str, capsys: pytest.CaptureFixture[str]) -> None:
     status, out, err = call(capsys, "run", SCENES / "one_contact.toml", "--tolerance", tolerance)
     assert (status, out) == (2, "")

@@ -22,7 +22,6 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic.kernel.theorem import NotProvedError
 
 from tests.properties.mutants import mutants
-from tests.soundness.test_attacks import ATTACKS, REFUSALS
 
 FAULTS = {
     # what a theorem is, and what is a statement
@@ -145,6 +144,8 @@ def _is_own(one: object) -> bool:
 
 def noticed() -> Iterator[str]:
     """What goes wrong."""
+    from tests.soundness.attacks import ATTACKS, REFUSALS
+
     for one in ATTACKS:
         try:
             one.false()
