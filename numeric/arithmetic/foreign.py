@@ -54,7 +54,7 @@ def read_numbers(path: Path) -> Array:
             found = np.asarray(np.load(path, "r", allow_pickle=False))
     except (ValueError, TypeError, ArithmeticError, SyntaxError, EOFError, OSError, TokenError):
         raise ForeignFileError(
-            "is no NumPy file of numbers, as np.save writes it, or is cut off"
+            "is not a NumPy file of numbers, as np.save writes one, or is cut off"
         ) from None
     if not found.size:
         raise ForeignFileError(f"is empty: its shape is {found.shape}")

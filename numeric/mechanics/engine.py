@@ -1,12 +1,12 @@
 """The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from importlib.util import find_spec
 from typing import Any
 
 from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, NumberSystem
-from ..lattice.branch import Branch
+from ..lattice.branch import Site
 from . import first_order
 from .physicality import Physicality
 from .problem import Problem, Route
@@ -98,63 +98,22 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
 
 
 def _line_sums(problem: Problem, realisation: int, system: NumberSystem, work: Work) -> Solved:
-    known = _along(problem, realisation, system, work)
-    return Solved(system, None, None, _summed(problem, known, system))
-
-
-def _along(
-    problem: Problem, realisation: int, system: NumberSystem, work: Work
-) -> dict[tuple[int, int], Any]:
-    """Read the radii of the diagonals that the answer depends on, each bead once."""
+    """Read the radii of the diagonals that the answer depends on, each bead once, and sum."""
+    lines: Iterable[first_order.Line]
     if problem.contact is not None:
-        lines = first_order.lines_read(problem.contact, problem.load)
+        lines = first_order.lines_read(problem.contact, problem.load).values()
     else:
         assert problem.site is not None
-        i, j = problem.site
-        lines = [first_order.Line(i - j, 1, j), first_order.Line(i + j, -1, j)]
-    sites = list(dict.fromkeys((line.at(m), m) for line in lines for m in range(line.top + 1)))
-    known: dict[tuple[int, int], Any] = {}
+        lines = first_order.bead_lines(problem.site)
+    sites = list(dict.fromkeys(site for line in lines for site in line.sites()))
+    rho: dict[Site, Any] = {}
     for at in range(0, len(sites), BLOCK):
         block = sites[at : at + BLOCK]
-        known.update(zip(block, problem.radii.at(block, realisation, system), strict=True))
+        rho.update(zip(block, problem.radii.at(block, realisation, system), strict=True))
         work.did("summed", len(block))
-    return known
-
-
-def _summed(
-    problem: Problem, known: dict[tuple[int, int], Any], system: NumberSystem
-) -> tuple[Any, Any]:
-    """Give (c⁺, c⁻) of the one bead, or (force, change) of the one contact."""
-
-    def radius_at(i: int, j: int) -> Any:
-        return known[i, j]
-
-    n_x = problem.n_x
-    if problem.contact is None:
-        assert problem.site is not None
-        i, j = problem.site
-        lines = first_order.Diagonals(i, j, 1, radius_at, {})
-        return (
-            first_order.line_sum(lines.along(0, j))[-1],
-            first_order.line_sum(lines.across(i, j))[-1],
-        )
-    contact = problem.contact
-    i, j, branch = contact
-    side, other = branch.side, branch.other
-    strength = problem.load.strength(n_x, system)
-
-    def ordered(a: int, b: int, orientation: Branch) -> Any:
-        return problem.load.ordered_force((a, b, orientation), strength, system)
-
-    above, below = first_order.crossing_layers(contact, problem.load)
-    own = ordered(*contact)
-    change, _ = first_order.contact_change(
-        contact,
-        own=own if problem.load.carries(*contact) else None,
-        above={m: ordered(i + side * (m - j), m, other) for m in above},
-        below={m: ordered(i + side * (m - j + 1), m - 1, other) for m in below},
-        radius_at=radius_at,
-        n_x=n_x,
-        system=system,
-    )
-    return own, change
+    if problem.contact is not None:
+        single = first_order.contact_change(problem.contact, problem.load, rho, problem.n_x, system)
+    else:
+        plus, minus = ([rho[site] for site in line.sites()] for line in lines)
+        single = first_order.line_sum(plus)[-1], first_order.line_sum(minus)[-1]
+    return Solved(system, None, None, single)

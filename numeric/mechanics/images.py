@@ -118,7 +118,7 @@ def _first_order(contact: Contact, load: LoadSpec, width: int) -> bool:
     """Look at the diagonals that decide a contact, and at the loads above it."""
     if _above(contact.upper, load, width) is None:
         return True
-    lines = first_order.lines_read(contact, load)
+    lines = first_order.lines_read(contact, load).values()
     return any(_coincide(a, b, 2 * width) for a, b in combinations(lines, 2))
 
 

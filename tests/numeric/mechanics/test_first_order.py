@@ -1,10 +1,11 @@
 """Which radii the first-order change of a contact force reads, below loads on single beads."""
 
 from fractions import Fraction
-from types import SimpleNamespace
 from typing import Any
 
 import pytest
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
+from force_diffusion.numeric.lattice.branch import Branch, Contact
 from force_diffusion.numeric.mechanics.first_order import (
     beads_read,
     contact_change,
@@ -13,13 +14,12 @@ from force_diffusion.numeric.mechanics.first_order import (
 )
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 
-FRACTIONS: Any = SimpleNamespace(number=Fraction)
 TOP = 5
 CONTACTS = [
-    (i, j, branch)
+    Contact(i, j, branch)
     for j in range(TOP)
     for i in range(-TOP - 2, TOP + 3)
-    for branch in "+-"
+    for branch in Branch
     if (i + j) % 2 == 0
 ]
 
@@ -29,27 +29,19 @@ def test_beads_are_counted_as_they_are_read(at: tuple[int, int]) -> None:
     load = LoadSpec("point", TOP, None, at=at)
     counts = set()
     for contact in CONTACTS:
+        lines = lines_read(contact, load)
+        listed = {site for line in lines.values() for site in line.sites()}
         read = set()
 
-        def radius_at(i: int, j: int, read: set[tuple[int, int]] = read) -> Fraction:
-            read.add((i, j))
-            return Fraction(1, 100 + 7 * i + j)
+        class Noted(dict[tuple[int, int], float]):
+            def __missing__(self, site: tuple[int, int], read: Any = read) -> float:
+                read.add(site)
+                return 1 / (100 + 7 * site[0] + site[1])
 
-        above, below = crossing_layers(contact, load)
-        _, count = contact_change(
-            contact,
-            own=Fraction(1) if load.carries(*contact) else None,
-            above=dict.fromkeys(above, Fraction(1)),
-            below=dict.fromkeys(below, Fraction(1)),
-            radius_at=radius_at,
-            n_x=Fraction(3, 5),
-            system=FRACTIONS,
-        )
-        listed = {
-            (line.at(m), m) for line in lines_read(contact, load) for m in range(line.top + 1)
-        }
-        assert count == len(read) == beads_read(contact, load), contact
+        contact_change(contact, load, Noted(), Fraction(3, 5), FLOAT64)
+        assert len(read) == beads_read(contact, load), contact
         assert read == listed
+        above, below = crossing_layers(contact, load)
         counts.add(bool(above or below) + 2 * load.carries(*contact))
     assert 0 in counts  # outside of the cone nothing is read
     assert at[1] == 1 or {1, 2} & counts
