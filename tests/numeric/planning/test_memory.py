@@ -7,9 +7,10 @@ import sys
 from pathlib import Path
 
 import pytest
+from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
 
-from tests.numeric.scenes import basic, planned
+from tests.numeric.scenes import basic, planned, scene
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="the peak is in bytes of Linux")
 
@@ -64,14 +65,14 @@ def test_no_run_takes_more_than_its_plan_says_nor_much_less(name: str, tmp_path:
 
 
 def test_a_plan_says_gigabytes_where_it_takes_some() -> None:
-    plan = planned(
+    found = planned(
         {
             "packing": {"height": 5, "width": 10},
             "disorder": {"kind": "uniform", "relative_std": 1e-3},
             "ask": {"quantity": "histogram", "bins": 1_000_000},
         }
     )
-    assert re.search(r"Memory: about 1\.\d+ GB", str(plan))
+    assert re.search(r"Memory: about 1\.\d+ GB", str(found))
 
 
 @pytest.mark.parametrize(
@@ -88,3 +89,8 @@ def test_what_is_too_large_is_named(sizes: dict[str, int], key: str) -> None:
     sections["packing"]["allow_images"] = True
     with pytest.raises(SceneError, match=f"{key}: this scene would need about .* of memory"):
         planned(sections)
+
+
+def test_the_memory_that_may_be_used_is_an_argument() -> None:
+    with pytest.raises(SceneError, match=r"of memory.*100 MB may be used"):
+        plan(scene(basic(100, 201)), memory_limit=100_000_000)

@@ -11,7 +11,6 @@ import pytest
 from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
-from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run import read_scene, run
 from force_diffusion.numeric.scene.files import TableError
 from force_diffusion.numeric.scene.sections import SceneError
@@ -98,25 +97,6 @@ def test_contacts_outside_the_packing(at: list[Any], says: str) -> None:
         scene(basic(quantity="contact", at=at))
 
 
-@pytest.mark.parametrize(
-    ("layers", "effects", "says"),
-    [
-        ([], {}, "one layer or several, each once"),
-        ([1, 1], {}, "one layer or several, each once"),
-        ([4], {}, "below the load, from 0 to 3"),
-        ([0, -1], {}, "below the load, from 0 to 3"),
-        ([1], {"contacts": "unilateral"}, 'must be "contact_forces" or "positions"'),
-    ],
-)
-def test_layers_that_a_response_has_not(
-    layers: list[int], effects: dict[str, Any], says: str
-) -> None:
-    sections = basic(5, 14, quantity="response", layers=layers)
-    sections |= {"load": {"kind": "point", "at": [0, 4]}, "effects": effects}
-    with pytest.raises(SceneError, match=says):
-        scene(sections)
-
-
 def test_missing_sections_and_keys() -> None:
     for text, says in [
         ("", r"section \[packing\] is required"),
@@ -177,19 +157,6 @@ def test_a_slab_has_no_list_of_everything() -> None:
     for quantity in ("contact_forces", "positions", "profile", "histogram"):
         with pytest.raises(SceneError, match=r"packing\.width"):
             scene(basic(4, None, quantity=quantity))
-
-
-def test_too_large_is_refused_with_its_size_before_anything_is_done() -> None:
-    for sections in (
-        basic(9_999_999, 10**12),
-        basic(9_999_999, 10**12, quantity="profile", tolerance="=1e-9"),
-        basic(9_999_999, None, quantity="contact", at=[0, 0, "+"]),
-        basic(9_999_999, None, quantity="positions", at=[1, 9_999_999]),
-    ):
-        with pytest.raises(SceneError, match="of memory"):
-            planned(sections)
-    with pytest.raises(SceneError, match=r"of memory.*100 MB may be used"):
-        plan(scene(basic(100, 201)), memory_limit=100_000_000)
 
 
 def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path: Path) -> None:
