@@ -55,26 +55,19 @@ def _planned(
     scene: Path, tolerance: str | None, certified: bool, changes: dict[str, str] | None = None
 ) -> "Plan":
     """Read and plan a scene."""
-    from force_diffusion.numeric.arithmetic.machine import memory_limit
     from force_diffusion.numeric.run.running import read_tolerance
 
     try:
         asked = None if tolerance is None else read_tolerance(tolerance)
     except fd.SceneError as error:
         raise ForceDiffusionError(f"--{error}") from None
-    try:
-        with named(scene.name):
-            found = fd.read_scene(scene, changes)
-            if certified and asked is None and found.ask.tolerance is None:
-                raise ForceDiffusionError(
-                    "--certified needs a tolerance: give --tolerance T, such as 1e-30"
-                )
-            return found.explain(asked, certified=certified)
-    except MemoryError:
-        raise ForceDiffusionError(
-            f"{scene.name}: reading and planning it takes more than the free memory, "
-            f"{memory_limit() / 1e6:.3g} MB: ask for a smaller packing or give smaller files"
-        ) from None
+    with named(scene.name):
+        found = fd.read_scene(scene, changes)
+        if certified and asked is None and found.ask.tolerance is None:
+            raise ForceDiffusionError(
+                "--certified needs a tolerance: give --tolerance T, such as 1e-30"
+            )
+        return found.explain(asked, certified=certified)
 
 
 def explain(

@@ -209,21 +209,12 @@ def outcome_of(
     """Put the answers to a plan's questions together."""
     results = {}
     for quantity, table, accuracy in zip(plan.quantities, answer.tables, judged, strict=True):
-        own = replace(plan, scene=quantity.scene, quantities=(quantity,))
+        asked = replace(plan, scene=quantity.scene, quantities=(quantity,))
         counted = answer.bins if quantity.name == "histogram" else None
-        results[quantity.name] = Result(own, table, counted, accuracy, answer.network)
+        results[quantity.name] = Result(asked, table, counted, accuracy, answer.network)
     first = results[plan.quantity.name]
-    return Outcome(
-        plan,
-        first.table,
-        first.bins,
-        first.accuracy,
-        answer.network,
-        results,
-        answer,
-        seconds,
-        files,
-    )
+    own = {**vars(first), "plan": plan}
+    return Outcome(**own, results=results, answer=answer, seconds=seconds, files=files)
 
 
 def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
