@@ -78,12 +78,12 @@ def bulk_diffusion(M: Any, z: Any, phi: Any, sigma: Any, r: Any) -> Any:
 
 def surface_variance(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
     """Exact σ_f²/⟨f⟩² of f^±_ij to first order in δr at finite M, surface load (Eq. 13)."""
-    return _of_contact(generated.surface_variance, M, j, phi, sigma, r)
+    return surface_variance_at_angle(M, j, 1, phi, sigma, r)
 
 
 def bulk_variance(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
     """Exact σ_f²/⟨f⟩² of f^±_ij to first order in δr at finite M, bulk load (Eq. 14)."""
-    return _of_contact(generated.bulk_variance, M, j, phi, sigma, r)
+    return bulk_variance_at_angle(M, j, 1, phi, sigma, r)
 
 
 def surface_variance_at_angle(M: Any, j: Any, t: Any, phi: Any, sigma: Any, r: Any) -> Any:

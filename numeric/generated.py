@@ -24,28 +24,6 @@ def bulk_diffusion_of_spheres(M: Any, z: Any, phi: Any) -> Any:
     return (M**3*(1 - z)**2*(phi + 1)**2*(4*z + 1)) / ((1 - phi)**2*(2*phi + 1)**2)
 
 
-def surface_variance(M: Any, j: Any, k: Any, phi: Any) -> Any:
-    if M == 1:
-        return (phi*(phi*(phi*(phi - 2) + 6) - 2) + 1) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if j == 1 and M == 2:
-        return (phi*(phi*(phi*(phi - 1) + 11) + 2) + 4) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if j == 0 and M >= 2:
-        return (M*(M*(4*M - 3) + phi*(7*phi - 2) - 3) + phi*(phi*(phi*(phi - 1) - 3) + 1) + 3) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if j == 1 and M >= 3:
-        return (M*(M*(4*M - 3) + phi*(9*phi + 5) - 22) + phi*(phi*(phi**2 - 9) - 7) + 28) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if j == M - 1 and M >= 3:
-        return (M*(4*phi**2 + 4) + phi*(phi*(phi*(phi - 1) + 3) - 1) - 4) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    return (j*(k*(12*k - 12) + 4*phi**2 + 4) + k*(k*(4*k - 3) + phi*(9*phi + 2) - 4) + phi*(phi*(phi**2 - 4) - 2) + 3) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-
-
-def bulk_variance(M: Any, j: Any, k: Any, phi: Any) -> Any:
-    if j == 0:
-        return (M*(M*(M*(36*M + 45) + phi*(200*phi - 100) - 70) + phi*(phi**2*(60*phi - 60) + 60) + 45) + phi*(phi*(160 - 60*phi) - 80) + 4) / (120 * M * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if j == 1:
-        return (M*(M*(M*(36*M + 81) + phi*(260*phi + 110) - 559) + phi*(phi*(60*phi**2 - 280) - 130) + 806) + phi*(phi*(phi*(-60*phi - 60) + 180) - 60) - 360) / (120 * (M - 1) * (1 - phi) ** 2 * (phi + 1) ** 2)
-    return (j*k*(180*k**2 + 240*phi**2 + 60) + k*(k*(k*(36*k + 45) + phi*(260*phi + 20) - 100) + 60*phi**4 + 15) + phi*(phi*(160 - 60*phi) - 80) + 4) / (120 * k * (1 - phi) ** 2 * (phi + 1) ** 2)
-
-
 def surface_variance_at_angle(M: Any, j: Any, k: Any, t: Any, phi: Any) -> Any:
     if M == 1:
         return (phi*(phi*(phi*(phi - t - 1) + t*(t + 4) + 1) + t*(-t - 1)) + t**2) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)

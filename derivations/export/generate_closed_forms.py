@@ -85,7 +85,6 @@ def _forms() -> Iterator[tuple[str, str, Iterable[Branch]]]:
     for name in ("surface", "bulk"):
         yield f"{name}_diffusion_of_spheres", "M z phi", _leading(in_dimensions(name, 3))
     for what, numbers, more in (
-        ("variance", (13, 14), ""),
         ("variance_at_angle", ("B2", "B3"), " t"),
         ("variance_of_spheres", ("B13", "B14"), ""),
         ("mean_shift", ("B5", "B6"), ""),

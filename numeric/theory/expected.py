@@ -49,10 +49,6 @@ def stds_of_discs(
     """
     bulk = load == "bulk"
     plus, minus = components
-    if plus == minus:  # straight down
-        vertical = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
-        std = math.sqrt(float(vertical(M, j, phi, 1, 1))) * plus
-        return std, std
     tilted = closed_forms.bulk_variance_at_angle if bulk else closed_forms.surface_variance_at_angle
     # own² times a polynomial of degree 2 in t = other/own, where own may vanish
     none, one, turned = (float(tilted(M, j, t, phi, 1, 1)) for t in (0, 1, -1))
