@@ -2,8 +2,6 @@
 
 import json
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -129,8 +127,10 @@ def _answer(
     from force_diffusion.numeric.run.outcome import outcome_lines
 
     warn(scene, planned)
-    with named(scene.name), in_range(), _bar(planned, quiet) as progress:
-        found = fd.run(planned, progress)
+    with named(scene.name), in_range():
+        # of one packing nobody knows how far it is
+        many = planned.problem.realisations > 1
+        found = fd.run(planned, many and not quiet and sys.stderr.isatty())
     answers = list(found.results.values())
     about = found.data(rows=False)
     about["source"] = sourced(about["source"], scene, command_line())
@@ -178,22 +178,3 @@ def cost(
         print(json.dumps(data, indent=2))
     for name, why in found.skipped.items():
         tell(f"{name}: {why}")
-
-
-@contextmanager
-def _bar(planned: "Plan", quiet: bool) -> Iterator[Callable[[str, int], None] | None]:
-    """A bar on a terminal for many packings; where there is one, nobody knows how far it is."""
-    if quiet or planned.problem.realisations == 1 or not sys.stderr.isatty():
-        yield None
-        return
-    from rich.console import Console
-    from rich.progress import Progress
-
-    with Progress(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("solving", total=planned.beads)
-
-        def progress(kind: str, beads: int) -> None:
-            if kind in {"deposited", "summed"}:
-                bar.advance(task, beads)
-
-        yield progress

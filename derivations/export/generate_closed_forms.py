@@ -90,7 +90,7 @@ def _forms() -> Iterator[tuple[str, str, Iterable[Branch]]]:
         ("mean_shift", ("B5", "B6"), ""),
     ):
         for name, number in zip(("surface", "bulk"), numbers, strict=True):
-            yield f"{name}_{what}", f"M j k{more} phi", _exact(number)  # type: ignore[arg-type]
+            yield f"{name}_{what}", f"M j k{more} phi", _exact(number)
     yield "contacts_mean_variance", "M j k N phi", _exact("B7")
     yield "beads_mean_variance", "M j k N phi", _exact("B8")
     yield "response", "j l phi", _leading(eq16.PRINTED.rhs)

@@ -128,14 +128,14 @@ class CostStudy:
 
 
 def cost(
-    scene: Scene, seconds: float = 20, progress: Callable[[Way], None] = lambda way: None
+    scene: Scene, seconds: float = 20, progress: bool | Callable[[Way], object] = False
 ) -> CostStudy:
     """Measure what accuracy costs: error and seconds of one packing, in each arithmetic.
 
     These are float64, balls that certify 15, 30 and 100 digits, and mpmath. All of it takes about
-    so many ``seconds``; what would take longer is extrapolated from fewer layers. ``progress`` is
-    called with each way as soon as it is known. Raises ``SceneError`` where nothing changes, and
-    what is raised where a packing can't be built.
+    so many ``seconds``; what would take longer is extrapolated from fewer layers. ``progress``
+    prints each way as soon as it is known, or is called with it. Raises ``SceneError`` where
+    nothing changes, and what is raised where a packing can't be built.
 
     >>> import force_diffusion as fd
     >>> scene = fd.Scene(
@@ -163,7 +163,8 @@ def cost(
     ways = []
     for way in study.ways():
         ways.append(way)
-        progress(way)
+        if progress:
+            (print if progress is True else progress)(way)
     if not ways:
         raise next(iter(study.failures.values()))
     skipped = {name: str(error) for name, error in study.failures.items()}

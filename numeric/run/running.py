@@ -3,28 +3,31 @@
 ``Scene`` is the one of ``numeric.scene`` with the two verbs that need all the rooms below.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
 from fractions import Fraction
 from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from ..accuracy import ToleranceError, enclosed, estimated, shortfall
+from ..accuracy import Accuracy, ToleranceError, enclosed, estimated, shortfall
 from ..arithmetic.decimals import exact, parse
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work
 from ..planning.plan import Plan
 from ..planning.planner import in_balls
 from ..planning.planner import plan as make_plan
+from ..quantities.answer import Answer
 from ..scene import reading, scene
 from ..scene.scene import files_read
 from ..scene.sections import SceneError
 from .outcome import Outcome, outcome_of
 
 
-def run(what: "Plan | scene.Scene | str | Path", progress: Progress | None = None) -> Outcome:
+def run(what: "Plan | scene.Scene | str | Path", progress: bool | Progress = False) -> Outcome:
     """Run a scene, the path of a scene file, or a plan, to the tolerance that it was made for.
 
+    ``progress`` shows a bar, or is called with the kind of work and the number of beads just done.
     Where the estimated error of float64 misses the tolerance, balls answer. Raises
     ``ToleranceError``, ``SceneError``, ``TypeError`` for what is none of these, and what the sweeps
     raise for a packing that can't be built.
@@ -38,7 +41,29 @@ def run(what: "Plan | scene.Scene | str | Path", progress: Progress | None = Non
     plan = what
     start = perf_counter()
     files = files_read(plan.scene)
-    work = Work(progress=progress)
+    with _bar(plan) if progress is True else nullcontext(progress or None) as follow:
+        plan, answer, judged = _answered(plan, Work(progress=follow))
+    return outcome_of(plan, answer, judged, perf_counter() - start, files)
+
+
+@contextmanager
+def _bar(plan: Plan) -> Iterator[Progress]:
+    """Show a bar of the beads solved, in a terminal or, by ipywidgets, in a notebook."""
+    from rich.console import Console
+    from rich.progress import Progress as Bar
+
+    with Bar(console=Console(stderr=True), transient=True) as bar:
+        task = bar.add_task("solving", total=plan.beads)
+
+        def progress(kind: str, beads: int) -> None:
+            if kind in {"deposited", "summed"}:
+                bar.advance(task, beads)
+
+        yield progress
+
+
+def _answered(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
+    """Answer a plan; gives the plan that did it in the end."""
     if not plan.certified:
         try:
             answer, judged = estimated(plan, work)
@@ -50,8 +75,8 @@ def run(what: "Plan | scene.Scene | str | Path", progress: Progress | None = Non
         if missed:
             plan = _in_balls(plan, missed)
     if plan.certified:
-        plan, answer, judged = enclosed(plan, work)
-    return outcome_of(plan, answer, judged, perf_counter() - start, files)
+        return enclosed(plan, work)
+    return plan, answer, judged
 
 
 def _in_balls(plan: Plan, missed: str) -> Plan:
@@ -107,11 +132,11 @@ class Scene(scene.Scene):
         tolerance: Any = None,
         *,
         certified: bool = False,
-        progress: Progress | None = None,
+        progress: bool | Progress = False,
     ) -> Outcome:
         """Answer the scene's question; arguments as for ``explain``.
 
-        ``progress`` is called with the kind of work and the number of beads just done. Raises also
+        ``progress`` is that of ``fd.run``. Raises also
         ``ToleranceError``, and ``UnbuildableError``, ``NotStandingError`` or ``RadiusError`` for a
         packing that can't be built.
         """

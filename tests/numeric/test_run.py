@@ -503,3 +503,13 @@ def test_standard_errors_in_units_beyond_floats_are_not_known() -> None:
     load = {"kind": "point", "at": [3, 3, 1], "magnitude": "=1e400"}
     found = scene({**sections, "load": load}).run("1e-20")
     assert not any(np.isfinite(error).any() for error in found.standard_errors.values())
+
+
+def test_progress_is_shown(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")  # as on a terminal
+    fd.run(scene(basic(4, 9, realisations=30)), progress=True)
+    shown = capsys.readouterr().err
+    assert "solving" in shown
+    assert "100%" in shown
