@@ -33,12 +33,12 @@ def stated(numbers: Iterable[Number] | None = None) -> dict[Number, list[Stateme
             message = f"Eq. {number} is not stated for Coq: give a number from 1 to {last}"
             raise NoSuchFormError(message, "number")
     derivations = ((number, load(number)) for number in wanted)
-    return {n: statements(one) for n, one in derivations if isinstance(one, Derivation)}
+    return {n: statements(whole) for n, whole in derivations if isinstance(whole, Derivation)}
 
 
 def sources(asked: Mapping[Number, Sequence[Statement]]) -> dict[str, str]:
     """Names and sources of all that Coq reads: the theory, and the files of these statements."""
-    files = (statement.files for made in asked.values() for statement in made)
+    files = (statement.files for several in asked.values() for statement in several)
     return theory() | {name: text for each in files for name, text in each.items()}
 
 
@@ -66,25 +66,27 @@ def certify(
     with TemporaryDirectory() as folder:
         coq = CoqFolder(Path(folder))
         coq.compile(sources(asked), notice)
-        found = [certificate(coq, number, made) for number, made in asked.items()]
+        certificates = [certificate(coq, number, several) for number, several in asked.items()]
         notice("coqchk")
-        modules = [one.accepted_in for of in found if of.accepted for one in asked[of.number]]
+        accepted = (asked[answer.number] for answer in certificates if answer.accepted)
+        modules = [statement.accepted_in for several in accepted for statement in several]
         if trouble := coq.check(modules) if modules else "":
-            found = [
-                replace(one, accepted=False, note=trouble) if one.accepted else one for one in found
+            certificates = [
+                replace(answer, accepted=False, note=trouble) if answer.accepted else answer
+                for answer in certificates
             ]
-    return Certification(tuple(found), theory_hash())
+    return Certification(tuple(certificates), theory_hash())
 
 
 def certificate(coq: CoqFolder, number: Number, asked: Sequence[Statement]) -> Certificate:
     """Read what Coq has said of the statements of one equation."""
-    trouble = coq.trouble((*theory(), *(name for one in asked for name in one.files)))
+    trouble = coq.trouble((*theory(), *(name for statement in asked for name in statement.files)))
     axioms: set[str] = set()
-    for one in asked:
+    for statement in asked:
         if not trouble:
-            named = axioms_in(coq.said[f"{one.accepted_in}.v"].printed)
+            named = axioms_in(coq.said[f"{statement.accepted_in}.v"].printed)
             if named is None:
-                trouble = f"{one.accepted_in}: Coq does not say what it rests on"
+                trouble = f"{statement.accepted_in}: Coq does not say what it rests on"
             elif foreign := sorted({*named} - ALLOWED):
                 trouble = f"it rests on {', '.join(foreign)}"
             axioms |= {*(named or ())}
@@ -92,8 +94,8 @@ def certificate(coq: CoqFolder, number: Number, asked: Sequence[Statement]) -> C
         number,
         accepted=not trouble,
         checker=coq.checker,
-        theorems={one.name: one.hash for one in asked},
+        theorems={statement.name: statement.hash for statement in asked},
         axioms=tuple(sorted(axioms)),
         note=trouble,
-        about=tuple(dict.fromkeys(words for one in asked for words in one.about)),
+        about=tuple(dict.fromkeys(words for statement in asked for words in statement.about)),
     )

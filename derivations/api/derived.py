@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import chain
 from typing import Any
 
 from force_diffusion.symbolic.kernel.decisions import Verdict
@@ -33,7 +34,7 @@ class Derived:
     @property
     def verdicts(self) -> dict[Number, Verdict]:
         """Proved; proved, assuming; refuted or undecided: by the equation's number."""
-        return {one.derivation.number: one.verdict for one in self.outcomes}
+        return {outcome.derivation.number: outcome.verdict for outcome in self.outcomes}
 
     @property
     def proved(self) -> bool:
@@ -45,7 +46,7 @@ class Derived:
 
     def counts(self) -> str:
         """How many equations have which verdict, in words; and printed statements refuted."""
-        refuted = sum(len(one.refuted) for one in self.outcomes)
+        refuted = sum(len(outcome.refuted) for outcome in self.outcomes)
         return ", ".join(filter(None, [verdicts_text(self.outcomes), expected_text(refuted)]))
 
     def data(self) -> dict[str, Any]:
@@ -59,8 +60,8 @@ class Derived:
         """
         return {
             **{
-                fragment_name(one.derivation.number): statement_latex(one.derivation)
-                for one in self.in_order
+                fragment_name(outcome.derivation.number): statement_latex(outcome.derivation)
+                for outcome in self.in_order
             },
             DOCUMENT: document(self.in_order),
         }
@@ -69,21 +70,21 @@ class Derived:
     def in_order(self) -> list[Outcome]:
         """The outcomes by number, not premises first."""
         place = {number: at for at, number in enumerate(modules())}
-        return sorted(self.outcomes, key=lambda one: place.get(one.derivation.number, len(place)))
+        return sorted(self.outcomes, key=lambda each: place.get(each.derivation.number, len(place)))
 
     def __str__(self) -> str:
-        lines = [line for one in self.outcomes for line in (summary_line(one), *trouble_lines(one))]
-        return "\n".join([*lines, f"{self.counts()}."])
+        lines = ([summary_line(outcome), *trouble_lines(outcome)] for outcome in self.outcomes)
+        return "\n".join([*chain.from_iterable(lines), f"{self.counts()}."])
 
     __repr__ = __str__
 
     def _repr_markdown_(self) -> str:
         head = ("Eq.", "verdict", "title", "seconds")
-        found = (
-            (str(one.derivation.number), one.words, one.derivation.title, f"{one.seconds:.2f}")
-            for one in self.outcomes
+        rows = (
+            (str(of.derivation.number), of.words, of.derivation.title, f"{of.seconds:.2f}")
+            for of in self.outcomes
         )
-        return "\n".join(f"| {' | '.join(row)} |" for row in (head, ("---",) * len(head), *found))
+        return "\n".join(f"| {' | '.join(row)} |" for row in (head, ("---",) * len(head), *rows))
 
 
 def derive(
@@ -113,11 +114,11 @@ def derive(
         TypeError: ``numbers`` is a single one.
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
-        one = getattr(numbers, "number", numbers)
-        raise TypeError(f"derive takes several, in a list: derive([{one!r}])")
+        single = getattr(numbers, "number", numbers)
+        raise TypeError(f"derive takes several, in a list: derive([{single!r}])")
     outcomes = []
     tell = notice or (lambda _: None)
-    wanted = [equation(one).number for one in (modules() if numbers is None else numbers)]
+    wanted = [equation(number).number for number in (modules() if numbers is None else numbers)]
     for outcome in run_all(wanted, lambda statement: tell(f"Eq. {statement.number}")):
         outcomes.append(outcome)
         if finished:

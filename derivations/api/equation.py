@@ -1,6 +1,5 @@
 """An equation for Python users: SymPy objects, values, and its proof."""
 
-import inspect
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache, cached_property, partial
 from numbers import Integral
@@ -16,19 +15,18 @@ from force_diffusion.symbolic.printing.text import text
 
 from ..coq.record import recorded
 from ..export.terminal import statement_data, statement_text
-from ..framework.arrays import evaluate
 from ..framework.catalogue import Number as EquationNumber
 from ..framework.catalogue import allowed, modules, number_of
 from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
 from ..framework.deciding import decided
-from ..framework.evaluation import ArgumentError, indices_at
+from ..framework.evaluation import ArgumentError, evaluate, indices_at
 from ..framework.lists import both, either
 from ..framework.loading import load
 from ..framework.record import Derivation, Statement
 from ..framework.rows import Row
 from ..framework.runner import run_all
-from .numpy_function import numpy_function
+from .numpy_function import NumpyFunction
 from .proof import Proof, StepList
 
 
@@ -383,12 +381,9 @@ class Equation:
             ArgumentError: the right-hand side is no number; the function raises it for a value that
                 is not allowed, and never gives a value where the formula is not meant.
         """
-        return _Function(self)
-
-    def _numpy(self) -> Callable[..., Any]:
         about = "; ".join(self._about(line) for line in self._derivation.printed)
         heading, meanings = f"Eq. {self.number}: {about}.", dict(self._derivation.symbols)
-        return numpy_function(self._numbers, self.name, heading, meanings)
+        return NumpyFunction(self._numbers, self.name, heading, meanings, self)
 
     # proofs
 
@@ -477,33 +472,14 @@ def _value_side(line: Any) -> sympy.Expr:
 
 def _names(expressions: Iterable[sympy.Basic]) -> dict[str, Any]:
     """Symbols and functions by the names that they have in code, in their order of appearance."""
-    found: dict[str, Any] = {}
+    names: dict[str, Any] = {}
     for expression in expressions:
         for node in sympy.preorder_traversal(expression):
             if isinstance(node, Symbol):
-                found.setdefault(node.in_code, node)
+                names.setdefault(node.in_code, node)
             elif isinstance(node, sy.SiteFunction | sy.Dot | sy.MatrixTimes | sy.Braces):
-                found.setdefault(type(node).__name__, type(node))
-    return found
-
-
-class _Function:
-    """The function of an equation, which can be pickled: then the equation is, for processes."""
-
-    def __init__(self, equation: Equation) -> None:
-        self._equation, self._call = equation, equation._numpy()
-        self.__signature__ = inspect.signature(self._call)
-        self.__name__ = self.__qualname__ = self._call.__name__
-        self.__doc__ = self._call.__doc__
-
-    def __call__(self, *args: Any, **kwargs: Any) -> Any:
-        return self._call(*args, **kwargs)
-
-    def __reduce__(self) -> tuple[type["_Function"], tuple[Equation]]:
-        return _Function, (self._equation,)
-
-    def __repr__(self) -> str:
-        return f"{self.__name__}{self.__signature__}"
+                names.setdefault(type(node).__name__, type(node))
+    return names
 
 
 @cache

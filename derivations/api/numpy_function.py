@@ -11,8 +11,15 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
-from ..framework.arrays import at_element, one_or_tuple, shared_shape
-from ..framework.evaluation import TOGETHER, ArgumentError, in_order, range_of
+from ..framework.evaluation import (
+    TOGETHER,
+    ArgumentError,
+    at_element,
+    in_order,
+    one_or_tuple,
+    range_of,
+    shared_shape,
+)
 
 Arrays = dict[sympy.Symbol, Any]
 """Float64 arrays of one shape, by symbol."""
@@ -20,9 +27,7 @@ Arrays = dict[sympy.Symbol, Any]
 _MEANINGS = {sy.M: "height of the packing", sy.j: "layer, 0 at the base"}
 
 
-def numpy_function(
-    expressions: Sequence[sympy.Expr], name: str, heading: str, meanings: Mapping[sympy.Basic, str]
-) -> Callable[..., Any]:
+class NumpyFunction:
     """The function; it refuses what ``Equation.at`` refuses.
 
     Args:
@@ -30,35 +35,47 @@ def numpy_function(
         name: of the function.
         heading: first line of its docstring.
         meanings: of symbols, in words.
+        equation: whose function it is; pickles hold that alone.
     """
-    needed = {s.in_code: s for one in expressions for s in one.free_symbols}
-    by_name = {one: needed[one] for one in in_order(needed)}
-    sides = [sympy.lambdify(by_name.values(), side, "numpy") for side in expressions]
-    signature = inspect.Signature(
-        [inspect.Parameter(one, inspect.Parameter.POSITIONAL_OR_KEYWORD) for one in by_name]
-    )
 
-    def function(*args: Any, **kwargs: Any) -> Any:
-        given = signature.bind(*args, **kwargs).arguments
-        arrays = {one: _floats(one, given[one]) for one in by_name}
-        shape = shared_shape({one: array for one, array in arrays.items() if array.ndim})
-        values = {by_name[one]: np.broadcast_to(array, shape) for one, array in arrays.items()}
+    def __init__(
+        self,
+        expressions: Sequence[sympy.Expr],
+        name: str,
+        heading: str,
+        meanings: Mapping[sympy.Basic, str],
+        equation: Any,
+    ) -> None:
+        needed = {symbol.in_code: symbol for side in expressions for symbol in side.free_symbols}
+        self._by_name = {name: needed[name] for name in in_order(needed)}
+        self._sides = [sympy.lambdify(self._by_name.values(), one, "numpy") for one in expressions]
+        self._equation = equation
+        kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
+        self.__signature__ = inspect.Signature([inspect.Parameter(n, kind) for n in self._by_name])
+        self.__name__ = self.__qualname__ = name
+        self.__doc__ = _docstring(heading, self._by_name, meanings)
+
+    def __call__(self, *args: Any, **kwargs: Any) -> Any:
+        """Evaluate in float64; raises ``ArgumentError`` for what is not allowed."""
+        given = self.__signature__.bind(*args, **kwargs).arguments
+        arrays = {name: _floats(name, given[name]) for name in self._by_name}
+        shape = shared_shape({name: array for name, array in arrays.items() if array.ndim})
+        values = {self._by_name[n]: np.broadcast_to(array, shape) for n, array in arrays.items()}
         _assert_allowed(values)
         with np.errstate(all="ignore"):
-            results = [_spread(side(*values.values()), shape) for side in sides]
-        for one in results:
-            _refuse(np.isfinite(one), lambda _: "the value is beyond the range of floats: use at")
-        return one_or_tuple(results)
+            results = [side(*values.values()) for side in self._sides]
+        for result in results:
+            _refuse(
+                np.isfinite(result), lambda _: "the value is beyond the range of floats: use at"
+            )
+        # a side may not depend on all of the arrays
+        return one_or_tuple([np.array(np.broadcast_to(one, shape), float)[()] for one in results])
 
-    function.__name__ = function.__qualname__ = name
-    function.__doc__ = _docstring(heading, by_name, meanings)
-    function.__signature__ = signature  # type: ignore[attr-defined]
-    return function
+    def __reduce__(self) -> tuple[Callable[[Any], Any], tuple[Any]]:
+        return type(self._equation).function, (self._equation,)
 
-
-def _spread(value: Any, shape: tuple[int, ...]) -> Any:
-    """A value in the shape of all arrays, some of which it may not depend on."""
-    return np.array(np.broadcast_to(value, shape), dtype=float)[()]
+    def __repr__(self) -> str:
+        return f"{self.__name__}{self.__signature__}"
 
 
 def _floats(name: str, value: Any) -> Any:

@@ -51,21 +51,23 @@ def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
     if isinstance(observable, type):
         raise ObservableError(f"{observable.__name__} needs a place, such as (i, j)")
     try:
-        found = sympy.sympify(observable, strict=True)  # else SymPy evaluates text
+        expression = sympy.sympify(observable, strict=True)  # else SymPy evaluates text
     except sympy.SympifyError:
-        found = None
-    if not isinstance(found, sympy.Expr):
+        expression = None
+    if not isinstance(expression, sympy.Expr):
         raise ObservableError(f"{observable!r} is not a SymPy expression")
-    _check_symbols(found)
-    degree, is_vector = _Check(found, dimension, linear).of(found)
+    _check_symbols(expression)
+    degree, is_vector = _Check(expression, dimension, linear).of(expression)
     if is_vector:
-        raise ObservableError(f"{text(found)} is a vector: take a component, such as dot(e_y, …)")
+        raise ObservableError(
+            f"{text(expression)} is a vector: take a component, such as dot(e_y, …)"
+        )
     if linear and degree > 1:
         raise ObservableError(
-            f"{text(found)} is not linear in quantities that depend on the radii; "
+            f"{text(expression)} is not linear in quantities that depend on the radii; "
             "mean(…, order=2) accepts products"
         )
-    return found
+    return expression
 
 
 def _check_symbols(observable: sympy.Expr) -> None:
@@ -123,13 +125,13 @@ class _Check:
             self._quantity(part)
             return 1, getattr(part, "is_vector", False)
         if isinstance(part, sympy.Add):
-            parts = [self.of(one) for one in part.args]
-            return max(one for one, _ in parts), any(vector for _, vector in parts)
+            parts = [self.of(term) for term in part.args]
+            return max(degree for degree, _ in parts), any(vector for _, vector in parts)
         if isinstance(part, sympy.Mul):
-            parts = [self.of(one) for one in part.args]
-            return sum(one for one, _ in parts), any(vector for _, vector in parts)
+            parts = [self.of(factor) for factor in part.args]
+            return sum(degree for degree, _ in parts), any(vector for _, vector in parts)
         if isinstance(part, sy.Dot):
-            return sum(self.of(one)[0] for one in part.args), False
+            return sum(self.of(term)[0] for term in part.args), False
         if isinstance(part, sy.MeanOver):
             return self.of(part.args[0])
         if isinstance(part, sympy.Pow) and isinstance(part.exp, sympy.Integer):
@@ -169,13 +171,13 @@ class _Check:
                 raise ObservableError(
                     f"{shown} is along base vector {axis}: 1, 2 and 3 are allowed"
                 )
-        for one in place:
+        for index in place:
             try:
-                factors, _ = sets.row(one)
+                factors, _ = sets.row(index)
             except NotExactError:
                 factors = {sy.n: 0}
             if not {*factors} <= {*INDICES, sy.site_r, sy.site_s}:
-                raise ObservableError(f"{shown} is at {text(one)}: {_PLACE}")
+                raise ObservableError(f"{shown} is at {text(index)}: {_PLACE}")
 
 
 def relations_of(where: Any) -> tuple[sympy.Basic, ...]:
@@ -184,9 +186,9 @@ def relations_of(where: Any) -> tuple[sympy.Basic, ...]:
     Raises:
         ObservableError: something else is among them.
     """
-    found = (where,) if isinstance(where, sympy.Basic | bool) else where
+    given = (where,) if isinstance(where, sympy.Basic | bool) else where
     try:
-        several = tuple(sympy.sympify(one, strict=True) for one in found)
+        several = tuple(sympy.sympify(relation, strict=True) for relation in given)
         sets.where(*several)
     except (TypeError, sympy.SympifyError, NotExactError):
         raise ObservableError(
@@ -203,37 +205,38 @@ def domain(observables: Iterable[sympy.Expr], load: Load, *more: sympy.Basic) ->
     """
     observables = tuple(observables)
     quantities = by_name(
-        set().union(*(one.atoms(sy.SiteFunction, *SPHERES) for one in observables))
+        set().union(*(observable.atoms(sy.SiteFunction, *SPHERES) for observable in observables))
     )
-    averages = set().union(*(one.atoms(sy.MeanOver) for one in observables))
-    under_load = any(isinstance(one, (*DISCS, *SPHERES)) for one in quantities)
-    relations = [sympy.Ge(one, 1, evaluate=False) for one in by_name({a.args[1] for a in averages})]
-    for one in quantities:
-        layer = layer_of(one)
+    averages = set().union(*(observable.atoms(sy.MeanOver) for observable in observables))
+    under_load = any(isinstance(quantity, (*DISCS, *SPHERES)) for quantity in quantities)
+    counts = by_name({average.args[1] for average in averages})
+    relations = [sympy.Ge(count, 1, evaluate=False) for count in counts]
+    for quantity in quantities:
+        layer = layer_of(quantity)
         relations.append(sympy.Ge(layer, 0, evaluate=False))
         if under_load:
-            top = load.top if isinstance(one, _BEADS) else load.top - 1
+            top = load.top if isinstance(quantity, _BEADS) else load.top - 1
             relations.append(sympy.Le(layer, top, evaluate=False))
     relations += more
     if sets.where(*relations).is_empty():
         raise ObservableError("no packing has these beads: a layer is too low or too high")
-    beads = [one.args for one in quantities if isinstance(one, sy.SiteFunction)]
+    beads = [quantity.args for quantity in quantities if isinstance(quantity, sy.SiteFunction)]
     if under_load and load.loading.place == (sy.k, sy.l):
         beads.append(load.loading.place)
-    found = Domain.of(
-        *(one for one in relations if one.free_symbols),
-        indices=set().union(*(one.free_symbols for one in observables)),
+    whole = Domain.of(
+        *(relation for relation in relations if relation.free_symbols),
+        indices=set().union(*(observable.free_symbols for observable in observables)),
         loading=load.loading if under_load else None,
         beads=beads,
         dimension=load.dimension,
     )
     try:
-        _ = found.straight
+        _ = whole.straight
     except NotExactError:
         raise ObservableError(
             "no packing has these beads: i + j must be even for each bead (i, j)"
         ) from None
-    return found
+    return whole
 
 
 def layer_of(quantity: sympy.Expr) -> sympy.Expr:

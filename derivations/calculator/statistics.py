@@ -67,15 +67,15 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
         ) from None
     if number.is_Integer and number < 1:
         raise ObservableError(f"mean_over(…, {number}): a whole number from 1 on is allowed")
-    if any(one.has(sy.MeanOver) for inner in averaged.atoms(sy.MeanOver) for one in inner.args):
+    if any(term.has(sy.MeanOver) for mean in averaged.atoms(sy.MeanOver) for term in mean.args):
         raise ObservableError("averages of averages of averages are not supported")
     if across:
         if not {*across} <= {*ACROSS, sy.site_r}:
             raise ObservableError(f"mean_over(…, {across}): the average may run over i, k, p and q")
         return sy.MeanOver(averaged, number, *across)
-    places = [one.args[0] for one in averaged.atoms(sy.SiteFunction)]
-    indices = [s for s in (sy.i, sy.site_r) if any(one.has(s) for one in places)]
-    if not indices or not all(one.has(*indices) for one in places):
+    places = [place.args[0] for place in averaged.atoms(sy.SiteFunction)]
+    indices = [s for s in (sy.i, sy.site_r) if any(place.has(s) for place in places)]
+    if not indices or not all(place.has(*indices) for place in places):
         raise ObservableError(
             f"mean_over({text(averaged)}): write horizontal places with the index i"
         )
@@ -113,8 +113,8 @@ def variance(
 
 
 def covariance(
-    one: sympy.Expr,
-    other: sympy.Expr,
+    first: sympy.Expr,
+    second: sympy.Expr,
     *,
     load: str | Load = "surface",
     relative: bool = True,
@@ -122,7 +122,7 @@ def covariance(
     where: sympy.Basic | Iterable[sympy.Basic] = (),
 ) -> ClosedForm:
     """The exact covariance of two observables; arguments and errors are those of ``variance``."""
-    return _closed(sy.Covariance, [one, other], load, relative, dimension, where)
+    return _closed(sy.Covariance, [first, second], load, relative, dimension, where)
 
 
 def mean(
@@ -162,7 +162,7 @@ def _closed(
     where: sympy.Basic | Iterable[sympy.Basic],
 ) -> ClosedForm:
     under, linear = load_of(load, dimension), kind is not sy.Shift
-    statistic = kind(*(read(one, under.dimension, linear=linear) for one in observables))
+    statistic = kind(*(read(each, under.dimension, linear=linear) for each in observables))
     on = domain(statistic.args, under, *relations_of(where))
     scales = _scales(statistic, under) if relative else {}
     groups = under.groups
@@ -188,13 +188,13 @@ def _without_divisors(moment: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
     whole, observables = sympy.S.One, []
     for observable in moment.args:
         divisors = {
-            one.base
-            for one in observable.atoms(sympy.Pow)
-            if one.exp.is_Integer and one.exp < 0 and _may_vanish(one.base)
+            power.base
+            for power in observable.atoms(sympy.Pow)
+            if power.exp.is_Integer and power.exp < 0 and _may_vanish(power.base)
         }
         divisor = sympy.Mul(*by_name(divisors))
         each = sympy.Add.make_args(observable)
-        observables.append(sympy.Add(*(one * divisor for one in each)))
+        observables.append(sympy.Add(*(term * divisor for term in each)))
         whole *= divisor
     power = 2 if isinstance(moment, sy.Variance) else 1
     return moment.func(*observables), whole**power
@@ -208,17 +208,17 @@ def _may_vanish(divisor: sympy.Expr) -> bool:
 def _scales(statistic: sympy.Expr, load: Load) -> dict[sympy.Expr, sympy.Expr]:
     """Every quantity over what it is compared with."""
     scales = {}
-    for one in statistic.atoms(sy.SiteFunction, *SPHERES):
-        match one:
+    for quantity in statistic.atoms(sy.SiteFunction, *SPHERES):
+        match quantity:
             case sy.VerticalPlus() | sy.VerticalMinus() | sy.VerticalAlong():
                 unit = load.unit
             case sy.ForceAlong():
-                unit = load.ordered[int(one.args[0]) - 1]
+                unit = load.ordered[int(quantity.args[0]) - 1]
             case sy.ForcePlus() | sy.ForceMinus():
-                unit = load.ordered[isinstance(one, sy.ForceMinus)]
+                unit = load.ordered[isinstance(quantity, sy.ForceMinus)]
             case sy.DeltaX() | sy.DeltaR():
                 unit = sy.r
             case _:
                 continue
-        scales[one] = one / unit.xreplace({sy.j: layer_of(one)})
+        scales[quantity] = quantity / unit.xreplace({sy.j: layer_of(quantity)})
     return scales

@@ -41,22 +41,23 @@ def certify(
     files = sources(stated(wanted))
     folder = Output(out, [*files, RECORD], overwrite) if out else None
     with noticing() as notice:
-        found = fd.certify(wanted, notice=notice)
-    data = json.dumps(found.data(), indent=2)
+        certification = fd.certify(wanted, notice=notice)
+    data = json.dumps(certification.data(), indent=2)
     if folder:
         folder.write({**files, RECORD: f"{data}\n"})
     if as_json:
         print(data)
     else:
-        print(*map(_line, found.equations), sep="\n")
-        accepted = sum(one.accepted for one in found.equations)
-        print(f"{accepted} of {len(found.equations)} accepted.")
-    raise typer.Exit(0 if found.passed else 1)
+        print(*map(_line, certification.equations), sep="\n")
+        accepted = sum(certificate.accepted for certificate in certification.equations)
+        print(f"{accepted} of {len(certification.equations)} accepted.")
+    raise typer.Exit(0 if certification.passed else 1)
 
 
-def _line(one: "Certificate") -> str:
+def _line(certificate: "Certificate") -> str:
     """One line about an equation, and below it what it is about and what is wrong with it."""
-    about = (re.sub(r"^\((.*)\)%Z$", r"\1", words) for words in one.about)
+    about = (re.sub(r"^\((.*)\)%Z$", r"\1", words) for words in certificate.about)
     shown = ", ".join(about).replace(">=", "≥").replace("<=", "≤")
-    said = f"Eq. {one.number!s:>2}  {one!s:<24}  {fd.equation(one.number).title}\n    for {shown}"
-    return f"{said}\n    {one.note}" if one.note else said
+    title = fd.equation(certificate.number).title
+    line = f"Eq. {certificate.number!s:>2}  {certificate!s:<24}  {title}\n    for {shown}"
+    return f"{line}\n    {certificate.note}" if certificate.note else line

@@ -61,50 +61,50 @@ def show(
     wanted = [*map(equation_number, numbers)]  # before SymPy is imported
     equations = [*map(fd.equation, wanted)]
     if form is Form.JSON:
-        print(json.dumps({"equations": [one.data() for one in equations]}, indent=2))
+        print(json.dumps({"equations": [equation.data() for equation in equations]}, indent=2))
         return
     written = []
-    for one in equations:
-        written += _exact(one, form, columns) if exact else [_written(one, form, columns)]
+    for equation in equations:
+        written += _exact(equation, form, columns) if exact else [_written(equation, form, columns)]
     print("\n\n".join(written))
 
 
-def _written(one: "Equation", form: Form, columns: int) -> str:
+def _written(equation: "Equation", form: Form, columns: int) -> str:
     match form:
         case Form.LATEX:
-            return _displayed(one.displays(columns))
+            return _displayed(equation.displays(columns))
         case Form.SYMPY:
-            return one.sympy_code()
+            return equation.sympy_code()
         case Form.PYTHON:
-            return one.python_code()
+            return equation.python_code()
         case Form.STEPS:
-            return str(one.steps())
-    return str(one)
+            return str(equation.steps())
+    return str(equation)
 
 
-def _exact(one: "Equation", form: Form, columns: int) -> list[str]:
+def _exact(equation: "Equation", form: Form, columns: int) -> list[str]:
     """The exact forms, each with its name."""
     from force_diffusion.symbolic.printing.code import sympy_source
 
     from ..api.equation import NoSuchFormError
 
     try:
-        one.exact()
+        equation.exact()
     except NoSuchFormError as unknown:
         raise typer.BadParameter(str(unknown), param_hint="--exact") from None
-    forms = {name: one.exact(name) for name in one.forms}
+    forms = {name: equation.exact(name) for name in equation.forms}
     match form:
         case Form.LATEX:
             return [_displayed(exact.displays(columns)) for exact in forms.values()]
         case Form.SYMPY:
             return [sympy_source(exact.expr) for exact in forms.values()]
         case Form.PYTHON:
-            return [exact.python(f"{one.name}_{name}") for name, exact in forms.items()]
-    return [f"Eq. {one.number}, {name}: {exact}" for name, exact in forms.items()]
+            return [exact.python(f"{equation.name}_{name}") for name, exact in forms.items()]
+    return [f"Eq. {equation.number}, {name}: {exact}" for name, exact in forms.items()]
 
 
 def _displayed(bodies: Iterable[str]) -> str:
-    return "\n".join(f"\\begin{{equation}}\n{one}\n\\end{{equation}}" for one in bodies)
+    return "\n".join(f"\\begin{{equation}}\n{body}\n\\end{{equation}}" for body in bodies)
 
 
 def list_equations() -> None:
@@ -112,5 +112,5 @@ def list_equations() -> None:
 
     With what Coq said about each when it was last asked.
     """
-    for one in map(fd.equation, modules()):
-        print(f"{one.number!s:>3}  {one.name:<26}  {one.coq:<22}  {one.title}")
+    for equation in map(fd.equation, modules()):
+        print(f"{equation.number!s:>3}  {equation.name:<26}  {equation.coq:<22}  {equation.title}")

@@ -56,7 +56,7 @@ class Output:
         self.path, self.names, self.overwrite = path, frozenset(names), overwrite
         self._old = path.with_name(f"{path.name}.old")
         self._check()
-        above = next(one for one in path.parents if os.path.lexists(one))
+        above = next(parent for parent in path.parents if os.path.lexists(parent))
         if not above.is_dir():
             raise OutputError(
                 f"'{above}' is a file or a link. Give a folder that doesn't exist yet."
@@ -88,8 +88,8 @@ class Output:
             there = list(path.iterdir())
         except FileNotFoundError:  # another command replaces it just now
             return
-        own = {one for one in there if one.name in self.names and not one.is_symlink()}
-        others = [one.name for one in there if one not in own or not one.is_file()]
+        own = {file for file in there if file.name in self.names and not file.is_symlink()}
+        others = [file.name for file in there if file not in own or not file.is_file()]
         if others:
             raise OutputError(
                 f"'{path}' contains files that this command doesn't write, such as "
@@ -102,7 +102,7 @@ class Output:
         Raises ``OSError`` that names the file which can't be written, and ``OutputError`` where the
         folder can't be renamed any more; it says where the files are.
         """
-        missing = [one for one in self.path.parents if not one.exists()]
+        missing = [parent for parent in self.path.parents if not parent.exists()]
         new = self._new()
         try:
             new.mkdir(parents=True)
@@ -110,9 +110,9 @@ class Output:
                 _write(new / name, content, self.path / name)
         except BaseException:
             shutil.rmtree(new, ignore_errors=True)
-            for one in missing:
+            for parent in missing:
                 with suppress(OSError):  # not empty
-                    one.rmdir()
+                    parent.rmdir()
             raise
         try:
             self._check()

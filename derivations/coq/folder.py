@@ -3,17 +3,14 @@
 import os
 import re
 import shutil
-import signal
-import subprocess
-import time
 from collections.abc import Callable, Iterable, Mapping
+from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from dataclasses import dataclass
 from graphlib import TopologicalSorter
 from pathlib import Path
-from tempfile import TemporaryFile
+from subprocess import DEVNULL, PIPE, Popen, TimeoutExpired
 
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.numeric.arithmetic.processes import ending_with, without_interrupts
 
 from .files import LIBRARY, imports
 
@@ -58,44 +55,6 @@ class Said:
     failed: str = ""
 
 
-class _Running:
-    """A program under way."""
-
-    def __init__(self, folder: Path, program: str, *arguments: str) -> None:
-        self.until = time.monotonic() + LIMIT
-        self.out = TemporaryFile("w+", encoding="utf-8", errors="replace")  # noqa: SIM115
-        self.errors = TemporaryFile("w+", encoding="utf-8", errors="replace")  # noqa: SIM115
-        environment = {name: at for name, at in os.environ.items() if not name.startswith("COQ")}
-        self.process = subprocess.Popen(
-            [program, *arguments],
-            cwd=folder,
-            env=environment,
-            stdin=subprocess.DEVNULL,
-            stdout=self.out,
-            stderr=self.errors,
-            preexec_fn=ending_with(os.getpid()),  # noqa: PLW1509 (two calls of the system)
-        )
-
-    def over(self) -> bool:
-        """Whether it has ended, or has had its time."""
-        return self.process.poll() is not None or time.monotonic() > self.until
-
-    def end(self) -> Said:
-        """End it; what it said."""
-        late = self.process.poll() is None
-        self.process.kill()
-        status = self.process.wait()
-        said = []
-        for stream in (self.out, self.errors):
-            with stream:
-                stream.seek(0)
-                said.append(stream.read())
-        printed, errors = said
-        if late:
-            return Said(printed, f"no answer within {LIMIT:.0f} s")
-        return Said(printed + errors, (_error(errors) or f"status {status}") if status else "")
-
-
 class CoqFolder:
     """A folder in which Coq compiles files.
 
@@ -113,25 +72,33 @@ class CoqFolder:
                 raise CoqAbsentError(f"{program} is not there. Install Coq: {INSTALL}")
         self.folder = folder
         self.said: dict[str, Said] = {}
-        version = self._wait("coqc", "--print-version")
-        found = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
-        if version.failed or not found:
+        self._under_way: set[Popen[str]] = set()
+        version = self._run("coqc", "--print-version")
+        number = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
+        if version.failed or not number:
             raise CoqAbsentError(
                 f"coqc does not say its version ({version.failed or version.printed.strip()}). "
                 f"Install Coq: {INSTALL}"
             )
-        self.checker = f"Coq {found[1]}"
+        self.checker = f"Coq {number[1]}"
 
-    def _wait(self, program: str, *arguments: str) -> Said:
-        running = None
-        try:
-            with without_interrupts(signal.SIGTERM):  # or it might be lost
-                running = _Running(self.folder, program, *arguments)
-            while not running.over():
-                time.sleep(0.02)
-        finally:
-            said = running.end() if running else Said()
-        return said
+    def _run(self, program: str, *arguments: str) -> Said:
+        environment = {name: at for name, at in os.environ.items() if not name.startswith("COQ")}
+        with Popen(
+            [program, *arguments],
+            cwd=self.folder, env=environment, stdin=DEVNULL, stdout=PIPE, stderr=PIPE,
+            text=True, errors="replace",
+        ) as process:  # fmt: skip
+            self._under_way.add(process)
+            try:
+                printed, errors = process.communicate(timeout=LIMIT)
+            except TimeoutExpired:
+                return Said(failed=f"no answer within {LIMIT:.0f} s")
+            finally:
+                process.kill()
+                self._under_way.discard(process)
+        status = process.returncode
+        return Said(printed + errors, (_error(errors) or f"status {status}") if status else "")
 
     def compile(self, sources: Mapping[str, str], notice: Notice) -> None:
         """Compile these files, those first that others import; ``said`` tells of each.
@@ -144,25 +111,23 @@ class CoqFolder:
             {name: sources.keys() & imports(source) for name, source in sources.items()}
         )
         order.prepare()
-        ready: list[str] = []
-        running: dict[str, _Running] = {}
+        pool = ThreadPoolExecutor(os.cpu_count())
+        asked: dict[Future[Said], str] = {}
         try:
             while order.is_active():
-                ready += order.get_ready()
-                while ready and len(running) < (os.cpu_count() or 1):
-                    name = ready.pop(0)
+                for name in order.get_ready():
                     notice(name)
-                    with without_interrupts(signal.SIGTERM):  # or a program that starts is lost
-                        options = "-q", "-R", ".", LIBRARY
-                        running[name] = _Running(self.folder, "coqc", *options, name)
-                for name in [name for name, one in running.items() if one.over()]:
-                    self.said[name] = running.pop(name).end()
+                    asked[pool.submit(self._run, "coqc", "-q", "-R", ".", LIBRARY, name)] = name
+                for answer in wait(asked, return_when=FIRST_COMPLETED).done:
+                    name = asked.pop(answer)
+                    self.said[name] = answer.result()
                     order.done(name)
-                if running:
-                    time.sleep(0.02)
         finally:
-            for one in running.values():
-                one.end()
+            pool.shutdown(wait=False, cancel_futures=True)
+            while not all(answer.done() for answer in asked):  # it was interrupted
+                for process in [*self._under_way]:
+                    process.kill()
+                wait(asked, timeout=0.1)
 
     def trouble(self, names: Iterable[str]) -> str:
         """The file among these that failed first, and why; or nothing."""
@@ -176,7 +141,7 @@ class CoqFolder:
     def check(self, names: Iterable[str]) -> str:
         """Let coqchk check compiled modules and all they rest on; what went wrong, or nothing."""
         modules = [f"{LIBRARY}.{name}" for name in names]
-        said = self._wait("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *modules)
+        said = self._run("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *modules)
         return f"coqchk: {said.failed}" if said.failed else unexpected(said.printed)
 
 

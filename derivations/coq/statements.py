@@ -87,7 +87,7 @@ def _about(
         given = "forall (G : lattice) (sigma : R), 0 < sigma ->"
         objects = "(L : law W M sigma) (Xs : radii -> centres) (Fs : radii -> forces)"
         packing, carries = "packing G M rho (Xs rho)", "carries M (Xs rho) ({}) (Fs rho)"
-        packing, carries = (f"(forall rho, {one})" for one in (packing, carries))
+        packing, carries = (f"(forall rho, {hypothesis})" for hypothesis in (packing, carries))
     else:
         given, objects = "forall (G : lattice) (rho : radii),", "(X : centres)"
         packing, carries = "packing G M rho X", "carries M X ({}) F"
@@ -97,7 +97,8 @@ def _about(
         hypotheses += [carries.format(load.words), *load.supposed]
         numbers, values = f"{numbers} {load.variable}", [*values, load.example]
     variables = f"{numbers}\n    {objects}"
-    before = (f"  {given}", f"  forall {variables},", *(f"  {one} ->" for one in hypotheses))
+    supposed = (f"  {hypothesis} ->" for hypothesis in hypotheses)
+    before = (f"  {given}", f"  forall {variables},", *supposed)
     exists = f"  {given}\n  exists {variables},\n  {_all(hypotheses)}"
     proof = f"intros. exists {', '.join(values)}. something."
     return before, Companion("is_about_something", exists, proof)
@@ -318,7 +319,7 @@ def _exact(derivation: Derivation) -> Statement:
 
 
 def _all_of(relations: Iterable[sympy.Basic]) -> str:
-    return "(" + " /\\ ".join(f"({one})%Z" for one in parts(relations, _IN_COQ)) + ")"
+    return "(" + " /\\ ".join(f"({relation})%Z" for relation in parts(relations, _IN_COQ)) + ")"
 
 
 def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> Statement:
@@ -370,7 +371,7 @@ def _maximum(derivation: Derivation) -> Statement:
     )
     return Statement(
         "equation_14_maximum",
-        ("  forall (G : lattice) (sigma : R) (M j : Z),", *(f"  {one} ->" for one in layer)),
+        ("  forall (G : lattice) (sigma : R) (M j : Z),", *(f"  {each} ->" for each in layer)),
         f"{here} <= {top} /\\\n  ({here} = {top} -> (M = 6 * j)%Z)",
         "prove_maximum",
         (something,),
@@ -393,4 +394,4 @@ def statements(derivation: Derivation) -> list[Statement]:
     images = (False, True) if number in _MIRRORED else (False,)
     places = range(len(derivation.printed))
     made = [statement(derivation, part, mirrored=image) for image in images for part in places]
-    return [*made, *(one(derivation) for one in BESIDE.get(number, ()))]
+    return [*made, *(beside(derivation) for beside in BESIDE.get(number, ()))]

@@ -55,7 +55,7 @@ class _Words(StrPrinter):  # type: ignore[misc]
 
     def arguments(self, expressions: Any) -> str:
         """Real numbers and vectors as arguments of a function."""
-        return " ".join(argument(self._print(one)) for one in expressions)
+        return " ".join(argument(self._print(expression)) for expression in expressions)
 
     def _print_Symbol(self, expr: sympy.Symbol) -> str:
         return _BY_NAME.get(expr.name) or _SYMBOLS[expr]

@@ -42,7 +42,7 @@ def statement_latex(derivation: Statement) -> str:
     first, *others = derivation.displays(columns=2)
     if not others:
         return f"\\begin{{equation}}{named}\n{first}\n\\end{{equation}}\n"
-    displays = (f"\\begin{{equation}}\n{one}\n\\end{{equation}}\n" for one in (first, *others))
+    displays = (f"\\begin{{equation}}\n{body}\n\\end{{equation}}\n" for body in (first, *others))
     return f"\\begin{{subequations}}{named}\n{''.join(displays)}\\end{{subequations}}\n"
 
 
@@ -56,9 +56,9 @@ def sentence(said: str) -> str:
 def display(formulas: Sequence[Basic], relation: str) -> str:
     """Formulas without numbers: in one line, or in several between which a page may end."""
     sign = RELATIONS[relation]
-    alone = [latex_body([one], sign, _ROOM) for one in formulas]
+    alone = [latex_body([formula], sign, _ROOM) for formula in formulas]
     size = sum(map(width, alone)) + _BETWEEN * (len(alone) - 1)
-    if size <= _ROOM and not any(r"\begin{aligned}" in one for one in alone):
+    if size <= _ROOM and not any(r"\begin{aligned}" in body for body in alone):
         return "\\[ " + r" \qquad ".join(alone) + " \\]\n"
     body = latex_body(formulas, sign, _ROOM)
     lines = body.removeprefix("\\begin{aligned}\n").removesuffix("\n\\end{aligned}")
@@ -69,7 +69,7 @@ def step_latex(step: Step, room: float = LINE_WIDTH) -> str:
     """What a step shows, for one display: the cases of a quantity, or its formulas."""
     if len(step.cases) < 2:
         return latex_body([step.formula], RELATIONS[step.relation], room)
-    factor, values = over_common([one.rhs for one in step.equations])
+    factor, values = over_common([equation.rhs for equation in step.equations])
     where = [with_commas(words.parts(case, words.LATEX)) for case in step.cases]
     rows = list(zip(values, where, strict=True))
     return latex_cases(step.equations[0].lhs, factor, rows, (), room)
@@ -114,15 +114,12 @@ def section_latex(outcome: Outcome, explained: str = "") -> str:
         _aside("Assumptions", map(prose_latex, derivation.assumptions)),
     ]
     if proof is None:
-        found = (
-            f"{one.words}: {sentence(one.name)} {sentence(one.note)}" for one in outcome.checks
-        )
-        return "".join([*parts, f"Verdict: {outcome.words}.\n\n", *map(prose_latex, found)])
-    for one in proof.refuted:
-        formula = display([one.formula], one.relation)
-        parts.append(
-            f"{prose_latex(sentence(one.reading))}\n{formula}{prose_latex(sentence(one.reason))}\n"
-        )
+        checks = (f"{of.words}: {sentence(of.name)} {sentence(of.note)}" for of in outcome.checks)
+        return "".join([*parts, f"Verdict: {outcome.words}.\n\n", *map(prose_latex, checks)])
+    for reading in proof.refuted:
+        formula = display([reading.formula], reading.relation)
+        words = (prose_latex(sentence(part)) for part in (reading.reading, reading.reason))
+        parts.append(f"\n{formula}".join(words) + "\n")
     parts += [_step(step, derivation) for step in proof]
     if derivation.exact_forms and not any(step.cases for step in proof):
         parts.append("\\par All of this, exact at every site:\n")
@@ -131,7 +128,7 @@ def section_latex(outcome: Outcome, explained: str = "") -> str:
     remarks = [prose_latex(remark) for remark in derivation.remarks]
     errata = [remark for remark in remarks if remark.startswith("Erratum")]
     parts += [f"\\par {remark}\n" for remark in errata]
-    parts.append(_aside("Also proved", (prose_latex(one.reason) for one in proof.claims)))
+    parts.append(_aside("Also proved", (prose_latex(claim.reason) for claim in proof.claims)))
     parts += [f"\\aside{{{remark}}}\n" for remark in remarks if remark not in errata]
     return "".join(parts)
 
@@ -139,18 +136,18 @@ def section_latex(outcome: Outcome, explained: str = "") -> str:
 def _sections(outcomes: Iterable[Outcome], explained: str) -> str:
     """The paper's equations; each symbol is explained where it comes first."""
     sections = []
-    for one in outcomes:
-        if isinstance(one.derivation.number, int):
-            sections.append(section_latex(one, explained))
-            explained += "".join(f"${latex(symbol)}$" for symbol, _ in one.derivation.symbols)
+    for outcome in outcomes:
+        if isinstance(outcome.derivation.number, int):
+            sections.append(section_latex(outcome, explained))
+            explained += "".join(f"${latex(symbol)}$" for symbol, _ in outcome.derivation.symbols)
     return "\n".join(sections)
 
 
 def _verdicts(outcomes: Iterable[Outcome]) -> str:
     rows = (
-        f"({one.derivation.number}) & {prose_latex(one.derivation.title)} & "
-        f"{prose_latex(one.words)} & {recorded(one.derivation.number).partition(' by ')[0]} \\\\\n"
-        for one in outcomes
+        f"({of.derivation.number}) & {prose_latex(of.derivation.title)} & "
+        f"{prose_latex(of.words)} & {recorded(of.derivation.number).partition(' by ')[0]} \\\\\n"
+        for of in outcomes
     )
     return (
         "\\begin{center}\\footnotesize\\setlength{\\tabcolsep}{3pt}\n"

@@ -73,7 +73,7 @@ def _exact(number: Number, name: str | None = None) -> Iterator[Branch]:
         value = piece.expr
         if {M, j} <= value.free_symbols:
             value = sympy.expand(value.xreplace({M: j + k}))
-        held = [one for one in (j, k, l, *INDICES) if one in value.free_symbols]
+        held = [symbol for symbol in (j, k, l, *INDICES) if symbol in value.free_symbols]
         test = "" if piece is form.pieces[0] else " or ".join(parts)
         yield test, _code(value, *dict.fromkeys(held))
 
@@ -103,7 +103,7 @@ def source() -> str:
     """The whole module."""
     lines = [HEADER]
     for name, arguments, branches in _forms():
-        typed = ", ".join(f"{one}: Any" for one in arguments.split())
+        typed = ", ".join(f"{name}: Any" for name in arguments.split())
         lines.append(f"\n\ndef {name}({typed}) -> Any:\n")
         for test, code in branches:
             lines += [f"    if {test}:\n    "] * bool(test) + [f"    return {code}\n"]

@@ -40,10 +40,10 @@ def quoted(words: str) -> str:
 def _leading(value: sympy.Expr) -> sympy.Expr:
     """A leading order in M over its unit, by factors, and powers of z."""
     number, factors = sympy.factor_list(sympy.cancel(value / UNIT))
-    found = [sympy.collect(factor, sy.z) ** many for factor, many in factors if factor != sy.M]
-    for place, factor in enumerate(found):  # 1 − φ rather than φ − 1
+    written = [sympy.collect(factor, sy.z) ** many for factor, many in factors if factor != sy.M]
+    for place, factor in enumerate(written):  # 1 − φ rather than φ − 1
         linear = sympy.Poly(factor, sy.phi).degree() == 1
-        if len(found) > 1 and linear and factor.subs(sy.phi, 0) == -1:
-            number, found[place] = -number, -factor
+        if len(written) > 1 and linear and factor.subs(sy.phi, 0) == -1:
+            number, written[place] = -number, -factor
     power = dict(factors).get(sy.M, 0)
-    return times(number, sy.M**power, *found)
+    return times(number, sy.M**power, *written)

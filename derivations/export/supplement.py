@@ -58,13 +58,13 @@ def supplement(outcomes: Sequence[Outcome]) -> str:
 
 def verdicts(outcomes: Sequence[Outcome]) -> str:
     """What the run that writes the article has derived."""
-    found = {one.derivation.number for one in outcomes}
-    left = [str(label) for label in modules() if label not in found]
-    refuted = [f"Eq. {one.derivation.number}" for one in outcomes if one.refuted]
+    derived = {outcome.derivation.number for outcome in outcomes}
+    missing = [str(label) for label in modules() if label not in derived]
+    refuted = [f"Eq. {outcome.derivation.number}" for outcome in outcomes if outcome.refuted]
     return (
-        f"In the run that wrote this text the program derived {len(found)} equations: "
+        f"In the run that wrote this text the program derived {len(derived)} equations: "
         f"{verdicts_text(outcomes)}."
-        + (f" Not derived in it: {', '.join(left)}." if left else "")
+        + (f" Not derived in it: {', '.join(missing)}." if missing else "")
         + (f" As its words read in the paper, {both(refuted)} is refuted." if refuted else "")
     )
 
@@ -138,4 +138,4 @@ def _conditions(parts: Iterable[Relations]) -> str:
 
 
 def _listed(relations: Iterable[str]) -> str:
-    return ", ".join(f"${one}$" for one in relations)
+    return ", ".join(f"${relation}$" for relation in relations)

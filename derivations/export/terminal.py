@@ -40,15 +40,16 @@ def printed_text(derivation: Statement, indent: str = "  ") -> str:
 def refuted_text(derivation: Statement) -> list[str]:
     """The printed statements that do not hold, each with how the paper's words are read in it."""
     lines = []
-    for one in derivation.proof.refuted:
-        lines += ["", _paragraph(f"Printed as well; {one.reading}.", "")]
-        lines += ["  " + line for line in text_lines(one.formula, one.relation, TEXT_WIDTH - 2)]
+    for reading in derivation.proof.refuted:
+        lines += ["", _paragraph(f"Printed as well; {reading.reading}.", "")]
+        shown = text_lines(reading.formula, reading.relation, TEXT_WIDTH - 2)
+        lines += ["  " + line for line in shown]
     return lines
 
 
 def verdicts_text(outcomes: Iterable[Outcome]) -> str:
     """How many equations have which verdict, in words."""
-    counts = Counter(one.words for one in outcomes)
+    counts = Counter(outcome.words for outcome in outcomes)
     return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
 
 
@@ -100,8 +101,8 @@ def step_lines(step: Step, room: int = TEXT_WIDTH) -> list[str]:
         return text_lines(step.formula, step.relation, room)
     return [
         line
-        for case, one in zip(step.cases, step.equations, strict=True)
-        for line in (f"for {where_in_words(case)}:", *text_lines(one, step.relation, room))
+        for case, equation in zip(step.cases, step.equations, strict=True)
+        for line in (f"for {where_in_words(case)}:", *text_lines(equation, step.relation, room))
     ]
 
 
@@ -129,8 +130,8 @@ def outcome_text(outcome: Outcome) -> str:
     parts = [statement_text(derivation), *refuted_text(derivation), "", rests_text(derivation)]
     parts += ["", "Steps", steps_text(derivation.proof), "", "Claims"]
     parts += [check_text(check) for check in outcome.checks if check.kind != "step"]
-    found = [f"Eq. {derivation.number} is {outcome.words}", expected_text(len(outcome.refuted))]
-    parts += ["", f"{'; '.join(filter(None, found))} ({outcome.seconds:.2f} s)"]
+    verdict = [f"Eq. {derivation.number} is {outcome.words}", expected_text(len(outcome.refuted))]
+    parts += ["", f"{'; '.join(filter(None, verdict))} ({outcome.seconds:.2f} s)"]
     return "\n".join(parts)
 
 

@@ -44,11 +44,10 @@ from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
-from .arrays import evaluate
 from .catalogue import Number as EquationNumber
 from .deciding import decided, strange_symbol
 from .display import alternatives_in_latex, over_common, with_commas
-from .evaluation import ArgumentError, Number, in_order, indices_at, with_values
+from .evaluation import ArgumentError, Number, evaluate, in_order, indices_at, with_values
 from .proof import equations_of
 
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
@@ -161,8 +160,8 @@ class ClosedForm:
         ['j ≥ 2', 'j = 1', 'j = 0']
         """
         return tuple(
-            Piece(_parts_in_words(one.where), factored(one.value), one.where, one.value)
-            for one in self.function.formulas
+            Piece(_parts_in_words(each.where), factored(each.value), each.where, each.value)
+            for each in self.function.formulas
         )
 
     @cached_property
@@ -194,22 +193,22 @@ class ClosedForm:
         """The same, one by one."""
         relations, even = self._conditions_of(self._needed)
         suffix = r" \text{ even}" if style is words.LATEX else " even"
-        return [*words.parts(relations, style), *(style.shown(one) + suffix for one in even)]
+        return [*words.parts(relations, style), *(style.shown(total) + suffix for total in even)]
 
     def _conditions_of(
         self, symbols: Iterable[sympy.Symbol]
     ) -> tuple[list[sympy.Basic], list[sympy.Expr]]:
         """The relations of its domain that hold these alone, and what is even there."""
         indices = {*symbols}
-        relations = [one for one in self.function.domain if one.free_symbols <= indices]
-        return relations, [one for one in self.even if one.free_symbols <= indices]
+        relations = [each for each in self.function.domain if each.free_symbols <= indices]
+        return relations, [total for total in self.even if total.free_symbols <= indices]
 
     @cached_property
     def even(self) -> list[sympy.Expr]:
         """Sums of indices that are even wherever beads are, each symbol solved for in one sum."""
         back = self.kernel_domain.straight.back
         odd = {
-            symbol: {one for one, n in (2 * half).as_coefficients_dict().items() if n % 2}
+            symbol: {index for index, n in (2 * half).as_coefficients_dict().items() if n % 2}
             for symbol, half in back.items()
         }
         for symbol in back:
@@ -228,7 +227,7 @@ class ClosedForm:
     def _needed(self) -> set[sympy.Symbol]:
         """The symbols on which its value, and whether it has one, depend."""
         held = set().union(*(piece.expr.free_symbols for piece in self.pieces))
-        held |= self.function.indices.union(*(one.free_symbols for one in self.function.domain))
+        held |= self.function.indices.union(*(each.free_symbols for each in self.function.domain))
         cosine = {sy.phi} if held & {sy.n_x, sy.n_y} else set()
         height = {sy.M} if sy.H_M in held else set()
         return held - {sy.n_x, sy.n_y, sy.H_M} | cosine | height
@@ -279,7 +278,7 @@ class ClosedForm:
         whole = {symbol: int(value) for symbol, value in values.items() if symbol in sy.INDICES}
         given = [symbol for symbol in sy.INDICES if symbol in whole]
         relations, even = self._conditions_of(given)
-        if not _hold(relations, whole) or any(_total(sets.row(one), whole) % 2 for one in even):
+        if not _hold(relations, whole) or any(_total(sets.row(total), whole) % 2 for total in even):
             point = with_values(given, values)
             raise ArgumentError(f"{text(self.quantity)} is for {self.domain}, not for {point}")
         for piece in self.pieces:
@@ -318,7 +317,7 @@ class ClosedForm:
         Raises:
             ArgumentError: its packings have no height M, or no layer j is meant.
         """
-        piece = next((one for one in self.pieces if any(map(_is_inside, one.where))), None)
+        piece = next((piece for piece in self.pieces if any(map(_is_inside, piece.where))), None)
         if piece is None or not {sy.M, sy.j} <= self._needed:
             raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
         height, z = FIELD.generator(sy.M), FIELD.generator(sy.z)
@@ -344,7 +343,7 @@ class ClosedForm:
             line = equation(self.quantity, piece.expr)
             return latex_body((line,), room=room, below=below)
         factor, values = self._over_common
-        rows = [(values[one], alternatives_in_latex(one.where)) for one in pieces]
+        rows = [(values[piece], alternatives_in_latex(piece.where)) for piece in pieces]
         return latex_cases(self.quantity, factor, rows, below, room)
 
     @cached_property
@@ -369,7 +368,7 @@ class ClosedForm:
         if not half:  # a single formula is set in smaller type
             smaller = ((n, self._shown(pieces, columns, size)) for n, size in _SMALLER.items())
             name, small = next(
-                (one for one in smaller if one[1].count(r"\\") <= _HIGH[1]),
+                ((size, shown) for size, shown in smaller if shown.count(r"\\") <= _HIGH[1]),
                 ("tiny", self._shown(pieces, columns, _SMALLER["tiny"])),
             )
             return [rf"\mbox{{\{name}$\displaystyle {small}$}}"]
@@ -387,8 +386,8 @@ class ClosedForm:
         [{'domain': '', 'text': '1', 'latex': '1'}]
         """
         return [
-            {"domain": one.domain, "text": text(one.expr), "latex": latex(one.expr)}
-            for one in self.pieces
+            {"domain": piece.domain, "text": text(piece.expr), "latex": latex(piece.expr)}
+            for piece in self.pieces
         ]
 
     def python(self, name: str = "closed_form") -> str:
@@ -397,7 +396,7 @@ class ClosedForm:
         lines.append(f'    """{text(self.quantity)}, exact{self._for_domain}."""')
         relations, even = self._conditions_of(self._needed)
         conditions = words.parts(relations, words.PYTHON)
-        conditions += [f"({python_expression(one)}) % 2 == 0" for one in even]
+        conditions += [f"({python_expression(total)}) % 2 == 0" for total in even]
         if conditions:
             lines.append(f"    if not ({' and '.join(conditions)}):")
             lines.append(f'        raise ValueError("outside of {self.domain}")')
@@ -419,12 +418,12 @@ class ClosedForm:
         lines = [f"{text(self.quantity)}, exact{self._for_domain}"]
         for piece in self.pieces:
             parts = f"{piece.domain or 'everywhere'}:".replace("; or ", ";\nor ").split("\n")
-            where = pack([(one, len(one) + 1) for one in parts], room - 4, room - 2)
+            where = pack([(part, len(part) + 1) for part in parts], room - 4, room - 2)
             formula = text_lines(piece.expr, room=room - 4)
             if len(where) + len(formula) == 2 and len(where[0] + formula[0]) < room - 3:
                 lines.append(f"  {where[0]} {formula[0]}")
             else:
-                lines += [f"  {where[0]}", *(f"    {one}" for one in (*where[1:], *formula))]
+                lines += [f"  {where[0]}", *(f"    {line}" for line in (*where[1:], *formula))]
         return lines
 
     def __str__(self) -> str:
@@ -458,7 +457,7 @@ class ClosedForm:
         """
         indices = indices_at(at, self.symbols.values())
         at_place = [sympy.Eq(symbol, n, evaluate=False) for symbol, n in indices.items()]
-        return decided(candidate, (self.equation,), lambda _, one: self._rule_on(one, at_place))
+        return decided(candidate, (self.equation,), lambda _, line: self._rule_on(line, at_place))
 
     def _rule_on(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Ruling:
         if candidate.rhs in (self.quantity, self.statistic):
@@ -544,7 +543,7 @@ def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relati
         return
     for value, condition in folded.args:
         for part in sympy.Or.make_args(sympy.to_dnf(condition)):
-            yield value, tuple(one for one in sympy.And.make_args(part) if one != sympy.true)
+            yield value, tuple(each for each in sympy.And.make_args(part) if each != sympy.true)
 
 
 def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
@@ -576,26 +575,24 @@ def _harmonic(
         raise ArgumentError(
             f"M = {height}: the exact sum of 1/k up to it is too long; give a float for one value"
         )
-    found = fmpq.harmonic(height)
-    return {sy.H_M: sympy.Rational(int(found.p), int(found.q))}
+    total = fmpq.harmonic(height)
+    return {sy.H_M: sympy.Rational(int(total.p), int(total.q))}
 
 
 def _number(value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rational]) -> sympy.Expr:
     """The exact value of a function; a root where n_x or n_y is left."""
     value = value.reduced()
-    if any(value.holds(one) for one in (sy.n_x, sy.n_y)):
+    if any(value.holds(component) for component in (sy.n_x, sy.n_y)):
         cosine = values[sy.phi]
         sides = {sy.n_x: sympy.sqrt((1 - cosine) / 2), sy.n_y: sympy.sqrt((1 + cosine) / 2)}
         return factored(value).xreplace({**values, **sides})
-    numbers = [
-        fmpq(int(values[one].p), int(values[one].q)) if one in values else fmpq(0)
-        for one in value.domain.generators
-    ]
+    given = (values.get(symbol, sympy.S.Zero) for symbol in value.domain.generators)
+    numbers = [fmpq(int(number.p), int(number.q)) for number in given]
     divisor = value.denominator(*numbers)
     if divisor == 0:
         raise ArgumentError("it has no value there: it divides by 0")
-    found = value.numerator(*numbers) / divisor
-    return sympy.Rational(int(found.p), int(found.q))
+    quotient = value.numerator(*numbers) / divisor
+    return sympy.Rational(int(quotient.p), int(quotient.q))
 
 
 def _is_inside(part: Iterable[sympy.Basic]) -> bool:

@@ -53,7 +53,7 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
         parts = [n for n, line in enumerate(lines) if line.lhs == candidate.lhs]
         rulings = [rule_on(part, candidate) for part in parts or range(len(lines))]
         ranked = {ruling.verdict: ruling for ruling in reversed(rulings)}
-        return next(ranked[one] for one in Verdict if one in ranked)
+        return next(ranked[verdict] for verdict in Verdict if verdict in ranked)
     if isinstance(candidate, sympy.Expr):
         return _on_a_side(candidate, lines, rule_on)
     kind = type(candidate).__name__
@@ -86,7 +86,7 @@ def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> 
 def _is_root(side: sympy.Expr) -> bool:
     """Whether it may be meant for the root of what the equation is about."""
     return any(
-        isinstance(one, sympy.Abs) or (one.is_Pow and one.exp == _HALF) for one in nodes(side)
+        isinstance(node, sympy.Abs) or (node.is_Pow and node.exp == _HALF) for node in nodes(side)
     )
 
 
@@ -109,10 +109,10 @@ def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: Rul
             places[part] = candidate
     rulings = []
     for part, line in enumerate(lines):
-        own = places[part] if part in places else others.pop(0)
-        if getattr(own, "lhs", None) in {other.lhs for other in lines} - {line.lhs}:
+        candidate = places[part] if part in places else others.pop(0)
+        if getattr(candidate, "lhs", None) in {other.lhs for other in lines} - {line.lhs}:
             return undecided(f"nothing is said of {text(line.lhs)}")
-        ruling = _on_one(own, [line], lambda _, of, part=part: rule_on(part, of))  # type: ignore[misc]
+        ruling = _on_one(candidate, [line], lambda _, of, part=part: rule_on(part, of))  # type: ignore[misc]
         rulings.append(_about(line, ruling) if len(lines) > 1 else ruling)
     return all_of(*rulings)
 

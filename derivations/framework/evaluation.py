@@ -1,8 +1,11 @@
-"""Numbers put into formulas: exact for exact arguments, and only where the formula is meant."""
+"""Numbers and arrays put into formulas: exact for exact arguments, where the formula is meant.
+
+Each element of an array is evaluated as if it were alone.
+"""
 
 import math
 import numbers
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence, Set
 from decimal import Decimal
 from fractions import Fraction
 from typing import Any, TypeAlias
@@ -16,7 +19,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.code import name_of
 from force_diffusion.symbolic.printing.text import text
 
-from .lists import either
+from .lists import both, either
 
 Number: TypeAlias = int | float | Fraction | Decimal
 """What is put in: int, Fraction, Decimal and, at run time, SymPy's Rational are exact."""
@@ -76,8 +79,8 @@ def read_arguments(
     dimension: int = 2,
     *,
     in_packing: bool = True,
-) -> tuple[dict[sympy.Symbol, sympy.Rational], bool]:
-    """Values of the symbols that a formula needs, and whether all of them are exact.
+) -> dict[sympy.Symbol, sympy.Rational]:
+    """Values of the symbols that a formula needs.
 
     In place of z, ``j`` may be given: z = j/M.
 
@@ -105,7 +108,7 @@ def read_arguments(
             raise ArgumentError(f"{with_values(pair, values)}: {words} is allowed")
     if sy.z in needed - {*values}:
         values[sy.z] = values[sy.j] / values[sy.M]
-    return values, all(isinstance(value, EXACT) for value in given.values())
+    return values
 
 
 def in_order(names: Iterable[str]) -> list[str]:
@@ -186,3 +189,99 @@ def rounded(value: sympy.Expr) -> float:
         raise ArgumentError(
             "the value is beyond the range of floats: give exact arguments"
         ) from None
+
+
+# arrays
+
+
+def evaluate(
+    formula: tuple[str, set[sympy.Symbol]],
+    sides: Sequence[Callable[[Mapping[sympy.Symbol, sympy.Rational], bool], sympy.Expr]],
+    given: Mapping[str, Any],
+    dimension: int = 2,
+    *,
+    in_packing: bool = True,
+) -> Any:
+    """The value for numbers; for arrays, lists and ranges an array of the shape that they share.
+
+    It is float64 where anything given is a float, each value rounded once; else it holds objects,
+    SymPy's exact numbers. Of several sides a tuple is made.
+
+    Args:
+        formula: what it is, for messages, and the symbols that decide its value.
+        sides: give the exact values for exact numbers, and know whether these were given.
+        given: values by name.
+        dimension: as for ``read_arguments``.
+        in_packing: as for ``read_arguments``.
+
+    Raises:
+        ArgumentError: a name is unknown or missing, a value is not allowed, or shapes differ; the
+            message names the element.
+    """
+    arguments(*formula, given)
+    arrays = {name: _array(name, value) for name, value in given.items()}
+    exact = all(map(_is_exact, arrays.values()))
+    shape = shared_shape({name: array for name, array in arrays.items() if array.ndim})
+    results = np.empty((len(sides), *shape), dtype=object if exact else float)
+    for place in np.ndindex(shape):
+        numbers = {name: _element(array, place) for name, array in arrays.items()}
+        try:
+            values = read_arguments(*formula, numbers, dimension, in_packing=in_packing)
+            for n, side in enumerate(sides):
+                value = side(values, exact)
+                results[n, *place] = value if exact else rounded(value)
+        except ArgumentError as error:
+            raise ArgumentError(f"{at_element(place)}{error}") from None
+    return one_or_tuple([one if shape or exact else float(one) for one in results])
+
+
+def one_or_tuple(values: Sequence[Any]) -> Any:
+    """The value of a single side, or a tuple of several."""
+    return values[0] if len(values) == 1 else tuple(values)
+
+
+def shared_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
+    """The shape that arrays are broadcast to.
+
+    Raises:
+        ArgumentError: there is none.
+    """
+    shapes = {name: np.shape(array) for name, array in arrays.items()}
+    try:
+        return np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        shown = both([f"{name} of shape {shape}" for name, shape in shapes.items()])
+        raise ArgumentError(
+            f"{shown} do not go together: give arrays of one shape, or shapes that NumPy broadcasts"
+        ) from None
+
+
+def at_element(place: tuple[int, ...]) -> str:
+    """Where in an array something is wrong; nothing for a single number."""
+    return f"element [{', '.join(map(str, place))}]: " if place else ""
+
+
+def _array(name: str, value: Any) -> Any:
+    """The array; of a sequence one of objects, so that exact numbers stay what they are."""
+    if isinstance(value, np.ma.MaskedArray):
+        raise ArgumentError(f"{name} is a masked array: give one without a mask")
+    if hasattr(value, "__array__"):
+        return np.asarray(value)
+    if hasattr(value, "__len__") and not isinstance(value, str | bytes | Mapping | Set):
+        return np.array([*value], dtype=object)
+    single = np.empty((), dtype=object)
+    single[()] = value
+    return single
+
+
+def _element(array: Any, place: tuple[int, ...]) -> Any:
+    """One element of the shape shared; a number of NumPy's as one of Python's."""
+    near = place[len(place) - array.ndim :]
+    element = array[tuple(min(at, size - 1) for at, size in zip(near, array.shape, strict=True))]
+    return element.item() if isinstance(element, np.generic) else element
+
+
+def _is_exact(array: Any) -> bool:
+    if array.dtype == object:
+        return all(isinstance(element, EXACT) for element in array.flat)
+    return array.dtype.kind in "iu"

@@ -79,11 +79,11 @@ class Step:
     @property
     def assuming(self) -> tuple[str, ...]:
         """What its proof assumes and no rule ends."""
-        return tuple(sorted(set().union(*(one.assuming for one in self.theorems))))
+        return tuple(sorted(set().union(*(theorem.assuming for theorem in self.theorems))))
 
     @cached_property
     def _sources(self) -> tuple["Place", ...]:
-        return tuple(_sources(premise for one in self.theorems for premise in one.premises))
+        return tuple(_sources(premise for theorem in self.theorems for premise in theorem.premises))
 
     @property
     def equations_used(self) -> tuple[Number, ...]:
@@ -133,16 +133,16 @@ def equations_of(theorems: Iterable[Theorem]) -> tuple[Number, ...]:
 
 def _sources(theorems: Iterable[Theorem]) -> Iterator[Place]:
     """Where theorems are shown, or what these rest on: the nearest place on each way."""
-    left, seen = list(theorems), set[Theorem]()
-    while left:
-        theorem = left.pop(0)
+    rest, seen = list(theorems), set[Theorem]()
+    while rest:
+        theorem = rest.pop(0)
         if theorem in seen:
             continue
         seen.add(theorem)
         if theorem in _PLACE_OF:
             yield _PLACE_OF[theorem]
         else:
-            left += theorem.premises
+            rest += theorem.premises
 
 
 @dataclass(frozen=True)
@@ -251,14 +251,15 @@ class Steps(list[Step]):
         where = self._domain if domain is None else domain
         rules: tuple[Rule, ...] = _for_each(rule, count)
         domains: tuple[Domain, ...] = _for_each(where, count)
-        defined = tuple({**self._definitions, **one} for one in _for_each(definitions, count))
-        for symbol in (symbol for one in defined for symbol in one):
+        own = _for_each(definitions, count)
+        defined = tuple({**self._definitions, **meanings} for meanings in own)
+        for symbol in (symbol for meanings in defined for symbol in meanings):
             if not _may_be_defined(symbol):
                 raise NotProvedError(f"{symbol} has a meaning of its own")
         try:
             theorems = tuple(
-                proved_by(by, in_place(one, meant), there)
-                for one, by, there, meant in zip(equations, rules, domains, defined, strict=True)
+                proved_by(by, in_place(line, meant), there)
+                for line, by, there, meant in zip(equations, rules, domains, defined, strict=True)
             )
         except (NotProvedError, NotExactError) as why:
             name = f"step {number}," if number else "the claim"
@@ -266,8 +267,8 @@ class Steps(list[Step]):
         for theorem in theorems:
             if type(theorem) is not Theorem or theorem.supposed:
                 raise NotProvedError(f"it rests on what is only supposed: {reason}")
-        made = rules, domains, defined, theorems
-        step = Step(self._equation, reason, formula, *made, number, tuple(cases))
+        proved = rules, domains, defined, theorems
+        step = Step(self._equation, reason, formula, *proved, number, tuple(cases))
         for theorem in shown(self._equation, *theorems):
             if _PLACE_OF[theorem] == (self._equation, 0):
                 _PLACE_OF[theorem] = self._equation, number
@@ -281,7 +282,7 @@ def _may_be_defined(what: Any) -> bool:
     if isinstance(what, type) or what.has(sympy.Function):
         return False
     symbols = what.free_symbols
-    return any(one in _DEFINED or one.name not in _NAMES for one in symbols)
+    return any(symbol in _DEFINED or symbol.name not in _NAMES for symbol in symbols)
 
 
 def _for_each(given: Any, count: int) -> tuple[Any, ...]:

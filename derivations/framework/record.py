@@ -240,7 +240,7 @@ class Outcome:
         """What its proofs assume and no rule discharges, where it is proved."""
         if not self.verdict.is_proved:
             return ()
-        return tuple(dict.fromkeys(words for one in self.checks for words in one.assuming))
+        return tuple(dict.fromkeys(words for check in self.checks for words in check.assuming))
 
     @property
     def words(self) -> str:

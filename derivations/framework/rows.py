@@ -71,15 +71,15 @@ class Row(Statement):
     def symbols(self) -> tuple[tuple[sympy.Basic, str], ...]:  # type: ignore[override]
         """Each symbol with its meaning."""
         values = (piece.expr for form in self.exact_forms.values() for piece in form.pieces)
-        held = set().union(*(one.free_symbols for one in values)) - {*dict(self.quantities)}
+        held = set().union(*(value.free_symbols for value in values)) - {*dict(self.quantities)}
         return (*self.quantities, *usual(*by_name(held)))
 
     @property
     def assumptions(self) -> tuple[str, ...]:  # type: ignore[override]
         """What is assumed, in words."""
         forms = self.exact_forms.values()
-        order = SECOND_ORDER if any(one.statistic.has(Shift) for one in forms) else FIRST_ORDER
-        loads = (one.kernel_domain.loading.words for one in forms if one.kernel_domain.loading)
+        order = SECOND_ORDER if any(form.statistic.has(Shift) for form in forms) else FIRST_ORDER
+        loads = (form.kernel_domain.loading.words for form in forms if form.kernel_domain.loading)
         return (*order, *dict.fromkeys(loads))
 
     @property
@@ -103,7 +103,7 @@ class Row(Statement):
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same, in as many displays as it takes to fit pages."""
-        return [one for form in self.exact_forms.values() for one in form.displays(columns)]
+        return [display for form in self.exact_forms.values() for display in form.displays(columns)]
 
     def lines(self, room: int) -> list[str]:
         """The closed forms as lines of plain text."""
@@ -266,14 +266,14 @@ def highest(value: sympy.Expr, symbol: sympy.Symbol) -> sympy.Expr:
 
 
 def _has_sign(value: sympy.Expr, expected: int, points: sets.Set = sets.EVERYTHING) -> Ruling:
-    found = sign(FIELD.from_sympy(value), points)
-    return ruled(found == expected, f"{text(value)} has the sign {found or 'of no kind'}")
+    actual = sign(FIELD.from_sympy(value), points)
+    return ruled(actual == expected, f"{text(value)} has the sign {actual or 'of no kind'}")
 
 
-def are_same(found: sympy.Expr, value: sympy.Expr) -> Ruling:
+def are_same(actual: sympy.Expr, value: sympy.Expr) -> Ruling:
     """Rule on a value for what was found."""
-    apart = sympy.cancel(sympy.together(found - value))
-    return ruled(bool(apart == 0), f"{text(found)} is true")
+    apart = sympy.cancel(sympy.together(actual - value))
+    return ruled(bool(apart == 0), f"{text(actual)} is true")
 
 
 def ruled(holds: bool, otherwise: str) -> Ruling:

@@ -30,8 +30,8 @@ def _rarely_collected() -> Iterator[None]:
 
 def _check(kind: str, name: str, step: Step, place: int | None = None) -> Check:
     theorems = step.theorems if place is None else step.theorems[place : place + 1]
-    assuming = tuple(sorted(set[str]().union(*(one.assuming for one in theorems))))
-    rules = dict.fromkeys(one.rule for one in theorems)
+    assuming = tuple(sorted(set[str]().union(*(theorem.assuming for theorem in theorems))))
+    rules = dict.fromkeys(theorem.rule for theorem in theorems)
     verdict = Verdict.ASSUMING if assuming else Verdict.PROVED
     return Check(kind, name, verdict, f"by the rule: {', '.join(rules)}", assuming)
 
@@ -55,8 +55,8 @@ def checks(statement: Statement) -> Iterator[Check]:
     if isinstance(statement, Row):
         for name, ruling in statement.claims:
             yield Check("proof", name, ruling.verdict, ruling.note, ruling.assuming)
-    for one in steps.refuted:
-        yield Check("refutation", one.reading, Verdict.REFUTED, one.reason)
+    for reading in steps.refuted:
+        yield Check("refutation", reading.reading, Verdict.REFUTED, reading.reason)
 
 
 def run(statement: Statement) -> Outcome:

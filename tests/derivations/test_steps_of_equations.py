@@ -216,20 +216,3 @@ def test_a_wrong_step_fails_the_run(
     outcome = run(replace(derivation, steps=derivation.steps.__wrapped__))  # type: ignore[attr-defined]
     assert outcome.verdict is Verdict.UNDECIDED
     assert outcome.checks[0].note.startswith(f"step {wanted}, ")
-
-
-@pytest.mark.long(sample=4)
-@pytest.mark.parametrize(
-    ("number", "place", "divisor"),
-    [(2, 4, sy.phi), (4, 2, sy.j - 3), (11, 5, sy.n_x - sy.n_y), (13, 3, sy.M - 2 * sy.j),
-     (14, 5, sy.M - 4), (16, 4, sy.phi), (13, 7, 2 * sy.z - 1)],
-)  # fmt: skip
-def test_what_may_vanish_is_not_cancelled_in_a_step(
-    number: int, place: int, divisor: sympy.Expr
-) -> None:
-    step = load(number).proof[place - 1]
-    left, right = step.equations[0].args
-    one = sympy.Mul(divisor, sympy.Pow(divisor, -1, evaluate=False), evaluate=False)
-    assert not proves(
-        step, 0, sympy.Eq(left, sympy.Mul(one, right, evaluate=False), evaluate=False)
-    )

@@ -73,10 +73,3 @@ def test_the_command_prints_and_writes_what_derive_gives(
 def test_a_figure_that_can_not_be(name: int | str, options: dict[str, object], words: str) -> None:
     with pytest.raises((NoSuchFigureError, fd.SceneError), match=words):
         fd.figure(name, **options)  # type: ignore[arg-type]
-
-
-def test_a_figure_shows_itself() -> None:
-    made = fd.figure("chains", command="mine")
-    assert made._repr_png_().startswith(b"\x89PNG")
-    assert "# mine" in str(made.files["chains.csv"])
-    assert repr(made).splitlines()[0] == made.title

@@ -2,31 +2,25 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from fractions import Fraction
-from itertools import product
 from pathlib import Path
 from typing import Any
 
 import pytest
-import sympy
-from force_diffusion.derivations.beyond import correlations, variances
+from force_diffusion.derivations.beyond import correlations
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.sets import OpenSumError
-from force_diffusion.symbolic.symbols import M, l, phi, r, sigma, t, z
+from force_diffusion.symbolic.symbols import M, l, r, sigma, t
 from force_diffusion.symbolic.weights import Weights
 
 import force_diffusion as fd
 from force_diffusion import symbols
-from tests.derivations.first_principles import covariance, weights
 
 ROWS = [number for number in modules() if isinstance(number, str) and number != "B1"]
 GOLDEN = Path(__file__).parents[2] / "golden" / "rows"
-LOAD_OF_MEANS = {"B6": "B5", "B16": "B15", "B17": "B10"}
-"""Means under a bulk load, and those under a surface load that they average."""
 
 
 def row(number: str) -> Row:
@@ -106,47 +100,3 @@ def test_branches_are_correlated_nearer_to_where_diagonals_cross(
 ) -> None:
     ruling = correlations.uncorrelated([domain])({})
     assert ruling.verdict.is_proved == is_proved
-
-
-def test_branches_are_uncorrelated_in_exact_packings_where_claimed() -> None:
-    size = 13
-    found = weights(size, Fraction(-1, 8), "surface")
-    for lower, upper, above in product(range(size), range(size), range(-size, size)):
-        layer = lower + above
-        if lower <= upper and min(abs(above), abs(layer - upper), layer, size - layer) >= 4:
-            value = covariance(found["+"][lower], found["-"][upper], 2 * above - (upper - lower))
-            met_at_base = layer > upper and abs(layer - upper - lower) < 4
-            assert value == 0 or met_at_base, (lower, upper, above)
-
-
-# what ties rows to one another, and to other dimensions
-
-
-def test_the_leading_order_in_d_dimensions() -> None:
-    """κ² (d − 1)(2d − 1) and one profile: what B11 and B20 are at d = 2 and d = 3."""
-    d = sympy.Symbol("d", positive=True)
-    kappa = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
-    for number, of_load, slope in (("B11", Fraction(2, 3), 2), ("B20", Fraction(1, 10), 4)):
-        profile = M**3 * (1 - z) ** 2 * (1 + slope * z)
-        general = sympy.Rational(of_load) * (d - 1) * (2 * d - 1) * kappa**2 * profile
-        for name, dimensions in (("discs", 2), ("spheres", 3)):
-            stated = row(number).exact_forms[name].leading(1)
-            expected = general.subs(d, dimensions) * (sigma / r) ** 2
-            assert sympy.cancel(stated - expected) == 0
-    shares = 2 * (variances.t_2 + variances.t_3) ** 2 + variances.t_2**2 + variances.t_3**2
-    leaning = row("B24").exact_forms["first"].leading(1)
-    upright = row("B11").exact_forms["spheres"].leading(1)
-    assert sympy.cancel(leaning / upright - shares / 10) == 0
-
-
-@pytest.mark.parametrize("number", LOAD_OF_MEANS)
-def test_bulk_means_are_averages_of_surface_means_over_heights(number: str) -> None:
-    numbers = {"phi": Fraction(2, 7), "sigma": 1, "r": 1, "t": Fraction(3, 5)}
-    for name, bulk in row(number).exact_forms.items():
-        surface = row(LOAD_OF_MEANS[number]).exact_forms[name]
-        held = {one: numbers[one] for one in numbers if one in bulk.symbols}
-        for height in range(1, 7):
-            for layer in range(height):
-                heights = range(layer + 1, height + 1)
-                each = [surface.at(M=one, j=layer, **held) for one in heights]
-                assert bulk.at(M=height, j=layer, **held) == sum(each) / len(each)

@@ -165,19 +165,6 @@ def test_variances(terms: Terms, drawn: Drawn) -> None:
     compare(form, drawn, beads(form), true)
 
 
-@SOME
-@given(_terms(2), _terms(2), loads)
-def test_covariances(one: Terms, other: Terms, drawn: Drawn) -> None:
-    form = fd.covariance(observable(one, i, j), observable(other, i, j), load=drawn.load)
-    note(str(form))
-
-    def true(packing: Packing, at: dict[str, int]) -> fmpq:
-        bead = at["j"] % 2, at["j"]
-        return covariance(value(one, packing, bead), value(other, packing, bead))
-
-    compare(form, drawn, beads(form), true)
-
-
 @FEW
 @given(_terms(2), _terms(1), loads, st.integers(-9, 8))
 def test_two_layers(one: Terms, other: Terms, drawn: Drawn, apart: int) -> None:
@@ -196,19 +183,6 @@ def test_two_layers(one: Terms, other: Terms, drawn: Drawn, apart: int) -> None:
 def mean(terms: Terms, packing: Packing, bead: Bead, count: int) -> Value:
     several = (value(terms, packing, (bead[0] + 2 * place, bead[1])) for place in range(count))
     return reduce(add, several).scaled(fmpq(1, count))
-
-
-@FEW
-@given(_terms(2), loads, st.integers(1, 6))
-def test_neighbours(terms: Terms, drawn: Drawn, count: int) -> None:
-    form = fd.variance(fd.mean_over(observable(terms, i, j), count), load=drawn.load)
-    note(str(form))
-
-    def true(packing: Packing, at: dict[str, int]) -> fmpq:
-        whole = mean(terms, packing, (at["j"] % 2, at["j"]), count)
-        return covariance(whole, whole)
-
-    compare(form, drawn, beads(form), true)
 
 
 @FEW

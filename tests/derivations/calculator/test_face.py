@@ -19,13 +19,11 @@ from force_diffusion.symbols import (
     dot,
     e_x,
     e_y,
-    f_along,
     f_load,
     f_minus,
     f_plus,
     i,
     j,
-    k,
     l,
     m_g,
     n_y,
@@ -34,8 +32,6 @@ from force_diffusion.symbols import (
     phi,
     r,
     sigma,
-    t,
-    z,
 )  # fmt: skip
 
 _CALLS = """
@@ -161,20 +157,6 @@ def test_the_ordered_forces_are_means() -> None:
     assert only(leaning) == 3 * symbols.L_plus * (M - j)
 
 
-def test_a_ratio_may_be_a_number() -> None:
-    form, number = (fd.variance(f_plus(i, j), load=fd.leaning(one)) for one in (t, 2))
-    assert form.at(t=2, **HERE) == number.at(**HERE)
-
-
-def test_spheres() -> None:
-    x, y = i, k
-    form = fd.variance(f_along(1, x, y, j), dimension=3)
-    at = {"i": 0, "k": 0, "phi": 0, "sigma": 1, "r": 1}
-    assert form.at(M=1, j=0, **at) == Fraction(4, 2)
-    with pytest.raises(fd.ForceDiffusionError, match="−1/3 < φ < 1/2 is allowed"):
-        form.at(M=1, j=0, **{**at, "phi": Fraction(-2, 5)})
-
-
 # where it holds
 
 
@@ -220,15 +202,3 @@ def test_neighbours() -> None:
     one, two = (f_plus(i + 2 * n, j) for n in (0, 1))
     assert form.at(N=2, **HERE) == fd.variance((one + two) / 2).at(**HERE)
     assert form.at(N=1, **HERE) == fd.variance(fd.mean_over(f_plus(i, j), 1)).at(**HERE)
-
-
-def test_leading_orders_are_at_a_fixed_height() -> None:
-    form = fd.variance(f_plus(i, j))
-    unit = (sigma / r) ** 2 / (1 - phi**2) ** 2
-    assert form.leading(1).equals(2 * M**3 * (1 - z) ** 2 * (1 + 2 * z) * unit)
-
-
-def test_below_a_point_load() -> None:
-    form = fd.mean(fd.response(i, j), load=fd.point(k, l))
-    values = [form.at(i=place, j=2, k=0, l=4) for place in range(-4, 5, 2)]
-    assert values == [0, Fraction(1, 2), 0, Fraction(1, 2), 0]

@@ -26,11 +26,7 @@ from force_diffusion.symbols import (
     l,
     p,
     p_plus,
-    phi,
-    r,
-    sigma,
     t,
-    z,
 )  # fmt: skip
 
 a = sympy.Symbol("a")
@@ -161,27 +157,3 @@ def _python(latex: str) -> str:
     spaced = re.sub(r"(?<=[\w)])\s*(?=\()|(?<=\))\s*(?=\w)|(?<=\w)\s+(?=\w)", "*", latex)
     # whole numbers are divided as fractions
     return re.sub(r"(?<![\w*.])(\d+)(?!\w)", r"(\1)", spaced.strip())
-
-
-# sizes
-
-
-@pytest.mark.parametrize("load", ["surface", "bulk"])
-def test_packings_of_any_height(load: str) -> None:
-    """Far up the highest power of M is all that counts, and small heights are not special."""
-    form = fd.variance(f_plus(i, j), load=load)
-    height = 10**30
-    at = {"phi": Fraction(1, 3), "sigma": 1, "r": 1}
-    for share in (Fraction(0), Fraction(1, 4), Fraction(9, 10)):
-        exact = form.at(M=height, j=int(share * height), **at)
-        assert exact.is_Rational
-        numbers = {M: height, z: share, phi: at["phi"], sigma: 1, r: 1}
-        leading = form.leading().subs({one: sympy.Rational(numbers[one]) for one in numbers})
-        if share:  # two orders in M are right
-            assert abs(exact / leading - 1) < sympy.Rational(1000, height**2)
-    assert form.at(M=height, j=height - 1, **at) > 0
-    with pytest.raises(ArgumentError, match="not for"):
-        form.at(M=height, j=height, **at)
-    rounded = form.at(M=height, j=7, phi=0.25, sigma=1e-40, r=1)
-    assert isinstance(rounded, float)
-    assert rounded == float(form.at(M=height, j=7, phi=Fraction(1, 4), sigma=Fraction(1e-40), r=1))

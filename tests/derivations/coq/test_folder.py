@@ -47,37 +47,32 @@ CONTEXT SUMMARY
 """  # noqa: W293
 
 
-def test_the_second_check_is_read_whole() -> None:
-    assert unexpected(SUMMARY) == ""
-    axiom = "Coq.Reals.ClassicalDedekindReals.sig_not_dec"
-    for good, bad in (
-        (axiom, f"{axiom}\n    ForceDiffusion.Model.trust_me"),
-        ("type-in-type: <none>", "type-in-type: ForceDiffusion.Model.t"),
-        ("Set is predicative", "Set is impredicative"),
-        ("* Inductives whose positivity is assumed: <none>", ""),
-    ):
-        assert unexpected(SUMMARY.replace(good, bad)) != ""
-
-
 NEWER = SUMMARY.replace("* Axioms:\n", "* Theory: Rewrite rules are not allowed\n  \n* Axioms:\n")
 """Of Coq 8.20."""
+ROCQ = NEWER.replace(" Coq.", " Stdlib.") + (
+    "\n* Inductives relying on indices not mattering: <none>\n"
+)
+AXIOM = "Coq.Reals.ClassicalDedekindReals.sig_not_dec"
 
 
-def test_the_second_check_of_newer_versions_is_read_whole() -> None:
+@pytest.mark.parametrize(
+    ("summary", "good", "bad"),
+    [
+        (SUMMARY, AXIOM, f"{AXIOM}\n    ForceDiffusion.Model.trust_me"),
+        (SUMMARY, "type-in-type: <none>", "type-in-type: ForceDiffusion.Model.t"),
+        (SUMMARY, "Set is predicative", "Set is impredicative"),
+        (SUMMARY, "* Inductives whose positivity is assumed: <none>", ""),
+        (ROCQ, "Rewrite rules are not", "Rewrite rules are"),
+        (ROCQ, "mattering: <none>", "mattering: ForceDiffusion.Model.t"),
+        (ROCQ, "* Theory: Set is predicative", "* Theory: Rewrite rules are not allowed"),
+        (ROCQ, " Stdlib.", " Mine.Coq."),
+    ],
+)
+def test_the_second_check_is_read_whole(summary: str, good: str, bad: str) -> None:
+    assert unexpected(summary) == ""
     assert unexpected(NEWER) == ""
-    rocq = NEWER.replace(" Coq.", " Stdlib.") + (
-        "\n* Inductives relying on indices not mattering: <none>\n"
-    )
-    assert unexpected(rocq) == ""
-    for good, bad in (
-        ("Rewrite rules are not", "Rewrite rules are"),
-        ("mattering: <none>", "mattering: ForceDiffusion.Model.t"),
-        ("Set is predicative", "Set is impredicative"),
-        ("* Theory: Set is predicative", "* Theory: Rewrite rules are not allowed"),
-        (" Stdlib.", " Mine.Coq."),
-    ):
-        assert good in rocq
-        assert unexpected(rocq.replace(good, bad)) != ""
+    assert good in summary
+    assert unexpected(summary.replace(good, bad)) != ""
 
 
 def test_without_coq_it_is_said_how_to_have_it(
@@ -219,32 +214,3 @@ def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
             os.kill(process, 0)
     assert not out.exists()
     assert not list(scratch.iterdir())
-
-
-@pytest.mark.long
-@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere the system does not tell of it")
-def test_a_kill_ends_what_is_under_way(programs: Path, tmp_path: Path) -> None:
-    put(programs, "coqc", VERSION + f'echo $$ >> "{tmp_path}/started"\nexec sleep 600')
-    running = subprocess.Popen([sys.executable, "-m", "force_diffusion", "certify", "1"])
-    started = tmp_path / "started"
-    while not (started.exists() and started.read_text().endswith("\n")):
-        assert running.poll() is None
-        time.sleep(0.05)
-    running.kill()
-    running.wait()
-    left = set(map(int, started.read_text().split()))
-    until = time.monotonic() + 60
-    while left and time.monotonic() < until:
-        left = {process for process in left if _runs(process)}
-        time.sleep(0.05)
-    for process in left:
-        os.kill(process, signal.SIGKILL)
-    assert not left
-
-
-def _runs(process: int) -> bool:
-    """Whether a process is there and not only waits to be reaped."""
-    try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except OSError:
-        return False

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from itertools import pairwise
 
 import pytest
@@ -14,7 +14,6 @@ from force_diffusion.derivations.export.article import (
     page,
     source,
 )
-from force_diffusion.derivations.export.quoted import quoted
 from force_diffusion.derivations.export.supplement import UNITS, supplement
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
@@ -24,8 +23,6 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.symbols import M, N, j, l, phi, r, sigma, t, z
 from sympy import Ge, Rational
-
-import force_diffusion as fd
 
 WIDE = dict.fromkeys(FIGURES, False)
 TEXT = source()
@@ -257,26 +254,6 @@ def test_numbers_of_steel_balls() -> None:
         rf"flatten by ${flattened * 1e6:.2f}\,\mathrm{{\mu m}}$ at ${force:.2f}\,\mathrm{{N}}$",
     ):
         assert words in said
-
-
-@pytest.mark.parametrize(
-    ("label", "name", "leading"),
-    [
-        ("B10", "ratio", lambda M, z, phi: 4 * M * ((1 + phi) * z - 2 * phi)),
-        ("B10", "flux", lambda M, z, phi: 2 * M * (1 - phi) * (2 * z - 1)),
-        ("B17", "ratio", lambda M, z, phi: 4 * M * (z - phi)),
-        ("B17", "flux", lambda M, z, phi: M * (1 - phi) * (3 * z - 1)),
-        ("B18", "axes_bulk", lambda M, z, phi: -2 * M * z * (1 - phi) * (1 - 3 * phi)),
-    ],
-)
-def test_a_leading_order_is_that_of_tall_packings(
-    label: str, name: str, leading: Callable[..., sympy.Expr]
-) -> None:
-    height, layer, cosine = 10**8, 3 * 10**7, Rational(1, 5)
-    form = fd.equation(label).exact(name)
-    value = form.at(M=height, j=layer, phi=cosine, sigma=1, r=1) * (1 - cosine**2) ** 2
-    assert abs(value / leading(height, Rational(3, 10), cosine) - 1) < Rational(10, height)
-    assert sympy.expand(read(quoted(f"leading {label} {name}")) - leading(M, z, phi)) == 0
 
 
 # how it is written

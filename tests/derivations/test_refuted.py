@@ -1,0 +1,62 @@
+"""What the paper prints of one contact below a load: refuted, as expected, and said everywhere."""
+
+import pytest
+from force_diffusion.derivations import eq16_response as eq16
+from force_diffusion.derivations.api.derived import Derived
+from force_diffusion.derivations.api.proof import Proof
+from force_diffusion.derivations.export import terminal
+from force_diffusion.derivations.export.document import statement_latex
+from force_diffusion.derivations.framework import runner
+from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.proof import Steps
+from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.kernel.limits import asymptotic
+from force_diffusion.symbolic.kernel.theorem import NotProvedError
+from force_diffusion.symbolic.trees import equation
+
+
+def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure() -> None:
+    derivation = load(16)
+    (reading,) = derivation.proof.refuted
+    assert reading.formula.rhs == derivation.printed[0].rhs
+    assert reading.relation == "∼"
+    assert "goes to (j + p)/(2 j + p + q), not to 1" in reading.reason
+
+
+def test_what_holds_for_one_contact_is_not_refuted() -> None:
+    proof = Steps(16, eq16.CONE, eq16.MEANING)
+    (of_contact,) = (
+        one.formula.rhs
+        for one in load(16).proof.claims
+        if one.reason.startswith("to leading order")
+    )
+    rule = asymptotic(*eq16.in_radii())
+    for rhs in (of_contact, of_contact * (1 + 1 / sy.l)):
+        with pytest.raises(NotProvedError, match="was to be refuted"):
+            proof.refute("true", equation(eq16.ONE_CONTACT, rhs), rule, eq16.CONE)
+
+
+def test_all_that_is_said_of_the_run_counts_it() -> None:
+    outcome = runner.run(load(16))
+    words = "1 printed statement refuted, as expected (see ERRATA)"
+    derived, proof = Derived((outcome,)), Proof((outcome,))
+    assert outcome.verdict is proof.verdict is Verdict.PROVED
+    assert derived.proved
+    assert derived.counts() == f"1 proved, {words}"
+    assert [check.kind for check in proof.refuted] == ["refutation"]
+    for said in (str(derived), str(proof), terminal.outcome_text(outcome)):
+        assert words in said
+    assert terminal.trouble_lines(outcome) == []
+    (found,) = derived.data()["equations"]
+    assert found["refuted as expected"] == 1
+    assert [c["verdict"] for c in found["checks"] if c["kind"] == "refutation"] == ["refuted"]
+    (reading,) = outcome.derivation.proof.refuted
+    for document in (derived.latex()["equations.tex"], terminal.outcome_text(outcome)):
+        assert reading.reading[1:] in " ".join(document.split())  # a sentence, or part of one
+
+
+def test_the_statement_for_one_contact_is_in_no_fragment() -> None:
+    """A fragment is to be pasted."""
+    assert "contact" not in statement_latex(load(16))
+    assert statement_latex(load(16)).count(r"\sim") == 1
