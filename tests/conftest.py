@@ -40,7 +40,8 @@ def _leaves_out(config: pytest.Config) -> bool:
     """Whether long tests are left out: neither files are named nor is the profile that of CI.
 
     Of a test that is marked ``long(sample=8)`` eight cases are run nevertheless. Of one that is
-    marked ``long(share=3)`` the profile of CI runs a third of the cases, those that the seed says.
+    marked ``long(share=3)`` the profile of CI runs a third of the cases, those that the seed says;
+    of one that has many cases, a half.
     """
     by_default = config.args_source is pytest.Config.ArgsSource.TESTPATHS
     return by_default and config.getoption("--hypothesis-profile") in {None, "quick"}
@@ -54,6 +55,7 @@ def pytest_report_header(config: pytest.Config) -> str | None:
     return None
 
 
+MANY = 8
 DERIVING = "derivations/", "symbolic/", "cli/test_derive", "cli/test_show", "soundness/test_hostile"
 """Tests that prove equations and work out closed forms: in one process, which does so once."""
 
@@ -77,7 +79,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         mark = every[0].get_closest_marker("long")
         wanted = mark.kwargs if mark else {}
         if of_ci:
-            share = wanted.get("share", 1)
+            share = wanted.get("share", 1 if len(every) < MANY else 2)
             kept = set(range(seed % share, len(every), share))
         else:
             sample = min(wanted.get("sample", 0), len(every))
