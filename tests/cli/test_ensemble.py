@@ -14,7 +14,6 @@ import pytest
 from force_diffusion.numeric.ensemble import ensemble as module
 
 from force_diffusion.__main__ import main
-from tests.cli.test_terminal import on_a_terminal
 from tests.numeric.ensemble.cases import CASES
 from tests.numeric.scenes import toml
 
@@ -172,15 +171,6 @@ def test_scenes_without_an_ensemble(tmp_path: Path, capsys: pytest.CaptureFixtur
     assert main(["ensemble-status", str(tmp_path / "none")]) == 2
 
 
-@pytest.mark.parametrize("name", ["distribution", "response", "figure3"])
-def test_other_scenes_work(name: str, capsys: pytest.CaptureFixture[str]) -> None:
-    status, shown, err = call(
-        capsys, ROOT / "scenes" / f"{name}.toml", "--realisations", 3, "--workers", 1
-    )
-    assert (status, err) == (0, "")
-    assert " rows, 3 packings" in shown
-
-
 def test_without_dask_it_says_what_to_install(
     small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -219,16 +209,6 @@ def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
         "force-diffusion: nothing was kept; with --store FILE it would have been.",
         "force-diffusion: interrupted; no half-written file is left.",
     ]
-
-
-def test_a_terminal_sees_progress_and_the_time_left() -> None:
-    status, shown = on_a_terminal(
-        "ensemble", str(SCENE), "--realisations", "60", "--until", "0.2", "--workers", "1"
-    )
-    assert status == 0
-    text = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", shown)
-    assert re.search(r"realisations .*/60 .* left", text)
-    assert "until 0.2" in text
 
 
 def test_a_histogram_says_what_it_counted(capsys: pytest.CaptureFixture[str]) -> None:
