@@ -115,6 +115,7 @@ def test_labels_and_changes_are_those_of_run(name: str) -> None:
     assert found[:, 0].tolist() == pytest.approx(meant, rel=1e-9, abs=1e-16)
     total = [float(F) + g for F, g in zip(m.ordered(), found[:, 0], strict=True)]
     assert total == pytest.approx(ordered, rel=1e-9, abs=1e-12)
+    assert first(m, 1).tensile.tolist() == [force < 0 for force in total]
 
 
 @pytest.mark.parametrize("name", ["histogram of all", "histogram of one"])
