@@ -1,6 +1,11 @@
 """Where the program starts; the command line is loaded inside of the guard."""
 
+import os
+
 from force_diffusion.derivations.commands.guard import guarded
+
+# pydantic would look through all that is installed for plugins
+os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "__all__")
 
 
 def main(arguments: list[str] | None = None) -> int:
