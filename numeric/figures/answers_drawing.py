@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Branch, PerBranch, per_direction
+from ..lattice.branch import Branch, PerBranch
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.sections import SceneError
@@ -61,7 +61,7 @@ def theory(plan: Plan) -> PerBranch[Array] | None:
         return None
     unit, layers = plan.scene.load.magnitude, map(found, range(plan.problem.height))
     stds = np.array([[float(std * unit) for _, std in layer] for layer in layers])
-    return per_direction(list(stds.T))
+    return PerBranch(tuple(stds.T))
 
 
 def contact_forces(

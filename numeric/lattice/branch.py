@@ -1,6 +1,6 @@
 """Along which base vector contacts lead up: two branches, or three axes; what there is of each."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from typing import Generic, NamedTuple, TypeVar
@@ -123,49 +123,27 @@ class Contact(NamedTuple):
 
 @dataclass(frozen=True)
 class PerBranch(Generic[T]):
-    """Something for either branch of contacts.
+    """Something for each branch, or axis, of which ``plus`` and ``minus`` are the first two.
 
-    >>> [(str(branch), value) for branch, value in PerBranch(1, 2)], PerBranch(1, 2)[Branch.MINUS]
+    >>> found = PerBranch((1, 2))
+    >>> [(str(branch), value) for branch, value in found], found[Branch.MINUS]
     ([('+', 1), ('-', 2)], 2)
     """
 
-    plus: T
-    minus: T
+    values: tuple[T, ...]
 
     def __getitem__(self, branch: Direction) -> T:
-        return self.plus if branch == Branch.PLUS else self.minus
+        return self.values[branch.number]
 
     def __iter__(self) -> Iterator[tuple[Direction, T]]:
-        yield Branch.PLUS, self.plus
-        yield Branch.MINUS, self.minus
+        return zip(directions(len(self.values)), self.values, strict=True)
 
+    @property
+    def plus(self) -> T:
+        """That of f⁺."""
+        return self.values[0]
 
-class PerAxis(PerBranch[T]):
-    """Something for each axis, of which ``plus`` and ``minus`` are the first two.
-
-    >>> PerAxis(5, 6, 7)[Axis.THIRD], [value for _, value in PerAxis(5, 6, 7)]
-    (7, [5, 6, 7])
-    """
-
-    _values: tuple[T, ...]
-
-    def __init__(self, *values: T) -> None:
-        """``values``: one an axis."""
-        first, second, _ = values
-        super().__init__(first, second)
-        object.__setattr__(self, "_values", values)
-
-    def __getitem__(self, axis: Direction) -> T:
-        return self._values[int(axis.value) - 1]
-
-    def __iter__(self) -> Iterator[tuple[Direction, T]]:
-        yield from zip(Axis, self._values, strict=True)
-
-
-def per_direction(values: Sequence[T]) -> PerBranch[T]:
-    """Give what there is of each branch or axis.
-
-    >>> per_direction([1, 2]), per_direction([5, 6, 7])[Axis.THIRD]
-    (PerBranch(plus=1, minus=2), 7)
-    """
-    return PerBranch(*values) if len(values) == 2 else PerAxis(*values)
+    @property
+    def minus(self) -> T:
+        """That of f⁻."""
+        return self.values[1]

@@ -35,15 +35,6 @@ Array = NDArray[Any]
 _NONE = np.empty(0, dtype=np.int64)
 
 
-def lowest_column(j: int) -> int:
-    """Give the smallest i ≥ 0 of layer j, which is its parity.
-
-    >>> lowest_column(3)
-    1
-    """
-    return j % 2
-
-
 def column(i: int, j: int, width: int) -> int:
     """Give the column q of site (i, j) in a periodic layer of ``width`` beads (0 ≤ q < W).
 
@@ -54,7 +45,7 @@ def column(i: int, j: int, width: int) -> int:
     """
     if (i + j) % 2:
         raise ValueError(f"({i}, {j}) is not a lattice site: i + j must be even")
-    return (i - lowest_column(j)) // 2 % width
+    return (i - j % 2) // 2 % width
 
 
 Bead = tuple[int, ...]
@@ -110,7 +101,7 @@ class Layer:
 
 def full_layer(j: int, width: int) -> Layer:
     """Give the whole of layer j of a periodic packing."""
-    return Layer(j, lowest_column(j), width)
+    return Layer(j, j % 2, width)
 
 
 class Rows(Sequence[Layer]):
@@ -296,10 +287,6 @@ class Region:
     def widest(self) -> int:
         """The beads of the longest row."""
         return int(self.rows.counts.max(initial=0))
-
-    def has_whole(self, rows: Rows) -> bool:
-        """Say whether ``rows`` are its lowest rows, and all of it a periodic packing."""
-        return self.is_whole and rows == self.rows[: len(rows)]
 
     @cached_property
     def is_whole(self) -> bool:

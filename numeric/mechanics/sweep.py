@@ -19,7 +19,7 @@ from ..arithmetic.carried import CARRYING, NONE, Carried, Carrying, Sizes
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import Radii, RadiusError
-from ..lattice.branch import AxisContact, Contact, Direction, PerBranch, per_direction
+from ..lattice.branch import AxisContact, Contact, Direction, PerBranch
 from ..lattice.layers import Layer, Region, Rows, RowView, bead_of
 from .loads import LoadSpec
 from .local import balance, balance_linear, cosine, metric, nested, rest, rest_linear
@@ -84,7 +84,7 @@ class SolvedPacking:
     def c(self) -> PerBranch[Sequence[Any]]:
         """n^a·δx/r of each row, (count,) or (packings, count)."""
         d, starts = self.region.dimension, self.region.starts
-        return per_direction([RowView(_of_one(self.block[:, a]), starts) for a in range(d)])
+        return PerBranch(tuple(RowView(_of_one(self.block[:, a]), starts) for a in range(d)))
 
     @cached_property
     def dn(self) -> PerBranch[Sequence[Any]]:
@@ -95,7 +95,7 @@ class SolvedPacking:
             parts = self.block[:, d + a * d : 2 * d + a * d]
             return RowView(parts[0] if len(parts) == 1 else parts.swapaxes(0, 1), starts)
 
-        return per_direction([of(a) for a in range(d)])
+        return PerBranch(tuple(of(a) for a in range(d)))
 
 
 @dataclass(frozen=True)
@@ -116,13 +116,15 @@ class Forces:
     def ordered(self) -> PerBranch[Sequence[Any]]:
         """F^a of each row, (count,)."""
         starts = self.rows.starts_above
-        return per_direction([RowView(self.F[a], starts) for a in range(len(self.F))])
+        return PerBranch(tuple(RowView(self.F[a], starts) for a in range(len(self.F))))
 
     @cached_property
     def change(self) -> PerBranch[Sequence[Any]]:
         """g^a of each row, (count,) or (packings, count)."""
         starts = self.rows.starts_above
-        return per_direction([RowView(_of_one(self.g[:, a]), starts) for a in range(len(self.F))])
+        return PerBranch(
+            tuple([RowView(_of_one(self.g[:, a]), starts) for a in range(len(self.F))])
+        )
 
     def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
         """Give (branch, F, g) of the contacts below row j."""

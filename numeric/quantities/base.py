@@ -16,7 +16,7 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import ORDER, PerBranch, per_direction
+from ..lattice.branch import ORDER, PerBranch
 from ..lattice.layers import Block, Naming, Region, Rows, pick, standing_on_base, whole
 from ..mechanics.engine import solve
 from ..mechanics.loads import LoadSpec
@@ -380,6 +380,6 @@ def first_order_std(problem: Problem) -> Callable[[int], PerBranch[Fraction]] | 
             stds = stds_of_discs(load.kind, height, j, phi, (unit[0], unit[1]))
         else:
             stds = [std_of_spheres(load.kind, height, j, phi) * unit[0]] * d
-        return per_direction([Fraction(of * over) * std for of in stds])
+        return PerBranch(tuple(Fraction(of * over) * std for of in stds))
 
     return layer

@@ -236,46 +236,6 @@ def test_gaps_of_touching_beads_are_told_apart() -> None:
     assert (found.overlaps, found.undecided) == (0, 3 * 9 * 2)
 
 
-@pytest.mark.parametrize("dimension", [2, 3])
-@pytest.mark.parametrize("size", [1e-6, 0.05])
-def test_the_smallest_gap_is_that_of_all_pairs_and_images(dimension: int, size: float) -> None:
-    """Of a strip so narrow that beads meet their own images, from positions and periods."""
-    rng, phi, height = np.random.default_rng(11), Fraction(7, 20), 3
-    for width in (1, 2):
-        beads = width ** (dimension - 1)
-        region = whole(beads, height, dimension)
-        rho = size * rng.uniform(-1, 1, (height + 1, beads))
-        with FLOAT64.active():
-            packing = deposit(phi, region, rho.reshape(1, -1), FLOAT64)
-        found = gaps(packing)
-        gram = np.full((dimension, dimension), float(phi)) + (1 - float(phi)) * np.eye(dimension)
-        base = np.linalg.cholesky(gram)
-        dual = np.linalg.inv(gram)
-        least = np.inf
-        reach = range(-4, 5)
-        for lower in product(reach, repeat=dimension):
-            if not 0 <= sum(lower) <= height or any(not 0 <= x < width for x in lower[:-1]):
-                continue
-            for upper in product(reach, repeat=dimension):
-                apart = np.subtract(upper, lower)
-                contact = abs(apart).sum() == 1
-                if upper <= lower or contact or not 0 <= sum(upper) <= height:
-                    continue
-                ends = []
-                for x in (lower, upper):
-                    j = sum(x)
-                    column = 0
-                    for step in x[:-1]:
-                        column = column * width + step % width
-                    if dimension == 2:  # i = x_1 − x_2 = 2 x_1 − j
-                        column = (2 * x[0] - j - j % 2) // 2 % width
-                    c = np.array([rows[j][column] for _, rows in packing.c])
-                    ends.append((2 * np.array(x) @ base + (dual @ c) @ base, rho[j][column]))
-                (a, r), (b, s) = ends
-                least = min(least, float(np.linalg.norm(b - a)) - 2 - r - s)
-        assert found.smallest == pytest.approx(least, abs=1e-13)
-
-
 @pytest.mark.parametrize(("dimension", "phi"), [(2, Fraction(-2, 5)), (3, Fraction(-3, 10))])
 def test_pairs_come_by_distance_each_once(dimension: int, phi: Fraction) -> None:
     found = [pair for pair, _ in zip(by_distance(dimension, float(phi)), range(400), strict=False)]
