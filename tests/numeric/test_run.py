@@ -379,13 +379,26 @@ def test_measured_radii_are_read_exactly(tmp_path: Path) -> None:
         assert usual.text[name] == other.text[name]
 
 
-def test_contacts_that_pull_are_counted() -> None:
-    sections = basic(24, 25, tolerance="=1e-12")
-    sections["disorder"]["relative_std"] = "=1e-2"
+@pytest.mark.parametrize(
+    ("dimension", "size", "std"), [(2, (24, 25), "=1e-2"), (3, (6, 8), "=2e-2")]
+)
+def test_contacts_that_pull_are_counted_and_the_first_is_named(
+    dimension: int, size: tuple[int, int], std: str
+) -> None:
+    sections = basic(*size, tolerance="=1e-12")
+    sections["packing"]["dimension"] = dimension
+    sections["disorder"]["relative_std"] = std
     found = answer(sections)
-    pulling = [r for r in found.decimals() if Fraction(r["force"]) < 0]
+    beads = "ij" if dimension == 2 else "pqj"
+    pulling = [
+        (*(row[name] for name in beads), row["branch"])
+        for row in found.decimals()
+        if Fraction(row["force"]) < 0
+    ]
     assert found.physical is not None
     assert found.physical.tensile == len(pulling) > 0
+    assert found.physical.first_tensile is not None
+    assert tuple(found.physical.first_tensile.named().values()) in pulling
 
 
 @pytest.mark.parametrize("angle", [0, 20, -37, 75])

@@ -62,6 +62,7 @@ AXIOM = "Coq.Reals.ClassicalDedekindReals.sig_not_dec"
         (SUMMARY, "type-in-type: <none>", "type-in-type: ForceDiffusion.Model.t"),
         (SUMMARY, "Set is predicative", "Set is impredicative"),
         (SUMMARY, "* Inductives whose positivity is assumed: <none>", ""),
+        (SUMMARY, f"* Axioms:\n    {AXIOM}\n", ""),
         (ROCQ, "Rewrite rules are not", "Rewrite rules are"),
         (ROCQ, "mattering: <none>", "mattering: ForceDiffusion.Model.t"),
         (ROCQ, "* Theory: Set is predicative", "* Theory: Rewrite rules are not allowed"),
