@@ -3,21 +3,21 @@
 Each side is a product of powers of what is positive. Of each base only the leading part counts.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterable, Iterator
 from math import lcm
 
 import sympy
 
 from .. import symbols as sy
-from ..algebra.exact import FIELD, NotAStatementError, NotExactError, RationalFunction
+from ..algebra.exact import FIELD, RationalFunction
 from ..printing.text import text
-from ..quotients import factored
 from ..sets import EVERYTHING
 from ..signs import sign
 from ..trees import equation
 from .axioms import GAUSSIAN_FORCES
 from .domain import AT_FIXED_RATIO, Domain, at_fixed_height, at_large_height
 from .limits import in_the_limit, leading, limit_of, order
+from .refuted import shown
 from .rules import Rule
 from .theorem import (
     FalseStatementError,
@@ -29,9 +29,6 @@ from .theorem import (
     made,
     with_indices,
 )
-
-Powers = list[tuple[RationalFunction, sympy.Rational]]
-"""Positive functions with their exponents."""
 
 
 def power_law(*groups: Group) -> Rule:
@@ -48,69 +45,52 @@ def power_law(*groups: Group) -> Rule:
             rule(equation(formula.lhs, -formula.rhs), domain)
             raise FalseStatementError("left over right is negative")
 
-        def read(node: sympy.Expr) -> RationalFunction:
-            return leading(in_the_limit(node, domain, groups), limit)
-
-        left, right = (list(_powers(side, domain, groups, read)) for side in formula.args)
+        left, right = (list(_powers(side, domain, groups)) for side in formula.args)
         ratio = _whole_power([*left, *((base, -power) for base, power in right)])
         if relation == "=" and not (ratio - FIELD.one).is_zero():
-            raise FalseStatementError(f"a power of left over right goes to {_shown(ratio)}, not 1")
+            raise FalseStatementError(f"a power of left over right goes to {shown(ratio)}, not 1")
         held = [s for s in FIELD.generators if ratio.holds(s) and s not in (sy.phi, sy.n_x, sy.n_y)]
         if held:
-            raise FalseStatementError(f"a power of left over right goes as {_shown(ratio)}")
+            raise FalseStatementError(f"a power of left over right goes as {shown(ratio)}")
         return made(formula, domain, "power law", flat(groups))
 
     return rule
 
 
-def _shown(ratio: RationalFunction) -> str:
-    return text(factored(ratio.reduced()))
-
-
 def _powers(
-    node: sympy.Expr,
-    domain: Domain,
-    groups: Groups,
-    read: Callable[[sympy.Expr], RationalFunction],
-    exponent: sympy.Rational = sympy.S.One,
+    node: sympy.Expr, domain: Domain, groups: Groups, exponent: sympy.Rational = sympy.S.One
 ) -> Iterator[tuple[RationalFunction, sympy.Rational]]:
-    """A side as powers of what is positive.
+    """The leading order of a side as powers of what is positive.
 
     Raises:
-        NotProvedError: a base is not shown to be positive, or an exponent is no number.
+        NotProvedError: a base is not shown to be positive, or an exponent is not a number.
     """
     if isinstance(node, sympy.Mul):
         for factor in node.args:
-            yield from _powers(factor, domain, groups, read, exponent)
-    elif isinstance(node, sympy.Pow):
+            yield from _powers(factor, domain, groups, exponent)
+        return
+    if isinstance(node, sympy.Pow):
         if not isinstance(node.exp, sympy.Rational):
             raise NotProvedError(f"the exponent {text(node.exp)} is not a number")
-        yield from _powers(node.base, domain, groups, read, exponent * node.exp)
-    elif isinstance(node, sy.UnitHeight):
-        scale, power = _growth(node.args[0], domain, groups)
-        yield scale, -exponent / power
-    else:
-        value = read(node)
-        if sign(value, EVERYTHING) != 1:
-            raise NotProvedError(f"{text(node)} is not shown to be positive")
-        yield value, exponent
-
-
-def _growth(
-    quantity: sympy.Expr, domain: Domain, groups: Groups
-) -> tuple[RationalFunction, sympy.Integer]:
-    """c > 0 and p ≥ 1 of a quantity that goes as c M^p: there is one height at which that is 1."""
-    limit = at_large_height("=")
+        yield from _powers(node.base, domain, groups, exponent * node.exp)
+        return
+    limit, quantity = at_large_height("="), node
+    if isinstance(node, sy.UnitHeight):
+        (quantity,) = node.args
     value = leading(in_the_limit(quantity, domain.in_the_limit(limit), groups), limit)
-    power = order(value, limit)
-    scale = value / FIELD.generator(sy.M) ** power
-    if power < 1 or sign(scale, EVERYTHING) != 1:
-        raise NotProvedError("there is not one height at which the leading order is one")
-    return scale, sympy.Integer(power)
+    if isinstance(node, sy.UnitHeight):  # of a quantity that goes as c M^p
+        power = order(value, limit)
+        if power < 1:
+            raise NotProvedError("there is not one height at which the leading order is one")
+        value, exponent = value / FIELD.generator(sy.M) ** power, -exponent / sympy.Integer(power)
+    if sign(value, EVERYTHING) != 1:
+        raise NotProvedError(f"{text(quantity)} is not shown to be positive")
+    yield value, exponent
 
 
-def _whole_power(powers: Powers) -> RationalFunction:
+def _whole_power(powers: Iterable[tuple[RationalFunction, sympy.Rational]]) -> RationalFunction:
     """The lowest power of a product that holds no root."""
+    powers = tuple(powers)
     common = lcm(*(int(power.q) for _, power in powers))
     product = FIELD.one
     for base, power in powers:
@@ -141,7 +121,7 @@ def tensile(variance: Theorem, mean: Theorem, *groups: Group) -> Rule:
         each = sy.Tensile(there.lhs)
         if formula.lhs != sympy.Sum(each, (sy.m, 0, sy.M - 1)) / sy.M:
             raise NotProvedError("it is not about the mean over all layers of P(f < 0)")
-        below = list(_powers(_argument(formula.rhs), domain, groups, _read))
+        below = _powers(_argument(formula.rhs), domain, groups)
         v = FIELD.from_sympy(variance.formula.rhs) * FIELD.constant(2)
         if any(v.holds(one) for one in sy.INDICES if one != sy.M):
             raise NotProvedError("the variance is not said in terms of z and M")
@@ -162,12 +142,3 @@ def _argument(side: sympy.Expr) -> sympy.Expr:
             inside: sympy.Expr = other.args[0]
             return inside
     raise NotProvedError("it is not ∫ ½ erfc(…) dz from 0 to 1")
-
-
-def _read(node: sympy.Expr) -> RationalFunction:
-    try:
-        return FIELD.from_sympy(node)
-    except NotAStatementError:
-        raise
-    except NotExactError as reason:
-        raise NotProvedError(str(reason)) from None

@@ -127,6 +127,9 @@ class Limit:
     def __post_init__(self) -> None:
         if self.orders < 1:
             raise ValueError("a limit compares at least one order")
+        image = {s: 2 * s - one for s, one in zip(self.growing, self.positive, strict=True)}
+        if any(one.xreplace(image) != s for s, one in zip(image, self.positive, strict=True)):
+            raise ValueError("each sum is what grows, less others that are such sums themselves")
 
 
 def inside_cone(relation: str) -> Limit:
@@ -152,7 +155,7 @@ def along_base(relation: str) -> Limit:
 def at_fixed_height(relation: str) -> Limit:
     """The limit M → ∞ at a fixed relative height z = j/M between base and surface."""
     words = "M → ∞ at fixed z = j/M, 0 < z < 1"
-    return Limit(relation, words, (sy.M, sy.j), (sy.j, sy.M - sy.j))
+    return Limit(relation, words, (sy.M, sy.j), (sy.M - sy.j, sy.j))
 
 
 def at_large_height(relation: str, orders: int = 1) -> Limit:

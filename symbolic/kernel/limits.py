@@ -5,8 +5,7 @@ an index with φ, so its orders hold uniformly while the ratios and φ stay with
 their ranges; of what has such a divisor nothing is said. Harmonic numbers H_M are at most M.
 """
 
-from collections.abc import Iterable, Sequence
-from functools import lru_cache
+from collections.abc import Iterable, Iterator, Sequence
 
 import sympy
 
@@ -23,13 +22,13 @@ from ..algebra.exact import (
 from ..forms import FORCES, NUMBER, RADII, Form
 from ..notation import by_name
 from ..printing.text import text
-from ..quotients import factored
 from ..second_order import covariance
-from ..sets import EVERYTHING, Set
+from ..sets import EVERYTHING
 from ..signs import sign
 from ..trees import in_place
 from ..weights import Weights
 from .domain import Domain, Limit
+from .refuted import other_order
 from .rules import Rule
 from .statistics import Statistics, worked_out
 from .theorem import (
@@ -44,7 +43,7 @@ from .theorem import (
 )
 
 _NEVER = 10**9  # no order is as large
-_FIXED = {*sy.PARAMETERS} - {sy.epsilon, sy.z}
+_FIXED = {*sy.PARAMETERS} - {sy.epsilon}
 """What stays as it is in every limit."""
 
 
@@ -60,31 +59,15 @@ def asymptotic(*groups: Group) -> Rule:
         left, right = (in_the_limit(side, domain, groups) for side in formula.args)
         low, high = order(left - right, limit), order(leading(right, limit), limit)
         if not low <= high - limit.orders:
-            unsure = (left - right).holds(sy.H_M)
-            raise (NotProvedError if unsure else FalseStatementError)(
-                _other_order(left, right, limit)
-            )
+            apart, ratio = leading(left - right, limit), None
+            if order(left, limit) == order(right, limit) and limit.orders == 1:
+                ratio = leading(left, limit) / leading(right, limit)
+            raise other_order(apart, ratio, limit)
         if not _vanishes_nowhere(leading(right, limit), limit, domain.dimension):
             raise NotProvedError("what the right-hand side goes as may vanish")
         return made(formula, domain, "leading order", flat(groups))
 
     return rule
-
-
-def _other_order(left: RationalFunction, right: RationalFunction, limit: Limit) -> str:
-    """How two sides go differently, in words."""
-    if order(left, limit) != order(right, limit) or limit.orders > 1:
-        shown = _shown(leading(left - right, limit), limit)
-        return f"as {limit.words}, left less right goes as {shown}"
-    ratio = _shown(leading(left, limit) / leading(right, limit), limit)
-    return f"as {limit.words}, left over right goes to {ratio}, not to 1"
-
-
-def _shown(value: RationalFunction, limit: Limit) -> str:
-    """A function in words, of z where that is fixed."""
-    if {*limit.growing} == {sy.M, sy.j}:
-        value = value.substitute({sy.j: FIELD.generator(sy.z) * FIELD.generator(sy.M)})
-    return text(factored(value.reduced()))
 
 
 def negligible(*groups: Group) -> Rule:
@@ -236,7 +219,7 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
     Raises:
         NotProvedError: they are not given, or that place does matter.
     """
-    finite = domain.in_the_limit(None)
+    finite = _late(domain)
     held = set().union(*(one.free_symbols for one in domain.relations))
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
     try:
@@ -267,7 +250,7 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
         NotProvedError: it is not one, or holds what neither grows nor is fixed.
     """
     try:
-        number = worked_out(_at_height(side, domain), domain.in_the_limit(None), tuple(groups))
+        number = worked_out(_at_height(side, domain), _late(domain), tuple(groups))
     except NotAStatementError:
         raise
     except NotExactError as reason:
@@ -288,87 +271,36 @@ def _at_height(side: sympy.Expr, domain: Domain) -> sympy.Expr:
 def _formula_in_the_limit(number: Weights, domain: Domain) -> RationalFunction:
     limit = domain.limit
     assert limit is not None
-    back = {s: FIELD.from_sympy(at) for s, at in domain.straight.back.items()}
-    fixed = {s: FIELD.from_sympy(at) for s, at in _fixed(domain).items()}
-    rest = domain.points
-    for whole, value in number.on(domain.points).formulas():
-        rest = rest - whole
-        if _is_reached(whole, domain):
-            there = value.substitute(back).substitute(fixed).reduced()
-            _uniform(there, limit)
-            return there
-    if _is_reached(rest, domain):
+    points = _late(domain).points
+    formulas = number.on(points).formulas()
+    if not formulas:
         return FIELD.zero
-    raise NotProvedError(f"it is not one function in all of {limit.words}")
+    (whole, value), *others = formulas
+    if others or not points.is_subset(whole):
+        raise NotProvedError(f"it is not one function in all of {limit.words}")
+    back = {s: FIELD.from_sympy(at) for s, at in domain.straight.back.items()}
+    given = sets.fixed(sets.where(*domain.relations), _not_in(limit.growing))
+    value = value.substitute(back).substitute(given).reduced()
+    _uniform(value, limit)
+    return value
 
 
-def _is_reached(points: Set, domain: Domain) -> bool:
-    """Whether a convex part of a set holds all but the first of what grows."""
-    for part in sets.parts(points):
-        equations, bounds = sets.rows(part)
-        if all(_is_late(_relation(form, sympy.Eq, domain), domain) for form in equations) and all(
-            _is_late(_relation(form, sympy.Ge, domain), domain) for form in bounds
-        ):
-            return True
-    return False
+_LARGE = 1000
+"""From which value on what grows is looked at: with fewer, no statement has small packings."""
 
 
-def _relation(form: sets.Row, kind: type, domain: Domain) -> sympy.Basic:
-    """What a form of straightened indices says of the indices."""
-    value = sympy.Add(*(n * symbol for symbol, n in form[0].items()), form[1])
-    return kind(value.xreplace(dict(domain.straight.back)), 0, evaluate=False)
-
-
-def _fixed(domain: Domain) -> dict[sympy.Symbol, sympy.Expr]:
-    """Indices that equations of a domain fix, by those that grow."""
+def _late(domain: Domain) -> Domain:
+    """The part of a domain in which all that grows is large, at finite size."""
     assert domain.limit is not None
-    return _solved(domain.relations, domain.indices, domain.limit.growing)
+    return domain.in_the_limit(None).also(*_large(domain.limit))
 
 
-@lru_cache(maxsize=256)
-def _solved(
-    relations: Sequence[sympy.Basic],
-    indices: Sequence[sympy.Symbol],
-    growing: Sequence[sympy.Symbol],
-) -> dict[sympy.Symbol, sympy.Expr]:
-    equations = [one.lhs - one.rhs for one in relations if isinstance(one, sympy.Eq)]
-    unknown = [symbol for symbol in indices if symbol not in growing]
-    found = sympy.solve(equations, unknown, dict=True) if equations else [{}]
-    if len(found) != 1:
-        raise NotProvedError("the domain fixes what grows")
-    return dict(found[0])
+def _large(limit: Limit) -> Iterator[sympy.Basic]:
+    return (sympy.Ge(one, _LARGE, evaluate=False) for one in limit.positive)
 
 
-def _is_late(relation: sympy.Basic, domain: Domain) -> bool:
-    """Whether a relation holds for all but the first of what grows."""
-    limit = domain.limit
-    assert limit is not None
-    above, below = relation.args
-    if isinstance(relation, sympy.Le | sympy.Lt):
-        above, below = below, above
-    whole = sympy.expand((above - below).xreplace(_fixed(domain)))
-    rest = whole.as_coeff_Add()[0]
-    at_large = sympy.expand((whole - rest).xreplace(_coordinates(limit)))
-    if at_large == 0:
-        strict = isinstance(relation, sympy.Lt | sympy.Gt)
-        return bool(rest == 0 if isinstance(relation, sympy.Eq) else rest >= int(strict))
-    factors = at_large.as_coefficients_dict()
-    grows = all(c > 0 for c in factors.values()) and at_large.free_symbols <= {*_NAMES}
-    return grows and not isinstance(relation, sympy.Eq)
-
-
-_NAMES = tuple(sympy.Dummy(f"grows_{place}", positive=True) for place in range(4))
-
-
-@lru_cache(maxsize=64)
-def _coordinates(limit: Limit) -> dict[sympy.Symbol, sympy.Expr]:
-    """The growing indices in terms of what is positive and grows in fixed ratios."""
-    names = _NAMES[: len(limit.positive)]
-    rows = [one - name for one, name in zip(limit.positive, names, strict=True)]
-    found = sympy.solve(rows, limit.growing, dict=True)
-    if len(found) != 1 or {*found[0]} != {*limit.growing}:
-        raise NotProvedError("the limit does not say how every index grows")
-    return dict(found[0])
+def _not_in(symbols: Sequence[sympy.Symbol]) -> list[sympy.Symbol]:
+    return [one for one in sets.DIMENSIONS if one not in symbols]
 
 
 def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
@@ -382,8 +314,9 @@ def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
     assert limit is not None
     if limit.relation != relation:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
-    _coordinates(limit)
-    if not all(_is_late(one, domain) for one in domain.relations):
+    held = {s for one in limit.positive for s in one.xreplace(domain.straight.image).free_symbols}
+    late = sets.where(*map(domain.straight.relation, _large(limit)))
+    if not late.is_subset(sets.without(domain.points, *_not_in(held))):
         raise NotProvedError(f"its domain does not hold all of {limit.words}")
     return limit
 
@@ -429,15 +362,9 @@ def _vanishes_nowhere(value: RationalFunction, limit: Limit, dimension: int = 2)
     """Whether a leading order is shown to differ from zero at all ratios and φ."""
     if value.holds(sy.H_M) or value.is_zero():
         return False
-    coordinates = _coordinates(limit)
-    whole = {s: FIELD.from_sympy(at.xreplace(_AS_GROWING)) for s, at in coordinates.items()}
-    there = value.substitute(whole) if coordinates else value
-    return sign(there, EVERYTHING, _POSITIVE, dimension) != 0
-
-
-_POSITIVE = (sy.k, sy.l, sy.m, sy.n)
-"""Names in the field for what is positive and grows."""
-_AS_GROWING = dict(zip(_NAMES, _POSITIVE, strict=True))
+    grown = zip(limit.growing, limit.positive, strict=True)
+    there = value.substitute({s: FIELD.from_sympy(2 * s - one) for s, one in grown})
+    return sign(there, EVERYTHING, limit.growing, dimension) != 0
 
 
 def _degrees(polynomial: Polynomial, growing: Sequence[sympy.Symbol]) -> list[int]:

@@ -11,7 +11,7 @@ from ..algebra.exact import FIELD, SITE, RationalFunction
 from ..forms import NUMBER, RADII, Form, Image, Key
 from ..printing.text import text
 from ..quotients import factored
-from .domain import Domain
+from .domain import Domain, Limit
 from .theorem import FalseStatementError, Groups, NotProvedError, flat, names_for
 
 
@@ -31,6 +31,24 @@ def refuse(
                         own = {there: one for one, there in names_for(formula).items()}
                         return FalseStatementError(_at_odds(key, where, own))
     return NotProvedError("the normal forms of both sides differ")
+
+
+def other_order(
+    apart: RationalFunction, ratio: RationalFunction | None, limit: Limit
+) -> NotProvedError:
+    """How two sides go differently in a limit: what their difference goes as, or their ratio to."""
+    if ratio is None:
+        words = f"as {limit.words}, left less right goes as {shown(apart, limit)}"
+    else:
+        words = f"as {limit.words}, left over right goes to {shown(ratio, limit)}, not to 1"
+    return (NotProvedError if apart.holds(sy.H_M) else FalseStatementError)(words)
+
+
+def shown(value: RationalFunction, limit: Limit | None = None) -> str:
+    """A function in words, of z where that is fixed."""
+    if limit and {*limit.growing} == {sy.M, sy.j}:
+        value = value.substitute({sy.j: FIELD.generator(sy.z) * FIELD.generator(sy.M)})
+    return text(factored(value.reduced()))
 
 
 def _supposes(groups: Groups) -> bool:

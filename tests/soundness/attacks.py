@@ -279,6 +279,12 @@ attack(
     lambda: Limit("∼", "", (M,), (M,), 2),
 )
 attack(
+    "a limit in which indices grow in no ratio",
+    lambda: Limit("∼", "", (M, j), (M, M - j)),
+    "each sum is what grows",
+    lambda: Limit("∼", "", (M, j), (M - j, j)),
+)
+attack(
     "an unknown loading",
     lambda: axioms.loads(
         replace(axioms.SURFACE, everywhere=((equation(Load(site_r, site_s), 0), ()),))
@@ -1137,7 +1143,7 @@ attack(
         M,
         Domain.of(j >= 0, indices=(M,), beads=()).in_the_limit(at_large_height("∼")),
     ),
-    "does not hold all of",
+    "neither grows nor is fixed",
     lambda: prove(asymptotic(), M + 1, M, limit("∼")),
 )
 DROPPING = eq12.DERIVATION.domain
@@ -1247,7 +1253,7 @@ ONE_LAYER = rules.moved(ONES, {}, ONES.domain.also(Eq(j, 3)))
 OF_LAYER = eq13.DERIVATION.theorem
 PACKING = eq15.heights("surface").in_the_limit(AT_FIXED_RATIO)
 for name, premises, sides, refused in (
-    ("with the mean of one layer", (OF_LAYER, ONE_LAYER), FRACTION, "fixes what grows"),
+    ("with the mean of one layer", (OF_LAYER, ONE_LAYER), FRACTION, "does not hold all of"),
     ("with another mean", (OF_LAYER, OF_LAYER), FRACTION, "mean of one force"),
     (
         "of half the layers",

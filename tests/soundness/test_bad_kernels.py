@@ -70,7 +70,7 @@ FAULTS = {
     "an order too many": ("kernel.limits", "asymptotic", "high - limit.orders", "high"),
     "leading orders that vanish": ("kernel.limits", "_vanishes_nowhere", "value.holds(sy.H_M) or value.is_zero()", "True: return True\n    if value.is_zero()"),
     "orders that are not uniform": ("kernel.limits", "_uniform", "grows and sum(", "False and sum("),
-    "limits beside the domain": ("kernel.limits", "limit_of", "not all(_is_late(one, domain) for one in domain.relations)", "False"),
+    "limits beside the domain": ("kernel.limits", "limit_of", "not late.is_subset(sets.without(domain.points, *_not_in(held)))", "False"),
     "any order is negligible": ("kernel.limits", "negligible", "not order(dropped, limit) < order(kept, limit)", "False"),
     "other means are negligible": ("kernel.limits", "negligible", "not rest.parts.get(NUMBER, Weights()).is_zero()", "False"),
     "large shares": ("kernel.limits", "bounded", "2 * one > order(whole, limit)", "False"),
