@@ -9,9 +9,9 @@ import sympy
 
 from . import sets, shortest, words
 from . import symbols as sy
-from .algebra.exact import FIELD, Domain, NotExactError, RationalFunction
+from .algebra.exact import FIELD, Field, NotExactError, RationalFunction
 from .forms import NUMBER, Straightening
-from .kernel.domain import Domain as Where
+from .kernel.domain import Domain
 from .kernel.statistics import moment, worked_out
 from .kernel.theorem import Group, NotProvedError, Theorem, names_for
 from .quotients import factored
@@ -59,7 +59,7 @@ class PiecewiseFunction:
     def of(
         cls,
         expression: sympy.Expr,
-        domain: Where,
+        domain: Domain,
         *groups: Group,
         divisor: sympy.Expr = sympy.S.One,
         values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
@@ -86,10 +86,10 @@ class PiecewiseFunction:
         return cls(weights, domain.points, domain.straight, own)
 
     @cached_property
-    def _names(self) -> Domain:
+    def _names(self) -> Field:
         """The field, in which constants have their own names."""
         own = {stand_in: symbol for symbol, stand_in in self.constants.items()}
-        return FIELD.named(own) if own else FIELD
+        return Field(own.get(one, one) for one in FIELD.generators) if own else FIELD
 
     @cached_property
     def domain(self) -> Relations:
@@ -161,7 +161,8 @@ class PiecewiseFunction:
         given = {one.lhs: FIELD.from_sympy(one.rhs) for one in words.equations(held)}
         with suppress(NotExactError):  # a divisor vanishes there
             value = value.substitute(given)
-        return value.reduced().named(self._names)
+        value = value.reduced()
+        return RationalFunction(self._names, value.numerator, value.denominator)
 
     def _whole(self, form: sets.Row) -> sympy.Expr:
         """A form in the old indices, without fractions."""
@@ -170,7 +171,7 @@ class PiecewiseFunction:
         return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
 
 
-def theorems(quantity: sympy.Expr, domain: Where, *groups: Group) -> Iterator[Theorem]:
+def theorems(quantity: sympy.Expr, domain: Domain, *groups: Group) -> Iterator[Theorem]:
     """What the closed form of a quantity says: a theorem for each part of its domain."""
     rule = moment(*groups, on=domain)
     for formula in PiecewiseFunction.of(quantity, domain, *groups).formulas:

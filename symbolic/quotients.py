@@ -2,7 +2,7 @@
 
 import sympy
 
-from .algebra.exact import Domain, Polynomial, RationalFunction
+from .algebra.exact import Field, Polynomial, RationalFunction
 from .symbols import M, l, phi
 
 
@@ -22,9 +22,7 @@ def factored(value: RationalFunction) -> sympy.Expr:
     return sympy.Mul(number / below, *(factor**power for factor, power in powers.items()))
 
 
-def _factors(
-    domain: Domain, polynomial: Polynomial
-) -> tuple[sympy.Rational, dict[sympy.Expr, int]]:
+def _factors(domain: Field, polynomial: Polynomial) -> tuple[sympy.Rational, dict[sympy.Expr, int]]:
     """A number, and factors with their powers, each in the sign that a person would write."""
     content, factors = polynomial.factor()
     number = sympy.Rational(int(content.p), int(content.q))

@@ -5,7 +5,7 @@ from collections.abc import Iterable, Sequence
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic import words
-from force_diffusion.symbolic.algebra.exact import FIELD, Domain
+from force_diffusion.symbolic.algebra.exact import FIELD, Field
 from force_diffusion.symbolic.piecewise import Relations
 from force_diffusion.symbolic.quotients import factored
 
@@ -27,7 +27,7 @@ def with_commas(parts: Sequence[str], before: str = "") -> list[str]:
 
 
 def over_common(
-    formulas: Sequence[sympy.Expr], field: Domain = FIELD
+    formulas: Sequence[sympy.Expr], field: Field = FIELD
 ) -> tuple[sympy.Expr, list[sympy.Expr]]:
     """What formulas have in common, and what else each of them holds."""
     factor = field.from_sympy(_common(formulas))

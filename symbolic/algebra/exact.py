@@ -34,7 +34,7 @@ SOURCE = tuple(sympy.Dummy(f"source_{axis}", integer=True) for axis in (1, 2, 3)
 """Another one, over which is summed."""
 
 
-class Domain:
+class Field:
     """A field ℚ(generators) and the way into it from SymPy.
 
     Args:
@@ -51,16 +51,11 @@ class Domain:
         self.one = self.constant(1)
         self._relations: tuple[Polynomial, ...] | None = None
 
-    def named(self, names: Mapping[sympy.Expr, sympy.Expr]) -> "Domain":
-        """The same field, whose generators have other names; its elements are those of this one."""
-        return Domain(names.get(one, one) for one in self.generators)
-
     def constant(self, value: int | Fraction | sympy.Rational) -> "RationalFunction":
         """A rational number as an element of the field."""
-        numerator, denominator = _ratio(value)
-        return RationalFunction(
-            self, self.context.constant(fmpq(numerator, denominator)), self.context.constant(1)
-        )
+        exact = isinstance(value, sympy.Rational)
+        above, below = (int(value.p), int(value.q)) if exact else value.as_integer_ratio()
+        return self.polynomial(self.context.constant(fmpq(above, below)))
 
     def polynomial(self, value: Polynomial) -> "RationalFunction":
         """A polynomial as an element of the field."""
@@ -69,10 +64,9 @@ class Domain:
     def generator(self, symbol: sympy.Expr) -> "RationalFunction":
         """The generator that stands for ``symbol``."""
         try:
-            gen = self._gens[self.position[symbol]]
+            return self.polynomial(self._gens[self.position[symbol]])
         except KeyError:
             raise NotExactError(f"{symbol} is not a symbol of the exact domain") from None
-        return RationalFunction(self, gen, self.context.constant(1))
 
     def from_sympy(self, expression: sympy.Expr) -> "RationalFunction":
         """Read a SymPy expression made of +, ·, integer powers, rationals and generators.
@@ -109,18 +103,30 @@ class Domain:
             )
         )
 
+    def coefficients(
+        self, polynomial: Polynomial, symbols: Iterable[sympy.Expr]
+    ) -> dict[tuple[int, ...], Polynomial]:
+        """The coefficients of the powers of some generators."""
+        places = [self.position[symbol] for symbol in symbols]
+        parts: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
+        for exponents, c in polynomial.to_dict().items():
+            rest = list(exponents)
+            for place in places:
+                rest[place] = 0
+            powers = tuple(int(exponents[place]) for place in places)
+            parts.setdefault(powers, {})[tuple(rest)] = c
+        return {powers: self.context.from_dict(part) for powers, part in parts.items()}
+
     def total(self, values: Iterable["RationalFunction"]) -> "RationalFunction":
         """The sum of elements; what has one denominator is brought to lowest terms once."""
-        found: list[list[Polynomial]] = []  # numerators and denominators
+        found: list[list[Polynomial]] = []  # numerators and denominators; flint's have no hash
         for one in values:
-            for part in found:
-                if part[1] == one.denominator:
-                    part[0] = part[0] + one.numerator
-                    break
-            else:
+            same = next((part for part in found if part[1] == one.denominator), None)
+            if same is None:
                 found.append([one.numerator, one.denominator])
-        parts = (RationalFunction(self, *part) for part in found)
-        return sum(parts, self.zero)
+            else:
+                same[0] = same[0] + one.numerator
+        return sum((RationalFunction(self, *part) for part in found), self.zero)
 
     def vanishes(self, polynomial: Polynomial) -> bool:
         """Decide whether a polynomial is zero where n_x² + n_y² = 1 and φ = n_y² − n_x²."""
@@ -162,34 +168,39 @@ def _not_exact(expression: sympy.Expr) -> NotExactError:
 _NO_NUMBERS = sympy.oo, -sympy.oo, sympy.zoo, sympy.nan
 
 
+def _product(one: Polynomial, other: Polynomial) -> Polynomial:
+    """The product, unless it may have too many terms.
+
+    Raises:
+        NotExactError: it may.
+    """
+    number = len(one) * len(other)
+    if number > _MOST_TERMS:
+        degrees = zip(one.degrees(), other.degrees(), strict=True)
+        _refuse_more_terms(min(number, prod(int(a + b) + 1 for a, b in degrees)))
+    return one * other
+
+
+def _power(one: Polynomial, exponent: int) -> Polynomial:
+    """The same of a power."""
+    number = comb(max(len(one) + exponent - 1, 0), exponent)
+    if number > _MOST_TERMS:
+        degrees = (exponent * max(int(degree), 0) + 1 for degree in one.degrees())
+        _refuse_more_terms(min(number, prod(degrees)))
+    return one**exponent
+
+
 def _refuse_more_terms(number: int) -> None:
     if number > _MOST_TERMS:
         raise NotExactError(f"multiplied out, it may have more than {_MOST_TERMS} terms")
 
 
-def _terms_of_product(one: Polynomial, other: Polynomial) -> int:
-    """How many terms a product has at the most."""
-    number = len(one) * len(other)
-    if number <= _MOST_TERMS:
-        return number
-    degrees = [a + b for a, b in zip(one.degrees(), other.degrees(), strict=True)]
-    return min(number, prod(int(degree) + 1 for degree in degrees))
-
-
-def _terms_of_power(one: Polynomial, exponent: int) -> int:
-    """How many terms a power has at the most."""
-    number = comb(max(len(one) + exponent - 1, 0), exponent)
-    if number <= _MOST_TERMS:
-        return number
-    return min(number, prod(exponent * max(int(degree), 0) + 1 for degree in one.degrees()))
-
-
 class RationalFunction:
-    """An element of a :class:`Domain` in lowest terms."""
+    """An element of a :class:`Field` in lowest terms."""
 
     __slots__ = ("denominator", "domain", "numerator")
 
-    def __init__(self, domain: Domain, numerator: Polynomial, denominator: Polynomial):
+    def __init__(self, domain: Field, numerator: Polynomial, denominator: Polynomial):
         self.domain = domain
         if numerator == 0:
             denominator = domain.context.constant(1)
@@ -215,11 +226,9 @@ class RationalFunction:
             return self._same(self.numerator + other.numerator, self.denominator)
         common = self.denominator.gcd(other.denominator)
         own, theirs = self.denominator / common, other.denominator / common
-        for numerator, scale in ((self.numerator, theirs), (other.numerator, own)):
-            _refuse_more_terms(_terms_of_product(numerator, scale))
-        _refuse_more_terms(_terms_of_product(self.denominator, theirs))
         return self._same(
-            self.numerator * theirs + other.numerator * own, self.denominator * theirs
+            _product(self.numerator, theirs) + _product(other.numerator, own),
+            _product(self.denominator, theirs),
         )
 
     def __eq__(self, other: object) -> bool:
@@ -242,30 +251,24 @@ class RationalFunction:
         for one, scale in ((self, other), (other, self)):
             if scale.numerator == 1 and scale.denominator == 1:
                 return one
-        _refuse_more_terms(_terms_of_product(self.numerator, other.numerator))
-        _refuse_more_terms(_terms_of_product(self.denominator, other.denominator))
-        return self._same(self.numerator * other.numerator, self.denominator * other.denominator)
+        return self._same(
+            _product(self.numerator, other.numerator),
+            _product(self.denominator, other.denominator),
+        )
 
     def __truediv__(self, other: Self) -> Self:
         if other.is_zero():
             raise NotExactError("division by zero")
-        for one, scale in ((self, other), (other, self)):
-            _refuse_more_terms(_terms_of_product(one.numerator, scale.denominator))
-        return self._same(self.numerator * other.denominator, self.denominator * other.numerator)
+        return self._same(
+            _product(self.numerator, other.denominator),
+            _product(self.denominator, other.numerator),
+        )
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
             one = self._same(self.denominator, self.denominator)
             return (one / self) ** -exponent
-        for side in (self.numerator, self.denominator):
-            _refuse_more_terms(_terms_of_power(side, exponent))
-        return self._same(self.numerator**exponent, self.denominator**exponent)
-
-    def named(self, domain: Domain) -> "RationalFunction":
-        """The same element of a domain that is this one with other names."""
-        same = object.__new__(type(self))  # in lowest terms already
-        same.domain, same.numerator, same.denominator = domain, self.numerator, self.denominator
-        return same
+        return self._same(_power(self.numerator, exponent), _power(self.denominator, exponent))
 
     def is_zero(self) -> bool:
         """Decide whether this is zero, given n_x² + n_y² = 1."""
@@ -287,13 +290,12 @@ class RationalFunction:
         one, cosine = self.domain.context.constant(1), self.domain.generator(phi).numerator
         squares = {n_x: (one - cosine) / 2, n_y: (one + cosine) / 2}
         total = self.domain.context.constant(0)
-        for exponents, c in polynomial.to_dict().items():
-            rest, scale = list(exponents), one
-            for symbol, square in squares.items():
-                place = self.domain.position[symbol]
-                whole, rest[place] = divmod(int(rest[place]), 2)
-                scale = scale * square**whole
-            total += self.domain.context.from_dict({tuple(rest): c}) * scale
+        for powers, part in self.domain.coefficients(polynomial, squares).items():
+            scale = one
+            for (symbol, square), power in zip(squares.items(), powers, strict=True):
+                odd = self.domain.generator(symbol).numerator ** (power % 2)
+                scale = scale * odd * square ** (power // 2)
+            total += part * scale
         return total
 
     def holds(self, symbol: sympy.Expr) -> bool:
@@ -334,33 +336,19 @@ class RationalFunction:
         self, polynomial: Polynomial, images: Mapping[sympy.Expr, "RationalFunction"]
     ) -> "RationalFunction":
         total = self.domain.zero
-        for exponents, c in polynomial.to_dict().items():
-            term = self.domain.constant(Fraction(int(c.p), int(c.q)))
-            for generator, power in zip(self.domain.generators, exponents, strict=True):
-                if power:
-                    term = term * images.get(generator, self.domain.generator(generator)) ** int(
-                        power
-                    )
+        for powers, part in self.domain.coefficients(polynomial, images).items():
+            term = self.domain.polynomial(part)
+            for image, power in zip(images.values(), powers, strict=True):
+                term = term * image**power
             total = total + term
         return total
 
-    def derivative(self, symbol: sympy.Expr) -> "RationalFunction":
-        """The derivative with respect to a generator."""
-        place = self.domain.position[symbol]
-        above, below = self.numerator, self.denominator
-        slope = above.derivative(place) * below - above * below.derivative(place)
-        return self._same(slope, below * below)
-
     def coefficients(self, symbol: sympy.Expr) -> list["RationalFunction"]:
         """Coefficients of powers 0, 1, … of ``symbol``."""
-        position = self.domain.position[symbol]
-        parts: list[dict[tuple[int, ...], Any]] = [{} for _ in range(self.degree(symbol) + 1)]
-        for exponents, coefficient in self.numerator.to_dict().items():
-            rest = list(exponents)
-            power, rest[position] = int(rest[position]), 0
-            parts[power][tuple(rest)] = coefficient
-        make = self.domain.context.from_dict
-        return [self._same(make(part), self.denominator) for part in parts]
+        found = [self.domain.zero] * (self.degree(symbol) + 1)
+        for (power,), part in self.domain.coefficients(self.numerator, [symbol]).items():
+            found[power] = self._same(part, self.denominator)
+        return found
 
     def to_sympy(self) -> sympy.Expr:
         """The same element as a SymPy quotient, multiplied out."""
@@ -376,7 +364,7 @@ def antidifference(f: RationalFunction, symbol: sympy.Expr) -> RationalFunction:
 
 
 @cache
-def _antidifference_of_power(domain: Domain, symbol: sympy.Expr, power: int) -> RationalFunction:
+def _antidifference_of_power(domain: Field, symbol: sympy.Expr, power: int) -> RationalFunction:
     """The same for f(n) = n^power.
 
     n^(k+1)/(k+1) has the difference n^k + lower powers, which are taken off in turn. The defining
@@ -455,12 +443,6 @@ def _harmonic(last: RationalFunction) -> RationalFunction:
 _NEAR = 8
 
 
-def _ratio(value: int | Fraction | sympy.Rational) -> tuple[int, int]:
-    if isinstance(value, sympy.Rational):
-        return int(value.p), int(value.q)
-    return int(value.numerator), int(value.denominator)
-
-
 CONSTANTS = (
     tuple(sympy.Dummy(f"positive_{place}", positive=True) for place in range(6)),
     tuple(sympy.Dummy(f"real_{place}", real=True) for place in range(6)),
@@ -469,7 +451,5 @@ CONSTANTS = (
 UNKNOWNS = tuple(sympy.Dummy(f"unknown_{place}", real=True) for place in range(4))
 """What equations are solved for."""
 
-FIELD = Domain(
-    (*SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS, *CONSTANTS[0], *CONSTANTS[1])
-)
+FIELD = Field((*SITE, *SOURCE, *INDICES, *PARAMETERS, H_M, *UNKNOWNS, *CONSTANTS[0], *CONSTANTS[1]))
 """The field of all the paper's symbols, and of some more."""

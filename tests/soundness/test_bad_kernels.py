@@ -88,7 +88,7 @@ FAULTS = {
     # arithmetic
     "sums are off by one": ("algebra.exact", "sum_polynomial", "low - f.domain.one", "low"),
     "numbers of terms are off by one": ("algebra.exact", "sum_polynomial", "high - low + f.domain.one", "high - low"),
-    "another circle": ("algebra.exact", "Domain.vanishes", "cosine, circle = self._relations", "circle, cosine = self._relations"),
+    "another circle": ("algebra.exact", "Field.vanishes", "cosine, circle = self._relations", "circle, cosine = self._relations"),
     "strict bounds": ("sets", "condition", "int(isinstance(relation, sympy.Gt))", "0"),
     "roots are not counted": ("signs", "_on_interval", "0 if inside else", "0 if False else"),
     "pieces are merged that differ": ("weights", "_agree", ".is_zero()", ".is_zero() or True"),
