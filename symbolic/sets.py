@@ -7,7 +7,6 @@ one space here: every index of the paper, the coordinates of a site, and those o
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from math import gcd
 from typing import Any
 
 import islpy as isl
@@ -184,111 +183,66 @@ def depends_on(points: Set, symbol: sympy.Symbol) -> bool:
     return bool(points.involves_dims(_DIM, _PLACE[symbol], 1))
 
 
-Interval = tuple[int | None, int | None]
-"""The least and the largest value of a form; None where there is none."""
+Condition = tuple[tuple[tuple[sympy.Symbol, int], ...], int]
+"""A form that is at least 0."""
 
 
-def _intervals(part: Set, directions: dict[Any, int]) -> dict[int, Interval]:
-    """A convex set as intervals of forms without a constant, which are numbered in ``directions``.
+def _times(
+    number: int, factors: Mapping[sympy.Symbol, int]
+) -> tuple[tuple[sympy.Symbol, int], ...]:
+    return tuple((symbol, number * factor) for symbol, factor in factors.items())
 
-    Forms that differ in sign, in a factor or in a constant share a number.
-    """
-    found: dict[int, Interval] = {}
-    for forms, equation in zip(rows(part), (True, False), strict=True):
-        for factors, constant in forms:
-            divisor = gcd(*factors.values())
-            if next(iter(factors.values())) < 0:
-                divisor = -divisor
-            number = directions.setdefault(
-                tuple((symbol, factor // divisor) for symbol, factor in factors.items()),
-                len(directions),
-            )
-            low, high = found.get(number, (None, None))
-            if equation or divisor > 0:
-                bound = -(constant // abs(divisor)) if divisor > 0 else constant // -divisor
-                low = bound if low is None else max(low, bound)
-            if equation or divisor < 0:
-                bound = constant // -divisor if divisor < 0 else -constant // divisor
-                high = bound if high is None else min(high, bound)
-            found[number] = low, high
-    return found
+
+def _conditions(part: Set) -> Iterator[Condition]:
+    """What holds on a convex set, and nowhere else."""
+    equations, bounds = rows(part)
+    yield from ((_times(1, factors), constant) for factors, constant in (*equations, *bounds))
+    yield from ((_times(-1, factors), -constant) for factors, constant in equations)
+
+
+def _negated(condition: Condition) -> Condition:
+    return _times(-1, dict(condition[0])), -condition[1] - 1
+
+
+@lru_cache(maxsize=4096)
+def _half(condition: Condition) -> Set:
+    """The points at which a condition holds."""
+    return EVERYTHING.add_constraint(constraint((dict(condition[0]), condition[1]), False))
 
 
 def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
     """Convex cells, each in all of some sets and outside of the others: it, and which sets.
 
-    Space is halved by the bounds of the sets, the most frequent one first, until no bound is left
-    that parts a cell.
+    Space is halved by the conditions of the sets, the most frequent one first, until none is left
+    that parts a cell. What is outside of all sets is left out.
     """
-    directions: dict[Any, int] = {}
-    bounded = [(number, _intervals(part, directions)) for number, part in enumerate(parts)]
-    forms = [_affine((dict(direction), 0)) for direction in directions]
-    factors = [dict(direction) for direction in directions]
-    opposite = [{symbol: -factor for symbol, factor in one.items()} for one in factors]
 
     def halved(
-        cell: Set, left: list[tuple[int, dict[int, Interval]]], inside: list[int], cut: int
+        cell: Set, left: list[tuple[int, list[Condition]]], inside: list[int]
     ) -> Iterator[tuple[Set, list[int]]]:
-        reach: dict[int, Interval] = {}
-
-        def reached(number: int) -> Interval:
-            if number not in reach:
-                form = forms[number]
-                reach[number] = _bounded(cell.min_val(form)), _bounded(cell.max_val(form))
-            return reach[number]
-
-        cuts: Counter[tuple[int, int]] = Counter()
+        parting: dict[Condition, bool] = {}
         still_open = []
-        for one, intervals in left:
-            if cut in intervals and _outside(intervals[cut], reached(cut)):
+        for number, conditions in left:
+            if cell.is_disjoint(parts[number]):
                 continue
-            parting: dict[int, list[int]] = {}
-            for number, interval in intervals.items():
-                if _outside(interval, reached(number)):
-                    break
-                if bounds := list(_cuts(interval, reached(number))):
-                    parting[number] = bounds
+            for one in conditions:
+                if one not in parting:
+                    parting[one] = not cell.is_disjoint(_half(_negated(one)))
+            if rest := [one for one in conditions if parting[one]]:
+                still_open.append((number, rest))
             else:
-                if parting:
-                    still_open.append((one, {number: intervals[number] for number in parting}))
-                    cuts.update((n, bound) for n, bounds in parting.items() for bound in bounds)
-                else:
-                    inside = [*inside, one]
-        if not inside and len(still_open) == 1:  # what is outside of all sets is of no interest
-            ((one, intervals),) = still_open
-            for number, (low, high) in intervals.items():
-                if low is not None:
-                    cell = cell.add_constraint(constraint((factors[number], -low), False))
-                if high is not None:
-                    cell = cell.add_constraint(constraint((opposite[number], high), False))
-            if not cell.is_empty():
-                yield cell, [one]
-            return
-        if not still_open:
+                inside = [*inside, number]
+        if not inside and len(still_open) == 1:
+            ((number, _),) = still_open
+            yield cell & parts[number], [number]
+        elif still_open:
+            cut, _ = Counter(one for _, rest in still_open for one in rest).most_common(1)[0]
+            for side in (cut, _negated(cut)):
+                yield from halved(cell & _half(side), still_open, inside)
+        elif inside:
             yield cell, inside
-            return
-        ((number, bound), _), *_ = cuts.most_common(1)
-        for form in ((factors[number], -bound), (opposite[number], bound - 1)):
-            half = cell.add_constraint(constraint(form, False))
-            yield from halved(half, still_open, inside, number)
 
-    yield from halved(EVERYTHING, bounded, [], -1)
-
-
-def _outside(interval: Interval, reach: Interval) -> bool:
-    """Whether no value that a form reaches is in an interval."""
-    (low, high), (least, largest) = interval, reach
-    above = low is not None and largest is not None and largest < low
-    return above or (high is not None and least is not None and least > high)
-
-
-def _cuts(interval: Interval, reach: Interval) -> Iterator[int]:
-    """The least values that lie in an interval, or above it, where others below are reached."""
-    (low, high), (least, largest) = interval, reach
-    if low is not None and (least is None or least < low):
-        yield low
-    if high is not None and (largest is None or largest > high):
-        yield high + 1
+    yield from halved(EVERYTHING, [(n, [*_conditions(one)]) for n, one in enumerate(parts)], [])
 
 
 def least(symbol: sympy.Symbol, points: Set) -> int | None:
