@@ -6,18 +6,17 @@ What finds a proof (places, factors, unknowns) is not trusted; that it is one is
 """
 
 from collections.abc import Callable, Sequence
-from itertools import permutations
 
 import sympy
 
 from .. import symbols as sy
 from ..algebra.exact import (
     FIELD,
-    UNKNOWNS,
     NotAStatementError,
     NotExactError,
     RationalFunction,
 )
+from ..elimination import eliminated
 from ..forms import NUMBER, Form, Image
 from ..mechanics import lattice
 from ..printing.text import text
@@ -155,7 +154,9 @@ def order(theorem: Theorem, power: int) -> Rule:
 def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Group) -> Rule:
     """A quantity that as many equations fix as there are unknowns, by Cramer's rule.
 
-    The determinant at order 0 vanishes nowhere. A vector counts for two, unknown or equation.
+    The equations, times factors that are found, add up to the quantity less what it is said to be,
+    times the determinant. That vanishes nowhere at order 0. A vector counts for two, unknown or
+    equation.
     """
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
@@ -163,23 +164,13 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
         about, value = isolated(formula, domain)
         if about not in unknowns:
             raise NotProvedError(f"{text(about)} is not what is solved for")
-        image, names = _named(unknowns)
         reader = knowing(domain.reader(), domain, groups)
 
         def forms(one: sympy.Eq) -> tuple[Form, ...]:
-            named = equation(*(side.xreplace(image) for side in one.args))
-            return difference(both_sides(named, domain, reader), domain)
+            return difference(both_sides(one, domain, reader), domain)
 
-        system = [part for row in rows for part in forms(moved(row, {}, domain).formula)]
-        held = [name for one in unknowns for name in names[one]]
-        if len(system) != len(held):
-            raise NotProvedError(f"{len(system)} equations for {len(held)} unknown numbers")
-        matrix = [[_slope(row, name, held) for name in held] for row in system]
-        rest = [
-            row.mapped(lambda weights: weights.mapped(lambda one: _without(one, held)))
-            for row in system
-        ]
-        determinant = _determinant(matrix)
+        moved_rows = [moved(row, {}, domain).formula for row in rows]
+        determinant, factors = eliminated(moved_rows, about, unknowns, forms)
         for key, weights in determinant.parts.items():
             located = any(isinstance(factor, str) for factor, _ in key)
             if key != NUMBER and not located and not weights.on(domain.points).is_zero():
@@ -189,65 +180,17 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
             pivot[0][1], domain.points, domain.dimension
         ):  # fmt: skip
             raise NotProvedError("the determinant may be zero")
-        zero = about * 0 if not about.is_vector else sympy.S.Zero
-        claimed = difference(both_sides(equation(value, zero), domain, reader), domain)
-        if about.is_vector and len(claimed) == 1:
-            raise NotProvedError("a number is set equal to a vector")
-        for name, one in zip(names[about], claimed, strict=True):
-            replaced = [
-                [side if other == name else entry for other, entry in zip(held, row, strict=True)]
-                for row, side in zip(matrix, rest, strict=True)
-            ]
-            left = determinant.times(one) + _determinant(replaced)
-            if not left.on(domain.points).is_zero():
+        system = [part for row in moved_rows for part in forms(row)]
+        claimed = forms(equation(about, value))
+        for component, own in zip(claimed, factors, strict=True):
+            apart = determinant.times(component)
+            for factor, row in zip(own, system, strict=True):
+                apart = apart - factor.times(row)
+            if not apart.on(domain.points).is_zero():
                 raise NotProvedError(f"{text(about)} is not the solution")
         return made(formula, domain, "solve", (*rows, *flat(groups)))
 
     return rule
-
-
-def _named(
-    unknowns: Sequence[sympy.Expr],
-) -> tuple[dict[sympy.Expr, sympy.Expr], dict[sympy.Expr, tuple[sympy.Symbol, ...]]]:
-    """Names for unknown numbers; two for a vector, its components n^±·v."""
-    image: dict[sympy.Expr, sympy.Expr] = {}
-    names: dict[sympy.Expr, tuple[sympy.Symbol, ...]] = {}
-    spare = list(reversed(UNKNOWNS))
-    for one in unknowns:
-        if getattr(one, "is_vector", False):
-            names[one] = (spare.pop(), spare.pop())
-            image[one] = names[one][0] * sy.b_plus + names[one][1] * sy.b_minus
-        else:
-            names[one] = (spare.pop(),)
-            image[one] = names[one][0]
-    return image, names
-
-
-def _slope(row: Form, name: sympy.Symbol, names: Sequence[sympy.Symbol]) -> Form:
-    """The factor of an unknown number, of which a row is a linear function."""
-
-    def slope(value: RationalFunction) -> RationalFunction:
-        powers = value.coefficients(name)
-        if len(powers) > 2 or any(powers[-1].holds(other) for other in names if len(powers) == 2):
-            raise NotProvedError("an equation to be solved is not linear")
-        return powers[1] if len(powers) == 2 else FIELD.zero
-
-    return row.mapped(lambda weights: weights.mapped(slope))
-
-
-def _without(value: RationalFunction, names: Sequence[sympy.Symbol]) -> RationalFunction:
-    return value.substitute(dict.fromkeys(names, FIELD.zero))
-
-
-def _determinant(matrix: Sequence[Sequence[Form]]) -> Form:
-    total = Form()
-    for columns in permutations(range(len(matrix))):
-        odd = sum(a > b for n, a in enumerate(columns) for b in columns[n + 1 :]) % 2
-        product = Form.number(FIELD.constant(-1 if odd else 1))
-        for row, column in zip(matrix, columns, strict=True):
-            product = product.times(row[column])
-        total = total + product
-    return total
 
 
 BRANCHES = {sy.ForcePlus: 1, sy.ForceMinus: -1}

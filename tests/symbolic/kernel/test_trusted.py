@@ -11,7 +11,7 @@ from tests.test_house import imported
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "docs/background/proofs.md").read_text(encoding="utf-8")
 BESIDE = re.compile(
-    r"kernel/(__init__|decisions|refuted)$|printing/|words$|notation$|quotients$|shortest$"
+    r"kernel/(__init__|decisions|refuted)$|printing/|words$|notation$|quotients$|shortest$|elimination$"
 )
 """What names symbols, writes verdicts and reasons, or finds what is then checked."""
 _BETWEEN = (
