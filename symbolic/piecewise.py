@@ -82,8 +82,8 @@ class PiecewiseFunction:
             raise NotExactError("it depends on single beads")
         inverse = FIELD.one / FIELD.from_sympy(divisor.xreplace(own))
         weights = form.parts.get(NUMBER, Weights()).scaled(inverse)
-        weights = weights.having({s: FIELD.constant(n) for s, n in (values or {}).items()})
-        return cls(weights, domain.points, domain.straight, own)
+        function = cls(weights, domain.points, domain.straight, own)
+        return function.put_in(values) if values else function
 
     @cached_property
     def _names(self) -> Field:
@@ -117,7 +117,7 @@ class PiecewiseFunction:
     def put_in(self, image: Mapping[sympy.Symbol, sympy.Expr]) -> "PiecewiseFunction":
         """The same with other numbers for symbols that are no indices."""
         values = {symbol: FIELD.from_sympy(one) for symbol, one in image.items()}
-        return replace(self, weights=self.weights.having(values))
+        return replace(self, weights=self.weights.mapped(lambda one: one.substitute(values)))
 
     def on(self, *relations: sympy.Basic) -> RationalFunction:
         """Its formula on a part of its domain, where it is one.

@@ -183,31 +183,29 @@ def depends_on(points: Set, symbol: sympy.Symbol) -> bool:
     return bool(points.involves_dims(_DIM, _PLACE[symbol], 1))
 
 
-Condition = tuple[tuple[tuple[sympy.Symbol, int], ...], int]
-"""A form that is at least 0."""
-
-
-def _times(
-    number: int, factors: Mapping[sympy.Symbol, int]
-) -> tuple[tuple[sympy.Symbol, int], ...]:
-    return tuple((symbol, number * factor) for symbol, factor in factors.items())
+Condition = tuple[tuple[tuple[int, int], ...], int]
+"""A form that is at least 0, by the places of its symbols."""
 
 
 def _conditions(part: Set) -> Iterator[Condition]:
     """What holds on a convex set, and nowhere else."""
     equations, bounds = rows(part)
-    yield from ((_times(1, factors), constant) for factors, constant in (*equations, *bounds))
-    yield from ((_times(-1, factors), -constant) for factors, constant in equations)
+    for factors, constant in (*equations, *bounds):
+        yield tuple((_PLACE[symbol], factor) for symbol, factor in factors.items()), constant
+    for factors, constant in equations:
+        yield tuple((_PLACE[symbol], -factor) for symbol, factor in factors.items()), -constant
 
 
+@lru_cache(maxsize=4096)
 def _negated(condition: Condition) -> Condition:
-    return _times(-1, dict(condition[0])), -condition[1] - 1
+    return tuple((place, -factor) for place, factor in condition[0]), -condition[1] - 1
 
 
 @lru_cache(maxsize=4096)
 def _half(condition: Condition) -> Set:
     """The points at which a condition holds."""
-    return EVERYTHING.add_constraint(constraint((dict(condition[0]), condition[1]), False))
+    factors = {DIMENSIONS[place]: factor for place, factor in condition[0]}
+    return EVERYTHING.add_constraint(constraint((factors, condition[1]), False))
 
 
 def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:

@@ -16,7 +16,7 @@ from .symbols import INDICES, M, N, epsilon, n_x, n_y, phi, z
 
 _WHOLE = {*INDICES, *SITE, *SOURCE}
 _COSINES = {n_x, n_y, phi}
-_HALF, _QUARTER = sympy.Rational(1, 2), sympy.Rational(1, 4)
+_HALF = sympy.Rational(1, 2)
 
 Symbols = Sequence[sympy.Symbol]
 
@@ -94,20 +94,16 @@ def _on_interval(polynomial: sympy.Poly, low: sympy.Expr, high: sympy.Expr) -> i
 
 @lru_cache(maxsize=256)
 def _of_cosines(factor: sympy.Expr) -> int:
-    """A polynomial in n_x, n_y and φ as A(n_x) + n_y B(n_x); its norm over ±n_y, ±n_x in n_x²."""
+    """A polynomial in n_x = 2u/(1 + u²), n_y = (1 − u²)/(1 + u²) and φ = n_y² − n_x².
+
+    As −½ < φ < ½, u is between tan 15° and tan 30°: it is looked at in a range a little wider.
+    """
     u = sympy.Dummy("u")
-    in_n = sympy.Poly(factor.xreplace({phi: 1 - 2 * n_x**2}), n_y)
-    parts = [sympy.S.Zero, sympy.S.Zero]
-    for (power,), c in in_n.terms():
-        parts[power % 2] += c * (1 - n_x**2) ** (power // 2)
-    norm = sympy.expand(parts[0] ** 2 - (1 - n_x**2) * parts[1] ** 2 if parts[1] else parts[0])
-    both = sympy.Poly(sympy.expand(norm * norm.xreplace({n_x: -n_x})), n_x)
-    in_u = sympy.Poly({(power // 2,): c for (power,), c in both.terms()}, u)
-    if not _on_interval(in_u, _QUARTER, 3 * _QUARTER):
-        return 0
-    middle = sympy.sqrt(2) / 2  # φ = 0
-    value = sympy.expand(factor.subs({n_x: middle, n_y: middle, phi: 0}))
-    return 1 if value.is_positive else -1 if value.is_negative else 0
+    x, y = 2 * u / (1 + u**2), (1 - u**2) / (1 + u**2)
+    above, below = sympy.fraction(
+        sympy.together(factor.xreplace({n_x: x, n_y: y, phi: y**2 - x**2}))
+    )
+    return _on_interval(sympy.Poly(above * below, u), sympy.Rational(4, 15), sympy.Rational(26, 45))
 
 
 def _of_terms(

@@ -94,10 +94,6 @@ class Weights:
             )
         )
 
-    def having(self, values: Fixed) -> "Weights":
-        """The same for values of symbols that are no indices."""
-        return Weights(tuple((points, value.substitute(values)) for points, value in self.pieces))
-
     def summed(self, *symbols: sympy.Symbol) -> "Weights":
         """Σ over all values of some symbols.
 

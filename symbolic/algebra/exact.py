@@ -5,7 +5,7 @@ added here. The direction cosines obey n_x² + n_y² = 1 and φ = n_y² − n_x�
 reduced by these before it is compared with zero.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
 from functools import cache
 from math import comb, prod
@@ -53,9 +53,11 @@ class Field:
 
     def constant(self, value: int | Fraction | sympy.Rational) -> "RationalFunction":
         """A rational number as an element of the field."""
-        exact = isinstance(value, sympy.Rational)
-        above, below = (int(value.p), int(value.q)) if exact else value.as_integer_ratio()
-        return self.polynomial(self.context.constant(fmpq(above, below)))
+        if isinstance(value, sympy.Rational):
+            ratio = int(value.p), int(value.q)
+        else:
+            ratio = value.as_integer_ratio()
+        return self.polynomial(self.context.constant(fmpq(*ratio)))
 
     def polynomial(self, value: Polynomial) -> "RationalFunction":
         """A polynomial as an element of the field."""
@@ -198,10 +200,11 @@ def _refuse_more_terms(number: int) -> None:
 class RationalFunction:
     """An element of a :class:`Field` in lowest terms."""
 
-    __slots__ = ("denominator", "domain", "numerator")
+    __slots__ = ("_degrees", "denominator", "domain", "numerator")
 
     def __init__(self, domain: Field, numerator: Polynomial, denominator: Polynomial):
         self.domain = domain
+        self._degrees: tuple[Sequence[int], Sequence[int]] | None = None
         if numerator == 0:
             denominator = domain.context.constant(1)
         elif not denominator.is_constant():
@@ -241,7 +244,7 @@ class RationalFunction:
     def __neg__(self) -> Self:
         negative = object.__new__(type(self))  # in lowest terms already
         negative.domain, negative.denominator = self.domain, self.denominator
-        negative.numerator = -self.numerator
+        negative.numerator, negative._degrees = -self.numerator, self._degrees
         return negative
 
     def __sub__(self, other: Self) -> Self:
@@ -301,8 +304,10 @@ class RationalFunction:
     def holds(self, symbol: sympy.Expr) -> bool:
         """Whether a generator occurs."""
         place = self.domain.position[symbol]
+        if self._degrees is None:
+            self._degrees = self.numerator.degrees(), self.denominator.degrees()
         # of the zero polynomial every degree is −1
-        return any(side.degrees()[place] > 0 for side in (self.numerator, self.denominator))
+        return self._degrees[0][place] > 0 or self._degrees[1][place] > 0
 
     def degree(self, symbol: sympy.Expr) -> int:
         """Degree in ``symbol``, which the denominator must not hold."""
@@ -404,9 +409,9 @@ def sum_over(
         NotExactError: the sum is of another kind.
     """
     place = f.domain.position[symbol]
-    divisors = [(one, e) for one, e in f.denominator.factor()[1] if one.degrees()[place] > 0]
-    if not divisors:
+    if not f.denominator.degrees()[place]:
         return sum_polynomial(f, symbol, low, high)
+    divisors = [(one, e) for one, e in f.denominator.factor()[1] if one.degrees()[place] > 0]
     divisor = f.domain.polynomial(divisors[0][0])
     if divisor.coefficients(M)[-1] == -f.domain.one:  # M − n, not n − M
         divisor = -divisor

@@ -299,8 +299,8 @@ def _large(limit: Limit) -> Iterator[sympy.Basic]:
     return (sympy.Ge(one, _LARGE, evaluate=False) for one in limit.positive)
 
 
-def _not_in(symbols: Sequence[sympy.Symbol]) -> list[sympy.Symbol]:
-    return [one for one in sets.DIMENSIONS if one not in symbols]
+def _not_in(symbols: Iterable[sympy.Symbol]) -> list[sympy.Symbol]:
+    return [one for one in sets.DIMENSIONS if one not in {*symbols}]
 
 
 def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
@@ -314,6 +314,8 @@ def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
     assert limit is not None
     if limit.relation != relation:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
+    if sy.z in formula.free_symbols and sy.j not in domain.indices:
+        raise NotProvedError(f"{text(sy.z)} neither grows nor is fixed")
     held = {s for one in limit.positive for s in one.xreplace(domain.straight.image).free_symbols}
     late = sets.where(*map(domain.straight.relation, _large(limit)))
     if not late.is_subset(sets.without(domain.points, *_not_in(held))):
