@@ -70,12 +70,6 @@ def test_what_is_reduced_is_the_same(across: int, up: int) -> None:
     assert one.reduced().degree(n_y) == up % 2
 
 
-@given(fractions_)
-def test_derivatives_are_those_of_sympy(function: sympy.Expr) -> None:
-    found = FIELD.from_sympy(function).derivative(phi).to_sympy()
-    assert THEIRS.from_expr(found) == THEIRS.from_expr(sympy.diff(function, phi))
-
-
 @pytest.mark.parametrize("expression", [sympy.sqrt(r), sympy.Float(0.5), sympy.exp(phi)])
 def test_nothing_inexact_comes_in(expression: sympy.Expr) -> None:
     with pytest.raises(NotExactError):
