@@ -152,10 +152,15 @@ _OTHER_CLASSES = {
     "Certificate": "force_diffusion.derivations.coq.record",
     "Certification": "force_diffusion.derivations.coq.record",
     "Contacts": "force_diffusion.numeric.run.contacts",
+    "CostStudy": "force_diffusion.numeric.run.cost",
+    "Derived": "force_diffusion.derivations.api.derived",
+    "PaperFigure": "force_diffusion.numeric.figures.catalogue",
     "Physicality": "force_diffusion.numeric.mechanics.physicality",
     "Piece": "force_diffusion.derivations.framework.closed_form",
+    "Plan": "force_diffusion.numeric.planning.plan",
     "Proof": "force_diffusion.derivations.api.proof",
     "Ruling": "force_diffusion.symbolic.kernel.decisions",
+    "StoreContent": "force_diffusion.numeric.ensemble.store",
     "Way": "force_diffusion.numeric.run.cost",
 }
 """Where the classes are that the page on Python names and ``fd`` does not have."""

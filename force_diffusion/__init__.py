@@ -1,9 +1,54 @@
 """Forces in nearly-ordered packings of frictionless discs.
 
-What ``import force_diffusion as fd`` gives is listed in the stub beside this file; a name's module,
-and with it SymPy or NumPy, is imported when the name is first used.
+Equations of the paper and their proofs::
+
+    equation   an equation: its formula, numbers, LaTeX, proof, and rulings on formulas of your own
+    derive     proofs of several equations
+    certify    what Coq says of them
+
+Exact statistics of an observable, written in the symbols of ``force_diffusion.symbols``::
+
+    variance, covariance, mean      closed forms
+    mean_over, response             averages over neighbours; the force on a bead
+    point, leaning                  loads
+
+Packings with radii of your own::
+
+    solve      forces and positions: arrays, tables, pictures, files
+    read_radii radii measured in an image, put on the lattice
+
+
+Packings that a scene describes, and many of them::
+
+    read_scene, Scene               from a file, or from sections: Packing, Disorder, Ask,
+                                    SurfaceLoad, BulkLoad, PointLoad, Effects
+    run, ensemble, cost             an answer; statistics over packings; what accuracy costs
+    figure                          a figure of the paper
+
+Every error derives from ``ForceDiffusionError``. A name's module, and with it SymPy or NumPy, is
+imported when the name is first used.
 """
+
+import difflib
+from typing import Any
 
 import lazy_loader
 
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+_attribute, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("force-diffusion")
+    try:
+        return _attribute(name)
+    except AttributeError:
+        if name in __all__:
+            raise
+    close = difflib.get_close_matches(name, __all__, n=1)
+    hint = (
+        f"; did you mean fd.{close[0]}?" if close else "; help(force_diffusion) lists what it has"
+    )
+    raise AttributeError(f"force_diffusion has no {name}{hint}")

@@ -10,6 +10,8 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from force_diffusion.numeric.arithmetic.errors import WrongTypeError, checked, quoted
+
 from ..coq.files import Statement, theory, theory_hash
 from ..coq.folder import ALLOWED, CoqFolder, Notice, axioms_in
 from ..coq.record import Certificate, Certification
@@ -42,6 +44,7 @@ def sources(asked: Mapping[Number, Sequence[Statement]]) -> dict[str, str]:
     return theory() | {name: text for each in files for name, text in each.items()}
 
 
+@checked
 def certify(
     numbers: Iterable[Number] | None = None, *, notice: Notice = lambda _: None
 ) -> Certification:
@@ -58,10 +61,10 @@ def certify(
     Raises:
         CoqAbsentError: there is no Coq on this machine.
         NoSuchFormError: there is no equation of that number in the paper.
-        TypeError: ``numbers`` is a single one.
+        WrongTypeError: ``numbers`` is a single one.
     """
-    if isinstance(numbers, int | str):
-        raise TypeError(f"certify takes several numbers: certify([{numbers!r}])")
+    if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
+        raise WrongTypeError(f"certify takes several numbers: certify([{quoted(numbers)}])")
     asked = stated(numbers)
     with TemporaryDirectory() as folder:
         coq = CoqFolder(Path(folder))

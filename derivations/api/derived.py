@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from itertools import chain
 from typing import Any
 
+from force_diffusion.numeric.arithmetic.errors import WrongTypeError, checked, quoted
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from ..export.document import DOCUMENT, document, fragment_name, statement_latex
@@ -47,7 +48,7 @@ class Derived:
     def counts(self) -> str:
         """How many equations have which verdict, in words; and printed statements refuted."""
         refuted = sum(len(outcome.refuted) for outcome in self.outcomes)
-        return ", ".join(filter(None, [verdicts_text(self.outcomes), expected_text(refuted)]))
+        return "; ".join(filter(None, [verdicts_text(self.outcomes), expected_text(refuted)]))
 
     def data(self) -> dict[str, Any]:
         """What JSON can hold: verdicts and checks of each equation, times in seconds."""
@@ -87,6 +88,7 @@ class Derived:
         return "\n".join(f"| {' | '.join(row)} |" for row in (head, ("---",) * len(head), *rows))
 
 
+@checked
 def derive(
     numbers: Iterable[Number] | None = None,
     *,
@@ -111,11 +113,11 @@ def derive(
 
     Raises:
         NoSuchFormError: there is no equation of such a number.
-        TypeError: ``numbers`` is a single one.
+        WrongTypeError: ``numbers`` is a single one.
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
         single = getattr(numbers, "number", numbers)
-        raise TypeError(f"derive takes several, in a list: derive([{single!r}])")
+        raise WrongTypeError(f"derive takes several, in a list: derive([{quoted(single)}])")
     outcomes = []
     tell = notice or (lambda _: None)
     wanted = [equation(number).number for number in (modules() if numbers is None else numbers)]

@@ -6,7 +6,12 @@ from numbers import Integral
 from typing import Any
 
 import sympy
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.arithmetic.errors import (
+    ArgumentError,
+    ForceDiffusionError,
+    WrongTypeError,
+    quoted,
+)
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
@@ -20,7 +25,7 @@ from ..framework.catalogue import allowed, modules, number_of
 from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
 from ..framework.deciding import decided
-from ..framework.evaluation import ArgumentError, evaluate, indices_at
+from ..framework.evaluation import evaluate, indices_at
 from ..framework.lists import both, either
 from ..framework.loading import load
 from ..framework.record import Derivation, Statement
@@ -60,7 +65,9 @@ class Equation:
 
     def __init__(self, derivation: Statement) -> None:
         if not isinstance(derivation, Statement):
-            raise TypeError(f"Equation takes a derivation; fd.equation({derivation!r}) gives one")
+            raise WrongTypeError(
+                f"Equation takes a derivation; fd.equation({quoted(derivation)}) gives one"
+            )
         self._derivation = derivation
 
     def __reduce__(self) -> tuple[type["Equation"], tuple[Statement]]:
@@ -202,7 +209,7 @@ class Equation:
     def latex(self, columns: int = 1) -> str:
         r"""LaTeX for mathematics mode, which needs only amsmath; long formulas have several lines.
 
-        The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
+        The lines fit text of one column, or of two. Raises ``ArgumentError`` for any other number.
 
         >>> import force_diffusion as fd
         >>> print(fd.equation(15).latex())
@@ -308,7 +315,8 @@ class Equation:
             return next(iter(self._derivation.exact_forms.values()))
         if form not in self._derivation.exact_forms:
             raise NoSuchFormError(
-                f"Eq. {self.number} has no exact form '{form}'. It has {both(self.forms)}.", "exact"
+                f"Eq. {self.number} has no exact form {quoted(form)}. It has {both(self.forms)}.",
+                "exact",
             )
         return self._derivation.exact_forms[form]
 
@@ -499,7 +507,7 @@ def equation(number: EquationNumber) -> Equation:
     force_diffusion...NoSuchFormError: there is no equation 99: give a number from 1 to 16...
 
     Args:
-        number: such as 13, "13" or "B1".
+        number: such as 13, "13", "Eq. 13" or "B1".
 
     Raises:
         NoSuchFormError: there is none.
@@ -507,6 +515,6 @@ def equation(number: EquationNumber) -> Equation:
     place = number_of(number) if isinstance(number, str) else number
     is_number = isinstance(place, Integral | str) and not isinstance(place, bool)
     if not is_number or place not in modules():
-        message = f"there is no equation {number!r}: give a number {allowed()}"
+        message = f"there is no equation {quoted(number)}: give a number {allowed()}"
         raise NoSuchFormError(message, "number")
     return _equation(place)

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 import sympy
+from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
 from ..framework.evaluation import (
     TOGETHER,
-    ArgumentError,
     at_element,
     in_order,
     one_or_tuple,

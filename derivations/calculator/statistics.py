@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from functools import partial
 
 import sympy
+from force_diffusion.numeric.arithmetic.errors import checked, quoted
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError
@@ -59,14 +60,15 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
     """
     try:
         averaged, number = sympy.sympify(observable, strict=True), sympy.sympify(count, strict=True)
+        if number.is_Integer and not 1 <= number <= sets.LARGEST:
+            allowed = "a whole number from 1 on is allowed"
+            raise ObservableError(f"mean_over(…, {quoted(int(number))}): {allowed}")
         sets.row(number)
     except (sympy.SympifyError, NotExactError):
         raise ObservableError(
-            f"mean_over({observable!r}, {count!r}): give an expression of force_diffusion.symbols, "
-            "and a whole number from 1 on or N"
+            f"mean_over({quoted(observable)}, {quoted(count)}): give an expression of "
+            "force_diffusion.symbols, and a whole number from 1 on or N"
         ) from None
-    if number.is_Integer and number < 1:
-        raise ObservableError(f"mean_over(…, {number}): a whole number from 1 on is allowed")
     if any(term.has(sy.MeanOver) for mean in averaged.atoms(sy.MeanOver) for term in mean.args):
         raise ObservableError("averages of averages of averages are not supported")
     if across:
@@ -82,6 +84,7 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
     return sy.MeanOver(averaged, number, *indices)
 
 
+@checked
 def variance(
     observable: sympy.Expr,
     *,
@@ -112,6 +115,7 @@ def variance(
     return _closed(sy.Variance, [observable], load, relative, dimension, where)
 
 
+@checked
 def covariance(
     first: sympy.Expr,
     second: sympy.Expr,
@@ -125,6 +129,7 @@ def covariance(
     return _closed(sy.Covariance, [first, second], load, relative, dimension, where)
 
 
+@checked
 def mean(
     observable: sympy.Expr,
     *,

@@ -66,6 +66,9 @@ def _application(**options: Any) -> typer.Typer:
     return typer.Typer(rich_markup_mode=None, pretty_exceptions_enable=False, **options)
 
 
+_USAGE: Any = typer.BadParameter.__base__  # of all that is wrong with a command line
+
+
 class _Commands(TyperGroup):
     """The commands of the table; ``--help`` builds none of them, and any other use the one."""
 
@@ -103,7 +106,11 @@ class _Commands(TyperGroup):
         """Run the command; of a wrong value say what is allowed as of one in a scene."""
         try:
             return super().invoke(ctx)
-        except typer.BadParameter as error:
+        except _USAGE as error:
+            if getattr(error, "option_name", "") == "--format" and error.ctx.info_name == "show":
+                error.possibilities = ["--as"]
+            if not isinstance(error, typer.BadParameter):
+                raise
             from pydantic import ValidationError
 
             if isinstance(error.__cause__, ValidationError):

@@ -9,7 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, NotReachedError
+from force_diffusion.numeric.arithmetic.errors import (
+    ArgumentError,
+    ForceDiffusionError,
+    NotReachedError,
+)
 from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
@@ -123,8 +127,6 @@ def _solved(
     **more: Any,
 ) -> "Ensemble":
     """Solve under a progress bar; errors name options as they are written here."""
-    from force_diffusion.numeric.ensemble.sums import ArgumentError
-
     try:
         with ExitStack() as stack, in_range():
             progress = not quiet and sys.stderr.isatty()

@@ -50,7 +50,7 @@ def refuted_text(derivation: Statement) -> list[str]:
 def verdicts_text(outcomes: Iterable[Outcome]) -> str:
     """How many equations have which verdict, in words."""
     counts = Counter(outcome.words for outcome in outcomes)
-    return ", ".join(f"{count} {verdict}" for verdict, count in counts.items())
+    return "; ".join(f"{count} {words.replace(',', '')}" for words, count in counts.items())
 
 
 def expected_text(refuted: int) -> str:

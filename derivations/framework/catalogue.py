@@ -16,6 +16,8 @@ Number: TypeAlias = int | str
 """A number of the paper, or a label such as "B1"."""
 
 _FOLDER = Path(__file__).parents[1]
+_PREFIX = re.compile(r"eq(uation|n|s)?\.?", re.IGNORECASE)
+_LONGEST = 40  # characters of what may be a number
 _MODULE = re.compile(r"eq(\d\d)_\w+")
 
 
@@ -52,9 +54,10 @@ def in_order(numbers: Iterable[Number]) -> tuple[Number, ...]:
 def number_of(word: str) -> Number | None:
     """The number or label that a word from outside stands for; None where there is none.
 
-    >>> number_of("13"), number_of("b5"), number_of("17")
-    (13, 'B5', None)
+    >>> number_of("13"), number_of("b5"), number_of("17"), number_of("Eq. (13)")
+    (13, 'B5', None, 13)
     """
+    word = _PREFIX.sub("", word[:_LONGEST].strip()).strip("() ")
     is_short = word.isascii() and len(word) < 5
     number: Number = int(word) if is_short and word.isdigit() else word.upper()
     return number if number in modules() else None

@@ -9,6 +9,7 @@ from typing import Any
 import mpmath
 import sympy
 from flint import fmpq
+from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
 from force_diffusion.symbolic import sets, words
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import (
@@ -34,7 +35,6 @@ from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import (
     TEXT_WIDTH,
-    column_width,
     latex_body,
     latex_cases,
     pack,
@@ -46,13 +46,15 @@ from force_diffusion.symbolic.trees import equation, in_place
 
 from .catalogue import Number as EquationNumber
 from .deciding import decided, strange_symbol
-from .display import alternatives_in_latex, over_common, with_commas
-from .evaluation import ArgumentError, Number, evaluate, in_order, indices_at, with_values
+from .display import alternatives_in_latex, over_common, room_of, with_commas
+from .evaluation import Number, evaluate, in_order, indices_at, with_values
 from .proof import equations_of
 
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
 _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
+_LAYERS = 10_000_000
+_ORDERS = 100
 _SMALLER = {"footnotesize": 0.85, "scriptsize": 0.75, "tiny": 0.68}  # widths of LaTeX's type
 _HIGH = {1: 24, 2: 22}  # lines of a display that fits a page of usual classes, by columns
 
@@ -302,6 +304,8 @@ class ClosedForm:
         if sy.j not in self._needed or top is None:
             raise ArgumentError("a profile needs a form that depends on the layer j, and M or l")
         is_height = isinstance(top, Integral) and top > 0
+        if is_height and top > _LAYERS:
+            raise ArgumentError(f"a profile of more than {_LAYERS} layers: take at(j=…) for some")
         return self.at(j=range(int(top)) if is_height else 0, **values)
 
     # the leading orders
@@ -317,6 +321,8 @@ class ClosedForm:
         Raises:
             ArgumentError: its packings have no height M, or no layer j is meant.
         """
+        if not isinstance(orders, Integral) or not 1 <= orders <= _ORDERS:
+            raise ArgumentError(f"orders = {quoted(orders)}: a whole number from 1 to {_ORDERS}")
         piece = next((piece for piece in self.pieces if any(map(_is_inside, piece.where))), None)
         if piece is None or not {sy.M, sy.j} <= self._needed:
             raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
@@ -328,13 +334,13 @@ class ClosedForm:
     def latex(self, columns: int = 1) -> str:
         """LaTeX for mathematics mode, which needs amsmath: a formula, or several in ``cases``.
 
-        The lines fit text of one column, or of two. Raises ``ValueError`` for any other number.
+        The lines fit text of one column, or of two. Raises ``ArgumentError`` for any other number.
         """
         return self._shown(self.pieces, columns)
 
     def _shown(self, pieces: Sequence[Piece], columns: int, size: float = 1.0) -> str:
         """LaTeX of some of its pieces, in type of some size."""
-        room, domain = column_width(columns) / size, self.conditions(words.LATEX)
+        room, domain = room_of(columns) / size, self.conditions(words.LATEX)
         below = with_commas(domain, "for")
         if len(pieces) == 1:
             (piece,) = pieces

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import sympy
 from flint import fmpq, fmpz
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
+from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.code import name_of
@@ -43,10 +43,6 @@ EXACT = (numbers.Rational, Decimal, fmpq, fmpz)
 """Types of exact numbers; floats of Python and NumPy up to float64 are taken, too."""
 
 _LONGEST = 10_000  # digits of a Decimal that is written out
-
-
-class ArgumentError(ForceDiffusionError, ValueError):
-    """A formula can't be evaluated with these arguments; the message says what is allowed."""
 
 
 def arguments(
@@ -102,7 +98,7 @@ def read_arguments(
         if symbol in sy.INDICES and not in_packing:
             number, (words, allowed) = value, _WHOLE
         if not allowed(value) or (symbol.is_integer and not value.is_integer):
-            raise ArgumentError(f"{name} = {number}: {words} is allowed")
+            raise ArgumentError(f"{name} = {quoted(number)}: {words} is allowed")
     for pair, (words, together) in TOGETHER.items() if in_packing else ():
         if set(pair) <= set(values) and not together(*(values[symbol] for symbol in pair)):
             raise ArgumentError(f"{with_values(pair, values)}: {words} is allowed")
@@ -129,7 +125,7 @@ def _exactly(name: str, value: Number) -> sympy.Rational:
     if isinstance(value, float | np.float32 | np.float16) and math.isfinite(value):
         return sympy.Rational(*float(value).as_integer_ratio())
     raise ArgumentError(
-        f"{name} = {value!r}: one int, Fraction, SymPy Rational, Decimal or finite float is "
+        f"{name} = {quoted(value)}: one int, Fraction, SymPy Rational, Decimal or finite float is "
         "allowed; of a longer float give the Fraction that it is"
     )
 
@@ -162,7 +158,7 @@ def indices_at(
         if name not in by_name:
             raise ArgumentError(f"{name} is no index: {', '.join(by_name)} are")
         if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-            raise ArgumentError(f"{name} = {value!r}: a whole number is allowed")
+            raise ArgumentError(f"{name} = {quoted(value)}: a whole number is allowed")
         if abs(int(value)) > sets.LARGEST:
             raise ArgumentError(f"{name}: a whole number up to {sets.LARGEST} is allowed")
     return {by_name[name]: sympy.Integer(int(value)) for name, value in at.items()}

@@ -13,9 +13,10 @@ from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
 from force_diffusion.symbolic.printing.latex import RELATIONS
-from force_diffusion.symbolic.printing.lines import column_width, latex_body, text_lines
+from force_diffusion.symbolic.printing.lines import latex_body, text_lines
 
 from .catalogue import Number, in_order
+from .display import room_of
 from .proof import Step, Steps
 
 if TYPE_CHECKING:
@@ -129,7 +130,7 @@ class Statement:
 
     def latex(self, columns: int = 1) -> str:
         """What is printed, for one display in text of one column or of two."""
-        return latex_body(self.printed, RELATIONS[self.relation], column_width(columns))
+        return latex_body(self.printed, RELATIONS[self.relation], room_of(columns))
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same, in as many displays as it takes to fit pages."""

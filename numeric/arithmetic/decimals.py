@@ -6,8 +6,10 @@ from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
 from functools import cache
 from numbers import Rational
-from typing import Any
+from typing import Any, TypeAlias
 
+Exact: TypeAlias = float | Fraction | Decimal | str
+"""What is read as the exact number that it is, or that it is written as."""
 LARGEST_EXPONENT = 5000
 MOST_DIGITS = 5000
 _MOST = 10**MOST_DIGITS

@@ -4,12 +4,20 @@ Every one of them derives from ``ForceDiffusionError``, which carries the exit s
 the command line ends.
 """
 
-from typing import TYPE_CHECKING, Any, ClassVar
+import difflib
+import inspect
+from collections.abc import Callable, Iterable
+from functools import wraps
+from typing import TYPE_CHECKING, Any, ClassVar, ParamSpec, TypeVar
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
 
+P = ParamSpec("P")
+T = TypeVar("T")
 WRONG_INPUT, NOT_REACHED = 2, 3
+LONGEST = 200
+"""Characters of what messages quote."""
 
 
 def printable(text: str) -> str:
@@ -37,6 +45,14 @@ class ForceDiffusionError(Exception):
         return printable(super().__str__())
 
 
+class ArgumentError(ForceDiffusionError, ValueError):
+    """An argument is not allowed; the message says what is."""
+
+
+class WrongTypeError(ForceDiffusionError, TypeError):
+    """Something is of a type that is not taken, or an argument is unknown."""
+
+
 class NotReachedError(ForceDiffusionError):
     """What was asked for can't be reached with the memory, the range or the libraries at hand."""
 
@@ -51,6 +67,49 @@ class UndecidedError(ForceDiffusionError, ArithmeticError):
     """Balls have grown so wide that a question stays open: more bits are needed."""
 
     exit_status = NOT_REACHED
+
+
+def quoted(value: object) -> str:
+    """Show a value as Python writes it, in at most 200 characters.
+
+    >>> quoted("13"), quoted(10**5000)
+    ("'13'", '<a number of more than 4300 digits>')
+    """
+    try:
+        text = repr(value)
+    except RecursionError:
+        return "<what is nested too deeply>"
+    except ValueError:
+        return "<a number of more than 4300 digits>"
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Say which of the known names could be meant; "" if none is close.
+
+    >>> meant("spacng", ["radii", "spacing"])
+    'did you mean spacing? '
+    """
+    close = difflib.get_close_matches(name[:LONGEST], list(known), n=1)
+    return f"did you mean {close[0]}? " if close else ""
+
+
+def checked(function: Callable[P, T]) -> Callable[P, T]:
+    """Let a function answer to a keyword that it doesn't take with ``WrongTypeError``."""
+    parameters = inspect.signature(function).parameters
+    names = [name for name in parameters if name != "self"]
+
+    @wraps(function)
+    def call(*args: P.args, **kwargs: P.kwargs) -> T:
+        for name in kwargs:
+            if name not in names:
+                takes = f"{function.__name__} takes {', '.join(names)}"
+                raise WrongTypeError(
+                    f"there is no argument {quoted(name)}; {meant(name, names)}{takes}"
+                )
+        return function(*args, **kwargs)
+
+    return call
 
 
 def rule(error: "ValidationError") -> str:

@@ -20,7 +20,14 @@ from operator import index
 from pathlib import Path
 from typing import SupportsIndex
 
-from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
+from ..arithmetic.errors import (
+    NOT_REACHED,
+    ArgumentError,
+    ForceDiffusionError,
+    WrongTypeError,
+    checked,
+    quoted,
+)
 from ..arithmetic.machine import cores, memory_limit
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..arithmetic.systems import FLOAT64
@@ -30,7 +37,7 @@ from ..scene.scene import Scene, program_version
 from ..statistics.confidence import looks
 from .result import Ensemble
 from .store import Store, StoreFailedError, description
-from .sums import ArgumentError, Block, Measurement, Sums, measurement, solve_block, why_left_out
+from .sums import Block, Measurement, Sums, measurement, solve_block, why_left_out
 
 MOST, MOST_WORKERS = 10**9, 1024
 # Blocks that an executor is given at a time.
@@ -55,6 +62,7 @@ class WorkersError(ForceDiffusionError, RuntimeError):
     exit_status = NOT_REACHED
 
 
+@checked
 def ensemble(
     scene: Scene | str | Path,
     realisations: int | None = None,
@@ -81,9 +89,10 @@ def ensemble(
     bins, in units of force; by default six times the largest σ_f of theory. ``progress`` shows a
     bar, or is called with how many packings are done, and the half-width at the last look.
 
-    Raises ``TypeError`` for what is no scene, ``ArgumentError``, ``SceneError``, ``StoreError`` for
-    a file that can't serve, ``StoreFailedError`` where it can't be written, ``RealisationError``
-    where hardly one can be built, and ``WorkersError``. What a store holds by then stays good.
+    Raises ``WrongTypeError`` for what is no scene, ``ArgumentError``, ``SceneError``,
+    ``StoreError`` for a file that can't serve, ``StoreFailedError`` where it can't be written,
+    ``RealisationError`` where hardly one can be built, and ``WorkersError``. What a store holds by
+    then stays good.
 
     >>> import force_diffusion as fd
     >>> scene = fd.Scene(
@@ -100,12 +109,14 @@ def ensemble(
     if isinstance(scene, str | Path):
         scene = read_scene(Path(scene), Scene)
     if not isinstance(scene, Scene):
-        raise TypeError(f"ensemble takes a scene or the path of one, not {type(scene).__name__}")
+        raise WrongTypeError(
+            f"ensemble takes a scene or the path of one, not {type(scene).__name__}"
+        )
     size = _size(scene.ask.realisations if realisations is None else realisations)
     until = None if until is None else _number("until", until)
     confidence = _number("confidence", confidence)
     if store is not None and not isinstance(store, str | Path):
-        raise ArgumentError("store", store, "must be the name of a file")
+        raise ArgumentError(f"store = {quoted(store)}: must be the name of a file")
     m = measurement(scene, reach=None if reach is None else _number("reach", reach, 1e300))
     own = None if executor is not None else _executor(m, size, workers)
     opened = None if store is None else Store(Path(store), description(m))
@@ -228,14 +239,14 @@ def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
     whole = workers is None or isinstance(workers, SupportsIndex)
     if not whole or (workers is not None and not 1 <= workers <= MOST_WORKERS):
         allowed = f"must be a whole number between 1 and {MOST_WORKERS}"
-        raise ArgumentError("workers", workers, allowed)
+        raise ArgumentError(f"workers = {quoted(workers)}: {allowed}")
     room = max(1, memory_limit() // (m.plan.memory + BATCH))
     compiled = engine.compiles(replace(m.problem, realisations=size), FLOAT64)
     if workers is None:
         short = size * (m.problem.region.beads + OF_PACKING) < WORTH_PROCESSES
         workers = 1 if short and not compiled else min(cores(), room)
     elif workers > room:
-        raise ArgumentError("workers", workers, f"the free memory is enough for {room}")
+        raise ArgumentError(f"workers = {quoted(workers)}: the free memory is enough for {room}")
     if compiled or workers == 1:
         return ThreadPoolExecutor(workers)
     return ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent)
@@ -244,7 +255,7 @@ def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
 def _size(realisations: object) -> int:
     if not isinstance(realisations, SupportsIndex) or not 2 <= index(realisations) <= MOST:
         allowed = f"an ensemble has from 2 to {MOST} packings; say how many (--realisations N)"
-        raise ArgumentError("realisations", realisations, allowed)
+        raise ArgumentError(f"realisations = {quoted(realisations)}: {allowed}")
     return index(realisations)
 
 
@@ -254,7 +265,7 @@ def _number(name: str, value: object, below: float = 1) -> float:
     except OverflowError:
         number = math.inf
     if not 0 < number < below:
-        raise ArgumentError(name, value, f"must be a number between 0 and {below:g}")
+        raise ArgumentError(f"{name} = {quoted(value)}: must be a number between 0 and {below:g}")
     return number
 
 

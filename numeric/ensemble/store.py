@@ -16,7 +16,13 @@ from pathlib import Path
 from typing import Any
 
 from ..arithmetic.decimals import short
-from ..arithmetic.errors import ForceDiffusionError, NotReachedError, printable
+from ..arithmetic.errors import (
+    ForceDiffusionError,
+    NotReachedError,
+    WrongTypeError,
+    printable,
+    quoted,
+)
 from ..scene.scene import PROGRAM, program_version
 from .sums import Block, Measurement, Sums, from_bytes
 
@@ -189,6 +195,8 @@ def read_store(path: str | Path) -> StoreContent:
     Raises:
         StoreError: there is no such file, or it is damaged or of another kind.
     """
+    if not isinstance(path, str | Path):
+        raise WrongTypeError(f"read_store takes the path of a file, not {quoted(path)}")
     with closing(Store(Path(path))) as store:
         return StoreContent(store.realisations, tuple(together(store.held)), store.ensemble)
 

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.errors import ArgumentError, quoted
 from ..arithmetic.systems import FLOAT64, Array
 from ..disorder.radii import RadiusError
 from ..lattice.branch import PerBranch
@@ -42,14 +42,6 @@ TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
 
 Block = tuple[int, int]
 """Realisations first … stop − 1."""
-
-
-class ArgumentError(ForceDiffusionError, ValueError):
-    """An argument is wrong: which, what it is, and what is allowed."""
-
-    def __init__(self, name: str, value: object, allowed: str) -> None:
-        """Say all three."""
-        super().__init__(f"{name} = {value}: {allowed}")
 
 
 @dataclass(frozen=True)
@@ -136,7 +128,9 @@ def measurement(scene: Scene, *, reach: float | None = None) -> Measurement:
         return made
     reach = _usual_reach(made) if reach is None else reach / float(scene.load.magnitude)
     if not 0 < reach < 1e300:
-        raise ArgumentError("reach", reach, "in units of the load, must lie between 0 and 1e300")
+        raise ArgumentError(
+            f"reach = {quoted(reach)}: in units of the load, must lie between 0 and 1e300"
+        )
     bins = ask.bins or DEFAULT_BINS
     edges = tuple(float(Fraction(reach) * (2 * k - bins) / bins) for k in range(bins + 1))
     if len(set(edges)) <= bins:

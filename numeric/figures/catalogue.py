@@ -4,6 +4,7 @@ import csv
 import io
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from importlib import import_module
 from operator import index
@@ -11,7 +12,7 @@ from typing import Any, SupportsIndex
 
 import numpy as np
 
-from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.errors import ForceDiffusionError, checked, quoted
 from ..scene.sections import SceneError
 from .names import FIGURES, HEIGHTS, KINDS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
 from .packings import PAPER, Made, Notice, Options, Table, planned
@@ -48,6 +49,7 @@ class PaperFigure:
         return "\n".join([self.title, *(f"  {line}" for line in self.lines)])
 
 
+@checked
 def figure(
     name: int | str,
     *,
@@ -55,8 +57,8 @@ def figure(
     realisations: int | None = None,
     seed: int = 1,
     beside: str | Collection[str] = (),
-    spacing: Any = None,
-    relative_std: Any = None,
+    spacing: float | Fraction | Decimal | None = None,
+    relative_std: float | Fraction | Decimal | None = None,
     notice: Notice = lambda _: None,
     command: str | None = None,
     kinds: Sequence[str] = KINDS,
@@ -93,16 +95,20 @@ def figure(
         UnbuildableError, NotStandingError: radii of such a height can't be built or stand.
         MissingLibraryError: there is no matplotlib.
     """
-    name = str(name)
+    name = name if isinstance(name, str) else quoted(name)
     if name not in FIGURES:
         *names, last = (key if key.isdigit() else repr(key) for key in FIGURES)
-        raise NoSuchFigureError(f"there is no figure {name}: give {', '.join(names)} or {last}")
+        shown = quoted(name).strip("'")
+        raise NoSuchFigureError(f"there is no figure {shown}: give {', '.join(names)} or {last}")
+    for kind in kinds:
+        if kind not in KINDS:
+            raise SceneError("kinds", kind, f"must be of {', '.join(KINDS)}")
     beside = (beside,) if isinstance(beside, str) else tuple(beside)
     for model in beside:
         if MODELS.get(model) != name:
             raise NoSuchFigureError(
-                f"there is no model {model!r} beside figure {name}: give 'q-model' with figure 3 "
-                "or 'double-y' with figure 4"
+                f"there is no model {quoted(model)} beside figure {name}: give 'q-model' with "
+                "figure 3 or 'double-y' with figure 4"
             )
     if realisations is not None and not (
         isinstance(realisations, SupportsIndex) and index(realisations) >= LEAST_REALISATIONS

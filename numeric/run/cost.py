@@ -7,6 +7,7 @@ enclose it. What would take too long is extrapolated from fewer layers.
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
+from numbers import Real
 from time import process_time
 from typing import TYPE_CHECKING, Any
 
@@ -15,7 +16,13 @@ import numpy as np
 from .. import tables
 from ..accuracy import ToleranceError, upper
 from ..arithmetic.decimals import bound_string
-from ..arithmetic.errors import ForceDiffusionError, UndecidedError, printable
+from ..arithmetic.errors import (
+    ForceDiffusionError,
+    UndecidedError,
+    WrongTypeError,
+    checked,
+    printable,
+)
 from ..arithmetic.systems import Array, Balls, BigFloat, as_ball, largest_of
 from ..mechanics.problem import Route
 from ..mechanics.sweep import NotStandingError, UnbuildableError
@@ -127,6 +134,7 @@ class CostStudy:
         return tables.html_table(self.rows(), [])
 
 
+@checked
 def cost(
     scene: Scene, seconds: float = 20, progress: bool | Callable[[Way], object] = False
 ) -> CostStudy:
@@ -152,11 +160,11 @@ def cost(
     mpmath 30 True measured
     """
     if not isinstance(scene, Scene):
-        raise TypeError(
+        raise WrongTypeError(
             f"cost takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
         )
     refuse("cost", scene)
-    if not 0 < seconds < 1e9:
+    if not isinstance(seconds, Real) or not 0 < seconds < 1e9:
         raise SceneError("seconds", seconds, "must be a positive number")
     ask = scene.ask.model_copy(update={"realisations": 1, "tolerance": None, "certified": False})
     study = _Study(scene.model_copy(update={"ask": ask}), process_time() + seconds)

@@ -11,7 +11,8 @@ from time import perf_counter
 from typing import Any
 
 from ..accuracy import Accuracy, ToleranceError, enclosed, estimated, shortfall
-from ..arithmetic.decimals import exact, parse
+from ..arithmetic.decimals import Exact, exact, parse
+from ..arithmetic.errors import WrongTypeError, checked, quoted
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work
 from ..planning.plan import Plan
@@ -24,20 +25,23 @@ from ..scene.sections import SceneError
 from .outcome import Outcome, outcome_of
 
 
+@checked
 def run(what: "Plan | scene.Scene | str | Path", progress: bool | Progress = False) -> Outcome:
     """Run a scene, the path of a scene file, or a plan, to the tolerance that it was made for.
 
     ``progress`` shows a bar, or is called with the kind of work and the number of beads just done.
     Where the estimated error of float64 misses the tolerance, balls answer. Raises
-    ``ToleranceError``, ``SceneError``, ``TypeError`` for what is none of these, and what the sweeps
-    raise for a packing that can't be built.
+    ``ToleranceError``, ``SceneError``, ``WrongTypeError`` for what is none of these, and what the
+    sweeps raise for a packing that can't be built.
     """
     if isinstance(what, str | Path):
         what = read_scene(what)
     if isinstance(what, scene.Scene):
         what = make_plan(what)
     if not isinstance(what, Plan):
-        raise TypeError(f"run takes a scene, the path of one, or a plan, not {type(what).__name__}")
+        raise WrongTypeError(
+            f"run takes a scene, the path of one, or a plan, not {type(what).__name__}"
+        )
     plan = what
     start = perf_counter()
     files = files_read(plan.scene)
@@ -117,7 +121,8 @@ class Scene(scene.Scene):
     ((8,), True)
     """
 
-    def explain(self, tolerance: Any = None, *, certified: bool = False) -> Plan:
+    @checked
+    def explain(self, tolerance: Exact | None = None, *, certified: bool = False) -> Plan:
         """Say what ``run`` would do, what it would leave out, and why; ``print`` shows it.
 
         ``tolerance``: error allowed, relative to the largest change; ``certified``: only a rigorous
@@ -127,9 +132,10 @@ class Scene(scene.Scene):
         asked = None if tolerance is None else read_tolerance(tolerance)
         return make_plan(self, asked, certified=certified)
 
+    @checked
     def run(
         self,
-        tolerance: Any = None,
+        tolerance: Exact | None = None,
         *,
         certified: bool = False,
         progress: bool | Progress = False,
@@ -143,10 +149,16 @@ class Scene(scene.Scene):
         return run(self.explain(tolerance, certified=certified), progress)
 
 
+@checked
 def read_scene(path: str | Path, changes: Mapping[str, str] | None = None) -> Scene:
     """Read and check a scene file. Raises ``SceneError``.
 
     ``changes`` are new values for some keys, written as in the file:
     ``{"packing.height": "16", "disorder.kind": "normal"}``.
     """
+    if not isinstance(path, str | Path):
+        raise WrongTypeError(f"read_scene takes the path of a file, not {quoted(path)}")
+    for key, value in (changes or {}).items():
+        if not isinstance(value, str):
+            raise SceneError(key, value, "must be text, as a scene file has it")
     return reading.read_scene(Path(path), Scene, changes or {})

@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from numbers import Integral
@@ -15,7 +16,8 @@ from numpy.typing import ArrayLike
 
 from ..accuracy import CARRIED, Accuracy
 from ..arithmetic.carried import stated_error
-from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.decimals import Exact
+from ..arithmetic.errors import ForceDiffusionError, checked
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import ArrayRadii
 from ..lattice.branch import Contact, axis_names, bead_names, directions
@@ -178,6 +180,7 @@ class Solution(Tabled):
             found[before + "radius"] = beads.radii[..., bead].reshape(-1)
         return found | {"force": contacts.force.reshape(-1), "change": contacts.change.reshape(-1)}
 
+    @checked
     def plot(
         self,
         ax: "Axes | None" = None,
@@ -339,7 +342,20 @@ class Solution(Tabled):
         """Say what was found, how accurately, and what was done for it."""
         return str(self.forces)
 
-    __repr__ = __str__
+    def __repr__(self) -> str:
+        """Say which packing it is, whether beads could make it, and the error, on one line."""
+        d, physical = self._dimension, self.physical
+        *batch, layers = self._shape[: 1 - d]
+        across = " × ".join(map(str, self._shape[1 - d :]))
+        several = f"{batch[0]} packings: " if batch else ""
+        verdict = "all radii are equal"
+        if physical is not None:
+            pulls = f"{physical.tensile} of {physical.contacts} contacts are tensile"
+            overlaps = f"{physical.overlaps} overlaps, " if physical.overlaps else ""
+            verdict = "physical" if physical.sound else f"NOT physical: {overlaps}{pulls}"
+        known = "certified" if self.certified else "estimated"
+        beads = f"{layers} layers of {across} {'discs' if d == 2 else 'spheres'}"
+        return f"<{several}{beads}; {verdict}; error {self.error:.2g} ({known})>"
 
 
 def _colours(contacts: Contacts, color: Any) -> Array:
@@ -465,15 +481,16 @@ def _dimension_of(given: GivenRadii, asked: Any) -> int:
     return dimension
 
 
+@checked
 def solve(
-    radii: Any = None,
+    radii: ArrayLike | None = None,
     *,
-    delta_r: Any = None,
-    radius: Any = None,
-    spacing: Any = None,
+    delta_r: ArrayLike | None = None,
+    radius: float | Fraction | Decimal | None = None,
+    spacing: float | Fraction | Decimal | None = None,
     load: Load | None = None,
     dimension: int | None = None,
-    tolerance: Any = None,
+    tolerance: Exact | None = None,
     certified: bool = False,
     allow_images: bool = False,
 ) -> Solution:
@@ -537,6 +554,8 @@ def solve(
         )
     if radius is None:
         radius = Fraction(float(given.values.mean())) if delta_r is None else 1
+        if radius <= 0:
+            raise SceneError("radii", None, f"must be positive; their mean is {float(radius):.6g}")
     with _named_as_here():
         packing = Packing(
             height=layers - 1,

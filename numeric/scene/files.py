@@ -29,26 +29,41 @@ class TableError(ForceDiffusionError, ValueError):
 
 
 Row = tuple[str, list[str], list[str]]
-"""Where it stands, the header that it stands under, and what it says."""
+"""Where it stands, the names of its columns, and what it says."""
+SAME = {"radius": "r"}
+"""What columns may be called as well."""
 
 
-def _rows(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
+def rows_of_table(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
+    """Read the columns of the first header that a table has all of, in whatever order.
+
+    They are separated by commas, semicolons or tabs. Raises ``TableError``.
+    """
     name = f"{key}: {path.name}"
     try:
         with (
             opened(path, LARGEST) as raw,
             TextIOWrapper(raw, encoding="utf-8-sig", newline="") as file,
         ):
-            reader = csv.reader(_lines(name, file), strict=True)
-            header = [column.strip() for column in next(reader, ())]
-            if header not in headers:
+            lines = _lines(name, file)
+            first = next(lines, "")
+            delimiter = max(",;\t", key=first.count)
+            written = [word.strip() for word in next(csv.reader([first], delimiter=delimiter), [])]
+            columns = [SAME.get(word, word) for word in written]
+            header = next((one for one in headers if {*one} <= {*columns}), None)
+            if header is None:
                 allowed = " or ".join(map(",".join, headers))
-                raise TableError(f"{name}: the first line must be {allowed}")
+                raise TableError(f"{name}: the first line must name the columns {allowed}")
+            if twice := [word for word in header if columns.count(word) > 1]:
+                raise TableError(f"{name}: the first line names {twice[0]} twice")
+            places = [columns.index(word) for word in header]
+            reader = csv.reader(lines, delimiter=delimiter, strict=True)
             for row in filter(None, reader):
-                where = f"{name}, line {reader.line_num}"
-                if len(row) != len(header):
-                    raise TableError(f"{where}: {len(row)} values where {len(header)} are expected")
-                yield where, header, row
+                where = f"{name}, line {reader.line_num + 1}"
+                if len(row) != len(columns):
+                    found = f"{len(row)} values where {len(columns)} are expected"
+                    raise TableError(f"{where}: {found}")
+                yield where, header, [row[place] for place in places]
     except ForeignFileError as error:
         raise TableError(f"{key}: {path}: {error}") from None
     except (UnicodeDecodeError, csv.Error) as error:
@@ -75,10 +90,11 @@ def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Bead, list[F
             allowed = "must be a whole number of at most 18 digits"
             raise TableError(f"{where}: {name} = {shown!r} {allowed}")
     bead = tuple(map(int, row[:count]))
-    return bead, _numbers(f"{where}: bead {bead}", header[count:], row[count:])
+    return bead, numbers_of(f"{where}: bead {bead}", header[count:], row[count:])
 
 
-def _numbers(where: str, header: list[str], row: list[str]) -> list[Fraction]:
+def numbers_of(where: str, header: list[str], row: list[str]) -> list[Fraction]:
+    """Read decimals exactly. Raises ``TableError``."""
     values = []
     for name, text in zip(header, row, strict=True):
         try:
@@ -142,9 +158,9 @@ def read_radii(
     names = bead_names(dimension)
     headers = [[*names, "delta_r"], [*names, "r"]] + [["x", "y", "r"]] * (dimension == 2)
     bead: Bead
-    for where, header, row in _rows("disorder.file", path, *headers):
+    for where, header, row in rows_of_table("disorder.file", path, *headers):
         if header[0] == "x":
-            x, y, delta = _numbers(where, header, row)
+            x, y, delta = numbers_of(where, header, row)
             bead = _on_lattice(where, x, y, packing)
         else:
             bead, (delta,) = _parsed(where, header, row)
@@ -210,7 +226,7 @@ def read_loads(
     loads: dict[Site, tuple[Fraction, ...]] = {}
     d = packing.dimension
     header = [*bead_names(d), *(f"f{axis}" for axis in axis_names(d))]
-    for where, _, row in _rows("load.file", path, header):
+    for where, _, row in rows_of_table("load.file", path, header):
         bead, force = _parsed(where, header, row)
         site = _site(where, bead, packing)
         if site in loads:

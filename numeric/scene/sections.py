@@ -14,7 +14,7 @@ import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from ..arithmetic.decimals import decimal_string, exact, short
-from ..arithmetic.errors import ForceDiffusionError, rule
+from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, rule
 from ..arithmetic.systems import Array
 from .combinations import QUANTITIES
 
@@ -99,8 +99,11 @@ class Section(BaseModel):
     )
     section: ClassVar[str] = ""
 
-    def __init__(self, /, **values: Any) -> None:
+    def __init__(self, /, *unnamed: Any, **values: Any) -> None:
         """Check the values."""
+        if unnamed:
+            names = "=…, ".join(type(self).model_fields)
+            raise WrongTypeError(f"{type(self).__name__} takes its fields by name: {names}=…")
         try:
             super().__init__(**values)
         except ValidationError as error:
@@ -223,9 +226,9 @@ class GivenRadii(Disorder):
     radii: Annotated[Any, BeforeValidator(radii_array)] = None
     delta_r: Annotated[Any, BeforeValidator(radii_array)] = None
 
-    def __init__(self, /, **values: Any) -> None:
+    def __init__(self, /, *unnamed: Any, **values: Any) -> None:
         """Check that one of the two is given."""
-        super().__init__(**values)
+        super().__init__(*unnamed, **values)
         if (self.radii is None) == (self.delta_r is None):
             raise SceneError("disorder", None, "give either radii or delta_r")
 

@@ -39,7 +39,7 @@ def in_words(verdict: str, assuming: Iterable[str] = ()) -> str:
     return " ".join(filter(None, (str(verdict), " and ".join(assuming))))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Ruling:
     """A verdict and, in plain words, what it rests on (or the counterexample).
 
@@ -65,6 +65,9 @@ class Ruling:
 
     def __str__(self) -> str:
         return f"{self.words}: {self.note}" if self.note else self.words
+
+    def __repr__(self) -> str:
+        return f"<{self}>"
 
 
 def proved(note: str = "", assuming: Iterable[str] = ()) -> Ruling:

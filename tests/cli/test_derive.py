@@ -59,7 +59,7 @@ def test_of_a_single_equation_all_steps_and_claims_are_printed(made_up, capsys) 
     words = f"proved, assuming {fakes.GUESS}"
     assert any(line.startswith(f"  - {words}: doubtful (proof)") for line in lines[claims:])
     assert lines[-2].startswith(f"Eq. 2 is {words} (")
-    assert lines[-1] == f"1 proved, 1 {words}."
+    assert lines[-1] == f"1 proved; 1 proved assuming {fakes.GUESS}."
 
 
 def test_status_1_says_what_is_wrong(made_up, capsys: pytest.CaptureFixture[str]) -> None:
@@ -67,7 +67,7 @@ def test_status_1_says_what_is_wrong(made_up, capsys: pytest.CaptureFixture[str]
     assert main(["derive", "1", "2"]) == 1
     printed = capsys.readouterr().out
     assert "the claim 'doubtful': nobody knows" in " ".join(printed.split())
-    assert "1 proved, 1 undecided." in printed
+    assert "1 proved; 1 undecided." in printed
 
 
 def test_json_follows_its_schema(made_up, capsys: pytest.CaptureFixture[str]) -> None:

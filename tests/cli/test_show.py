@@ -12,8 +12,8 @@ import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import modules, paper
 from force_diffusion.derivations.framework.closed_form import ClosedForm
-from force_diffusion.derivations.framework.evaluation import ArgumentError
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.structure import rebuilt
 from force_diffusion.symbolic.printing.text import text

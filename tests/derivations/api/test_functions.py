@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import sympy
 from flint import fmpq, fmpz
-from force_diffusion.derivations.framework.evaluation import ArgumentError
+from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from hypothesis import given
 from hypothesis import strategies as st

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import sympy
 from force_diffusion.derivations.calculator.loads import ObservableError
-from force_diffusion.derivations.framework.evaluation import ArgumentError
+from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from force_diffusion.symbolic.symbols import Position, m, n
 
 import force_diffusion as fd

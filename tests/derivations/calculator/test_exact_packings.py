@@ -15,7 +15,7 @@ import pytest
 import sympy
 from flint import fmpq
 from force_diffusion.derivations.calculator.loads import Load
-from force_diffusion.derivations.framework.evaluation import ArgumentError
+from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from hypothesis import given, note, settings
 from hypothesis import strategies as st
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.evaluation import ArgumentError
+from force_diffusion.numeric.arithmetic.errors import ArgumentError
 
 import force_diffusion as fd
 from force_diffusion.symbols import (

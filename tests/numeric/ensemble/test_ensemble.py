@@ -5,8 +5,8 @@ import math
 from pathlib import Path
 
 import pytest
+from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from force_diffusion.numeric.ensemble import ensemble as module
-from force_diffusion.numeric.ensemble.sums import ArgumentError
 from force_diffusion.numeric.tables import rows_of
 
 import force_diffusion as fd

@@ -1,0 +1,226 @@
+"""Radii that were measured in an image: their beads are put on the lattice, which is fitted."""
+
+import math
+from collections import deque
+from dataclasses import dataclass
+from numbers import Real
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from ..arithmetic.errors import WrongTypeError, checked, quoted
+from ..arithmetic.systems import Array
+from .files import TableError, numbers_of, rows_of_table
+from .sections import SceneError
+
+TOUCHING = 1.25  # distance of neighbours over both radii, at most
+LEVEL = math.radians(15)  # between neighbours of a layer; contacts are steeper
+OFF = 0.5  # r: farther from its site no bead is placed
+
+
+@dataclass(frozen=True, eq=False)
+class ImageRadii:
+    """Radii of a packing in an image, for ``solve(image.radii, spacing=image.spacing)``.
+
+    Attributes:
+        radii: (M + 1, W), layer 0 the base, in units of length.
+        spacing: s, in units of length.
+        origin: bead (0, 0) of the lattice, in pixels.
+        rotation: of the layers in the image, in degrees.
+        scale: pixels in a unit of length.
+        residual: root mean square distance of the centres from the lattice, over the mean radius.
+    """
+
+    radii: Array
+    spacing: float
+    origin: tuple[float, float]
+    rotation: float
+    scale: float
+    residual: float
+
+    def __repr__(self) -> str:
+        layers, width = self.radii.shape
+        x, y = self.origin
+        return (
+            f"<{layers} layers of {width} beads, mean radius {self.radii.mean():.6g}, spacing "
+            f"{self.spacing:.6g}; origin ({x:.6g}, {y:.6g}), rotation {self.rotation:.4g}°, "
+            f"{self.scale:.6g} pixels a unit; centres lie {self.residual:.2g} r from the lattice>"
+        )
+
+
+@checked
+def read_radii(
+    path: str | Path,
+    *,
+    spacing: float | None = None,
+    scale: float | None = None,
+    rotation: float | None = None,
+    origin: tuple[float, float] | None = None,
+    y_down: bool = True,
+) -> ImageRadii:
+    """Read centres and radii of beads in an image, and put them on the lattice.
+
+    What is not given is fitted: the lattice whose sites have the least sum of squared distances
+    from the centres. Beads are placed one beside the other, from neighbour to neighbour.
+
+    Args:
+        path: a table with columns ``x``, ``y`` and ``r`` or ``radius``, in pixels; other columns
+            are left out. Commas, semicolons or tabs separate them.
+        spacing: s in units of length, from which the scale follows.
+        scale: pixels in a unit of length; 1 if neither is given.
+        rotation: of the layers in degrees, anticlockwise as seen; without it less than 15°.
+        origin: the place (x, y) of bead (0, 0) of the ordered packing, in pixels.
+        y_down: whether y points downwards in the image, as it does in most.
+
+    Raises:
+        TableError: the file can't be read, a bead fits no site, or a site has none or two.
+        SceneError: an argument is not allowed.
+
+    >>> import tempfile
+    >>> base, surface = [(10, 90), (40, 90), (70, 90)], [(25, 76.77), (55, 76.77), (85, 76.77)]
+    >>> table = "x;y;radius\\n" + "".join(f"{x};{y};10\\n" for x, y in base + surface)
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     _ = Path(folder, "beads.csv").write_text(table)
+    ...     image = read_radii(Path(folder, "beads.csv"), spacing=3)
+    >>> image.radii.round(3).tolist(), round(image.scale, 3), round(image.residual, 3)
+    ([[1.0, 1.0, 1.0], [1.0, 1.0, 1.0]], 10.0, 0.0)
+    """
+    if not isinstance(path, str | Path):
+        raise WrongTypeError(f"read_radii takes the path of a file, not {quoted(path)}")
+    for name, value, least in (
+        ("spacing", spacing, 0),
+        ("scale", scale, 0),
+        ("rotation", rotation, -180),
+    ):
+        if value is not None and not (isinstance(value, Real) and least < value < math.inf):
+            raise SceneError(name, value, f"must be a number above {least}")
+    wheres, numbers = [], []
+    for where, header, row in rows_of_table("radii", Path(path), ["x", "y", "r"]):
+        wheres.append(where)
+        numbers.append([float(one) for one in numbers_of(where, header, row)])
+    if len(numbers) < 4:
+        raise TableError(f"radii: {Path(path).name}: a packing has at least 4 beads")
+    x, y, pixels = np.array(numbers).T
+    if not pixels.min() > 0:
+        raise TableError(f"{wheres[int(pixels.argmin())]}: r must be positive")
+    upwards = -1 if y_down else 1
+    places, r = x + upwards * 1j * y, float(pixels.mean())
+    turn = np.exp(1j * math.radians(rotation or 0))
+    i, j = _placed(places / turn, pixels, wheres)
+    known = None if spacing is None or scale is None else float(spacing * scale)
+    fixed = turn if rotation is not None else None
+    start = complex(origin[0], upwards * origin[1]) if origin else None
+    s, ahead, start, sites = _fitted(places, i, j, r, known, fixed, start, Path(path).name)
+    off = np.abs(places - start - ahead * sites) / r
+    worst = int(off.argmax())
+    if off[worst] > OFF:
+        raise TableError(
+            f"{wheres[worst]}: the bead lies {off[worst]:.2g} r from site ({i[worst]}, {j[worst]}) "
+            f"of the lattice, and {OFF} r is allowed"
+        )
+    unit = scale if scale is not None else s / spacing if spacing is not None else 1.0
+    return ImageRadii(
+        radii=_grid(i, j, pixels / unit, wheres),
+        spacing=float(s / unit),
+        origin=(float(start.real), float(upwards * start.imag)),
+        rotation=math.degrees(float(np.angle(ahead))),
+        scale=float(unit),
+        residual=float(np.sqrt((off**2).mean())),
+    )
+
+
+def _fitted(
+    places: Array,
+    i: Array,
+    j: Array,
+    r: float,
+    known: float | None,
+    turn: complex | None,
+    start: complex | None,
+    name: str,
+) -> tuple[float, complex, complex, Array]:
+    """Fit s, the direction of layers, bead (0, 0) and the lattice, by least squares; or keep them.
+
+    Raises ``TableError``.
+    """
+    coordinates = np.stack([np.ones(len(i)), i, j], axis=1)
+    s = known or 2 * float(abs(np.linalg.lstsq(coordinates, places)[0][1]))
+    for _ in range(4):  # the height of a layer depends on s
+        if not 2 * r < s < 2 * math.sqrt(3) * r:
+            raise TableError(
+                f"radii: {name}: neighbours of a layer are {s / r:.4g} r apart, and 2 r to 3.46 r "
+                "are possible: are x, y and r in the same unit, and are layers not turned by more "
+                "than 15° (rotation=…)?"
+            )
+        sites = s / 2 * i + 2j * math.sqrt(r**2 - s**2 / 16) * j
+        centre, middle = (places.mean(), sites.mean()) if start is None else (start, 0)
+        lattice = sites - middle
+        ahead = complex((lattice.conj() * (places - centre)).sum() / (np.abs(lattice) ** 2).sum())
+        if turn is not None:
+            ahead = (ahead / turn).real * turn
+        s *= 1 if known else abs(ahead)
+        ahead /= abs(ahead)
+    return s, ahead, complex((places - ahead * sites).mean() if start is None else start), sites
+
+
+def _placed(places: Array, pixels: Array, wheres: list[str]) -> tuple[Array, Array]:
+    """Name each bead (i, j), going from neighbour to neighbour. Raises ``TableError``."""
+    tree = cKDTree(np.stack([places.real, places.imag], axis=1))
+    pairs = tree.query_pairs(2 * TOUCHING * pixels.max(), output_type="ndarray")
+    apart = places[pairs[:, 1]] - places[pairs[:, 0]]
+    near = np.abs(apart) <= TOUCHING * pixels[pairs].sum(axis=1)
+    pairs, apart = pairs[near], apart[near]
+    across, up = np.sign(apart.real), np.sign(apart.imag)
+    level = np.abs(apart.imag) < math.tan(LEVEL) * np.abs(apart.real)
+    steep = np.abs(apart.real) < math.tan(LEVEL) * np.abs(apart.imag)
+    across, up = np.where(level, 2 * across, across * ~steep), np.where(steep, 2 * up, up * ~level)
+    steps = np.stack([across, up], axis=1).astype(np.int64)
+    neighbours: list[list[tuple[int, Array]]] = [[] for _ in wheres]
+    for (a, b), step in zip(pairs.tolist(), steps, strict=True):
+        neighbours[a].append((b, step))
+        neighbours[b].append((a, -step))
+    names = np.zeros((len(wheres), 2), dtype=np.int64)
+    reached, waiting = {0}, deque([0])
+    while waiting:
+        a = waiting.popleft()
+        for b, step in neighbours[a]:
+            if b not in reached:
+                reached.add(b)
+                names[b] = names[a] + step
+                waiting.append(b)
+    if len(reached) < len(wheres):
+        alone = next(k for k in range(len(wheres)) if k not in reached)
+        raise TableError(f"{wheres[alone]}: the bead touches none of those above it in the table")
+    wrong = (names[pairs[:, 1]] - names[pairs[:, 0]] != steps).any(axis=1)
+    if wrong.any():
+        a, b = pairs[wrong][0]
+        raise TableError(
+            f"{wheres[b]}: the bead fits no site beside that of {wheres[a].rpartition(', ')[2]}: "
+            "is one missing, or are layers turned by more than 15° (rotation=…)?"
+        )
+    i, j = names.T
+    j = j - j.min()
+    return i - i[j == 0].min(), j
+
+
+def _grid(i: Array, j: Array, radii: Array, wheres: list[str]) -> Array:
+    """Radii by layer and column of a periodic packing, (M + 1, W). Raises ``TableError``."""
+    width, layers = int((j == 0).sum()), int(j.max()) + 1
+    column = (i - j % 2) // 2 % width
+    grid, owner = np.zeros((layers, width)), np.full((layers, width), -1)
+    for k, at in enumerate(zip(j.tolist(), column.tolist(), strict=True)):
+        if owner[at] >= 0:
+            raise TableError(
+                f"{wheres[k]}: the bead has the site ({i[k]}, {j[k]}) of that of "
+                f"{wheres[owner[at]].rpartition(', ')[2]}, in layers of {width} beads as the base"
+            )
+        owner[at], grid[at] = k, radii[k]
+    if (owner < 0).any():
+        layer, q = np.argwhere(owner < 0)[0]
+        table = wheres[0].partition(", line")[0]
+        raise TableError(
+            f"{table}: bead ({2 * q + layer % 2}, {layer}) is missing: each layer needs the "
+            f"{width} beads of the base"
+        )
+    return grid
