@@ -110,8 +110,8 @@ class Plan:
             contacts = problem.dimension * (problem.width or 0) * problem.height
             notes.append(
                 f"a typical packing of this scene has tension: about {tension.contacts:.2g} of its "
-                f"{contacts} contacts pull; at this width one does from a height of about "
-                f"{tension.height_of_one} on"
+                f"{contacts} contacts pull; at this width the first one is expected at a height of "
+                f"about {tension.height_of_one}"
             )
         radii = problem.radii
         spread = radii.relative_std()
@@ -158,10 +158,10 @@ class Plan:
 
 
 def plan_lines(data: dict[str, Any]) -> list[str]:
-    """Say in lines of text what a plan holds."""
+    """A plan as lines of text."""
     plan, tension = data["plan"], data["tension"]
     why = f": {plan['reason']}" if plan["reason"] else ""
-    error = plan["expected_error"] or "known when it has run"
+    error = plan["expected_error"] or "known after the run"
     lines = [
         f"Method: {plan['method']}, in {plan['arithmetic']}{why}",
         f"Beads: {plan['beads']}",
@@ -171,9 +171,9 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     lines += [f"Skipped: {s['effect']}: {s['reason']}" for s in data["skipped"]]
     if tension:
         expected, height = tension["expected_contacts"], tension["height_of_one"]
-        low = "at no height allowed" if height is None else f"from a height of about {height} on"
+        low = "at no height allowed" if height is None else f"at a height of about {height}"
         many = f"About {expected:.2g} contacts are" if expected >= 1e-3 else "No contact is"
-        lines.append(f"{many} expected to pull; one does {low}")
+        lines.append(f"{many} expected to pull; the first one would {low}")
     if data["sees_images"]:
-        lines.append("The answer sees periodic images: it is that of the strip, not of the slab")
+        lines.append("The answer depends on periodic images: it is for the strip, not the slab")
     return lines
