@@ -140,18 +140,24 @@ def _cell(value: Any) -> str:
 def latex_table(rows: Sequence[Mapping[str, Any]]) -> str:
     r"""Show rows as an array in LaTeX, which MathJax reads, too.
 
-    >>> print(latex_table([{"j": 0, "std_error": 2.5e-7}]))
-    $\displaystyle\begin{array}{rr}
-    \mathrm{j} & \mathrm{std\_error} \\ \hline
-    0 & 2.5\times10^{-07}
+    >>> print(latex_table([{"j": 0, "component": "force", "std_error": 2.5e-7}]))
+    $\displaystyle\begin{array}{rrr}
+    \mathrm{j} & \mathrm{component} & \mathrm{std\_error} \\ \hline
+    0 & \mathrm{force} & 2.5\times10^{-7}
     \end{array}$
     """
 
     def line(words: Iterable[str]) -> str:
         return " & ".join(words).replace("_", r"\_")
 
+    def cell(value: Any) -> str:
+        text = _text(value)
+        if text[:1].isalpha():
+            return rf"\mathrm{{{text}}}"
+        return re.sub(r"e([+-])0*(\d+)$", r"\\times10^{\1\2}", text)
+
     heads = line(rf"\mathrm{{{name}}}" for name in rows[0])
-    cells = (line(re.sub("e(.*)", r"\\times10^{\1}", _text(v)) for v in r.values()) for r in rows)
+    cells = (line(map(cell, r.values())) for r in rows)
     start = rf"$\displaystyle\begin{{array}}{{{'r' * len(rows[0])}}}"
     return "\n".join([start, heads + r" \\ \hline", " \\\\\n".join(cells), r"\end{array}$"])
 
