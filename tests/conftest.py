@@ -2,6 +2,7 @@
 
 import signal
 from collections import defaultdict
+from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -56,15 +57,26 @@ def pytest_report_header(config: pytest.Config) -> str | None:
 
 
 MANY = 8
-DERIVING = "derivations/", "symbolic/", "cli/test_derive", "cli/test_show", "soundness/test_hostile"
+"""Cases of a slow test, of which CI runs a half."""
+DERIVING = tuple(
+    f"tests/{place}"
+    for place in ("derivations/", "symbolic/", "cli/test_derive", "cli/test_show", "soundness/")
+)
 """Tests that prove equations and work out closed forms: in one process, which does so once."""
 
 
-@pytest.hookimpl(tryfirst=True)
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
+    from xdist.scheduler import LoadScopeScheduling
+
+    class Scheduling(LoadScopeScheduling):
+        def _split_scope(self, nodeid: str) -> str:
+            return "deriving" if nodeid.startswith(DERIVING) else nodeid
+
+    return Scheduling(config, log)
+
+
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    for item in items:
-        if any(f"tests/{place}" in item.nodeid for place in DERIVING):
-            item.add_marker(pytest.mark.xdist_group("derivations"))
     of_ci = config.getoption("--hypothesis-profile") == "ci"
     if not _leaves_out(config) and not of_ci:
         return
