@@ -164,7 +164,7 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     error = plan["expected_error"] or "known after the run"
     lines = [
         f"Method: {plan['method']}, in {plan['arithmetic']}{why}",
-        f"Beads: {plan['beads']}",
+        *([f"Beads: {plan['beads']}"] if plan["beads"] else []),
         f"Memory: about {size(plan['memory_bytes'])}",
         f"Expected error, relative to the largest change: {error}",
     ]
