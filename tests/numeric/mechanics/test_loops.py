@@ -181,12 +181,30 @@ def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
         for layer in layers
     ]
     assert np.concatenate(parts, axis=1).tobytes() == found.tobytes()
+    if width is not None:
+        around = Rows(layers.firsts + 2 * width, layers.counts)
+        assert source.of(around, realisations, FLOAT64).tobytes() == found.tobytes()
+
+
+def test_words_are_those_of_philox() -> None:
+    with np.errstate(over="ignore"):
+        for low, high, k0, k1 in np.random.default_rng(2).integers(1, 2**63, (50, 4)).tolist():
+            numpys = np.random.Philox(key=k0 | k1 << 64, counter=(low - 1) | high << 64)
+            words = drawing.words(*map(np.uint64, (low, high, k0, k1)))
+            assert [int(word) for word in words] == numpys.random_raw(2).tolist()
 
 
 def test_a_drawn_radius_that_is_not_positive_is_named() -> None:
     source = DrawnRadii("normal", Fraction(1, 3), 5, 40)
     with pytest.raises(RadiusError, match="the drawn radius is -"):
         source.of(whole(40, 9).rows, [3, 4], FLOAT64)
+
+
+def test_logarithms_and_cosines_are_right_to_a_few_units_in_the_last_place() -> None:
+    ones = np.random.default_rng(5).random(2000)
+    for x in (ones, ones * 2.0**-50, 1 - ones * 2.0**-30):
+        assert drawing.logarithm(x) == pytest.approx(np.log(x), rel=1e-15, abs=0)
+    assert drawing.cosine_of_turn(ones) == pytest.approx(np.cos(2 * np.pi * ones), abs=2e-15)
 
 
 def test_products_of_words_are_exact() -> None:
