@@ -380,7 +380,7 @@ def test_measured_radii_are_read_exactly(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("dimension", "size", "std"), [(2, (24, 25), "=1e-2"), (3, (6, 8), "=2e-2")]
+    ("dimension", "size", "std"), [(2, (24, 25), "=1e-2"), (3, (5, 7), "=2e-2")]
 )
 def test_contacts_that_pull_are_counted_and_the_first_is_named(
     dimension: int, size: tuple[int, int], std: str
