@@ -16,13 +16,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_570,
-    "derivations": 8_350,
-    "numeric": 10_053,
-    "force_diffusion": 62,
+    "symbolic": 4_463,
+    "derivations": 8_144,
+    "numeric": 10_001,
+    "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 19_570,
+    "tests": 18_112,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
