@@ -8,7 +8,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, Symbol, axioms, differentiate, equation, follows, instance, rewrite,
     terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Load, e_y, epsilon, f_load, k, l,
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, LoadForce, e_y, epsilon, f_load, k, l,
     n_minus, n_plus, n_y, phi, site_r, site_s)
 # fmt: on
 
@@ -17,7 +17,7 @@ LEFT, RIGHT = (k - 1, l - 1), (k + 1, l - 1)
 
 PRINTED = equation(
     terms(
-        Load(k, l),
+        LoadForce(k, l),
         times(terms(n_plus, DeltaNPlus(*LEFT)), ForcePlus(*LEFT)),
         times(terms(n_minus, DeltaNMinus(*RIGHT)), ForceMinus(*RIGHT)),
     ),
@@ -92,7 +92,7 @@ DERIVATION = Derivation(
     name="force_balance",
     title="Force balance of the loaded bead",
     symbols=(
-        (Load(k, l), "load on bead (k, l)"),
+        (LoadForce(k, l), "load on bead (k, l)"),
         (ForcePlus(k - 1, l - 1), "force of the contact from (k−1, l−1), compressive when > 0"),
         (ForceMinus(k + 1, l - 1), "force of the contact from (k+1, l−1)"),
     ),

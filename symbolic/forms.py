@@ -44,7 +44,7 @@ VERTICAL = {
 }
 """The vertical component of a contact's force: the force, and how the contact turns."""
 
-_OF_ORDER_0 = tuple(kind.__name__ for kind in (sy.Position, sy.Load))
+_OF_ORDER_0 = tuple(kind.__name__ for kind in (sy.Position, sy.LoadForce))
 _ACROSS = (sy.i, sy.k, sy.site_r, sy.p, sy.q)
 """Indices that lie across the packing, or may."""
 

@@ -133,7 +133,7 @@ class VerticalMinus(SiteFunction):
     branch = "-"
 
 
-class Load(SiteFunction):
+class LoadForce(SiteFunction):
     """F^load on bead (k, l) (vector)."""
 
     latex_head, text_head, in_code = r"\mathbf{F}^{\mathrm{load}}", "Fˡᵒᵃᵈ", "load"

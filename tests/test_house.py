@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_463,
-    "derivations": 8_144,
+    "derivations": 8_150,
     "numeric": 10_001,
     "force_diffusion": 78,
     "benchmarks": 836,

@@ -12,7 +12,7 @@ from tempfile import TemporaryDirectory
 
 from force_diffusion.numeric.arithmetic.errors import WrongTypeError, checked, quoted
 
-from ..coq.files import Statement, theory, theory_hash
+from ..coq.files import CoqStatement, theory, theory_hash
 from ..coq.folder import ALLOWED, CoqFolder, Notice, axioms_in
 from ..coq.record import Certificate, Certification
 from ..coq.statements import statements
@@ -22,7 +22,7 @@ from ..framework.record import Derivation
 from .equation import NoSuchFormError, equation
 
 
-def stated(numbers: Iterable[Number] | None = None) -> dict[Number, list[Statement]]:
+def stated(numbers: Iterable[Number] | None = None) -> dict[Number, list[CoqStatement]]:
     """What ``certify`` asks of each equation.
 
     Raises:
@@ -38,7 +38,7 @@ def stated(numbers: Iterable[Number] | None = None) -> dict[Number, list[Stateme
     return {n: statements(whole) for n, whole in derivations if isinstance(whole, Derivation)}
 
 
-def sources(asked: Mapping[Number, Sequence[Statement]]) -> dict[str, str]:
+def sources(asked: Mapping[Number, Sequence[CoqStatement]]) -> dict[str, str]:
     """Names and sources of all that Coq reads: the theory, and the files of these statements."""
     files = (statement.files for several in asked.values() for statement in several)
     return theory() | {name: text for each in files for name, text in each.items()}
@@ -81,7 +81,7 @@ def certify(
     return Certification(tuple(certificates), theory_hash())
 
 
-def certificate(coq: CoqFolder, number: Number, asked: Sequence[Statement]) -> Certificate:
+def certificate(coq: CoqFolder, number: Number, asked: Sequence[CoqStatement]) -> Certificate:
     """Read what Coq has said of the statements of one equation."""
     trouble = coq.trouble((*theory(), *(name for statement in asked for name in statement.files)))
     axioms: set[str] = set()

@@ -17,7 +17,7 @@ from ..export.terminal import (
     verdicts_text,
 )
 from ..framework.catalogue import Number, modules
-from ..framework.record import Outcome
+from ..framework.record import ProofOutcome
 from ..framework.runner import run_all
 from .equation import equation
 
@@ -30,7 +30,7 @@ class Derived:
         outcomes: of each equation its verdict and its checks, premises first.
     """
 
-    outcomes: tuple[Outcome, ...]
+    outcomes: tuple[ProofOutcome, ...]
 
     @property
     def verdicts(self) -> dict[Number, Verdict]:
@@ -68,7 +68,7 @@ class Derived:
         }
 
     @property
-    def in_order(self) -> list[Outcome]:
+    def in_order(self) -> list[ProofOutcome]:
         """The outcomes by number, not premises first."""
         place = {number: at for at, number in enumerate(modules())}
         return sorted(self.outcomes, key=lambda each: place.get(each.derivation.number, len(place)))
@@ -93,7 +93,7 @@ def derive(
     numbers: Iterable[Number] | None = None,
     *,
     notice: Callable[[str], None] | None = None,
-    finished: Callable[[Outcome], None] | None = None,
+    finished: Callable[[ProofOutcome], None] | None = None,
 ) -> Derived:
     """Prove equations and all that they rest on.
 

@@ -17,7 +17,7 @@ from ..export.terminal import (
     summary_line,
 )
 from ..framework.proof import Step
-from ..framework.record import Check, Outcome, Statement
+from ..framework.record import Check, ProofOutcome, Statement
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Proof:
         outcomes: all that has been run, premises first; the last is the equation's own.
     """
 
-    outcomes: tuple[Outcome, ...]
+    outcomes: tuple[ProofOutcome, ...]
 
     @property
     def verdict(self) -> Verdict:

@@ -45,7 +45,7 @@ def in_radii(load: str = "") -> tuple[Group, ...]:
 
 
 @dataclass(frozen=True)
-class Load:
+class LoadCase:
     """A load, and the forces in the ordered packing.
 
     Attributes:
@@ -71,14 +71,16 @@ class Load:
     dimension: int = PLANE
 
 
-def _vertical(name: str, key: str, loading: Loading, top: sympy.Symbol, unit: sympy.Expr) -> Load:
-    return Load(name, loading, top, (unit / (2 * n_y),) * 2, unit, partial(in_radii, key))
+def _vertical(
+    name: str, key: str, loading: Loading, top: sympy.Symbol, unit: sympy.Expr
+) -> LoadCase:
+    return LoadCase(name, loading, top, (unit / (2 * n_y),) * 2, unit, partial(in_radii, key))
 
 
-def _leaning(load: str, loading: Loading, layers: sympy.Expr) -> Load:
+def _leaning(load: str, loading: Loading, layers: sympy.Expr) -> LoadCase:
     both = layers * L_plus, layers * t * L_plus
     groups = partial(in_radii, f"leaning {load}")
-    return Load(f"a leaning {load} load", loading, M, both, sum(both) * n_y, groups)
+    return LoadCase(f"a leaning {load} load", loading, M, both, sum(both) * n_y, groups)
 
 
 _POINT_LOAD = _vertical("a load on one bead", "point", axioms.POINT, l, f_load)
@@ -92,12 +94,12 @@ _LEANING = {
 }
 
 
-def _spheres(name: str, factor: sympy.Expr, leaning: bool, top: sympy.Symbol = M) -> Load:
+def _spheres(name: str, factor: sympy.Expr, leaning: bool, top: sympy.Symbol = M) -> LoadCase:
     """A load in three dimensions; forces are in units of what one layer of it gives along n¹."""
     ratios = (sympy.S.One, t_2, t_3) if leaning else (sympy.S.One,) * 3
     ordered = tuple(factor * ratio for ratio in ratios)
     load = "a load on one bead" if top == l else f"a {name} load"
-    return Load(load, SPHERES[name], top, ordered, sympy.Add(*ordered), tuple, dimension=3)
+    return LoadCase(load, SPHERES[name], top, ordered, sympy.Add(*ordered), tuple, dimension=3)
 
 
 _IN_THREE = {
@@ -110,7 +112,7 @@ _IN_THREE = {
 """Loads on packings of spheres, by their names."""
 
 
-def point(across: sympy.Expr, layer: sympy.Expr) -> Load:
+def point(across: sympy.Expr, layer: sympy.Expr) -> LoadCase:
     """A load f_load straight down on the bead (k, l), and nothing else.
 
     Args:
@@ -125,7 +127,7 @@ def point(across: sympy.Expr, layer: sympy.Expr) -> Load:
     return _POINT_LOAD
 
 
-def leaning(ratio: sympy.Expr, load: str = "surface") -> Load:
+def leaning(ratio: sympy.Expr, load: str = "surface") -> LoadCase:
     """A load −(L⁺n⁺ + L⁻n⁻) on every bead of the surface, or on every bead, with L⁻ = ratio · L⁺.
 
     Args:
@@ -148,7 +150,7 @@ def leaning(ratio: sympy.Expr, load: str = "surface") -> Load:
     return replace(_LEANING[load], values=((t, value),))
 
 
-def load_of(load: str | Load, dimension: int = 2) -> Load:
+def load_of(load: str | LoadCase, dimension: int = 2) -> LoadCase:
     """A load by its name, or as it is.
 
     Raises:
@@ -156,7 +158,7 @@ def load_of(load: str | Load, dimension: int = 2) -> Load:
     """
     if dimension not in (2, 3):
         raise ObservableError(f"dimension={dimension!r}: 2 and 3 are allowed")
-    if dimension == PLANE and isinstance(load, Load):
+    if dimension == PLANE and isinstance(load, LoadCase):
         return load
     known = _BY_NAME if dimension == PLANE else _IN_THREE
     if not isinstance(load, str) or load not in known:
@@ -164,7 +166,7 @@ def load_of(load: str | Load, dimension: int = 2) -> Load:
             raise ObservableError(
                 f"load={load!r}: 'surface', 'bulk', point(k, l) and leaning(t) are allowed"
             )
-        shown = load.name if isinstance(load, Load) else repr(load)
+        shown = load.name if isinstance(load, LoadCase) else repr(load)
         either = ", ".join(map(repr, known))
         raise ObservableError(f"load={shown}: {either} are allowed in three dimensions")
     return known[load]

@@ -12,7 +12,7 @@ from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
-from .loads import PLANE, Load, ObservableError
+from .loads import PLANE, LoadCase, ObservableError
 
 DISCS = (sy.ForcePlus, sy.ForceMinus, sy.VerticalPlus, sy.VerticalMinus)
 """Forces of contacts between discs."""
@@ -197,7 +197,7 @@ def relations_of(where: Any) -> tuple[sympy.Basic, ...]:
     return several
 
 
-def domain(observables: Iterable[sympy.Expr], load: Load, *more: sympy.Basic) -> Domain:
+def domain(observables: Iterable[sympy.Expr], load: LoadCase, *more: sympy.Basic) -> Domain:
     """Where all contacts and beads that are named exist, and further relations hold.
 
     Raises:

@@ -13,7 +13,7 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
 from ..framework.closed_form import ClosedForm
-from .loads import PLANE, Load, ObservableError, in_radii, load_of
+from .loads import PLANE, LoadCase, ObservableError, in_radii, load_of
 from .observables import ACROSS, SPHERES, domain, layer_of, read, relations_of
 
 
@@ -88,7 +88,7 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
 def variance(
     observable: sympy.Expr,
     *,
-    load: str | Load = "surface",
+    load: str | LoadCase = "surface",
     relative: bool = True,
     dimension: int = 2,
     where: sympy.Basic | Iterable[sympy.Basic] = (),
@@ -120,7 +120,7 @@ def covariance(
     first: sympy.Expr,
     second: sympy.Expr,
     *,
-    load: str | Load = "surface",
+    load: str | LoadCase = "surface",
     relative: bool = True,
     dimension: int = 2,
     where: sympy.Basic | Iterable[sympy.Basic] = (),
@@ -134,7 +134,7 @@ def mean(
     observable: sympy.Expr,
     *,
     order: int = 1,
-    load: str | Load = "surface",
+    load: str | LoadCase = "surface",
     relative: bool = True,
     dimension: int = 2,
     where: sympy.Basic | Iterable[sympy.Basic] = (),
@@ -161,7 +161,7 @@ def mean(
 def _closed(
     kind: type[sy.Moment],
     observables: Iterable[sympy.Expr],
-    load: str | Load,
+    load: str | LoadCase,
     relative: bool,
     dimension: int,
     where: sympy.Basic | Iterable[sympy.Basic],
@@ -210,7 +210,7 @@ def _may_vanish(divisor: sympy.Expr) -> bool:
     return not divisor.is_positive and bool(constants) and constants == divisor.free_symbols
 
 
-def _scales(statistic: sympy.Expr, load: Load) -> dict[sympy.Expr, sympy.Expr]:
+def _scales(statistic: sympy.Expr, load: LoadCase) -> dict[sympy.Expr, sympy.Expr]:
     """Every quantity over what it is compared with."""
     scales = {}
     for quantity in statistic.atoms(sy.SiteFunction, *SPHERES):

@@ -18,7 +18,7 @@ from .output import Output, OutputError, Overwrite, folder_of, out_option
 from .shared import Json, noticing
 
 if TYPE_CHECKING:
-    from ..framework.record import Outcome
+    from ..framework.record import ProofOutcome
 
 
 def derive(
@@ -58,7 +58,7 @@ def derive(
             raise OutputError(f"'{article}' is that of --out, too. Give another folder.")
         paper = Output(article, names_of_files(), overwrite)
 
-    def finished(outcome: "Outcome") -> None:
+    def finished(outcome: "ProofOutcome") -> None:
         notice("")
         if not as_json and wanted == [outcome.derivation.number]:
             print(f"\n{outcome_text(outcome)}", flush=True)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from ..api.equation import Equation
 
 
-class Form(StrEnum):
+class OutputForm(StrEnum):
     """How ``show`` prints an equation."""
 
     TEXT = "text"
@@ -46,7 +46,7 @@ def equation_number(word: str) -> Number:
 
 def show(
     numbers: Annotated[list[str], typer.Argument(metavar="N", help="Numbers of equations.")],
-    form: Annotated[Form, typer.Option("--as", help="How to print it.")] = Form.TEXT,
+    form: Annotated[OutputForm, typer.Option("--as", help="How to print it.")] = OutputForm.TEXT,
     exact: Annotated[
         bool,
         typer.Option("--exact", help="Print the exact forms at finite size, if there are any."),
@@ -54,13 +54,13 @@ def show(
     columns: Columns = 1,
 ) -> None:
     """Print equations without deriving them."""
-    if exact and form is Form.STEPS:
+    if exact and form is OutputForm.STEPS:
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
     wanted = [*map(equation_number, numbers)]  # before SymPy is imported
     equations = [*map(fd.equation, wanted)]
-    if form is Form.JSON:
+    if form is OutputForm.JSON:
         print(json.dumps({"equations": [equation.data() for equation in equations]}, indent=2))
         return
     written = []
@@ -69,20 +69,20 @@ def show(
     print("\n\n".join(written))
 
 
-def _written(equation: "Equation", form: Form, columns: int) -> str:
+def _written(equation: "Equation", form: OutputForm, columns: int) -> str:
     match form:
-        case Form.LATEX:
+        case OutputForm.LATEX:
             return _displayed(equation.displays(columns))
-        case Form.SYMPY:
+        case OutputForm.SYMPY:
             return equation.sympy_code()
-        case Form.PYTHON:
+        case OutputForm.PYTHON:
             return equation.python_code()
-        case Form.STEPS:
+        case OutputForm.STEPS:
             return str(equation.steps())
     return str(equation)
 
 
-def _exact(equation: "Equation", form: Form, columns: int) -> list[str]:
+def _exact(equation: "Equation", form: OutputForm, columns: int) -> list[str]:
     """The exact forms, each with its name."""
     from force_diffusion.symbolic.printing.code import sympy_source
 
@@ -94,11 +94,11 @@ def _exact(equation: "Equation", form: Form, columns: int) -> list[str]:
         raise typer.BadParameter(str(unknown), param_hint="--exact") from None
     forms = {name: equation.exact(name) for name in equation.forms}
     match form:
-        case Form.LATEX:
+        case OutputForm.LATEX:
             return [_displayed(exact.displays(columns)) for exact in forms.values()]
-        case Form.SYMPY:
+        case OutputForm.SYMPY:
             return [sympy_source(exact.expr) for exact in forms.values()]
-        case Form.PYTHON:
+        case OutputForm.PYTHON:
             return [exact.python(f"{equation.name}_{name}") for name, exact in forms.items()]
     return [f"Eq. {equation.number}, {name}: {exact}" for name, exact in forms.items()]
 

@@ -53,7 +53,7 @@ WORDS = (
 
 
 @dataclass(frozen=True)
-class Statement:
+class CoqStatement:
     """One printed equation in Coq, in three files.
 
     The first imports nothing but the words of ``Model.v`` and ``Roots.v``: no other file of the

@@ -17,7 +17,7 @@ from force_diffusion.symbolic.words import Style, parts
 
 from ..framework.catalogue import Number
 from ..framework.record import Derivation
-from .files import Companion, Statement
+from .files import Companion, CoqStatement
 from .words import FIXED, HEIGHT, argument, index, words
 
 _OF_RHO = "fun rho e => let X := Xs rho in let F := Fs rho in"
@@ -42,7 +42,7 @@ def _relation(relation: sympy.Basic) -> str:
 
 
 @dataclass(frozen=True)
-class Load:
+class CoqLoad:
     """A load in the words of ``Model.v``: what is quantified and supposed on its account.
 
     ``example`` is a value of the variable; ``mean`` the force of a contact in the ordered packing.
@@ -55,17 +55,17 @@ class Load:
     supposed: tuple[str, ...] = ("0 < f_load",)
 
 
-def _entered(entering: str, other: str, loaded: str) -> Load:
+def _entered(entering: str, other: str, loaded: str) -> CoqLoad:
     """Any loads but on bead (r, s), which one force of the two contacts above it enters."""
     alone = f"{other} F site_r site_s e = 0 /\\ {entering} F site_r site_s e <> 0"
     supposed = ("load site_r site_s = zero", f"near (fun e => {alone})")
-    return Load("load", "", "(load : Z -> Z -> vector)", f"(single {loaded} 6 5)", supposed)
+    return CoqLoad("load", "", "(load : Z -> Z -> vector)", f"(single {loaded} 6 5)", supposed)
 
 
 LOADS = {
-    "single": Load("single k l f_load"),
-    "surface": Load("surface M f_load", "f_load / (2 * n_y G)"),
-    "bulk": Load("bulk f_load", "(IZR M - IZR j) * (f_load / (2 * n_y G))"),
+    "single": CoqLoad("single k l f_load"),
+    "surface": CoqLoad("surface M f_load", "f_load / (2 * n_y G)"),
+    "bulk": CoqLoad("bulk f_load", "(IZR M - IZR j) * (f_load / (2 * n_y G))"),
     "any": _entered("f_plus", "f_minus", "2"),
     "any, mirrored": _entered("f_minus", "f_plus", "(-2)"),
 }
@@ -75,7 +75,7 @@ def _about(
     numbers: str,
     example: Iterable[object],
     conditions: Iterable[str],
-    load: Load | None,
+    load: CoqLoad | None,
     *,
     random: bool,
 ) -> tuple[tuple[str, ...], Companion]:
@@ -153,7 +153,7 @@ def _near(quantity: str, size: str) -> Callable[[sympy.Eq], str]:
 
 
 @dataclass(frozen=True)
-class Frame:
+class Setting:
     """What an equation is about, besides what its derivation says: ranges, sites and the load.
 
     Attributes:
@@ -169,32 +169,32 @@ class Frame:
     random: bool = False
 
 
-def _variance(size: str) -> Frame:
+def _variance(size: str) -> Setting:
     every_contact = ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
     conclude = _near("f_plus F i j", size)
-    return Frame(_AT, conclude, every_contact, random=True)
+    return Setting(_AT, conclude, every_contact, random=True)
 
 
 _BELOW = {sy.M: 7, sy.k: 6, sy.l: 6}
 _AT = {sy.M: 7, sy.i: 1, sy.j: 3}
 _BELOW_AT_A_DISTANCE = {sy.M: 7, sy.k: 2, sy.l: 6, sy.i: 1, sy.j: 1, sy.p: 3, sy.q: 2}
 
-FRAMES: dict[Number, Frame] = {
-    1: Frame(_AT, _exactly),
-    2: Frame(_AT),
-    3: Frame(_AT),
-    4: Frame(_AT),
-    5: Frame(_AT),
-    6: Frame(_BELOW, _exactly),
-    7: Frame(_BELOW),
-    8: Frame({sy.M: 7, sy.site_r: 1, sy.site_s: 5}),
-    9: Frame({**_BELOW, sy.i: 4, sy.j: 4}),
-    10: Frame({**_BELOW, sy.i: 5, sy.j: 1, sy.n: 2}),
-    11: Frame(_AT),
-    12: Frame(_AT, _up_to_variance("29 * IZR M ^ 2"), random=True),
+SETTINGS: dict[Number, Setting] = {
+    1: Setting(_AT, _exactly),
+    2: Setting(_AT),
+    3: Setting(_AT),
+    4: Setting(_AT),
+    5: Setting(_AT),
+    6: Setting(_BELOW, _exactly),
+    7: Setting(_BELOW),
+    8: Setting({sy.M: 7, sy.site_r: 1, sy.site_s: 5}),
+    9: Setting({**_BELOW, sy.i: 4, sy.j: 4}),
+    10: Setting({**_BELOW, sy.i: 5, sy.j: 1, sy.n: 2}),
+    11: Setting(_AT),
+    12: Setting(_AT, _up_to_variance("29 * IZR M ^ 2"), random=True),
     13: _variance("(2 * IZR M ^ 2 + IZR M)"),
     14: _variance("(3 / 8 * IZR M ^ 2 + 5 / 4 * IZR M)"),
-    16: Frame(
+    16: Setting(
         _BELOW_AT_A_DISTANCE,
         _near("pressed_down X F i j", "47"),
         (
@@ -222,33 +222,37 @@ def _ranges(derivation: Derivation, *, mirrored: bool) -> tuple[sympy.Basic, ...
 def _spoken_of(side: sympy.Expr) -> Iterator[str]:
     """Beads and contacts of the left-hand side: those of the packing."""
     for site in sorted(side.atoms(sy.SiteFunction), key=str):
-        bead = isinstance(site, sy.DeltaR | sy.DeltaX | sy.Position | sy.Load)
+        bead = isinstance(site, sy.DeltaR | sy.DeltaX | sy.Position | sy.LoadForce)
         at = " ".join(argument(index(place)) for place in site.args)
         yield f"{'bead' if bead else 'contact'} M {at}"
 
 
-def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> Statement:
+def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> CoqStatement:
     """State a printed equation of a derivation, or its mirror image."""
-    number, frame, printed = derivation.number, FRAMES[derivation.number], derivation.printed[part]
+    number, setting, printed = (
+        derivation.number,
+        SETTINGS[derivation.number],
+        derivation.printed[part],
+    )
     name = f"equation_{number}" + (f"_part_{part + 1}" if len(derivation.printed) > 1 else "")
     load = LOADS[derivation.loads[0]] if derivation.loads else None
-    example = dict(frame.example)
+    example = dict(setting.example)
     if mirrored:
         name, printed = f"{name}_mirrored", mirror(printed)
         load = LOADS["any, mirrored"] if load is LOADS["any"] else load
         example |= {symbol: -example[symbol] for symbol in _HORIZONTAL if symbol in example}
     ranges = map(_relation, _ranges(derivation, mirrored=mirrored))
-    sites = dict.fromkeys((*_spoken_of(printed.lhs), *ranges, *frame.conditions))
+    sites = dict.fromkeys((*_spoken_of(printed.lhs), *ranges, *setting.conditions))
     free = "(Z.abs i + M + 2 <= W)%Z"  # no horizontal boundary is met within a height
     symbols, values = [symbol.in_code for symbol in example], [*example.values()]
-    if frame.random:
+    if setting.random:
         symbols, values = [*symbols, "W"], [*values, example[sy.M] + abs(example[sy.i]) + 2]
     before, something = _about(
         f"({' '.join(symbols)} : Z)",
         _integers(values),
-        (*sites, *([free] if frame.random else [])),
+        (*sites, *([free] if setting.random else [])),
         load,
-        random=frame.random,
+        random=setting.random,
     )
     companions = [something]
     sums = (total.limits[0] for total in sorted(printed.atoms(sympy.Sum), key=str))
@@ -256,12 +260,12 @@ def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> S
         indices = " ".join(symbol.in_code for symbol in example)
         says = f"forall {indices} : Z,\n  {_all(sites)} -> {_all(orders)}"
         companions.append(Companion("sums_in_order", says, "site."))
-    return Statement(
-        name, before, frame.conclude(printed), f"prove_{number}", (*companions,), (*sites,)
+    return CoqStatement(
+        name, before, setting.conclude(printed), f"prove_{number}", (*companions,), (*sites,)
     )
 
 
-def _averages(derivation: Derivation) -> Statement:
+def _averages(derivation: Derivation) -> CoqStatement:
     """Eq. 15 for its loads: in proportion, by constants that depend on φ alone."""
     deviation, height = derivation.printed
     proportional = f"(c (phi G) * ({words(deviation.rhs)}))"
@@ -292,13 +296,13 @@ def _averages(derivation: Derivation) -> Statement:
             )
         )
         claims.append(claim)
-    return Statement("equation_15", (), _all(claims), "prove_15", (*companions,), layers)
+    return CoqStatement("equation_15", (), _all(claims), "prove_15", (*companions,), layers)
 
 
 # What is stated beside the printed equations
 
 
-def _exact(derivation: Derivation) -> Statement:
+def _exact(derivation: Derivation) -> CoqStatement:
     """Mean and variance of one contact's force in every layer."""
     printed, statistic = statement(derivation, 0), words(derivation.printed[0].lhs)
     (form,) = derivation.exact_forms.values()
@@ -322,7 +326,7 @@ def _all_of(relations: Iterable[sympy.Basic]) -> str:
     return "(" + " /\\ ".join(f"({relation})%Z" for relation in parts(relations, _IN_COQ)) + ")"
 
 
-def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> Statement:
+def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> CoqStatement:
     """Beside Eqs. 9 and 10: no other contact below a loaded bead bears a force to first order."""
     force, across, name = sy.ForcePlus(sy.i, sy.j), ("k - i", "i - k"), "equation_10_else_nothing"
     if mirrored:
@@ -336,10 +340,10 @@ def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> Statemen
         random=False,
     )
     nothing = _to_first_order(sympy.Eq(force, sympy.S.Zero, evaluate=False))
-    return Statement(name, before, nothing, "prove_nothing_else", (something,))
+    return CoqStatement(name, before, nothing, "prove_nothing_else", (something,))
 
 
-def _second_difference(_derivation: Derivation) -> Statement:
+def _second_difference(_derivation: Derivation) -> CoqStatement:
     """Beside Eq. 12: the variance of one Δ."""
     delta = words(sy.SecondDifference(sy.i, sy.j)).removesuffix(" e")
     window = "within W M (i - 2) j /\\ within W M i j /\\ within W M (i + 2) j"
@@ -350,7 +354,7 @@ def _second_difference(_derivation: Derivation) -> Statement:
         "destruct (law_exists 3 2 1) as [L _]. exists 1, 2%Z, 3%Z, L, 0%Z, 0%Z.\n"
         "  unfold within, bead; lia.",
     )
-    return Statement(
+    return CoqStatement(
         "equation_12_second_difference",
         (f"  forall {law},", f"  {window} ->"),
         f"variance L (fun rho => {delta} 1) = 6 * sigma ^ 2",
@@ -359,7 +363,7 @@ def _second_difference(_derivation: Derivation) -> Statement:
     )
 
 
-def _maximum(derivation: Derivation) -> Statement:
+def _maximum(derivation: Derivation) -> CoqStatement:
     """Beside Eq. 14: the printed form is largest at z = 1/6, and there alone."""
     printed = derivation.printed[0].rhs
     here, top = words(printed), words(printed.xreplace({sy.z: sympy.Rational(1, 6)}))
@@ -369,7 +373,7 @@ def _maximum(derivation: Derivation) -> Statement:
         f"exists (G : lattice) (sigma : R) (M j : Z),\n  {_all(layer)} /\\ (M = 6 * j)%Z",
         "destruct some_lattice as [G _]. exists G, 1, 6%Z, 1%Z.\n  repeat split; (lia || lra).",
     )
-    return Statement(
+    return CoqStatement(
         "equation_14_maximum",
         ("  forall (G : lattice) (sigma : R) (M j : Z),", *(f"  {each} ->" for each in layer)),
         f"{here} <= {top} /\\\n  ({here} = {top} -> (M = 6 * j)%Z)",
@@ -378,7 +382,7 @@ def _maximum(derivation: Derivation) -> Statement:
     )
 
 
-BESIDE: dict[Number, tuple[Callable[[Derivation], Statement], ...]] = {
+BESIDE: dict[Number, tuple[Callable[[Derivation], CoqStatement], ...]] = {
     10: (_nothing_else, partial(_nothing_else, mirrored=True)),
     12: (_second_difference,),
     13: (_exact,),
@@ -386,7 +390,7 @@ BESIDE: dict[Number, tuple[Callable[[Derivation], Statement], ...]] = {
 }
 
 
-def statements(derivation: Derivation) -> list[Statement]:
+def statements(derivation: Derivation) -> list[CoqStatement]:
     """The printed equations in Coq, part by part, mirror images, and what is stated beside them."""
     number = derivation.number
     if number == 15:

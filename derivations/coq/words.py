@@ -12,7 +12,7 @@ from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.str import StrPrinter
 
 HEIGHT = sympy.Symbol("M_star", positive=True)  # the height of Eq. 15, a real number
-FIXED = {sy.Position: "position X", sy.Load: "single k l f_load"}
+FIXED = {sy.Position: "position X", sy.LoadForce: "single k l f_load"}
 """Quantities that do not depend on ε."""
 _SITES = FIXED | {
     sy.DeltaR: "delta_r rho",

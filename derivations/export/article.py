@@ -14,7 +14,7 @@ from importlib.resources import files
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.figures.names import FIGURES
 
-from ..framework.record import Outcome
+from ..framework.record import ProofOutcome
 from .prose import prose_latex, text_latex
 from .quoted import quoted
 from .supplement import SUPPLEMENT, supplement
@@ -77,7 +77,7 @@ def names_of_files() -> list[str]:
 
 
 def article_and_figures(
-    outcomes: Sequence[Outcome], command: str, notice: Callable[[str], None]
+    outcomes: Sequence[ProofOutcome], command: str, notice: Callable[[str], None]
 ) -> dict[str, str | bytes]:
     """Give the article, its supplement and its figures by file name.
 

@@ -15,7 +15,7 @@ from ..coq.record import recorded
 from ..framework.catalogue import Number
 from ..framework.display import over_common, with_commas
 from ..framework.proof import Step
-from ..framework.record import Outcome, Statement
+from ..framework.record import ProofOutcome, Statement
 from .prose import prose_latex
 
 DOCUMENT, MANIFEST = "equations.tex", "manifest.json"
@@ -96,7 +96,7 @@ def _aside(title: str, parts: Iterable[str]) -> str:
     return f"\\aside{{\\emph{{{title}:}} {listed}.}}\n" if listed else ""
 
 
-def section_latex(outcome: Outcome, explained: str = "") -> str:
+def section_latex(outcome: ProofOutcome, explained: str = "") -> str:
     """One equation and its steps; symbols that stand in what is ``explained`` are not again."""
     derivation, number = outcome.derivation, outcome.derivation.number
     proof = derivation.proof if outcome.verdict.is_proved else None
@@ -133,7 +133,7 @@ def section_latex(outcome: Outcome, explained: str = "") -> str:
     return "".join(parts)
 
 
-def _sections(outcomes: Iterable[Outcome], explained: str) -> str:
+def _sections(outcomes: Iterable[ProofOutcome], explained: str) -> str:
     """The paper's equations; each symbol is explained where it comes first."""
     sections = []
     for outcome in outcomes:
@@ -143,7 +143,7 @@ def _sections(outcomes: Iterable[Outcome], explained: str) -> str:
     return "\n".join(sections)
 
 
-def _verdicts(outcomes: Iterable[Outcome]) -> str:
+def _verdicts(outcomes: Iterable[ProofOutcome]) -> str:
     rows = (
         f"({of.derivation.number}) & {prose_latex(of.derivation.title)} & "
         f"{prose_latex(of.words)} & {recorded(of.derivation.number).partition(' by ')[0]} \\\\\n"
@@ -157,7 +157,7 @@ def _verdicts(outcomes: Iterable[Outcome]) -> str:
     )
 
 
-def document(outcomes: Sequence[Outcome]) -> str:
+def document(outcomes: Sequence[ProofOutcome]) -> str:
     """The paper's equations with their steps, and the verdicts on all."""
     beside = files("force_diffusion.derivations.export")
     frame = (beside / DOCUMENT).read_text(encoding="utf-8")

@@ -15,7 +15,7 @@ from ..framework.closed_form import ClosedForm
 from ..framework.layers import UNIT
 from ..framework.lists import both
 from ..framework.loading import load
-from ..framework.record import Outcome
+from ..framework.record import ProofOutcome
 from ..framework.rows import Row
 from .prose import prose_latex, text_latex
 from .terminal import verdicts_text
@@ -48,7 +48,7 @@ _TWICE = "B11", "B20"
 """Rows whose forms are those of others."""
 
 
-def supplement(outcomes: Sequence[Outcome]) -> str:
+def supplement(outcomes: Sequence[ProofOutcome]) -> str:
     """The supplement as LaTeX; it says what the run that writes it has derived."""
     rows = (load(label) for label in modules() if label not in _TWICE)
     tables = "".join(_tables(row) for row in rows if isinstance(row, Row))
@@ -56,7 +56,7 @@ def supplement(outcomes: Sequence[Outcome]) -> str:
     return f"{_HEAD}{about}\n\n\\medskip\n{tables}\\end{{document}}\n"
 
 
-def verdicts(outcomes: Sequence[Outcome]) -> str:
+def verdicts(outcomes: Sequence[ProofOutcome]) -> str:
     """What the run that writes the article has derived."""
     derived = {outcome.derivation.number for outcome in outcomes}
     missing = [str(label) for label in modules() if label not in derived]

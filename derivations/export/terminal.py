@@ -15,7 +15,7 @@ from force_diffusion.symbolic.words import in_words as where_in_words
 from ..coq.record import recorded
 from ..framework.lists import both
 from ..framework.proof import Step
-from ..framework.record import Check, Outcome, Statement
+from ..framework.record import Check, ProofOutcome, Statement
 
 _PAIR = re.compile(r"\((\S+), (\S+)\)")
 
@@ -47,7 +47,7 @@ def refuted_text(derivation: Statement) -> list[str]:
     return lines
 
 
-def verdicts_text(outcomes: Iterable[Outcome]) -> str:
+def verdicts_text(outcomes: Iterable[ProofOutcome]) -> str:
     """How many equations have which verdict, in words."""
     counts = Counter(outcome.words for outcome in outcomes)
     return "; ".join(f"{count} {words.replace(',', '')}" for words, count in counts.items())
@@ -122,7 +122,7 @@ def check_text(check: Check) -> str:
     return _paragraph(head + (f". {check.note}" if check.note else ""), "  - ", "    ")
 
 
-def outcome_text(outcome: Outcome) -> str:
+def outcome_text(outcome: ProofOutcome) -> str:
     """A derivation from its title to its verdict."""
     derivation = outcome.derivation
     if not outcome.verdict.is_proved:
@@ -135,7 +135,7 @@ def outcome_text(outcome: Outcome) -> str:
     return "\n".join(parts)
 
 
-def summary_line(outcome: Outcome) -> str:
+def summary_line(outcome: ProofOutcome) -> str:
     """One line for one equation: its number, verdict and title, and the seconds it took."""
     derivation = outcome.derivation
     return (
@@ -144,7 +144,7 @@ def summary_line(outcome: Outcome) -> str:
     )
 
 
-def trouble_lines(outcome: Outcome) -> list[str]:
+def trouble_lines(outcome: ProofOutcome) -> list[str]:
     """What kept an equation from being proved."""
     return [
         check_text(check)
@@ -166,7 +166,7 @@ def statement_data(derivation: Statement) -> dict[str, Any]:
     }
 
 
-def outcomes_data(outcomes: Iterable[Outcome], *, timed: bool = True) -> dict[str, Any]:
+def outcomes_data(outcomes: Iterable[ProofOutcome], *, timed: bool = True) -> dict[str, Any]:
     """What ``derive --json`` prints; verdicts are words, times, if they are wanted, seconds."""
     equations = [
         {

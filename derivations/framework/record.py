@@ -223,7 +223,7 @@ class Check:
 
 
 @dataclass(frozen=True)
-class Outcome:
+class ProofOutcome:
     """All that proving one equation found."""
 
     derivation: Statement

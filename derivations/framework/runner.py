@@ -10,7 +10,7 @@ from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from .catalogue import Number
 from .loading import with_premises
 from .proof import Step
-from .record import Check, Outcome, Statement
+from .record import Check, ProofOutcome, Statement
 from .rows import Row
 
 Watch = Callable[[Statement], None]
@@ -59,7 +59,7 @@ def checks(statement: Statement) -> Iterator[Check]:
         yield Check("refutation", reading.reading, Verdict.REFUTED, reading.reason)
 
 
-def run(statement: Statement) -> Outcome:
+def run(statement: Statement) -> ProofOutcome:
     """Prove all of one equation; what is not proved makes it undecided."""
     try:
         found = tuple(checks(statement))
@@ -67,7 +67,7 @@ def run(statement: Statement) -> Outcome:
     except (NotProvedError, LookupError) as reason:
         found = (Check("proof", "its derivation", Verdict.UNDECIDED, str(reason)),)
         seconds = 0.0
-    return Outcome(statement, _overall(found), found, seconds)
+    return ProofOutcome(statement, _overall(found), found, seconds)
 
 
 def _overall(found: Iterable[Check]) -> Verdict:
@@ -79,7 +79,7 @@ def _overall(found: Iterable[Check]) -> Verdict:
     return Verdict.PROVED
 
 
-def run_all(numbers: Iterable[Number], watch: Watch = lambda _: None) -> Iterator[Outcome]:
+def run_all(numbers: Iterable[Number], watch: Watch = lambda _: None) -> Iterator[ProofOutcome]:
     """Prove equations and all that they rest on, premises first."""
     with _rarely_collected():
         for statement in with_premises(numbers, watch):

@@ -76,7 +76,7 @@ def balance() -> Theorem:
     """Load and contact forces of a bead (r, s), s ≥ 1, add up to zero; there is no friction."""
     here, left, right = (site_r, site_s), (site_r - 1, site_s - 1), (site_r + 1, site_s - 1)
     forces = (
-        sy.Load(*here),
+        sy.LoadForce(*here),
         (n_plus + sy.DeltaNPlus(*left)) * sy.ForcePlus(*left),
         (n_minus + sy.DeltaNMinus(*right)) * sy.ForceMinus(*right),
         -(n_plus + sy.DeltaNPlus(*here)) * sy.ForcePlus(*here),
@@ -115,7 +115,7 @@ def _zero(quantity: sympy.Expr) -> sympy.Eq:
 
 
 _BEAD = (sy.site_r, sy.site_s)
-_DOWN = sympy.Eq(sy.Load(sy.k, sy.l), -sy.f_load * sy.e_y, evaluate=False)
+_DOWN = sympy.Eq(sy.LoadForce(sy.k, sy.l), -sy.f_load * sy.e_y, evaluate=False)
 _NOTHING_ABOVE = (_zero(_PLUS(sy.k, sy.l)), _zero(_MINUS(sy.k, sy.l)))
 
 LOADED = Loading("loaded", "bead (k, l) carries nothing but its load", (sy.k, sy.l), _NOTHING_ABOVE)
@@ -133,7 +133,7 @@ PASSING = Loading(
     "passing",
     "bead (r, s) carries no load of its own, and f⁺_rs alone enters it",
     _BEAD,
-    (_zero(sy.Load(*_BEAD)), _zero(_MINUS(*_BEAD))),
+    (_zero(sy.LoadForce(*_BEAD)), _zero(_MINUS(*_BEAD))),
 )
 """A bead that one contact force passes."""
 
@@ -143,7 +143,7 @@ ENTERING = Loading(
     (sy.k, sy.l),
     (),
     (
-        (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.l - 1,)),
+        (_zero(sy.LoadForce(*_BEAD)), (sy.site_s <= sy.l - 1,)),
         (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l - 1),)),
         (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l - 1), sy.site_r <= sy.k - 2)),
         (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l - 1), sy.site_r >= sy.k)),
@@ -156,12 +156,12 @@ _FREE_SURFACE = ((_zero(_PLUS(*_BEAD)), (_AT_SURFACE,)), (_zero(_MINUS(*_BEAD)),
 
 
 def _carries(load: sympy.Expr, *where: sympy.Basic) -> tuple[sympy.Eq, tuple[sympy.Basic, ...]]:
-    return sympy.Eq(sy.Load(*_BEAD), load, evaluate=False), where
+    return sympy.Eq(sy.LoadForce(*_BEAD), load, evaluate=False), where
 
 
 def _on_surface(name: str, words: str, load: sympy.Expr) -> Loading:
     """A load on each bead of the surface j = M."""
-    none_below = (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.M - 1,))
+    none_below = (_zero(sy.LoadForce(*_BEAD)), (sy.site_s <= sy.M - 1,))
     everywhere = (none_below, _carries(load, _AT_SURFACE), *_FREE_SURFACE)
     return Loading(name, words, (sy.M,), (), everywhere)
 
@@ -211,9 +211,9 @@ POINT = Loading(
     (sy.k, sy.l),
     (_DOWN,),
     (
-        (_zero(sy.Load(*_BEAD)), (sy.site_s <= sy.l - 1,)),
-        (_zero(sy.Load(*_BEAD)), _LEFT_OF_IT),
-        (_zero(sy.Load(*_BEAD)), tuple(map(lattice.mirrored_relation, _LEFT_OF_IT))),
+        (_zero(sy.LoadForce(*_BEAD)), (sy.site_s <= sy.l - 1,)),
+        (_zero(sy.LoadForce(*_BEAD)), _LEFT_OF_IT),
+        (_zero(sy.LoadForce(*_BEAD)), tuple(map(lattice.mirrored_relation, _LEFT_OF_IT))),
         (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l),)),
         (_zero(_MINUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l),)),
     ),

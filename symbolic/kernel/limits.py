@@ -30,7 +30,7 @@ from ..weights import Weights
 from .domain import Domain, Limit
 from .refuted import other_order
 from .rules import Rule
-from .statistics import Statistics, worked_out
+from .statistics import MomentReader, worked_out
 from .theorem import (
     FalseStatementError,
     Group,
@@ -223,7 +223,7 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
     held = set().union(*(one.free_symbols for one in domain.relations))
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
     try:
-        form = Statistics.on(finite, groups).in_radii(_at_height(expression, domain))
+        form = MomentReader.on(finite, groups).in_radii(_at_height(expression, domain))
     except NotAStatementError:
         raise
     except NotExactError as reason:

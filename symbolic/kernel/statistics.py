@@ -58,7 +58,7 @@ SPHERES = {
 
 
 @dataclass(frozen=True, eq=False)
-class Statistics(Reader):
+class MomentReader(Reader):
     """Reads numbers, and moments of what is linear in the radii.
 
     Attributes:
@@ -70,7 +70,7 @@ class Statistics(Reader):
     groups: tuple[Group, ...] = ()
 
     @classmethod
-    def on(cls, domain: Domain, groups: Iterable[Group] = ()) -> "Statistics":
+    def on(cls, domain: Domain, groups: Iterable[Group] = ()) -> "MomentReader":
         """Those on a domain."""
         return cls(domain.points, domain.straight, domain=domain, groups=tuple(groups))
 
@@ -120,7 +120,7 @@ class Statistics(Reader):
 @lru_cache(maxsize=256)
 def worked_out(expression: sympy.Expr, domain: Domain, groups: tuple[Group, ...]) -> Form:
     """An expression in moments as a form, on a domain at finite size."""
-    reader = Statistics.on(domain, groups)
+    reader = MomentReader.on(domain, groups)
     return reader.number(expression).on(reader.points).merged()
 
 

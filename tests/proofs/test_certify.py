@@ -11,7 +11,7 @@ import pytest
 import sympy
 from force_diffusion.derivations.api import certificates
 from force_diffusion.derivations.api.certificates import certificate, certify
-from force_diffusion.derivations.coq.files import Statement, theory
+from force_diffusion.derivations.coq.files import CoqStatement, theory
 from force_diffusion.derivations.coq.folder import ALLOWED, CoqFolder
 from force_diffusion.derivations.coq.record import Certificate, Certification
 from force_diffusion.derivations.coq.statements import statements
@@ -47,7 +47,7 @@ def coq(folder: Path, certified: Certification) -> CoqFolder:
     return CoqFolder(folder)
 
 
-def accepted(coq: CoqFolder, asked: dict[str, Statement]) -> dict[str, Certificate]:
+def accepted(coq: CoqFolder, asked: dict[str, CoqStatement]) -> dict[str, Certificate]:
     """What Coq says of statements, each in files of its own."""
     named = {key: replace(one, name=f"asked_{n}") for n, (key, one) in enumerate(asked.items())}
     coq.compile({name: text for one in named.values() for name, text in one.files.items()}, print)
@@ -62,19 +62,19 @@ def test_every_equation_is_accepted(certified: Certification) -> None:
         assert set(one.axioms) <= ALLOWED
 
 
-def wrong(number: int) -> Statement:
+def wrong(number: int) -> CoqStatement:
     """The first statement of an equation with another right side, without its companions."""
     derivation = load(number)
     first, *others = derivation.printed
     if number == 6:  # the right side is 0: the load enters twice
-        other = equation(terms(first.lhs, sy.Load(sy.k, sy.l)), first.rhs)
+        other = equation(terms(first.lhs, sy.LoadForce(sy.k, sy.l)), first.rhs)
     else:  # Eq. 15 holds up to a factor
         other = equation(first.lhs, times(sy.M if number == 15 else 2, first.rhs))
     changed = replace(derivation, printed=(other, *others))
     return replace(statements(changed)[0], companions=())
 
 
-def wrong_variance(number: int) -> Statement:
+def wrong_variance(number: int) -> CoqStatement:
     """The exact variance of an equation with a thousandth more in one case."""
     derivation = load(number)
     ((name, form),) = derivation.exact_forms.items()
@@ -85,7 +85,7 @@ def wrong_variance(number: int) -> Statement:
     return replace(made, companions=())
 
 
-def reworded(true: Statement, words: str, others: str) -> Statement:
+def reworded(true: CoqStatement, words: str, others: str) -> CoqStatement:
     """A statement with other words in place of some."""
     assert words in true.proposition
     return replace(
@@ -135,7 +135,7 @@ def test_what_is_not_proved_is_not_accepted(coq: CoqFolder) -> None:
         assert UNPROVED[says][1] in found.note
 
 
-class Planted(Statement):
+class Planted(CoqStatement):
     """A statement with a proof that is given."""
 
     @property
@@ -158,7 +158,7 @@ BENT = {
 
 
 @dataclass(frozen=True)
-class Bent(Statement):
+class Bent(CoqStatement):
     """A statement with a proof that imports such a file, which has a tactic for it."""
 
     bent: str = ""
@@ -181,7 +181,7 @@ class Bent(Statement):
 
 def test_no_file_of_the_theory_can_change_what_is_stated(coq: CoqFolder) -> None:
     """Twice the right side of Eq. 3, with a tactic that proves what is bent at once."""
-    twice = {field.name: getattr(wrong(3), field.name) for field in fields(Statement)}
+    twice = {field.name: getattr(wrong(3), field.name) for field in fields(CoqStatement)}
     found = accepted(coq, {kind: Bent(**twice, bent=said) for kind, said in BENT.items()})
     for number, (kind, one) in enumerate(found.items()):
         assert not one.accepted

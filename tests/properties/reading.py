@@ -123,7 +123,7 @@ class Plane:
                 return self.forces.get(contact, mp.mpf(0))
             case "Vertical":
                 return self.packing.direction(contact)[-1] * self.forces.get(contact, mp.mpf(0))
-            case "Load":
+            case "LoadForce":
                 return self.loads.get(contact[0], (mp.mpf(0), mp.mpf(0)))
         raise NonsenseError(f"{name} is not a quantity of a packing")
 

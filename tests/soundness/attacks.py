@@ -51,7 +51,7 @@ from force_diffusion.symbolic.symbols import (
     ForceMinus,
     ForcePlus,
     LargestShare,
-    Load,
+    LoadForce,
     M,
     MatrixTimes,
     Mean,
@@ -287,7 +287,7 @@ attack(
 attack(
     "an unknown loading",
     lambda: axioms.loads(
-        replace(axioms.SURFACE, everywhere=((equation(Load(site_r, site_s), 0), ()),))
+        replace(axioms.SURFACE, everywhere=((equation(LoadForce(site_r, site_s), 0), ()),))
     ),
     "not a known loading",
     lambda: axioms.loads(axioms.SURFACE.put_in({M: M + 1})),
@@ -298,12 +298,12 @@ attack(
     "the same loads without their place",
     lambda: prove(
         rules.follows(NONE_BELOW),
-        Load(site_r, site_s),
+        LoadForce(site_r, site_s),
         0,
         replace(NONE_BELOW.domain, loading=PLACELESS),
     ),
     "is not known there",
-    lambda: prove(rules.follows(NONE_BELOW), Load(site_r, site_s), 0, NONE_BELOW.domain),
+    lambda: prove(rules.follows(NONE_BELOW), LoadForce(site_r, site_s), 0, NONE_BELOW.domain),
 )
 attack(
     "a load at bead (r, s), which is any bead",

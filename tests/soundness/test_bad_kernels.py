@@ -65,7 +65,7 @@ FAULTS = {
     "products are dropped in moments": ("forms", "Reader._refuse_squares", "self.linear and", "False and"),
     "variances without squares": ("second_order", "covariance", "left.times(right)", "left"),
     "moments of one side": ("kernel.statistics", "moment", "any(form.parts for form in apart)", "False"),
-    "unknown quantities in moments": ("kernel.statistics", "Statistics.in_radii", "{*form.parts} - {NUMBER, RADII, SHIFT}", "False"),
+    "unknown quantities in moments": ("kernel.statistics", "MomentReader.in_radii", "{*form.parts} - {NUMBER, RADII, SHIFT}", "False"),
     "an order too many": ("kernel.limits", "asymptotic", "high - limit.orders", "high"),
     "leading orders that vanish": ("kernel.limits", "_vanishes_nowhere", "value.holds(sy.H_M) or value.is_zero()", "True: return True\n    if value.is_zero()"),
     "orders that are not uniform": ("kernel.limits", "_uniform", "grows and sum(", "False and sum("),

@@ -16,7 +16,7 @@ from force_diffusion.symbolic.symbols import (
     Dot,
     ForceMinus,
     ForcePlus,
-    Load,
+    LoadForce,
     M,
     Mean,
     MeanOver,
@@ -66,14 +66,14 @@ def test_a_theorem_with_z_is_not_put_in_elsewhere() -> None:
 @pytest.mark.parametrize("height", [m, l])
 def test_no_sum_is_over_the_place_of_a_load(height: sympy.Symbol) -> None:
     surface = axioms.SURFACE.put_in({M: height})
-    total = equal(sympy.Sum(Load(i, j), (height, 1, 3)), -f_load * e_y)
+    total = equal(sympy.Sum(LoadForce(i, j), (height, 1, 3)), -f_load * e_y)
     with pytest.raises(NotAStatementError, match="place of the load"):
         rules.rewrite(axioms.loads(surface))(total, Domain.of(sympy.Eq(j, 1), loading=surface))
 
 
 def test_no_mean_is_over_the_place_of_a_load() -> None:
     surface = axioms.SURFACE.put_in({M: n})
-    mean = equal(Mean(MeanOver(Dot(e_y, Load(i, j)), 2, k)), -f_load / 2)
+    mean = equal(Mean(MeanOver(Dot(e_y, LoadForce(i, j)), 2, k)), -f_load / 2)
     domain = Domain.of(sympy.Eq(j, 0), loading=surface, indices=(k,))
     with pytest.raises(NotAStatementError, match="place of the load"):
         moment(axioms.loads(surface))(mean, domain)

@@ -14,7 +14,7 @@ from operator import add
 import pytest
 import sympy
 from flint import fmpq
-from force_diffusion.derivations.calculator.loads import Load
+from force_diffusion.derivations.calculator.loads import LoadCase
 from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from hypothesis import given, note, settings
 from hypothesis import strategies as st
@@ -99,7 +99,7 @@ class Drawn:
     n: tuple[Fraction, Fraction]
 
     @property
-    def load(self) -> str | Load:
+    def load(self) -> str | LoadCase:
         if self.ratio is None:
             return self.kind
         return fd.leaning(t if self.as_symbol else sympy.Rational(self.ratio), self.kind)
