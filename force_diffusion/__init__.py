@@ -17,7 +17,6 @@ Packings with radii of your own::
     solve      forces and positions: arrays, tables, pictures, files
     read_radii radii measured in an image, put on the lattice
 
-
 Packings that a scene describes, and many of them::
 
     read_scene, Scene               from a file, or from sections: Packing, Disorder, Ask,

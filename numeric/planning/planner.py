@@ -112,7 +112,7 @@ def _problem(
         radii = radii_of(scene, region.rows)
         if not single and not unilateral:
             if not radii.relative_std():
-                ordered = "every delta_r in the file is 0"
+                ordered = "every delta_r is 0"
             elif not region.rows or (needs_forces and load.loaded == []):
                 ordered = "no load reaches what is asked for: the forces are exactly zero"
     if ordered:

@@ -299,7 +299,7 @@ def outcome_lines(data: dict[str, Any]) -> list[str]:
     shown = f"{bound:.2g}" if isinstance(bound, float) else bound or "unknown"
     error = f"error {shown} ({kind}, {accuracy['arithmetic']})"
     if accuracy["sampling_error"] is not None:
-        error = f"error {accuracy['sampling_error']:.2g} of sampling; of these packings {error}"
+        error = f"sampling error {accuracy['sampling_error']:.2g}; numerical {error}"
     verdict = f"{_physical_words(data['physical'])}; {error}" if "physical" in data else error
     lines = [verdict]
     if "network" in data:
@@ -322,7 +322,7 @@ def _physical_words(p: dict[str, Any]) -> str:
     if not p["overlaps"] and not p["tensile_contacts"]:
         words = "open whether it is physical"
     elif not p["overlaps"] and "note" in p:
-        words = "not physical by itself, as below any load on single beads"
+        words = "not physical by itself, as under any load on single beads"
     found = [f"{p['overlaps']} overlaps"] if p["overlaps"] else []
     if p["tensile_contacts"]:
         opens = "" if "axis" in p["first_tensile"] else ', which contacts = "unilateral" lets open'

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
-from numbers import Integral
+from numbers import Integral, Real
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -207,19 +207,16 @@ class Solution(Tabled):
         from ..figures.answers import contacts_of
 
         if self._dimension > 2:
-            allowed = "can't be drawn in the plane: write them for ParaView by .to_vtk(path)"
-            raise SceneError("plot", None, f"spheres {allowed}")
+            raise SceneError("plot", None, "spheres can't be drawn in the plane: use .to_vtk(path)")
         at, r = self._packing(packing), float(self.scene.packing.radius)
-        contacts, beads = (
-            self.contacts.of(at),
-            as_floats(self.position).reshape(-1, *self._shape[-2:], 2),
-        )
+        if not isinstance(least, Real):
+            raise SceneError("least", least, "must be a number")
+        contacts = self.contacts.of(at)
+        beads = as_floats(self.position).reshape(-1, *self._shape[-2:], 2)
         forces = as_floats(contacts.force)
-        some = np.abs(forces) >= least
+        some, largest = np.abs(forces) >= least, np.abs(forces).max()
         if not some.any():
-            raise SceneError(
-                "least", least, f"no contact bears more than {np.abs(forces).max():.3g}"
-            )
+            raise SceneError("least", least, f"no contact bears more than {largest:.3g}")
         values = None if color is None else _colours(contacts, color)[some]
         return contacts_of(
             self.plan,

@@ -88,20 +88,21 @@ def read_radii(
     """
     if not isinstance(path, str | Path):
         raise WrongTypeError(f"read_radii takes the path of a file, not {quoted(path)}")
-    for name, value, least in (
-        ("spacing", spacing, 0),
-        ("scale", scale, 0),
-        ("rotation", rotation, -180),
-    ):
+    numbers = (("spacing", spacing, 0), ("scale", scale, 0), ("rotation", rotation, -180))
+    for name, value, least in numbers:
         if value is not None and not (isinstance(value, Real) and least < value < math.inf):
             raise SceneError(name, value, f"must be a number above {least}")
-    wheres, numbers = [], []
+    given = np.array(origin, dtype=object).ravel()
+    corner = [float(c) for c in given if isinstance(c, Real) and math.isfinite(c)]
+    if origin is not None and not len(corner) == len(given) == 2:
+        raise SceneError("origin", origin, "must be two numbers, x and y")
+    wheres, table = [], []
     for where, header, row in rows_of_table("radii", Path(path), ["x", "y", "r"]):
         wheres.append(where)
-        numbers.append([float(one) for one in numbers_of(where, header, row)])
-    if len(numbers) < 4:
+        table.append([float(one) for one in numbers_of(where, header, row)])
+    if len(table) < 4:
         raise TableError(f"radii: {Path(path).name}: a packing has at least 4 beads")
-    x, y, pixels = np.array(numbers).T
+    x, y, pixels = np.array(table).T
     if not pixels.min() > 0:
         raise TableError(f"{wheres[int(pixels.argmin())]}: r must be positive")
     upwards = -1 if y_down else 1
@@ -110,7 +111,7 @@ def read_radii(
     i, j = _placed(places / turn, pixels, wheres)
     known = None if spacing is None or scale is None else float(spacing * scale)
     fixed = turn if rotation is not None else None
-    start = complex(origin[0], upwards * origin[1]) if origin else None
+    start = complex(corner[0], upwards * corner[1]) if corner else None
     s, ahead, start, sites = _fitted(places, i, j, r, known, fixed, start, Path(path).name)
     off = np.abs(places - start - ahead * sites) / r
     worst = int(off.argmax())

@@ -218,6 +218,7 @@ def test_a_plot_has_a_line_for_each_contact_that_bears_enough() -> None:
         ({"color": "colour"}, '"force", "change", "branch" or "wraps"'),
         ({"color": [1, 2]}, "a number for each of the 64 contacts"),
         ({"least": 9}, "no contact bears more than"),
+        ({"least": "9"}, 'least = "9": must be a number'),
         ({"packing": 1}, "from 0 to 0"),
     ):
         with pytest.raises(fd.SceneError, match=words):

@@ -61,14 +61,10 @@ def test_what_is_given_is_kept_and_the_rest_is_the_best(
     found = fd.read_radii(path, **given)
     for name, value in given.items():
         assert getattr(found, name) == pytest.approx(value, rel=1e-12)
-    everything = {
-        "spacing": found.spacing,
-        "scale": found.scale,
-        "rotation": found.rotation,
-        "origin": found.origin,
-    }
+    everything = {name: getattr(found, name) for name in ("spacing", "scale", "rotation", "origin")}
     again = fd.read_radii(path, **everything)
     assert again.residual == pytest.approx(found.residual, rel=1e-4)
+    assert fd.read_radii(path, **everything | {"origin": np.array(found.origin)}) is not None
     x, y = found.origin
     for other in (
         {"rotation": found.rotation + 0.05},
@@ -97,6 +93,9 @@ def test_what_is_no_packing_is_refused(tmp_path: Path) -> None:
     for name, value in (("scale", -1), ("spacing", "7"), ("rotation", math.nan)):
         with pytest.raises(fd.SceneError, match=f"{name} = .*must be a number above"):
             fd.read_radii(path, **{name: value})
+    for origin in (5, (1, 2, 3), ("a", 1), (math.nan, 0)):
+        with pytest.raises(fd.SceneError, match=r"origin = .*must be two numbers"):
+            fd.read_radii(path, origin=origin)
 
 
 @pytest.mark.parametrize("header", ["r;j;note;i", "radius\tj\tnote\ti"])
