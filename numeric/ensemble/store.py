@@ -176,8 +176,8 @@ class StoreContent:
     def __str__(self) -> str:
         lines = [f"{self.realisations} realisations"]
         for section, keys in self.ensemble.items():
-            given = [f"{k} = {v}" for k, v in (keys or {}).items() if v is not None]
-            lines.append(f"{section}: {', '.join(given)}")
+            if given := [f"{k} = {v}" for k, v in (keys or {}).items() if v not in (None, [])]:
+                lines.append(f"{section}: {', '.join(given)}")
         return printable("\n".join(lines))
 
     __repr__ = __str__
