@@ -83,22 +83,26 @@ def surface_mean_shift(M: Any, j: Any, k: Any, phi: Any) -> Any:
 
 
 def bulk_mean_shift(M: Any, j: Any, k: Any, phi: Any) -> Any:
-    if j == 0:
-        return (M*(M*(6*phi - 3) + phi*(10 - 6*phi) - 3) + phi*(4 - 2*phi) - 2) / (-8 * (1 - phi) * M * (phi + 1) ** 2)
     if j == 1:
         return (M*(M*(8*phi + 3) + phi*(4 - 4*phi) - 19) + phi*(2*phi - 8) + 14) / (-8 * (1 - phi) * (M - 1) * (phi + 1) ** 2)
+    if j == 0:
+        return (M*(M*(6*phi - 3) + phi*(10 - 6*phi) - 3) + phi*(4 - 2*phi) - 2) / (-8 * (1 - phi) * M * (phi + 1) ** 2)
     return (j*k*(8*phi - 8) + k*(4*k*phi + phi*(2 - 2*phi)) + phi*(2 - phi) - 1) / (-4 * (1 - phi) * k * (phi + 1) ** 2)
 
 
 def contacts_mean_variance(M: Any, j: Any, k: Any, N: Any, phi: Any) -> Any:
-    if N == 1 and j == 0 and M >= 2:
-        return (M*(M*(4*M - 3) + phi*(7*phi - 2) - 3) + phi*(phi*(phi*(phi - 1) - 3) + 1) + 3) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if N == 1 and j == 1 and M >= 3:
-        return (M*(M*(4*M - 3) + phi*(9*phi + 5) - 22) + phi*(phi*(phi**2 - 9) - 7) + 28) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if M == 1:
         return (N*(phi*(phi*(phi*(phi - 4) + 6) - 4) + 1) + phi*(2*phi**2 + 2)) / (2 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
     if N == M - 1 and j == M - 1:
         return (M*(phi*(phi*(phi*(phi - 4) + 10) - 4) + 5) + phi*(phi*(phi*(7 - phi) - 9) + 10) - 6) / (2 * (1 - phi) ** 2 * (M - 1) ** 2 * (phi + 1) ** 2)
+    if N == 1 and j == 0 and M >= 2:
+        return (M*(M*(4*M - 3) + phi*(7*phi - 2) - 3) + phi*(phi*(phi*(phi - 1) - 3) + 1) + 3) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if N == 1 and j == 1 and M >= 3:
+        return (M*(M*(4*M - 3) + phi*(9*phi + 5) - 22) + phi*(phi*(phi**2 - 9) - 7) + 28) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if j == M - 1 and N <= M - 2:
+        return (M*(4*phi**2 + 4) + N*(phi*(phi*(phi*(phi - 4) + 6) - 4) + 1) + phi*(phi*(3*phi - 3) + 3) - 5) / (2 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
+    if j == M - 1 and M >= 2 and N >= M:
+        return (M*(4*phi**2 + 4) + N*(phi*(phi*(phi*(phi - 4) + 6) - 4) + 1) + phi*(phi*(3*phi - 3) + 7) - 5) / (2 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
     if j == 0 and N >= 2 and M >= 2:
         return (M*(M*(8*M - 6) + phi*(24*phi - 24) + 4) + N*(phi*(phi*(phi*(3*phi - 12) + 18) - 12) + 3) + phi*(phi*(9*phi - 33) + 39) - 9) / (6 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
     if N == 1 and 2 <= j <= M - 2:
@@ -107,10 +111,6 @@ def contacts_mean_variance(M: Any, j: Any, k: Any, N: Any, phi: Any) -> Any:
         return (j*(k*(24*k - 24) + phi*(phi*(phi*(3*phi - 12) + 30) - 12) + 15) + k*(k*(8*k - 6) + phi*(30*phi - 9) + 4) + phi*(phi*(3*phi**2 - 18) + 27) - 9) / (6 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j + 1) ** 2)
     if N == j and 2 <= j <= M - 2:
         return (j*(k*(24*k - 24) + phi*(phi*(phi*(3*phi - 12) + 30) - 12) + 15) + k*(k*(8*k - 6) + phi*(30*phi - 3) + 4) + phi*(phi*(12*phi - 36) + 30) - 12) / (6 * (1 - phi) ** 2 * j ** 2 * (phi + 1) ** 2)
-    if j == M - 1 and M >= 2 and N >= M:
-        return (M*(4*phi**2 + 4) + N*(phi*(phi*(phi*(phi - 4) + 6) - 4) + 1) + phi*(phi*(3*phi - 3) + 7) - 5) / (2 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
-    if j == M - 1 and N <= M - 2:
-        return (M*(4*phi**2 + 4) + N*(phi*(phi*(phi*(phi - 4) + 6) - 4) + 1) + phi*(phi*(3*phi - 3) + 3) - 5) / (2 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
     if 1 <= j <= M - 2 and N >= j + 2:
         return (N*(phi*(phi*(phi*(3*phi - 12) + 18) - 12) + 3) + j*(k*(24*k - 24) + 12*phi**2 + 12) + k*(k*(8*k - 6) + phi*(30*phi - 12) + 4) + phi*(phi*(12*phi - 36) + 42) - 12) / (6 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
     return (N*(phi*(phi*(phi*(3*phi - 12) + 18) - 12) + 3) + j*(k*(24*k - 24) + 12*phi**2 + 12) + k*(k*(8*k - 6) + phi*(30*phi - 12) + 4) + phi*(phi*(12*phi - 36) + 30) - 12) / (6 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
@@ -131,20 +131,20 @@ def beads_mean_variance(M: Any, j: Any, k: Any, N: Any, phi: Any) -> Any:
         return (M*(M*(16*M - 24) + phi*(12*phi + 24) + 20) + phi*(-3*phi - 6) - 3) / (24 * (1 - phi) ** 2 * M ** 2 * (phi + 1) ** 2)
     if N == 1 and j == 1 and M >= 3:
         return (M*(M*(4*M + 1) + phi*(phi + 12) - 17) + phi*(phi - 16) + 14) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if N == 2 and j == 1 and M >= 4:
-        return (M*(M*(16*M + 9) + phi*(12*phi + 48) - 70) + phi*(-6*phi - 60) + 51) / (96 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if N == M - 1 and j == 1 and M >= 4:
         return (M*(M*(16*M + 6) + phi*(12*phi + 48) - 64) + phi*(-15*phi - 54) + 39) / (24 * (1 - phi) ** 2 * (M - 1) ** 2 * (phi + 1) ** 2)
-    if N == j + 1 and M == 2*j + 1 and j >= 2:
-        return (j*(j*(64*j + 135) + phi*(12*phi + 48) + 74) + phi*(9*phi + 42)) / (24 * (1 - phi) ** 2 * (j + 1) ** 2 * (phi + 1) ** 2)
-    if N == j and M == 2*j and j >= 2:
-        return (j*(j*(64*j - 6) + phi*(12*phi + 48) - 4) + phi*(-3*phi - 6) - 3) / (24 * (1 - phi) ** 2 * j ** 2 * (phi + 1) ** 2)
+    if N == 2 and j == 1 and M >= 4:
+        return (M*(M*(16*M + 9) + phi*(12*phi + 48) - 70) + phi*(-6*phi - 60) + 51) / (96 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if N == 1 and j == 2 and M >= 4:
         return (M*(M*(8*M - 9) + phi*(2*phi + 24) - 66) - 56*phi + 108) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if N == j - 1 and M == 2*j - 1 and j >= 3:
-        return (j*(j*(64*j - 165) + phi*(12*phi + 48) + 134) + phi*(-15*phi - 54) - 36) / (24 * (j - 1) ** 2 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if N == 1 and j == M - 1 and M >= 4:
         return (24*M + phi*(3*phi + 18) - 27) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if N == j and M == 2*j and j >= 2:
+        return (j*(j*(64*j - 6) + phi*(12*phi + 48) - 4) + phi*(-3*phi - 6) - 3) / (24 * (1 - phi) ** 2 * j ** 2 * (phi + 1) ** 2)
+    if N == j - 1 and M == 2*j - 1 and j >= 3:
+        return (j*(j*(64*j - 165) + phi*(12*phi + 48) + 134) + phi*(-15*phi - 54) - 36) / (24 * (j - 1) ** 2 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if N == j + 1 and M == 2*j + 1 and j >= 2:
+        return (j*(j*(64*j + 135) + phi*(12*phi + 48) + 74) + phi*(9*phi + 42)) / (24 * (1 - phi) ** 2 * (j + 1) ** 2 * (phi + 1) ** 2)
     if j == 0 and N >= M + 1:
         return (M*(M*(8*M - 12) + phi*(6*phi + 12) + 10) + phi*(-3*phi - 6) - 3) / (12 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
     if j == 0 and 2 <= N <= M - 1:
@@ -153,25 +153,25 @@ def beads_mean_variance(M: Any, j: Any, k: Any, N: Any, phi: Any) -> Any:
         return (M*(M*(8*M + 3) + phi*(6*phi + 24) - 32) + phi*(-9*phi - 30) + 18) / (12 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
     if j == 1 and 3 <= N <= M - 2:
         return (M*(M*(8*M + 3) + phi*(6*phi + 24) - 32) + phi*(-3*phi - 30) + 24) / (12 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
-    if N == j + 1 and j >= 2 and M >= 2*j + 2:
-        return (48*j*k**2 + k*(k*(16*k - 9) + phi*(12*phi + 48) - 4) + phi*(6*phi - 12) + 6) / (24 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j + 1) ** 2)
-    if N == j + 1 and j >= 2 and M <= 2*j:
-        return (48*j*k**2 + k*(k*(16*k - 9) + phi*(12*phi + 48) - 4) + phi*(-6*phi - 12) - 6) / (24 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j + 1) ** 2)
-    if N == j and j >= 2 and M >= 2*j + 1:
-        return (24*j*k**2 + k*(k*(8*k - 3) + phi*(6*phi + 24) - 2) + phi*(3*phi - 6) + 3) / (12 * (1 - phi) ** 2 * j ** 2 * (phi + 1) ** 2)
-    if N == j and M <= 2*j - 1:
-        return (24*j*k**2 + k*(k*(8*k - 3) + phi*(6*phi + 24) - 2) + phi*(-3*phi - 6) - 3) / (12 * (1 - phi) ** 2 * j ** 2 * (phi + 1) ** 2)
-    if N == j - 1 and j >= 3 and M >= 2*j:
-        return (48*j*k**2 + k*(k*(16*k - 21) + phi*(12*phi + 48) - 4) + phi*(6*phi - 12) + 6) / (24 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j - 1) ** 2)
-    if N == j - 1 and M <= 2*j - 2:
-        return (48*j*k**2 + k*(k*(16*k - 21) + phi*(12*phi + 48) - 4) + phi*(-6*phi - 12) - 6) / (24 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j - 1) ** 2)
     if N == 1 and 3 <= j <= M - 2:
         return (12*j*k**2 + k*(k*(4*k - 3) + phi*(phi + 12) - 3) + phi*(2*phi - 4) + 2) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if N == j and M <= 2*j - 1:
+        return (24*j*k**2 + k*(k*(8*k - 3) + phi*(6*phi + 24) - 2) + phi*(-3*phi - 6) - 3) / (12 * (1 - phi) ** 2 * j ** 2 * (phi + 1) ** 2)
+    if N == j and j >= 2 and M >= 2*j + 1:
+        return (24*j*k**2 + k*(k*(8*k - 3) + phi*(6*phi + 24) - 2) + phi*(3*phi - 6) + 3) / (12 * (1 - phi) ** 2 * j ** 2 * (phi + 1) ** 2)
+    if N == j - 1 and M <= 2*j - 2:
+        return (48*j*k**2 + k*(k*(16*k - 21) + phi*(12*phi + 48) - 4) + phi*(-6*phi - 12) - 6) / (24 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j - 1) ** 2)
+    if N == j - 1 and j >= 3 and M >= 2*j:
+        return (48*j*k**2 + k*(k*(16*k - 21) + phi*(12*phi + 48) - 4) + phi*(6*phi - 12) + 6) / (24 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j - 1) ** 2)
     if N == M - j and j <= M - 2 and M <= 2*j - 2 or N == M - j and j >= 2 and M >= 2*j + 2:
         return (48*j*k**2 + k*(k*(16*k - 12) + phi*(12*phi + 48) - 4) + phi*(-3*phi - 6) - 3) / (24 * (1 - phi) ** 2 * k ** 2 * (phi + 1) ** 2)
-    if 2 <= N <= j - 2 and N <= M - j - 1 or j >= 2 and j + 2 <= N <= M - j - 1:
-        return (24*j*k**2 + k*(k*(8*k - 6) + phi*(6*phi + 24) - 2) + phi*(3*phi - 6) + 3) / (12 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
-    return (24*j*k**2 + k*(k*(8*k - 6) + phi*(6*phi + 24) - 2) + phi*(-3*phi - 6) - 3) / (12 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
+    if N == j + 1 and j >= 2 and M <= 2*j:
+        return (48*j*k**2 + k*(k*(16*k - 9) + phi*(12*phi + 48) - 4) + phi*(-6*phi - 12) - 6) / (24 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j + 1) ** 2)
+    if N == j + 1 and j >= 2 and M >= 2*j + 2:
+        return (48*j*k**2 + k*(k*(16*k - 9) + phi*(12*phi + 48) - 4) + phi*(6*phi - 12) + 6) / (24 * (1 - phi) ** 2 * (phi + 1) ** 2 * (j + 1) ** 2)
+    if M - j + 1 <= N <= j - 2 or j >= 2 and N >= j + 2 and N >= M - j + 1:
+        return (24*j*k**2 + k*(k*(8*k - 6) + phi*(6*phi + 24) - 2) + phi*(-3*phi - 6) - 3) / (12 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
+    return (24*j*k**2 + k*(k*(8*k - 6) + phi*(6*phi + 24) - 2) + phi*(3*phi - 6) + 3) / (12 * (1 - phi) ** 2 * N ** 2 * (phi + 1) ** 2)
 
 
 def response(j: Any, l: Any, phi: Any) -> Any:
@@ -181,34 +181,34 @@ def response(j: Any, l: Any, phi: Any) -> Any:
 def bead_response(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
     if i >= -j + k + l + 2 or i <= j + k - l - 2:
         return 0 * phi
-    if i == k and j == 0 and l == 2:
-        return (phi*(3*phi - 2) + 11) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if l == 1 and j + k - 1 <= i <= j + k + 1:
-        return (1) / (8 * (1 - phi) ** 2)
-    if i == k and j == 1 and l == 3:
-        return (phi*(3*phi + 2) + 45) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if j == 1 and l == 2 and k - 1 <= i <= k + 1:
         return (phi*(phi + 6) + 10) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if i == k and j == 1 and l == 3:
+        return (phi*(3*phi + 2) + 45) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if i == k and j == 2 and l == 4:
         return (phi*(3*phi + 2) + 58) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == k - l + 2 and j == 0 and l >= 4 or i == k + l - 2 and j == 0 and l >= 4 or j == 0 and l == 3 and k - 1 <= i <= k + 1:
-        return (6*l + phi*(phi - 1) - 8) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == k - l and j == 0 and l >= 2 or i == k + l and j == 0 and l >= 2:
-        return (2*l + phi*(phi + 1) - 2) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if l == 1 and j + k - 1 <= i <= j + k + 1:
+        return (1) / (8 * (1 - phi) ** 2)
+    if i == k and j == 0 and l == 2:
+        return (phi*(3*phi - 2) + 11) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if i == k + l - 1 and j == 1 and l >= 3 or i == k - l + 1 and j == 1 and l >= 3:
         return (4*l + phi*(2*phi + 4) + 3) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == k and j == l - 2 and l >= 5:
-        return (24*l + phi*(3*phi + 2) - 35) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if i == k - l and j == 0 and l >= 2 or i == k + l and j == 0 and l >= 2:
+        return (2*l + phi*(phi + 1) - 2) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if j == l - 1 and l >= 3 and k - 1 <= i <= k + 1:
         return (8*l + phi*(phi + 6) - 9) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if j == 0 and k - l + 4 <= i <= k + l - 4:
-        return (6*l + phi**2 - 9) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if i == k and j == l - 2 and l >= 5:
+        return (24*l + phi*(3*phi + 2) - 35) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if i == k - l + 2 and j == 0 and l >= 4 or i == k + l - 2 and j == 0 and l >= 4 or j == 0 and l == 3 and k - 1 <= i <= k + 1:
+        return (6*l + phi*(phi - 1) - 8) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if j == 1 and l >= 4 and k - l + 3 <= i <= k + l - 3:
         return (6*l + phi**2 + 4) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if j == 2 and l >= 5 and k - l + 4 <= i <= k + l - 4:
         return (12*l + 2*phi**2 + 9) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
     if i == j + k - l and 2 <= j <= l - 2 or i == -j + k + l and 2 <= j <= l - 2:
         return (2*j + 2*l + phi*(phi + 2) - 2) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
+    if j == 0 and k - l + 4 <= i <= k + l - 4:
+        return (6*l + phi**2 - 9) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
     return (6*j + 6*l + phi**2 - 6) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
 
 

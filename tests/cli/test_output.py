@@ -225,7 +225,7 @@ COMMANDS = [
 def test_every_command_refuses_before_it_solves(
     command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name in ("framework.runner.run", "commands.scenes._answer", "commands.figures._made"):
+    for name in ("framework.runner.run", "commands.scenes._answer", "commands.figures._own"):
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
     for name in ("derive", "figure", "ensemble", "cost", "certify"):
         monkeypatch.setattr(fd, name, None)

@@ -43,7 +43,7 @@ def test_all_that_is_said_of_the_run_counts_it() -> None:
     derived, proof = Derived((outcome,)), Proof((outcome,))
     assert outcome.verdict is proof.verdict is Verdict.PROVED
     assert derived.proved
-    assert derived.counts() == f"1 proved, {words}"
+    assert derived.counts() == f"1 proved; {words}"
     assert [check.kind for check in proof.refuted] == ["refutation"]
     for said in (str(derived), str(proof), terminal.outcome_text(outcome)):
         assert words in said

@@ -308,8 +308,8 @@ def test_radii_are_listed_in_any_order(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("lines", "says"),
     [
-        (["i,j,delta_r"], "first line must be p,q,j,delta_r or p,q,j,r"),
-        (["x,y,r"], "first line must be p,q,j,delta_r or p,q,j,r"),
+        (["i,j,delta_r"], "the first line must name the columns p,q,j,delta_r or p,q,j,r"),
+        (["x,y,r"], "the first line must name the columns p,q,j,delta_r or p,q,j,r"),
         (
             ["p,q,j,r", "0,2,1,1"],
             r"line 2: bead \(0, 2, 1\) lies outside .*0 <= p, q < 2, 0 <= j <= 1",
