@@ -261,7 +261,7 @@ class Reader:
             return self._series(expression)
         if isinstance(expression, sy.MeanOver):
             return self._average(*expression.args)
-        if isinstance(expression, sympy.Pow) and expression.has(sy.SiteFunction):
+        if isinstance(expression, sympy.Pow) and expression.has(sy.SiteFunction, sympy.Sum):
             return self._power(*expression.args)
         if isinstance(expression, sy.Dot):
             return self._dot(*map(self.vector, expression.args))
@@ -463,7 +463,7 @@ class Reader:
             (((key, weights),)) = power.parts.items()
             power = self.kind({((key[0][0], int(exponent)),): weights})
         else:
-            raise NotExactError(f"the divisor {text(base)} depends on the radii")
+            raise NotExactError(f"the divisor {text(base)} depends on the radii, or is a sum")
         if isinstance(power, tuple):
             raise NotExactError("a power of a vector")
         return power

@@ -46,7 +46,7 @@ def power_law(*groups: Group) -> Rule:
             raise FalseStatementError("left over right is negative")
 
         left, right = (list(_powers(side, domain, groups)) for side in formula.args)
-        ratio = _whole_power([*left, *((base, -power) for base, power in right)])
+        ratio = _whole_power([*left, *((base, -power) for base, power in right)]).reduced()
         if relation == "=" and not (ratio - FIELD.one).is_zero():
             raise FalseStatementError(f"a power of left over right goes to {shown(ratio)}, not 1")
         held = [s for s in FIELD.generators if ratio.holds(s) and s not in (sy.phi, sy.n_x, sy.n_y)]
@@ -80,7 +80,7 @@ def _powers(
     value = leading(in_the_limit(quantity, domain.in_the_limit(limit), groups), limit)
     if isinstance(node, sy.UnitHeight):  # of a quantity that goes as c M^p
         power = order(value, limit)
-        if power < 1:
+        if power < 1 or value.holds(sy.H_M):
             raise NotProvedError("there is not one height at which the leading order is one")
         value, exponent = value / FIELD.generator(sy.M) ** power, -exponent / sympy.Integer(power)
     if sign(value, EVERYTHING) != 1:

@@ -2,7 +2,8 @@
 
 Orders count all growing indices together, at fixed ratios. A closed form has no divisor that mixes
 an index with φ, so its orders hold uniformly while the ratios and φ stay within closed parts of
-their ranges; of what has such a divisor nothing is said. Harmonic numbers H_M are at most M.
+their ranges; of what has such a divisor nothing is said. H_M and its powers are of order 0: they
+grow, but less than any power of M.
 """
 
 from collections.abc import Iterable, Iterator, Sequence
@@ -57,13 +58,13 @@ def asymptotic(*groups: Group) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit = limit_of(formula, domain, "∼")
         left, right = (in_the_limit(side, domain, groups) for side in formula.args)
-        low, high = order(left - right, limit), order(leading(right, limit), limit)
+        apart, top = (left - right).reduced(), leading(right, limit)
+        low, high = order(apart, limit), order(top, limit)
         if not low <= high - limit.orders:
-            apart, ratio = leading(left - right, limit), None
-            if order(left, limit) == order(right, limit) and limit.orders == 1:
-                ratio = leading(left, limit) / leading(right, limit)
-            raise other_order(apart, ratio, limit)
-        if not _vanishes_nowhere(leading(right, limit), limit, domain.dimension):
+            same = order(left, limit) == high and limit.orders == 1
+            first = leading(left, limit) if same else None
+            raise other_order(leading(apart, limit), first, top, limit)
+        if not _vanishes_nowhere(top, limit, domain.dimension):
             raise NotProvedError("what the right-hand side goes as may vanish")
         return made(formula, domain, "leading order", flat(groups))
 
@@ -207,10 +208,10 @@ def bounded(*groups: Group) -> Rule:
 def _order_at_sites(weight: RationalFunction, limit: Limit) -> int:
     """The order of a weight at any site: a bead is at most of the order of M away."""
     _uniform(weight, limit)
-    growing = (*limit.growing, *SITE)
     if any(weight.denominator.degrees()[FIELD.position[one]] > 0 for one in SITE):
         raise NotProvedError("a weight is divided by what depends on the site")
-    return max(_degrees(weight.numerator, growing)) - max(_degrees(weight.denominator, growing))
+    above = _degrees(weight.numerator, (*limit.growing, *SITE, sy.H_M))  # H_M is at most M
+    return max(above) - max(_degrees(weight.denominator, limit.growing))
 
 
 def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
@@ -327,10 +328,10 @@ def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
 
 
 def order(value: RationalFunction, limit: Limit) -> int:
-    """The power with which a function grows at most; less than any for zero."""
+    """The power with which a function grows, powers of H_M aside; less than any for zero."""
     if value.is_zero():
         return -_NEVER
-    above = _degrees(value.numerator, (*limit.growing, sy.H_M))
+    above = _degrees(value.numerator, limit.growing)
     return max(above) - max(_degrees(value.denominator, limit.growing))
 
 

@@ -34,14 +34,17 @@ def refuse(
 
 
 def other_order(
-    apart: RationalFunction, ratio: RationalFunction | None, limit: Limit
+    apart: RationalFunction, left: RationalFunction | None, right: RationalFunction, limit: Limit
 ) -> NotProvedError:
-    """How two sides go differently in a limit: what their difference goes as, or their ratio to."""
-    if ratio is None:
+    """How two sides go differently in a limit: what their difference goes as, or their ratio to.
+
+    What goes as a power of H_M has no order that others are compared with.
+    """
+    if left is None:
         words = f"as {limit.words}, left less right goes as {shown(apart, limit)}"
     else:
-        words = f"as {limit.words}, left over right goes to {shown(ratio, limit)}, not to 1"
-    return (NotProvedError if apart.holds(sy.H_M) else FalseStatementError)(words)
+        words = f"as {limit.words}, left over right goes to {shown(left / right, limit)}, not to 1"
+    return (NotProvedError if right.holds(sy.H_M) else FalseStatementError)(words)
 
 
 def shown(value: RationalFunction, limit: Limit | None = None) -> str:

@@ -1087,7 +1087,8 @@ for name, false, refused in (
     ("a divisor that mixes", M * (1 + over(1 + M**2 * phi**2)), "mixes what grows"),
     ("a divisor that mixes, at odds", M * (1 + M * over(1 + M**2 * phi**2)), "mixes what grows"),
     ("a small power", M * (1 + M ** Rational(-1, 1000)), "not a rational function"),
-    ("H_M in a divisor", M + M**3 * over(M**2 + H_M**3), "left less right"),
+    ("H_M in a divisor", M + M**3 * over(M**2 + H_M**3), "goes to 2"),
+    ("H_M M", M + H_M * M, "left over right"),
     ("what may vanish", phi * M + 1, "left over right"),
     ("another index", M + i, "does not say what i is"),
     ("a constant of one's own", M + A, "not a rational function"),
@@ -1096,12 +1097,12 @@ for name, false, refused in (
         f"∼, {name}",
         lambda a=false: prove(asymptotic(), a, M, limit("∼")),  # type: ignore[misc]
         refused,
-        lambda: prove(asymptotic(), M + H_M**0 + phi, M, limit("∼")),
+        lambda: prove(asymptotic(), M + H_M**3 / M**2 + phi, M, limit("∼")),
     )
 both(
     "what vanishes at φ = 0",
     asymptotic(),
-    ((1 + phi**2) * M + 1, (1 + phi**2) * M),
+    ((1 + phi**2) * n_x * M + 1, (1 + phi**2) * M * (n_x + (1 - phi) / 2) / (n_x + 1)),
     (phi * M + 1, phi * M),
     "may vanish",
     limit("∼"),
@@ -1159,7 +1160,7 @@ for name, extra, refused in (
         f"≈, {name}",
         lambda a=extra: prove(negligible(*FORCES), LEFT, RIGHT_SIDE + a, DROPPING),  # type: ignore[misc]
         refused,
-        lambda: prove(negligible(*FORCES), LEFT, RIGHT_SIDE + M * HERE, DROPPING),
+        lambda: prove(negligible(*FORCES), LEFT, RIGHT_SIDE + H_M * M * HERE, DROPPING),
     )
 both(
     "nothing about a force",
@@ -1192,23 +1193,21 @@ both(
     "something was dropped from",
     AT_Z,
 )
-SHARES = SURFACE.also(j >= 2, j <= M - 2)
-AT_ORDER = SHARES.in_the_limit(at_fixed_height("O"))
+AT_ORDER = SURFACE.also(j >= 2, j <= M - 2).in_the_limit(at_fixed_height("O"))
+for name, wrong, refused in (
+    ("that is too small", (LargestShare(FORCE), 1 / M**2 + H_M**3 / M**3), "has more"),
+    ("of no radius", (LargestShare(sympy.S.One), 1 / M), "not shown to vanish"),
+):
+    true = (LargestShare(FORCE), 1 / M)
+    both(f"a share {name}", bounded(*FORCES), true, wrong, refused, AT_ORDER)
+ROW = sympy.Sum(DeltaR(i + 2 * m, j), (m, 1, M))
 both(
-    "a share that is too small",
-    bounded(*FORCES),
-    (LargestShare(FORCE), 1 / M),
-    (LargestShare(FORCE), 1 / M**2),
+    "the share of a radius that grows with H_M",
+    bounded(),
+    (LargestShare(ROW + HERE), 1 / M),
+    (LargestShare(ROW + H_M * HERE), 1 / M),
     "has more",
-    AT_ORDER,
-)
-both(
-    "the share of no radius",
-    bounded(*FORCES),
-    (LargestShare(FORCE), 1 / M),
-    (LargestShare(sympy.S.One), 1 / M),
-    "not shown to vanish",
-    AT_ORDER,
+    BEADS.also(indices=(M,)).in_the_limit(Limit("O", "M → ∞", (M,), (M,))),
 )
 
 # Eq. 15
@@ -1236,14 +1235,15 @@ attack(
     "a power law as σ decreases",
     lambda: prove(power_law(), CUBE + M**2, CUBE, HEIGHTS.in_the_limit(AT_FIXED_RATIO)),
     "only what is fixed",
-    lambda: prove(power_law(), CUBE + M**2, CUBE, limit("=")),
+    lambda: prove(power_law(), M * (r + n_x) ** 2, M * (r * (r + 2 * n_x) + n_x**2), limit("=")),
 )
-attack(
-    "a height for what does not grow",
-    lambda: prove(power_law(), sy.UnitHeight(sigma / (r * M)), r / sigma, limit("=")),
-    "not one height",
-    lambda: prove(power_law(), sy.UnitHeight(sigma * M / r), r / sigma, limit("=")),
-)
+for size in (1 / M, H_M, M * H_M):
+    attack(
+        "a height for what does not grow as a power",
+        lambda a=size: prove(power_law(), sy.UnitHeight(sigma * a / r), r / sigma, limit("=")),  # type: ignore[misc]
+        "not one height",
+        lambda: prove(power_law(), sy.UnitHeight(sigma * M / r), r / sigma, limit("=")),
+    )
 FRACTION = (
     eq15.mean("surface", sy.Tensile),
     in_place(eq15.tensile_fraction("surface"), {eq15.HEIGHT: sy.UnitHeight(SQUARE)}),
