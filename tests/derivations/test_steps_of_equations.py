@@ -119,13 +119,13 @@ SAME = {
         "left: upper bound m = M shifted to M + 1",
         "left: upper bound m = M shifted to M − 1",
     ),
-    ("B7", 15): (
+    ("B7", 18): (
         "j = 1 there, and all of its powers are 1",
         "3 changed to 4",
         "2 changed to 3",
         "2 changed to 3",
     ),
-    ("B7", 16): (
+    ("B7", 19): (
         "j = 1 there, and all of its powers are 1",
         "3 changed to 4",
         "2 changed to 3",
