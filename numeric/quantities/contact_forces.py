@@ -84,7 +84,8 @@ class ContactForces(ContactQuantity):
             steps = {one.value: [one.side, 1] for one in self.branches}
         else:
             steps = {one.value: [*(one.number == k for k in (0, 1)), 1] for one in self.branches}
-        return np.array([steps[one] for one in branch.tolist()], dtype=np.int64).T
+        parts = [np.outer(step, branch == name) for name, step in steps.items()]
+        return np.asarray(np.sum(parts, axis=0, dtype=np.int64))
 
 
 def centres_of(wanted: Array, there: Array, centres: Array) -> Array:
