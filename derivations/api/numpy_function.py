@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import sympy
-from force_diffusion.numeric.arithmetic.errors import ArgumentError
+from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
@@ -16,9 +16,9 @@ from ..framework.evaluation import (
     TOGETHER,
     at_element,
     in_order,
-    one_or_tuple,
     range_of,
     shared_shape,
+    unpacked,
 )
 
 Arrays = dict[sympy.Symbol, Any]
@@ -69,7 +69,7 @@ class NumpyFunction:
                 np.isfinite(result), lambda _: "the value is beyond the range of floats: use at"
             )
         # a side may not depend on all of the arrays
-        return one_or_tuple([np.array(np.broadcast_to(one, shape), float)[()] for one in results])
+        return unpacked([np.array(np.broadcast_to(one, shape), float)[()] for one in results])
 
     def __reduce__(self) -> tuple[Callable[[Any], Any], tuple[Any]]:
         return type(self._equation).function, (self._equation,)
@@ -86,7 +86,7 @@ def _floats(name: str, value: Any) -> Any:
         return (array if array.dtype.kind in "iuf" else _from_objects(array)).astype(float)
     except (TypeError, ValueError, OverflowError):
         raise ArgumentError(
-            f"{name} = {value!r}: numbers are allowed, and arrays of them without a mask"
+            f"{name} = {quoted(value)}: numbers are allowed, and arrays of them without a mask"
         ) from None
 
 

@@ -228,10 +228,10 @@ def evaluate(
                 results[n, *place] = value if exact else rounded(value)
         except ArgumentError as error:
             raise ArgumentError(f"{at_element(place)}{error}") from None
-    return one_or_tuple([one if shape or exact else float(one) for one in results])
+    return unpacked([one if shape or exact else float(one) for one in results])
 
 
-def one_or_tuple(values: Sequence[Any]) -> Any:
+def unpacked(values: Sequence[Any]) -> Any:
     """The value of a single side, or a tuple of several."""
     return values[0] if len(values) == 1 else tuple(values)
 
