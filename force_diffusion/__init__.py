@@ -28,7 +28,6 @@ Every error derives from ``ForceDiffusionError``. A name's module, and with it S
 imported when the name is first used.
 """
 
-import difflib
 from typing import Any
 
 import lazy_loader
@@ -46,8 +45,8 @@ def __getattr__(name: str) -> Any:
     except AttributeError:
         if name in __all__:
             raise
-    close = difflib.get_close_matches(name, __all__, n=1)
-    hint = (
-        f"; did you mean fd.{close[0]}?" if close else "; help(force_diffusion) lists what it has"
-    )
-    raise AttributeError(f"force_diffusion has no {name}{hint}")
+    from .numeric.arithmetic.errors import suggestion
+
+    close = suggestion(name, __all__).replace("did you mean ", "did you mean fd.")
+    hint = close.strip() or "help(force_diffusion) lists what it has"
+    raise AttributeError(f"force_diffusion has no {name}; {hint}")

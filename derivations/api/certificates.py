@@ -22,7 +22,7 @@ from ..framework.record import Derivation
 from .equation import NoSuchFormError, equation
 
 
-def stated(numbers: Iterable[Number] | None = None) -> dict[Number, list[CoqStatement]]:
+def coq_statements(numbers: Iterable[Number] | None = None) -> dict[Number, list[CoqStatement]]:
     """What ``certify`` asks of each equation.
 
     Raises:
@@ -65,7 +65,7 @@ def certify(
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
         raise WrongTypeError(f"certify takes several numbers: certify([{quoted(numbers)}])")
-    asked = stated(numbers)
+    asked = coq_statements(numbers)
     with TemporaryDirectory() as folder:
         coq = CoqFolder(Path(folder))
         coq.compile(sources(asked), notice)

@@ -34,11 +34,11 @@ def certify(
     overwrite: Overwrite = False,
 ) -> None:
     """Ask Coq, an independent proof assistant, whether it accepts the printed equations."""
-    from ..api.certificates import sources, stated
+    from ..api.certificates import coq_statements, sources
     from ..coq.record import RECORD
 
     wanted = [equation_number(word) for word in numbers] if numbers else None
-    files = sources(stated(wanted))
+    files = sources(coq_statements(wanted))
     folder = Output(out, [*files, RECORD], overwrite) if out else None
     with noticing() as notice:
         certification = fd.certify(wanted, notice=notice)

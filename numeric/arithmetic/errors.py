@@ -84,10 +84,10 @@ def quoted(value: object) -> str:
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
 
 
-def meant(name: str, known: Iterable[str]) -> str:
+def suggestion(name: str, known: Iterable[str]) -> str:
     """Say which of the known names could be meant; "" if none is close.
 
-    >>> meant("spacng", ["radii", "spacing"])
+    >>> suggestion("spacng", ["radii", "spacing"])
     'did you mean spacing? '
     """
     close = difflib.get_close_matches(name[:LONGEST], list(known), n=1)
@@ -105,7 +105,7 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
             if name not in names:
                 takes = f"{function.__name__} takes {', '.join(names)}"
                 raise WrongTypeError(
-                    f"there is no argument {quoted(name)}; {meant(name, names)}{takes}"
+                    f"there is no argument {quoted(name)}; {suggestion(name, names)}{takes}"
                 )
         return function(*args, **kwargs)
 

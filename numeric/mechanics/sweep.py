@@ -151,7 +151,7 @@ class Solved:
     single: tuple[Any, Any] | None
     sizes: Sizes = NONE
 
-    def one(self, number: int) -> "Solved":
+    def realisation(self, number: int) -> "Solved":
         """Give the ``number``-th realisation of those that were solved together."""
         at = slice(number, number + 1)
         packing, forces = self.packing, self.forces

@@ -200,7 +200,7 @@ class Listing:
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in solved realisations."""
         for number, realisation in enumerate(realisations):
-            one = solved if len(realisations) == 1 else solved.one(number)
+            one = solved if len(realisations) == 1 else solved.realisation(number)
             part = self.quantity.rows(self.problem, one)
             if self.problem.realisations > 1:
                 number_of = {"realisation": np.full(part.rows, realisation)}

@@ -23,7 +23,7 @@ def either(words: tuple[str, ...]) -> str:
 
 
 @dataclass(frozen=True)
-class Asked:
+class Request:
     """One question of a scene, what the scene is, and what is done with it."""
 
     command: str = "run"
@@ -46,12 +46,12 @@ _OF_NETWORKS = ("contact_forces", "positions")
 _GATHERED = ("profile", "contact", "contact_forces", "response", "histogram")
 
 
-def refusal(asked: Asked) -> tuple[str, str] | None:
+def refusal(asked: Request) -> tuple[str, str] | None:
     """Give the key of the scene that is refused, and why; None where nothing is.
 
-    >>> refusal(Asked(command="ensemble", tolerance=True))
+    >>> refusal(Request(command="ensemble", tolerance=True))
     ('ask.tolerance', 'an ensemble is solved in float64: leave it out')
-    >>> refusal(Asked(command="cost", dimension=3)) is None
+    >>> refusal(Request(command="cost", dimension=3)) is None
     True
     """
     command, quantity = asked.command, asked.quantity
@@ -135,9 +135,9 @@ def refusal(asked: Asked) -> tuple[str, str] | None:
 def answered(command: str, **features: Any) -> tuple[str, ...]:
     """Give the quantities that a command answers."""
 
-    def asked(quantity: str) -> Asked:
+    def asked(quantity: str) -> Request:
         load = "point" if quantity == "response" else "surface"
-        return Asked(command, quantity, load=load, at=quantity == "contact", **features)
+        return Request(command, quantity, load=load, at=quantity == "contact", **features)
 
     return tuple(quantity for quantity in QUANTITIES if refusal(asked(quantity)) is None)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from ..arithmetic.decimals import decimal_string, short
 from ..lattice.branch import Branch, Contact, Site
-from .combinations import NEEDS, Asked, Need, either, refusal
+from .combinations import NEEDS, Need, Request, either, refusal
 from .sections import (
     PLACES,
     Ask,
@@ -107,7 +107,7 @@ def refuse(command: str, scene: Scene, *, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
     packing, effects, ask = scene.packing, scene.effects, scene.ask
     for quantity in ask.quantities:
-        asked = Asked(
+        asked = Request(
             command=command,
             quantity=quantity,
             dimension=packing.dimension,

@@ -151,8 +151,8 @@ def root(values: Array, system: NumberSystem) -> Array:
     if values.dtype != object:
         return np.sqrt(values)
 
-    def one(value: Any) -> Any:
+    def root_of(value: Any) -> Any:
         ball = hasattr(value, "nonnegative_part")
         return (value.nonnegative_part() if ball else value).sqrt()
 
-    return np.asarray(np.frompyfunc(one, 1, 1)(values))
+    return np.asarray(np.frompyfunc(root_of, 1, 1)(values))

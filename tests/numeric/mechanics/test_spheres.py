@@ -266,7 +266,7 @@ def test_realisations_solved_together_are_those_solved_alone() -> None:
         ((batch, _),) = packings(problem, range(5), FLOAT64)
         for k in range(5):
             ((alone, _),) = packings(problem, [k], FLOAT64)
-            one = batch.one(k)
+            one = batch.realisation(k)
             assert alone.forces is not None
             assert one.forces is not None
             for axis, rows in alone.forces.change:
