@@ -57,4 +57,4 @@ from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
 from .numeric.unilateral.linear_programs import MissingSolverError as MissingSolverError
 from .numeric.unilateral.network import UnfinishedError as UnfinishedError
 from .symbolic.algebra.exact import NotExactError as NotExactError
-from .symbolic.kernel.theorem import NotProvedError as NotProvedError
+from .symbolic.algebra.exact import NotProvedError as NotProvedError

@@ -376,7 +376,7 @@ class Reader:
         if type(quantity) not in self.known or axis not in (1, 2, 3):
             raise NotExactError(f"{text(quantity)} is not known")
         site = tuple(sympy.expand(one.xreplace(self.straight.image)) for one in place)
-        form: Form = self.known[type(quantity)][int(axis) - 1].at(site)[1][0]
+        form: Form = self.known[type(quantity)](int(axis) - 1).at(site)[1][0]
         return form
 
     def _vertical(self, kind: type[sy.SiteFunction], quantity: sy.SiteFunction) -> Form:

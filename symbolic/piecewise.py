@@ -9,11 +9,11 @@ import sympy
 
 from . import sets, shortest, words
 from . import symbols as sy
-from .algebra.exact import FIELD, Field, NotExactError, RationalFunction
+from .algebra.exact import FIELD, Field, NotExactError, NotProvedError, RationalFunction
 from .forms import NUMBER, Straightening
 from .kernel.domain import Domain
 from .kernel.statistics import moment, worked_out
-from .kernel.theorem import Group, NotProvedError, Theorem, names_for
+from .kernel.theorem import Group, Theorem, names_for
 from .quotients import factored
 from .trees import equation
 from .weights import Piece, Weights

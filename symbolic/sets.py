@@ -11,6 +11,7 @@ from typing import Any
 
 import islpy as isl
 import sympy
+from flint import fmpq_mat
 
 from .algebra.exact import FIELD, SITE, SOURCE, NotExactError, RationalFunction
 from .symbols import INDICES, M, N
@@ -268,41 +269,27 @@ def fixed(points: Set, first: Sequence[sympy.Symbol] = ()) -> dict[sympy.Symbol,
         points: the set.
         first: which symbols are fixed, rather than others.
     """
+    forms = equations(points)
     rank = _FIXED_FIRST | {symbol: place - len(first) for place, symbol in enumerate(first)}
-    forms = [
-        ({s: sympy.Rational(n) for s, n in factors.items()}, constant)
-        for factors, constant in equations(points)
-    ]
-    solved: dict[sympy.Symbol, Any] = {}
-    while forms:
-        factors, constant = forms.pop()
-        if not factors:
-            continue
-        symbol = min(factors, key=rank.__getitem__)
-        scale = -factors.pop(symbol)
-        value = {s: n / scale for s, n in factors.items()}, sympy.Rational(constant) / scale
-        forms = [_with(form, symbol, value) for form in forms]
-        solved = {s: _with(form, symbol, value) for s, form in solved.items()}
-        solved[symbol] = value
-    return {symbol: polynomial(value) for symbol, value in solved.items()}
-
-
-def _with(form: Any, symbol: sympy.Symbol, value: Any) -> Any:
-    """A form with the value of a symbol put in."""
-    factors, constant = form
-    if symbol not in factors:
-        return form
-    scale, total = factors[symbol], {s: n for s, n in factors.items() if s != symbol}
-    for other, n in value[0].items():
-        total[other] = total.get(other, 0) + scale * n
-    return {s: n for s, n in total.items() if n}, constant + scale * value[1]
+    symbols = sorted({s for factors, _ in forms for s in factors}, key=rank.__getitem__)
+    if not symbols:
+        return {}
+    table = [[*(factors.get(s, 0) for s in symbols), constant] for factors, constant in forms]
+    solved: dict[sympy.Symbol, RationalFunction] = {}
+    for numbers in fmpq_mat(table).rref()[0].tolist():
+        held = {s: -n for s, n in zip(symbols, numbers, strict=False) if n}
+        if held:
+            pivot = next(iter(held))
+            del held[pivot]
+            solved[pivot] = polynomial((held, -numbers[-1]))
+    return solved
 
 
 def polynomial(form: tuple[Mapping[sympy.Symbol, Any], Any]) -> RationalFunction:
     """A form as an element of the field."""
-    total = FIELD.constant(sympy.Rational(form[1]))
+    total = FIELD.constant(form[1])
     for symbol, factor in form[0].items():
-        total = total + FIELD.generator(symbol) * FIELD.constant(sympy.Rational(factor))
+        total = total + FIELD.generator(symbol) * FIELD.constant(factor)
     return total
 
 

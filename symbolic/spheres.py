@@ -19,7 +19,6 @@ F_c being the ordered forces. Summed along the contact's line up to the load thi
 """
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache, lru_cache, partial
 
 import sympy
@@ -133,16 +132,6 @@ ORDERED: Mapping[str, Callable[[], tuple[Weights, ...]]] = {
 """F_c by the bead, in units of what the load gives contacts along n¹ for each layer of it."""
 
 
-@dataclass(frozen=True)
-class Axes:
-    """A quantity of contacts along each base vector, worked out when it is asked for."""
-
-    along: Callable[[int], Known]
-
-    def __getitem__(self, axis: int) -> Known:
-        return self.along(axis)
-
-
 @cache
 def _force(load: str, axis: int) -> Known:
     return force(ORDERED[load](), axis)
@@ -153,12 +142,9 @@ def _vertical(load: str, axis: int) -> Known:
     return vertical(_force(load, axis), 3, axis)
 
 
-def known_forces(load: str) -> Mapping[type, Axes]:
-    """The forces of all contacts of a packing of spheres, by axis."""
-    return {
-        ForceAlong: Axes(partial(_force, load)),
-        VerticalAlong: Axes(partial(_vertical, load)),
-    }
+def known_forces(load: str) -> Mapping[type, Callable[[int], Known]]:
+    """The forces of all contacts of a packing of spheres, as functions of the axis."""
+    return {ForceAlong: partial(_force, load), VerticalAlong: partial(_vertical, load)}
 
 
 def _is(symbol: sympy.Symbol, value: sympy.Expr) -> sympy.Basic:

@@ -16,7 +16,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_463,
+    "symbolic": 4_396,
     "derivations": 8_150,
     "numeric": 10_001,
     "force_diffusion": 78,

@@ -7,8 +7,7 @@ import sympy
 from force_diffusion.numeric.arithmetic.errors import checked, quoted
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import NotExactError
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
+from force_diffusion.symbolic.algebra.exact import NotExactError, NotProvedError
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
@@ -180,7 +179,7 @@ def _closed(
     form = ClosedForm(statistic, meant, on, groups, divisor=divisor, values=dict(under.values))
     try:
         _ = form.function
-    except (NotExactError, NotProvedError) as reason:
+    except NotProvedError as reason:
         raise ObservableError(f"{text(statistic)}: {reason}") from None
     return form
 

@@ -4,13 +4,13 @@ from collections.abc import Iterator, Mapping
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import NotExactError
+from force_diffusion.symbolic.algebra.exact import NotExactError, NotProvedError
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import Group, NotProvedError, Theorem
+from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.signs import sign
 from force_diffusion.symbolic.trees import equation, in_place
 

@@ -5,12 +5,12 @@ from contextlib import suppress
 from typing import TYPE_CHECKING
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import NotAStatementError
+from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.as_printed import minus, terms, times
 from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height, in_a_layer
 from force_diffusion.symbolic.kernel.limits import bounded, leading_order_of
 from force_diffusion.symbolic.kernel.rules import Rule, differentiate, rewrite, same
-from force_diffusion.symbolic.kernel.theorem import Group, NotProvedError, Theorem
+from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.piecewise import theorems
 from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma, z
 from force_diffusion.symbolic.trees import equation, in_place
@@ -62,7 +62,7 @@ def leading_order(exact: Iterable[Theorem]) -> Rule:
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         for theorem in exact:
-            with suppress(NotProvedError, NotAStatementError):
+            with suppress(NotProvedError):
                 return leading_order_of(theorem)(formula, domain)
         raise NotProvedError("it is the leading order of no closed form")
 

@@ -11,10 +11,10 @@ from typing import Any
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import NotExactError
+from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule, proved_by
-from force_diffusion.symbolic.kernel.theorem import FalseStatementError, NotProvedError, Theorem
+from force_diffusion.symbolic.kernel.theorem import FalseStatementError, Theorem
 from force_diffusion.symbolic.piecewise import Relations
 from force_diffusion.symbolic.trees import in_place
 from sympy.core.function import UndefinedFunction
@@ -261,7 +261,7 @@ class Steps(list[Step]):
                 proved_by(by, in_place(line, meant), there)
                 for line, by, there, meant in zip(equations, rules, domains, defined, strict=True)
             )
-        except (NotProvedError, NotExactError) as why:
+        except NotProvedError as why:
             name = f"step {number}," if number else "the claim"
             raise NotProvedError(f"{name} '{reason}': {why}") from why
         for theorem in theorems:

@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING, ClassVar
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem
+from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import latex_body, text_lines
 

@@ -9,7 +9,7 @@ from math import lcm
 import sympy
 
 from .. import symbols as sy
-from ..algebra.exact import FIELD, RationalFunction
+from ..algebra.exact import FIELD, NotProvedError, RationalFunction
 from ..printing.text import text
 from ..sets import EVERYTHING
 from ..signs import sign
@@ -23,7 +23,6 @@ from .theorem import (
     FalseStatementError,
     Group,
     Groups,
-    NotProvedError,
     Theorem,
     flat,
     made,

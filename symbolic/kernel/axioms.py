@@ -10,11 +10,12 @@ from functools import cache
 import sympy
 
 from .. import symbols as sy
+from ..algebra.exact import NotProvedError
 from ..mechanics import lattice
 from ..symbols import i, j, n_minus, n_plus, r, site_r, site_s
 from ..trees import equation
 from .domain import Domain, Loading
-from .theorem import NotProvedError, Theorem, made
+from .theorem import Theorem, made
 
 _ANY_BEAD = Domain.of(j >= 0)
 

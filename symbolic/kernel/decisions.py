@@ -12,11 +12,11 @@ from enum import StrEnum
 
 import sympy
 
-from ..algebra.exact import NotAStatementError
+from ..algebra.exact import NotAStatementError, NotProvedError
 from ..printing.text import text
 from .domain import Domain
 from .rules import Rule, proved_by
-from .theorem import FalseStatementError, NotProvedError, names_for
+from .theorem import FalseStatementError, names_for
 
 
 class Verdict(StrEnum):
@@ -117,7 +117,7 @@ def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Rulin
             return not_a_statement(_for_users(reason, formula))
         except FalseStatementError as reason:
             return refuted(_for_users(reason, formula))
-        except (NotProvedError, RecursionError, ValueError) as reason:
+        except (RecursionError, ValueError) as reason:
             reasons.append(_for_users(reason, formula))
         else:
             if theorem.supposed:

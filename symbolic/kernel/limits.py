@@ -15,8 +15,7 @@ from .. import symbols as sy
 from ..algebra.exact import (
     FIELD,
     SITE,
-    NotAStatementError,
-    NotExactError,
+    NotProvedError,
     Polynomial,
     RationalFunction,
 )
@@ -36,7 +35,6 @@ from .theorem import (
     FalseStatementError,
     Group,
     Groups,
-    NotProvedError,
     Theorem,
     check_domain,
     flat,
@@ -223,12 +221,7 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
     finite = _late(domain)
     held = set().union(*(one.free_symbols for one in domain.relations))
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
-    try:
-        form = MomentReader.on(finite, groups).in_radii(_at_height(expression, domain))
-    except NotAStatementError:
-        raise
-    except NotExactError as reason:
-        raise NotProvedError(str(reason)) from None
+    form = MomentReader.on(finite, groups).in_radii(_at_height(expression, domain))
     if free:  # a step to the right, of the bead and of all sites
         step = {s: s - 1 if s in finite.straight.back else s + 2 for s in free}
         step |= {SITE[0]: SITE[0] + 1, SITE[1]: SITE[1] - 1}
@@ -250,12 +243,7 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
     Raises:
         NotProvedError: it is not one, or holds what neither grows nor is fixed.
     """
-    try:
-        number = worked_out(_at_height(side, domain), _late(domain), tuple(groups))
-    except NotAStatementError:
-        raise
-    except NotExactError as reason:
-        raise NotProvedError(str(reason)) from None
+    number = worked_out(_at_height(side, domain), _late(domain), tuple(groups))
     if {*number.parts} - {NUMBER}:
         raise NotProvedError(f"{text(side)} belongs to single beads")
     return _formula_in_the_limit(number.parts.get(NUMBER, Weights()), domain)

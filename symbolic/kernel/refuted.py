@@ -7,12 +7,12 @@ import sympy
 
 from .. import sets
 from .. import symbols as sy
-from ..algebra.exact import FIELD, SITE, RationalFunction
+from ..algebra.exact import FIELD, SITE, NotProvedError, RationalFunction
 from ..forms import NUMBER, RADII, Form, Image, Key
 from ..printing.text import text
 from ..quotients import factored
 from .domain import Domain, Limit
-from .theorem import FalseStatementError, Groups, NotProvedError, flat, names_for
+from .theorem import FalseStatementError, Groups, flat, names_for
 
 
 def refuse(

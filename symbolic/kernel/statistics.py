@@ -14,7 +14,7 @@ import sympy
 
 from .. import spheres
 from .. import symbols as sy
-from ..algebra.exact import FIELD, NotAStatementError, NotExactError
+from ..algebra.exact import FIELD, NotExactError, NotProvedError
 from ..forms import NUMBER, RADII, SHIFT, Form, Reader, Value
 from ..printing.text import text
 from ..second_order import Jet, covariance
@@ -24,7 +24,6 @@ from .refuted import refuse
 from .rules import Rule
 from .theorem import (
     Group,
-    NotProvedError,
     Theorem,
     check_domain,
     difference,
@@ -141,12 +140,7 @@ def moment(*groups: Group, on: Domain | None = None) -> Rule:
         if not domain.points.is_subset(whole.points):
             raise NotProvedError("the domain is no part of the larger one")
         left, right = in_kernel_symbols(formula, domain)
-        try:
-            forms = worked_out(left, whole, groups), worked_out(right, domain, groups)
-        except NotAStatementError:
-            raise
-        except NotExactError as reason:
-            raise NotProvedError(str(reason)) from None
+        forms = worked_out(left, whole, groups), worked_out(right, domain, groups)
         apart = difference(((forms[0],), (forms[1],)), domain)
         if any(form.parts for form in apart):
             raise refuse(apart, domain, groups, formula)

@@ -23,7 +23,7 @@ from ..algebra.exact import (
     SOURCE,
     UNKNOWNS,
     NotAStatementError,
-    NotExactError,
+    NotProvedError,
 )
 from ..forms import FORCES, Form, Image, Known, Reader, is_whole
 from ..notation import by_name
@@ -35,10 +35,6 @@ from .domain import Domain, Loading
 
 _MADE_HERE = object()
 _RESERVED = {*SITE, *SOURCE, *UNKNOWNS, *CONSTANTS[0], *CONSTANTS[1]}
-
-
-class NotProvedError(ValueError):
-    """A rule does not prove a statement, and why."""
 
 
 class FalseStatementError(NotProvedError):
@@ -383,15 +379,10 @@ def in_kernel_symbols(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sy
 
 def both_sides(formula: sympy.Eq, domain: Domain, reader: Reader) -> Sides:
     """Both sides of an equation as forms; the number 0 beside a vector is the zero vector."""
-    try:
-        left, right = (
-            side if isinstance(side, tuple) else (side,)
-            for side in map(reader.read, in_kernel_symbols(formula, domain))
-        )
-    except NotAStatementError:
-        raise
-    except (NotExactError, ZeroDivisionError, RecursionError) as reason:
-        raise NotProvedError(str(reason)) from None
+    left, right = (
+        side if isinstance(side, tuple) else (side,)
+        for side in map(reader.read, in_kernel_symbols(formula, domain))
+    )
     if len(left) != len(right):
         if any(form.parts for form in min(left, right, key=len)):
             raise NotAStatementError("a number is set equal to a vector")

@@ -6,10 +6,11 @@ from dataclasses import replace
 import sympy
 from force_diffusion.derivations.framework.proof import Steps
 from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.as_printed import terms
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule, rewrite
-from force_diffusion.symbolic.kernel.theorem import NotProvedError, Theorem, made
+from force_diffusion.symbolic.kernel.theorem import Theorem, made
 from force_diffusion.symbolic.symbols import DeltaR, SecondDifference, i, j
 from force_diffusion.symbolic.trees import equation
 

@@ -10,9 +10,9 @@ from force_diffusion.derivations.framework import runner
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Steps
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.kernel.limits import asymptotic
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.trees import equation
 
 

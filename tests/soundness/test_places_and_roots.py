@@ -5,12 +5,11 @@ import sympy
 from force_diffusion.derivations.framework.decide import candidate_for
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import NotAStatementError
+from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotProvedError
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.symbols import (
     DeltaR,
     Dot,

@@ -20,10 +20,10 @@ from force_diffusion.derivations.framework.proof import Steps
 from force_diffusion.derivations.framework.record import Derivation
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.axioms import base
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.kernel.rules import Rule, rewrite
-from force_diffusion.symbolic.kernel.theorem import NotProvedError
 from force_diffusion.symbolic.trees import equation
 
 from tests.derivations import fakes
