@@ -6,75 +6,11 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-import mpmath
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
-from hypothesis import given
-from hypothesis import strategies as st
-from hypothesis.extra.numpy import arrays
 
 import force_diffusion as fd
-from tests.numeric.mechanics.plain_packing import PlainPacking
-
-
-def balance(solution: fd.Solution, weights: Array) -> float:
-    """Give the largest component of what is left over on any bead above the base.
-
-    Found from nothing but positions and forces, in Cartesian coordinates: ``weights`` (M + 1, W)
-    are the loads, straight down.
-    """
-    centres, forces = solution.position, solution.force
-    M, W = forces.shape[1:]
-    period = float(solution.scene.packing.s) * W
-    worst = 0.0
-    for j in range(1, M + 1):
-        for q in range(W):
-            i = 2 * q + j % 2
-            total = np.array([0.0, -weights[j, q]])
-            for b, side in ((0, 1), (1, -1)):
-                below = (i - side - (j - 1) % 2) // 2 % W
-                total += forces[b, j - 1, below] * unit(
-                    centres[j, q] - centres[j - 1, below], period
-                )
-                if j < M:
-                    above = (i + side - (j + 1) % 2) // 2 % W
-                    step = centres[j, q] - centres[j + 1, above]
-                    total += forces[b, j, q] * unit(step, period)
-            worst = max(worst, float(np.abs(total).max()))
-    return worst
-
-
-def unit(step: Array, period: float) -> Array:
-    step = step - [period * round(step[0] / period), 0]
-    return np.asarray(step / np.linalg.norm(step))
-
-
-@pytest.mark.long
-@given(
-    st.integers(1, 5).flatmap(
-        lambda M: st.integers(2, 8).flatmap(
-            lambda W: arrays(np.float64, (M + 1, W), elements=st.integers(-1000, 1000).map(float))
-        )
-    ),
-    st.sampled_from([2.2, 2.8, 3.0, 3.3]),
-    st.sampled_from([0.25, 1.0, 7.0]),
-    st.booleans(),
-)
-def test_every_bead_is_in_balance(delta: Array, s: float, r: float, bulk: bool) -> None:
-    load = fd.BulkLoad() if bulk else fd.SurfaceLoad()
-    delta = delta * 1e-6
-    solution = fd.solve(delta_r=r * delta, radius=r, spacing=s * r, load=load, allow_images=True)
-    weights = np.zeros(delta.shape)
-    weights[-1] = 1
-    if bulk:
-        weights[:] = 1
-    scale = np.abs(solution.force).max()
-    # positions are rounded in units of the last place of the packing's width
-    assert balance(solution, weights) < 1e-13 * scale * delta.size
-    contacts = solution.position[1:] - solution.position[:-1]
-    assert np.isfinite(contacts).all()
 
 
 def test_radii_and_their_deviations_are_the_same_packing() -> None:
@@ -204,36 +140,6 @@ def test_spheres_are_those_of_a_scene() -> None:
                 axis = int(row["branch"]) - 1
                 assert solution.force[axis, j, p, q] == row["force"]
                 assert solution.change[axis, j, p, q] == row["change"]
-
-
-def test_spheres_are_those_of_first_principles() -> None:
-    """A packing as a vector of each bead, placed and balanced by itself (in 30 digits)."""
-    d, width, n_x = 3, 2, Fraction(13, 20)
-    shape = (3, *[width] * (d - 1))
-    delta = 1e-2 * np.random.default_rng(d).uniform(-1, 1, shape)
-    solution = fd.solve(
-        delta_r=delta, spacing=4 * n_x, dimension=d, allow_images=True, load=fd.BulkLoad()
-    )
-    with mpmath.workdps(30):
-        phi = 1 - 2 * n_x**2
-        rho = {(*at[1:], at[0]): Fraction(float(x)) for at, x in np.ndenumerate(delta)}
-        plain = PlainPacking(d, 2, width, phi, rho)
-        straight = mpmath.sqrt(sum(sum(plain.n, mpmath.matrix(d, 1)).apply(lambda x: x * x)))
-        places = {}
-        for j, *columns in np.ndindex(*shape):
-            bead = (*columns, j - sum(columns))
-            places[j, *columns] = plain.at(bead)
-            if j:
-                forces = plain.below(bead, lambda _: [1 / straight] * d)
-                for axis, force in enumerate(forces):
-                    at = [x - (a == axis) for a, x in enumerate(columns)]
-                    found = solution.force[axis, j - 1, *[x % width for x in at]]
-                    assert found == pytest.approx(float(force), rel=1e-14)
-        apart = places[2, *[1] * (d - 1)] - places[0, *[0] * (d - 1)]
-        ours = solution.position[2, *[1] * (d - 1)] - solution.position[0, *[0] * (d - 1)]
-        assert np.linalg.norm(ours) == pytest.approx(float(mpmath.norm(apart)), rel=1e-14)
-        up = (sum(plain.n, mpmath.matrix(d, 1)).T * apart)[0] / straight
-        assert ours[-1] == pytest.approx(float(up), rel=1e-14)
 
 
 def test_a_batch_of_spheres_is_its_packings() -> None:

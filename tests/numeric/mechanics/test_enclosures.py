@@ -1,4 +1,4 @@
-"""Rigorous enclosures, independent checks of the physics, and where radii come from."""
+"""Enclosures hold more digits, what is no packing is named, and where radii come from."""
 
 import math
 from fractions import Fraction
@@ -15,25 +15,19 @@ from force_diffusion.numeric.arithmetic.systems import (
     NumberSystem,
     midpoint,
 )
-from force_diffusion.numeric.disorder.drawing import cosine_of_turn, deviates, logarithm
-from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii, counters
-from force_diffusion.numeric.lattice.layers import Layer, Rows, column, whole
+from force_diffusion.numeric.disorder.drawing import cosine_of_turn, logarithm
+from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
+from force_diffusion.numeric.lattice.layers import Layer, Rows, whole
 from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.engine import solve
-from force_diffusion.numeric.mechanics.loads import LoadSpec
-from force_diffusion.numeric.mechanics.local import cosine
-from force_diffusion.numeric.mechanics.sweep import Forces, Solved, sweep_down
+from force_diffusion.numeric.mechanics.sweep import Forces, Solved
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.theory.expected import critical_height
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.numeric.mechanics import taylor
-from tests.numeric.mechanics.small_packing import solve as solve_small
-from tests.numeric.mechanics.taylor import Series
 from tests.numeric.scenes import answer, basic, planned
-from tests.numeric.strategies import Case, cases, sites
 
 STD = st.sampled_from(["=1e-2", "=1e-5", "=1e-40"])
 
@@ -76,146 +70,6 @@ def exact(value: Any) -> Fraction:
     return Fraction(int(-mantissa if sign else mantissa)) * Fraction(2) ** int(exponent)
 
 
-@given(st.integers(1, 6), STD, st.integers(0, 9))
-def test_enclosures_of_different_precision_overlap(height: int, std: str, seed: int) -> None:
-    plan = packings(height, std, seed)
-    coarse, fine = solved(plan, Balls(80)), solved(plan, Balls(320))
-    assert coarse.forces is not None
-    assert fine.forces is not None
-    for a, b in zip(changes(coarse.forces), changes(fine.forces), strict=True):
-        assert a.overlaps(b)
-        assert b.rad() <= a.rad()
-
-
-@given(st.integers(1, 6), STD, st.integers(0, 9), st.integers(-30, 30))
-def test_force_balance_at_every_bead_within_the_enclosure(
-    height: int, std: str, seed: int, angle: int
-) -> None:
-    """Full forces along full directions: the sum holds zero, in a ball near the last place."""
-    sections = basic(height, height + 1)
-    sections["disorder"].update(relative_std=std, seed=seed)
-    sections["load"] = {"kind": "bulk", "angle_deg": angle}
-    plan = planned(sections)
-    system = Balls(256)
-    answered = solved(plan, system)
-    p, f = answered.packing, answered.forces
-    assert p is not None
-    assert f is not None
-    width = height + 1
-    with system.active():
-        own = plan.problem.load.strength(plan.problem.n_x, system).unit
-        for j in range(1, height + 1):
-            for i in Layer(j, j % 2, width).sites():
-                q = column(i, j, width)
-                balance = [own[0] * -1, own[1] * -1]
-                here = [(j, q, "+", 1), (j, q, "-", 1)]
-                if j < height:
-                    here += [
-                        (j + 1, column(i + 1, j + 1, width), "+", -1),
-                        (j + 1, column(i - 1, j + 1, width), "-", -1),
-                    ]
-                for row, at, branch, sign in here:
-                    plus = branch == "+"
-                    dn = (p.dn.plus if plus else p.dn.minus)[row]
-                    F = (f.ordered.plus if plus else f.ordered.minus)[row][at]
-                    g = (f.change.plus if plus else f.change.minus)[row][at]
-                    n = (1 + dn[0][at], dn[1][at]) if plus else (dn[0][at], 1 + dn[1][at])
-                    balance = [b + sign * (F + g) * c for b, c in zip(balance, n, strict=True)]
-                for component in balance:
-                    assert component.contains(0)
-                    assert component.rad() < 1e-60
-
-
-@given(cases())
-def test_first_order_sweep_is_the_first_taylor_coefficient(case: Case) -> None:
-    """Line sums against the nonlinear packing, as fractions: no tolerance."""
-    t = taylor.solve(case.width, case.height, n=case.n, rho=case.rho, loads=case.loads)
-    system = Series(1)
-    region = whole(case.width, case.height)
-    home = {(i % (2 * case.width), j): v for (i, j), v in case.rho.items()}
-    rho = {s: home.get(s, Fraction(0)) for s in sites(case.width, case.height)}
-    spec = LoadSpec("file", case.height, case.width, single=case.loads)
-    with system.active():
-        radii = MeasuredRadii(rho, case.width)
-        rho_of = radii.of(region.rows, [0], system)
-        F = spec.ordered(region.rows, rational_strength(spec, case.n, system), system)
-        p = sweep.deposit(cosine(case.n[0]), region, rho_of, system, linear=True)
-        f = sweep_down(p, region.rows, F, linear=True)
-    for i, j in sites(case.width, case.height):
-        q = column(i, j, case.width)
-        plus, minus = t.line_sums(i, j)
-        assert (fraction(p.c.plus[j][q]), fraction(p.c.minus[j][q])) == (plus[1], minus[1])
-        if j < case.height:
-            for branch, step, g in (("+", 1, f.change.plus), ("-", -1, f.change.minus)):
-                q = column(i + step, j + 1, case.width)
-                assert fraction(g[j + 1][q]) == t.force(i, j, branch)[1]
-
-
-def fraction(value: Any) -> Fraction:
-    """A rational, from a series of order ε⁰: here ρ itself is carried, not ε ρ."""
-    if isinstance(value, flint.fmpq):
-        return Fraction(int(value.p), int(value.q))
-    return Fraction(int(value[0].p), int(value[0].q))
-
-
-def rational_strength(spec: LoadSpec, n: tuple[Fraction, Fraction], system: Series) -> Any:
-    from force_diffusion.numeric.mechanics.loads import Strength, components
-
-    return Strength(
-        (system.number(Fraction(0)), system.number(Fraction(0))),
-        {
-            site: tuple(system.number(c) for c in components(force, *n))  # type: ignore[misc]
-            for site, force in spec.single.items()
-        },
-    )
-
-
-@given(st.integers(1, 4), st.integers(0, 20), st.sampled_from(["=2.1", "=2.9", "=3.4"]))
-def test_the_smallest_gap_is_that_of_the_positions(height: int, seed: int, spacing: str) -> None:
-    """Distances of all pairs of beads and images, from positions at 40 digits."""
-    width = height + 2
-    sections = basic(height, width)
-    sections["packing"]["spacing"] = spacing
-    sections["disorder"].update(relative_std="=1e-2", seed=seed, kind="uniform")
-    outcome = answer(sections)
-    plan = outcome.plan
-    system = BigFloat(40)
-    drawn = plan.problem.radii
-    assert isinstance(drawn, DrawnRadii)
-    rows = plan.problem.region.rows
-    (u,) = deviates(drawn.kind, drawn.seed, [0], *counters(rows, width))
-    rho = {
-        (i, j): Fraction(float(one)) * drawn.std
-        for i, j, one in zip(*(sites.tolist() for sites in rows.sites), u, strict=True)
-    }
-    n_x = plan.problem.n_x
-    p = solve_small(
-        width, height, n_x=n_x, rho=rho, loads={(1, height): (0, -1)} if height % 2 else {},
-        strength=1, system=system,
-    )  # fmt: skip
-    mp = system.context
-    nx = mp.mpf(n_x.numerator) / n_x.denominator
-    ny = mp.sqrt(1 - nx * nx)
-    places = {}
-    for i, j in sites(width, height):
-        dx, dy = p.displacement(i, j)
-        places[i, j] = (2 * i * nx + dx, 2 * j * ny + dy)
-    smallest = mp.inf
-    for a, (xa, ya) in places.items():
-        for b, (xb, yb) in places.items():
-            for image in (-1, 0, 1):
-                di, dj = b[0] + 2 * width * image - a[0], b[1] - a[1]
-                if (di, dj) == (0, 0) or (abs(di), abs(dj)) == (1, 1):
-                    continue
-                distance = mp.hypot(xb + 4 * width * image * nx - xa, yb - ya)
-                both = rho[a] + rho[b] + 2
-                smallest = min(smallest, distance - mp.mpf(both.numerator) / both.denominator)
-    assert outcome.physical is not None
-    assert outcome.physical.smallest_gap is not None
-    assert abs(outcome.physical.smallest_gap - smallest) < 1e-13  # float64, numbers of order 10
-    assert (outcome.physical.overlaps > 0) == (smallest < 0)
-
-
 @pytest.mark.parametrize("spacing", ["=2.000000000001", "=3.464101615137"])
 def test_close_to_the_limits_neighbours_overlap_soon(spacing: str) -> None:
     """Within 1e-12 of touching: disorder of 1e-14 fits in, disorder of 1e-6 does not."""
@@ -235,7 +89,7 @@ def test_close_to_the_limits_neighbours_overlap_soon(spacing: str) -> None:
 
 def test_an_unbuildable_packing_names_the_bead() -> None:
     # Supports half a radius smaller on either side: the bead between them falls through.
-    radii = {(i, j): Fraction(0) for i, j in sites(3, 1)}
+    radii = {(2 * q + j, j): Fraction(0) for j in (0, 1) for q in range(3)}
     for i in (0, 2):
         radii[i, 0] = Fraction(-9, 10)
     radii[1, 1] = Fraction(-9, 10)
@@ -267,36 +121,6 @@ def row(radii: DrawnRadii, layer: Layer, k: int) -> np.ndarray[Any, Any]:
     """Give δr/r of a row of beads."""
     (found,) = radii.of(Rows([layer.first], [layer.count], layer.j), [k], FLOAT64)
     return found  # type: ignore[no-any-return]
-
-
-@given(
-    st.integers(0, 2**64 - 1), st.integers(0, 10**9), st.integers(-(2**40), 2**40),
-    st.integers(0, 10**7), st.sampled_from(["uniform", "normal", "two-point"]),
-)  # fmt: skip
-def test_radii_are_a_function_of_the_site(seed: int, k: int, q: int, j: int, kind: str) -> None:
-    """A region asked for alone gives the same radii, bit for bit."""
-    drawn = DrawnRadii(kind, Fraction(1, 100), seed, None)
-    wide = row(drawn, Layer(j, 2 * q + j % 2, 9), k)
-    for skip in (1, 5):
-        narrow = row(drawn, Layer(j, 2 * (q + skip) + j % 2, 3), k)
-        assert (wide[skip : skip + 3] == narrow).all()
-
-
-def test_periodic_radii_wrap_around() -> None:
-    drawn = DrawnRadii("uniform", Fraction(1, 100), 5, 4)
-    ring = row(drawn, Layer(3, 1, 4), 0)
-    assert (row(drawn, Layer(3, -3, 7), 0) == np.concatenate([ring[2:], ring, ring[:1]])).all()
-
-
-def test_streams_differ_between_seeds_and_realisations() -> None:
-    def draw(seed: int, k: int, j: int) -> np.ndarray[Any, Any]:
-        drawn = DrawnRadii("uniform", Fraction(1, 100), seed, None)
-        return row(drawn, Layer(j, j % 2, 50), k)
-
-    drawn = [draw(1, 0, 2), draw(2, 0, 2), draw(1, 1, 2), draw(1, 0, 4)]
-    for a in range(4):
-        for b in range(a):
-            assert not (drawn[a] == drawn[b]).any()
 
 
 @pytest.mark.parametrize("kind", ["uniform", "normal", "two-point"])

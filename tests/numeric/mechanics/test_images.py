@@ -160,13 +160,3 @@ def test_loads_far_apart_do_not_see_the_beads_between_them(tmp_path: Path) -> No
     sections = basic(2, 8, quantity="contact_forces")
     sections["load"] = {"kind": "file", "file": "loads.csv"}
     assert not planned(sections, tmp_path).sees_images
-
-
-def test_one_contact_may_see_more_or_less_than_its_height_says() -> None:
-    assert planned(strip(6, 3, "first-order", [2, 0, "+"])).sees_images == slab_differs(
-        strip(6, 3, "first-order", [2, 0, "+"]), 3
-    )
-    sections = strip(6, 4, "first-order", [0, 0, "+"])
-    sections["ask"] = {"quantity": "contact_forces"}
-    sections["load"] = {"kind": "point", "at": [1, 1]}
-    assert not planned(sections).sees_images

@@ -27,7 +27,6 @@ from tests.numeric.scenes import by_numpy
 
 pytest.importorskip("numba")
 from force_diffusion.numeric.arithmetic import compiling
-from force_diffusion.numeric.disorder import drawing
 from force_diffusion.numeric.mechanics import local, loops
 
 # Between the directions at which beads of the ordered packing overlap.
@@ -104,19 +103,6 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
             assert np.abs(one.error[0] - off).max(initial=0) <= room
 
 
-@given(PHI, regions(), st.integers(0, 2**32))
-def test_gaps_are_those_of_numpy(phi: Fraction, case: tuple[Region, Rows], seed: int) -> None:
-    region, rows = case
-    rng = np.random.default_rng(seed)
-    rho = rng.uniform(-1, 1, (2, region.beads)) * 10.0 ** rng.uniform(-9, -1)
-    found = solved(phi, region, rho, rows, np.zeros((2, int(rows.starts_above[-1]))), FLOAT64)
-    assume(found is not None)
-    assert found is not None
-    ours = physicality.gaps(found[0])
-    with by_numpy():
-        assert ours == physicality.gaps(found[0])
-
-
 def test_machine_code_on_disk_follows_each_of_its_sources(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -186,52 +172,12 @@ def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
         assert source.of(around, realisations, FLOAT64).tobytes() == found.tobytes()
 
 
-def test_words_are_those_of_philox() -> None:
-    with np.errstate(over="ignore"):
-        for low, high, k0, k1 in np.random.default_rng(2).integers(1, 2**63, (50, 4)).tolist():
-            numpys = np.random.Philox(key=k0 | k1 << 64, counter=(low - 1) | high << 64)
-            words = drawing.words(*map(np.uint64, (low, high, k0, k1)))
-            assert [int(word) for word in words] == numpys.random_raw(2).tolist()
-
-
 def test_a_drawn_radius_that_is_not_positive_is_named() -> None:
     source = DrawnRadii("normal", Fraction(1, 3), 5, 40)
     with pytest.raises(RadiusError, match="the drawn radius is -"):
         source.of(whole(40, 9).rows, [3, 4], FLOAT64)
 
 
-def test_logarithms_and_cosines_are_right_to_a_few_units_in_the_last_place() -> None:
-    ones = np.random.default_rng(5).random(2000)
-    for x in (ones, ones * 2.0**-50, 1 - ones * 2.0**-30):
-        assert drawing.logarithm(x) == pytest.approx(np.log(x), rel=1e-15, abs=0)
-    assert drawing.cosine_of_turn(ones) == pytest.approx(np.cos(2 * np.pi * ones), abs=2e-15)
-
-
-def test_products_of_words_are_exact() -> None:
-    ends = [0, 1, 2**32 - 1, 2**32, 2**63, 2**64 - 1]
-    drawn = np.random.default_rng(3).integers(0, 2**64, (200, 2), dtype=np.uint64, endpoint=False)
-    with np.errstate(over="ignore"):
-        for a, b in [(a, b) for a in ends for b in ends] + [(int(a), int(b)) for a, b in drawn]:
-            high, low = drawing.product(np.uint64(a), np.uint64(b))
-            assert (int(high) << 64) + int(low) == a * b
-
-
 def test_without_numba_numpy_sweeps(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "llvmlite", None)
     assert compiling.compiled([(_twice, ("float", "number"))], []) is None
-
-
-@pytest.mark.parametrize("side", [0, 1])
-def test_forces_go_straight_down_below_a_load(side: int) -> None:
-    from force_diffusion.numeric.mechanics.loads import LoadSpec, Strength
-
-    height, width = 9, 3  # layers enough for a diagonal to go round
-    region = whole(width, height)
-    row = {(2 * q + height % 2, height): (1.0 + q, 0.0)[:: -1 if side else 1] for q in range(width)}
-    load = LoadSpec("file", height, width, single=dict.fromkeys(row, (0, 1)))
-    F = load.ordered(region.rows, Strength((), row), FLOAT64).reshape(2, height, width)
-    for j in range(1, height + 1):
-        for q in range(width):  # what bears on (i, j) came down from (i ± (M − j), M)
-            i = 2 * q + j % 2 + (height - j) * (-1 if side else 1)
-            assert F[side, j - 1, q] == 1 + (i - height % 2) // 2 % width
-    assert not F[1 - side].any()
