@@ -3,7 +3,7 @@
 from fractions import Fraction
 
 from force_diffusion.numeric.arithmetic.decimals import bound_string, decimal_string, short
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 wholes = st.integers(-(10**60), 10**60) | st.integers(-(2**60), 2**60)
@@ -17,6 +17,7 @@ VALUES = st.builds(
 
 
 @given(VALUES)
+@example(Fraction(1, 800))  # few zeros stand behind the point
 def test_forty_digits_are_the_nearest(value: Fraction) -> None:
     off = abs(Fraction(decimal_string(value)) - value)
     assert off * 2 * 10**39 <= abs(value)

@@ -4,7 +4,6 @@ import math
 from fractions import Fraction
 from typing import Any
 
-import flint
 import numpy as np
 import pytest
 from force_diffusion.numeric.accuracy import ToleranceError
@@ -15,7 +14,6 @@ from force_diffusion.numeric.arithmetic.systems import (
     NumberSystem,
     midpoint,
 )
-from force_diffusion.numeric.disorder.drawing import cosine_of_turn, logarithm
 from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
 from force_diffusion.numeric.lattice.layers import Layer, Rows, whole
 from force_diffusion.numeric.mechanics import sweep
@@ -155,17 +153,6 @@ def test_deviates_have_the_moments_of_their_distribution(kind: str, fourth: floa
     assert abs((x**2).mean() - 1) < room * math.sqrt(2)
     assert abs((x**3).mean()) < room * math.sqrt(15)
     assert abs((x**4).mean() - fourth) < room * math.sqrt(96)
-
-
-@given(st.floats(1e-16, 1 - 2**-53), st.floats(0, 1 - 2**-53))
-def test_own_logarithm_and_cosine(x: float, turn: float) -> None:
-    """A few units in the last place, against Arb."""
-    with Balls(128).active():
-        log = flint.arb(x).log()
-        off = abs(flint.arb(float(logarithm(np.array([x]))[0])) - log)
-        assert off <= 4 * 2.0**-53 * abs(log)
-        cosine = (flint.arb(turn) * 2).cos_pi()
-        assert abs(flint.arb(float(cosine_of_turn(np.array([turn]))[0])) - cosine) <= 8 * 2.0**-53
 
 
 def test_critical_height_far_outside_of_floats() -> None:

@@ -27,6 +27,7 @@ from tests.numeric.scenes import by_numpy
 
 pytest.importorskip("numba")
 from force_diffusion.numeric.arithmetic import compiling
+from force_diffusion.numeric.disorder import drawing
 from force_diffusion.numeric.mechanics import local, loops
 
 # Between the directions at which beads of the ordered packing overlap.
@@ -176,6 +177,13 @@ def test_a_drawn_radius_that_is_not_positive_is_named() -> None:
     source = DrawnRadii("normal", Fraction(1, 3), 5, 40)
     with pytest.raises(RadiusError, match="the drawn radius is -"):
         source.of(whole(40, 9).rows, [3, 4], FLOAT64)
+
+
+def test_logarithms_and_cosines_are_right_to_a_few_units_in_the_last_place() -> None:
+    ones = np.random.default_rng(5).random(2000)
+    for x in (ones, ones * 2.0**-50, 1 - ones * 2.0**-30):
+        assert drawing.logarithm(x) == pytest.approx(np.log(x), rel=1e-15, abs=0)
+    assert drawing.cosine_of_turn(ones) == pytest.approx(np.cos(2 * np.pi * ones), abs=2e-15)
 
 
 def test_without_numba_numpy_sweeps(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -131,41 +131,38 @@ def certified(packing: Packing) -> Network:
         return certify(grains, pairs, frame, Balls(BITS))
 
 
-def must_hold(packing: Packing) -> None:
-    """Raise ``AssertionError`` unless this is an equilibrium, by floats and least squares."""
+def must_hold(packing: Packing) -> tuple[float, np.ndarray]:
+    """Find the smallest gap of beads that don't touch, and the forces, by floats and least squares.
+
+    Raises ``AssertionError`` unless the packing rests, and no bead can move without work.
+    """
     x = np.array(packing.centres, dtype=float)
     r = np.array(packing.radii, dtype=float)
     load, period = np.array(packing.loads, dtype=float), float(packing.period)
-    fixed, contacts = packing.fixed, packing.contacts
-    held = {bead for pair in contacts for bead in pair if bead >= fixed}
+    fixed, contacts = packing.fixed, np.array(packing.contacts).reshape(-1, 2)
+    held = np.isin(np.arange(len(x)), contacts) & (np.arange(len(x)) >= fixed)
     assert period > 0
     assert (r > 0).all()
     assert (period > 2 * r).all()  # a bead and its image
-    assert (x[fixed:, 1] > x[:fixed, 1].min() - 1e-5).all()
-    touching = {frozenset(pair) for pair in contacts}
-    assert all(len(pair) == 2 and max(pair) >= fixed for pair in touching)
-    images = np.arange(-3, 4) + np.round((x[:, None, 0] - x[None, :, 0]) / period)[..., None]
-    dx = x[:, None, None, 0] - x[None, :, None, 0] - images * period
-    gaps = np.hypot(dx, (x[:, None, 1] - x[None, :, 1])[..., None]) - (r[:, None] + r)[..., None]
+    assert (x[fixed:, 1] > x[:fixed, 1].min()).all()
+    assert not load[fixed:][~held[fixed:]].any()
+    assert (contacts.max(axis=1) >= fixed).all()
+    apart = x[:, None] - x[None]
+    apart[..., 0] -= period * np.round(apart[..., 0] / period)
+    images = apart[..., 0, None] + period * np.arange(-1, 2)
+    gaps = np.hypot(images, apart[..., 1, None]).min(axis=-1) - r[:, None] - r
     rounding = 1e-13 * (np.abs(x).max() + period)
-    for a in range(len(x)):
-        for b in range(a):
-            nearest = gaps[a, b].min()
-            room = rounding + (1e-5 if held & {a, b} else 0)
-            assert nearest > -room
-            assert frozenset((a, b)) not in touching or abs(nearest) < room
-    for bead in range(fixed, len(x)):
-        assert bead in held or not load[bead].any(), bead
-    balance = np.zeros((len(x), 2, len(contacts)))
-    for k, (a, b) in enumerate(contacts):
-        d = x[a] - x[b]
-        d[0] -= period * np.round(d[0] / period)
-        direction = d / np.hypot(*d)
-        balance[a, :, k], balance[b, :, k] = direction, -direction
-    rows = balance[fixed:].reshape(-1, len(contacts))
-    forces, *_ = np.linalg.lstsq(rows, -load[fixed:].ravel(), rcond=None)
-    scale = np.abs(load[fixed:]).max()
-    assert scale > 0
-    condition = np.linalg.cond(rows)
-    assert np.abs(rows @ forces + load[fixed:].ravel()).max() < 1e-5 * condition * scale
-    assert forces.min() > -1e-5 * condition * scale
+    a, b = contacts.T
+    assert np.abs(gaps[a, b]).max() < rounding
+    gaps[a, b] = gaps[b, a] = np.inf
+    np.fill_diagonal(gaps, np.inf)
+    assert gaps.min() > -rounding
+    direction = apart[a, b] / np.linalg.norm(apart[a, b], axis=1)[:, None]
+    balance, number = np.zeros((len(x), 2, len(contacts))), np.arange(len(contacts))
+    balance[a, :, number], balance[b, :, number] = direction, -direction
+    rows, pushed = balance[held].reshape(-1, len(contacts)), load[held].ravel()
+    assert rows.shape[0] == rows.shape[1]
+    room = 1e-13 * np.linalg.cond(rows) * np.abs(pushed).max()
+    forces = np.linalg.solve(rows, -pushed)
+    assert forces.min() > -room
+    return float(gaps.min()), forces
