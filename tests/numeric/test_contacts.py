@@ -44,14 +44,45 @@ def test_beads_touch_and_stand(name: str) -> None:
     assert (np.abs(length - (centres[..., upper, :] - centres[..., lower, :])).max(-1) > 1)[
         ..., contacts.wraps
     ].all()  # a period, and no rounding
-    bulk = name == "bulk"
     for packing in np.ndindex(*centres.shape[:-2]):
-        total = np.zeros_like(centres[packing])
-        np.add.at(total, upper, contacts.force_vector[packing])
-        np.add.at(total, lower, -contacts.force_vector[packing])
-        loaded = beads.layers > 0 if bulk else beads.layers == beads.layers.max()
+        total = borne(solution, packing)
+        loaded = beads.layers > 0 if name == "bulk" else beads.layers == beads.layers.max()
         total[loaded, -1] -= 1
         assert np.abs(total[beads.layers > 0]).max() < 10 * ROUNDING
+
+
+def borne(solution: fd.Solution, packing: tuple[int, ...] = ()) -> Any:
+    """Give what the contacts of each bead bear, (beads, d)."""
+    lower, upper = solution.contacts.pairs.T
+    force = solution.contacts.force_vector[packing]
+    total = np.zeros((len(solution.beads.layers), force.shape[-1]))
+    np.add.at(total, upper, force)
+    np.add.at(total, lower, -force)
+    return total
+
+
+LEANING = -np.sin(np.radians(20)), 0, np.cos(np.radians(20))
+STEEP = np.sin(np.radians(70)), 0, np.cos(np.radians(70))
+
+
+@pytest.mark.parametrize(
+    ("load", "forces"),
+    [
+        (fd.BulkLoad(angle_deg=20), dict.fromkeys(np.ndindex(6, 6, 3), LEANING)),
+        (fd.PointLoad(at=(1, 2, 2), angle_deg=-70), {(1, 2, 1): STEEP}),
+        (None, {(0, 1, 1): (-0.5, 0.25, 1), (2, 2, 0): (1, -2, -0.125)}),
+    ],
+)
+def test_spheres_bear_any_load(load: fd.Load | None, forces: Any, tmp_path: Path) -> None:
+    """Against the load, by column and by layer above the base; without one, they are in a file."""
+    lines, expected = ["p,q,j,fx,fy,fz"], np.zeros((3, 6, 6, 3))
+    for (p, q, j), (x, y, z) in forces.items():
+        expected[j, p, q] = x, y, z
+        lines.append(f"{p},{q},{j + 1},{-x},{-y},{-z}")
+    (tmp_path / "loads.csv").write_text("\n".join(lines))
+    listed = fd.Load(kind="file", file=str(tmp_path / "loads.csv"))
+    found = borne(fd.solve(radii_of(4, 6, 6), dimension=3, load=load or listed))[36:]
+    assert found == pytest.approx(expected.reshape(-1, 3), abs=100 * ROUNDING)
 
 
 def test_columns_stand_side_by_side_with_the_lattice() -> None:

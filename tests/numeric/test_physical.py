@@ -42,8 +42,10 @@ def scene(delta: Array, spacing: float, quantity: str = "positions") -> fd.Scene
     )
 
 
-def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> Array:
-    """Gaps of all pairs but contacts, each once, with all images that may be near.
+def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> tuple[Array, Array]:
+    """Gaps of all pairs but contacts, each once, with all images that may be near; and the least.
+
+    The least gaps are those of two beads in any images, (beads, beads).
 
     Sites in steps of the base vectors, by a basis of their own: layer j of column p (and q) is
     p e_1 (+ q e_2) + (j − p − q) e_d in three dimensions, i = 2 p + j mod 2 in two.
@@ -71,7 +73,7 @@ def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> Array:
     seams_of, shifts_of = np.array(seams), np.array(shifts)
     flat = centres[:, None, : d - 1] - centres[None, :, : d - 1]
     near = np.round(flat @ np.linalg.inv(shifts_of[:, : d - 1])).astype(int)
-    found = []
+    found, least = [], np.full((count, count), np.inf)
     for images in product(range(-4, 5), repeat=d - 1):
         around = near + images
         step = sites[None] - sites[:, None] + around @ seams_of
@@ -80,18 +82,24 @@ def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> Array:
         contact = (np.abs(step.sum(axis=-1)) == 1) & (np.abs(step).sum(axis=-1) == 1)
         once = np.triu(np.ones((count, count), dtype=bool), k=0 if images > (0,) * (d - 1) else 1)
         found.append(gaps[once & ~contact])
-    return np.concatenate(found)
+        least = np.minimum(least, np.where(once & ~contact, gaps, np.inf))
+    return np.concatenate(found), np.minimum(least, least.T)
 
 
 def agree(made: Plan, delta: Array, spacing: float) -> None:
     positions = run(plan(scene(delta, spacing)))
-    gaps = every_gap(delta, spacing, positions)
+    gaps, least = every_gap(delta, spacing, positions)
     assume(np.abs(gaps).min() > ROUNDING)  # whether smaller ones overlap rounding may hide
     physical = run(made).physical
     assert physical is not None
     assert physical.overlaps == (gaps < 0).sum()
     assert physical.undecided_gaps == 0
     assert physical.smallest_gap == pytest.approx(gaps.min(), abs=ROUNDING)
+    assert physical.between is not None
+    names = ("p", "q", "j") if delta.ndim > 2 else ("i", "j")
+    sites = list(zip(*(positions.arrays[name] for name in names), strict=True))
+    nearest = tuple(map(sites.index, physical.between))
+    assert least[nearest] == pytest.approx(gaps.min(), abs=ROUNDING)
     assert physical.sound == (gaps.min() > 0 and not physical.tensile)
 
 

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
@@ -261,12 +260,6 @@ def test_contacts_that_pull_are_counted_and_the_first_is_named(
     assert found.physical.tensile == len(pulling) > 0
     assert found.physical.first_tensile is not None
     assert tuple(found.physical.first_tensile.named().values()) in pulling
-
-
-def test_a_tolerance_out_of_reach_says_why() -> None:
-    sections = basic(6, 14, tolerance="=1e-4000")
-    with pytest.raises(ToleranceError, match="bits"):
-        answer(sections)
 
 
 def test_a_sign_that_no_precision_settles_stays_open(tmp_path: Path) -> None:

@@ -159,17 +159,6 @@ def test_a_profile_has_the_exact_first_order_width_where_no_image_is_seen(
         assert stated == pytest.approx(1e-2 * force * np.sqrt(variance), rel=1e-11)
 
 
-def test_an_ensemble_has_the_width_of_theory() -> None:
-    """With 400 packings σ_f is known to 1 %; what is sampled is independent of theory."""
-    asked = scene("profile", height=4, width=6, std=1e-4)
-    found = fd.ensemble(asked, 400)
-    assert found.first_order_std is not None
-    off = (found.std - found.first_order_std) / found.std_error
-    # 12 rows: one beyond 4.5 standard errors has a chance below 1e-4; the seed is fixed
-    assert np.abs(off).max() < 4.5
-    assert (found.std_error / found.std).max() < 0.02
-
-
 @pytest.mark.parametrize("quantity", ["contact_forces", "response"])
 def test_rows_of_an_ensemble_stand_by_bead_then_axis(quantity: str) -> None:
     asked = scene(quantity, height=3, width=5, load=fd.PointLoad(at=(0, 0, 3)), realisations=4)
@@ -330,19 +319,6 @@ def test_what_is_wrong_in_a_list_of_radii_is_named(
     )
     with pytest.raises(fd.ForceDiffusionError, match=says):
         asked.run()
-
-
-def test_a_file_of_loads_is_what_it_lists(tmp_path: Path) -> None:
-    """Force balance is linear in the load."""
-    point, surface = fd.PointLoad(at=(1, 2, 2)), fd.SurfaceLoad(magnitude=0.5)
-    each = [scene(height=3, width=4, load=load).run().arrays["force"] for load in (point, surface)]
-    lines = ["p,q,j,fx,fy,fz", "1,2,2,0,0,-1"]
-    lines += [f"{p},{q},3,0,0,-0.5" for p in range(4) for q in range(4)]
-    (tmp_path / "loads.csv").write_text("\n".join(lines))
-    asked = scene(height=3, width=4, load=fd.Load(kind="file", file="loads.csv"))
-    both = asked.model_copy(update={"folder": tmp_path}).run().arrays["force"]
-    # forces of order 1, rounded in each of three layers
-    np.testing.assert_allclose(both, each[0] + each[1], rtol=0, atol=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -35,13 +35,16 @@ LOADS = {
 
 
 def solved(
-    height: int, width: int, std: float, spacing: Any = 3, load: str = "surface", **how: Any
-) -> fd.Solution:
+    height: int, width: int, std: float, spacing: Any = 3, load: str = "surface",
+    dimension: int = 2, **how: Any,
+) -> fd.Solution:  # fmt: skip
     """Solve a strip with uniform radii, the same but for their scale at every σ/r."""
-    drawn = np.random.default_rng([height, width]).uniform(-1, 1, (height + 1, width))
+    shape = (height + 1, *[width] * (dimension - 1))
+    drawn = np.random.default_rng([height, width]).uniform(-1, 1, shape)
     return fd.solve(
-        delta_r=std * 3**0.5 * drawn, spacing=spacing, load=LOADS[load], allow_images=True, **how
-    )
+        delta_r=std * 3**0.5 * drawn, spacing=spacing, load=LOADS[load], dimension=dimension,
+        allow_images=True, **how,
+    )  # fmt: skip
 
 
 def measured(*strip: Any, **more: Any) -> tuple[float, fd.Solution, fd.Solution]:
@@ -89,6 +92,11 @@ def test_digits_do_not_depend_on_the_disorder(exponent: int, load: str) -> None:
 @pytest.mark.parametrize("exponent", [2, 3, 4, 8, 16, 30])
 def test_nor_do_they_in_higher_packings(exponent: int) -> None:
     accurate(128, 34, 10.0**-exponent)
+
+
+@pytest.mark.parametrize("height", [2, 113])
+def test_nor_do_they_in_packings_of_spheres(height: int) -> None:
+    accurate(height, 9, 1e-6, spacing=Fraction(9, 4), dimension=3)
 
 
 @pytest.mark.parametrize(

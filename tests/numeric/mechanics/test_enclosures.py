@@ -14,7 +14,7 @@ from force_diffusion.numeric.arithmetic.systems import (
     NumberSystem,
     midpoint,
 )
-from force_diffusion.numeric.disorder.radii import DrawnRadii, MeasuredRadii
+from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice.layers import Layer, Rows, whole
 from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.engine import solve
@@ -66,37 +66,6 @@ def exact(value: Any) -> Fraction:
     """Turn an mpf into the fraction that it is."""
     sign, mantissa, exponent, _ = value._mpf_
     return Fraction(int(-mantissa if sign else mantissa)) * Fraction(2) ** int(exponent)
-
-
-@pytest.mark.parametrize("spacing", ["=2.000000000001", "=3.464101615137"])
-def test_close_to_the_limits_neighbours_overlap_soon(spacing: str) -> None:
-    """Within 1e-12 of touching: disorder of 1e-14 fits in, disorder of 1e-6 does not."""
-    sections = basic(6, 14)
-    sections["packing"]["spacing"] = spacing
-    sections["disorder"]["relative_std"] = "=1e-14"
-    fits = answer(sections).physical
-    sections["disorder"]["relative_std"] = "=1e-6"
-    crowded = answer(sections).physical
-    assert fits is not None
-    assert crowded is not None
-    assert (fits.overlaps, fits.undecided_gaps) == (0, 0)
-    assert fits.smallest_gap is not None
-    assert 0 < fits.smallest_gap < 2e-12
-    assert crowded.overlaps > 0
-
-
-def test_an_unbuildable_packing_names_the_bead() -> None:
-    # Supports half a radius smaller on either side: the bead between them falls through.
-    radii = {(2 * q + j, j): Fraction(0) for j in (0, 1) for q in range(3)}
-    for i in (0, 2):
-        radii[i, 0] = Fraction(-9, 10)
-    radii[1, 1] = Fraction(-9, 10)
-    for system in (Balls(128), BigFloat(30)):
-        region = whole(3, 1)
-        with system.active():
-            rho = MeasuredRadii(radii, 3).of(region.rows, [0], system)
-            with pytest.raises(sweep.UnbuildableError, match=r"\(1, 1\)"):
-                sweep.deposit(Fraction(-1, 8), region, rho, system)
 
 
 @pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1.0, -1.5])
