@@ -12,51 +12,36 @@ PROFILE: dict[str, dict[str, Any]] = {
     "disorder": {"kind": "uniform", "relative_std": "=1e-4", "seed": 5},
     "ask": {"quantity": "profile"},
 }
+POINT: dict[str, Any] = {"kind": "point", "at": [0, 4]}
+
+
+def asking(quantity: str, **ask: Any) -> dict[str, dict[str, Any]]:
+    return PROFILE | {"ask": {"quantity": quantity, **ask}}
+
+
 SPHERES: dict[str, dict[str, Any]] = {"packing": {"height": 3, "width": 5, "dimension": 3}}
+SLAB: dict[str, dict[str, Any]] = {"packing": {"height": 5}}
+FIRST: dict[str, dict[str, Any]] = {"effects": {"geometry": "first-order"}}
 CASES: dict[str, dict[str, dict[str, Any]]] = {
     "profile": PROFILE,
-    "profile of a bulk load": {**PROFILE, "load": {"kind": "bulk"}},
-    "profile, first order": {**PROFILE, "effects": {"geometry": "first-order"}},
-    "profile below a point load": {**PROFILE, "load": {"kind": "point", "at": [3, 3]}},
-    "contact of a slab": {
-        **PROFILE,
-        "packing": {"height": 5},
-        "ask": {"quantity": "contact", "at": [0, 2, "-"]},
-    },
-    "contact by line sums": {
-        **PROFILE,
-        "effects": {"geometry": "first-order"},
-        "ask": {"quantity": "contact", "at": [0, 2, "+"]},
-    },
-    "all contacts": {**PROFILE, "ask": {"quantity": "contact_forces"}},
-    "response": {
-        **PROFILE,
-        "packing": {"height": 4},
-        "load": {"kind": "point", "at": [0, 4]},
-        "ask": {"quantity": "response"},
-    },
-    "two layers of a response": {
-        **PROFILE,
-        "load": {"kind": "point", "at": [0, 4]},
-        "ask": {"quantity": "response", "layers": [3, 1]},
-    },
-    "histogram of all": {**PROFILE, "ask": {"quantity": "histogram", "bins": 11}},
-    "profile of spheres": {**PROFILE, **SPHERES},
-    "bulk profile of spheres": {**PROFILE, **SPHERES, "load": {"kind": "bulk"}},
-    "all contacts of spheres": {**PROFILE, **SPHERES, "ask": {"quantity": "contact_forces"}},
-    "one contact of spheres": {
-        **PROFILE,
-        **SPHERES,
-        "ask": {"quantity": "contact", "at": [0, 2, 1, "2"]},
-    },
-    "response of spheres": {
-        **PROFILE,
-        **SPHERES,
-        "load": {"kind": "point", "at": [1, 1, 2]},
-        "ask": {"quantity": "response"},
-    },
-    "histogram of spheres": {**PROFILE, **SPHERES, "ask": {"quantity": "histogram", "bins": 11}},
-    "histogram of one": {**PROFILE, "ask": {"quantity": "histogram", "at": [0, 2, "+"]}},
+    "profile of a bulk load": PROFILE | {"load": {"kind": "bulk"}},
+    "profile, first order": PROFILE | FIRST,
+    "profile below a point load": PROFILE | {"load": {"kind": "point", "at": [3, 3]}},
+    "contact of a slab": asking("contact", at=[0, 2, "-"]) | SLAB,
+    "contact by line sums": asking("contact", at=[0, 2, "+"]) | FIRST,
+    "all contacts": asking("contact_forces"),
+    "response": asking("response") | {"packing": {"height": 4}, "load": POINT},
+    "two layers of a response": asking("response", layers=[3, 1]) | {"load": POINT},
+    "histogram of all": asking("histogram", bins=11),
+    "profile of spheres": PROFILE | SPHERES,
+    "bulk profile of spheres": PROFILE | SPHERES | {"load": {"kind": "bulk"}},
+    "all contacts of spheres": asking("contact_forces") | SPHERES,
+    "one contact of spheres": asking("contact", at=[0, 2, 1, "2"]) | SPHERES,
+    "response of spheres": asking("response")
+    | SPHERES
+    | {"load": {"kind": "point", "at": [1, 1, 2]}},
+    "histogram of spheres": asking("histogram", bins=11) | SPHERES,
+    "histogram of one": asking("histogram", at=[0, 2, "+"]),
 }
 
 

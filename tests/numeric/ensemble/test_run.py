@@ -1,6 +1,5 @@
 """An ensemble is the same to the bit for any executor, order and interruption."""
 
-import math
 import os
 import random
 import signal
@@ -200,18 +199,3 @@ def test_every_quantity_can_be_kept(name: str, tmp_path: Path) -> None:
     found = fd.ensemble(scene(CASES[name]), 9, store=path)
     assert bytes_of(found) == bytes_of_first(case(name), 9)
     assert bytes_of(fd.ensemble(scene(CASES[name]), 9, store=path)) == bytes_of(found)
-
-
-@pytest.mark.parametrize("seed", range(6))
-def test_two_packings_tell_not_how_well_the_scatter_of_a_contact_is_known(seed: int) -> None:
-    asked = scene(
-        {
-            "packing": {"height": 2, "width": 6},
-            "disorder": {"kind": "normal", "relative_std": 1e-3, "seed": seed},
-            "load": {"kind": "surface"},
-            "ask": {"quantity": "contact", "at": [2, 0, "+"]},
-        }
-    )
-    found = fd.ensemble(asked, 2, until=0.01)
-    assert math.isnan(found.std_error[0])
-    assert (found.half_width, found.reached) == (math.inf, False)

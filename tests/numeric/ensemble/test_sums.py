@@ -96,6 +96,8 @@ def test_a_profile_is_that_of_run() -> None:
     for name, values in (("std", found.std), ("mean_change", found.mean_change)):
         meant = outcome.arrays[name].tolist()
         assert values == pytest.approx(meant, rel=1e-12, abs=1e-15 * max(found.std))
+    for name, errors in (("std", found.std_error), ("mean_change", found.mean_change_error)):
+        assert errors == pytest.approx(outcome.standard_errors[name], rel=1e-9)
     assert m.ordered() == pytest.approx([1 / math.sqrt(7 / 4)] * 8)
 
 
@@ -127,6 +129,11 @@ def test_bins_are_fixed_and_count_everything(name: str) -> None:
     assert found.bins[0].tolist() == np.sum(counts, axis=0).tolist()
     assert found.bins[1].tolist() == np.sum(np.square(counts), axis=0).tolist()
     assert found.bins[0].sum() == N * m.members
+    shares = np.array(counts) / m.members
+    stated = ensemble_of(m, N).bins
+    assert stated is not None
+    assert stated["share"] == pytest.approx(shares.mean(axis=0))
+    assert stated["share_error"] == pytest.approx(shares.std(axis=0, ddof=1) / math.sqrt(N))
     assert m.edges == tuple(-edge for edge in reversed(m.edges))
 
 

@@ -258,14 +258,6 @@ def test_arrows_stand_on_the_beads_of_a_packing_at_rest() -> None:
     assert arrows(free.plot()) - beads == pytest.approx(np.tile((0, 1.1), (W, 1)))
 
 
-def test_a_profile_of_spheres_is_drawn() -> None:
-    packing = fd.Packing(height=3, width=7, dimension=3)
-    figure = scene("profile", packing=packing).run().plot()
-    sizes = [container.lines[0].get_markersize() for container in figure.axes[0].containers]
-    assert len(sizes) == 3
-    assert sizes == sorted(sizes, reverse=True)
-
-
 def test_no_theory_is_drawn_where_none_applies() -> None:
     outcome = scene("profile", load=fd.PointLoad(at=(0, M))).run()
     assert "first_order_std" not in outcome.arrays

@@ -14,7 +14,6 @@ import pytest
 
 pytest.importorskip("matplotlib")
 from force_diffusion.numeric import closed_forms
-from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.figures import (
     chains,
     comparison,
@@ -40,29 +39,12 @@ from force_diffusion.numeric.figures.packings import (
     Table,
     planned,
 )
-from force_diffusion.numeric.mechanics.sweep import Solved, deposit, sweep_down
-from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.scene.sections import PointLoad
 from matplotlib.axes import Axes
 
 import force_diffusion as fd
 
 NY = math.sqrt(1 - N_X**2)
-
-
-def impulses(plan: Plan) -> Solved:
-    """Solve to first order with δr = r on one bead at a time: the weights of δr/r in everything.
-
-    The first axis of all arrays runs over the beads of the region, base first.
-    """
-    ensemble = plan.problem
-    region = ensemble.region
-    with FLOAT64.active():
-        packing = deposit(ensemble.phi, region, np.eye(region.beads), FLOAT64, linear=True)
-        strength = ensemble.load.strength(ensemble.n_x, FLOAT64)
-        F = ensemble.load.ordered(ensemble.force_rows, strength, FLOAT64)
-        forces = sweep_down(packing, ensemble.force_rows, F, linear=True)
-    return Solved(FLOAT64, packing, forces, None)
 
 
 def silent(_: str) -> None:
@@ -93,18 +75,15 @@ def test_figure_1_shows_beads_that_touch() -> None:
     assert touching == 24
 
 
-def test_widths_of_figure_2_are_those_of_the_packing() -> None:
-    """σ_x and σ_y from the weights of all radii, by the engine."""
+def test_widths_of_figure_2_are_those_of_line_sums() -> None:
+    """Weights of a line's radii are 1 at its ends, and 2 between; the own bead is in both lines."""
     M = 6
-    packing = impulses(planned("contact", at=(0, 0, "+"), height=M, width=None, seed=0)).packing
-    assert packing is not None
     x, y = diffusion.displacement_std(M)
-    for j in range(M + 1):
-        cp, cm = packing.c.plus[j], packing.c.minus[j]
-        found_x = np.sqrt((((cp - cm) / (2 * float(N_X))) ** 2).sum(axis=0))
-        found_y = np.sqrt((((cp + cm) / (2 * NY)) ** 2).sum(axis=0))
-        assert found_x == pytest.approx(np.full(found_x.shape, x[j]), rel=1e-12)
-        assert found_y == pytest.approx(np.full(found_y.shape, y[j]), rel=1e-12)
+    for j in range(1, M + 1):
+        line = 1 + 4 * (j - 1)  # squares, but for that of the own bead
+        assert (x[j], y[j]) == pytest.approx(
+            (math.sqrt(2 * line) / (2 * float(N_X)), math.sqrt(2 * line + 2**2) / (2 * NY))
+        )
 
 
 def drawn(axes: Axes, label: str) -> tuple[Any, Any]:
@@ -189,31 +168,6 @@ def test_figure_4_does_not_depend_on_the_horizontal_position(
     assert cuts.deviation() <= 1
     off = np.abs(table["mean_simulated"] - 0.5)[point_load.LEG]
     assert (off < 5 * table["mean_standard_error"][point_load.LEG]).all()
-
-
-def test_figure_4_agrees_with_the_weights_of_all_radii(figure4: tuple[Table, Comparison]) -> None:
-    """The engine's own weights, legs of the cone included."""
-    l = point_load.APEX  # noqa: E741
-    plan = planned("response", height=l, width=None, seed=1, load=PointLoad(at=(0, l)))
-    weights = impulses(plan)
-    packing, forces = weights.packing, weights.forces
-    assert packing is not None
-    assert forces is not None
-    for j in range(l):
-        plus, minus = (
-            NY * (change + ordered * (tilt[0] + tilt[1]))
-            for ordered, change, tilt in (
-                (forces.ordered.plus[j + 1], forces.change.plus[j + 1], packing.dn.plus[j + 1]),
-                (forces.ordered.minus[j + 1], forces.change.minus[j + 1], packing.dn.minus[j + 1]),
-            )
-        )
-        nothing = np.zeros((len(plus), 1))
-        right = np.concatenate((plus, nothing), axis=1)
-        both = right + np.concatenate((nothing, minus), axis=1)
-        assert np.abs(both.sum(axis=1)).max() < 1e-13  # every layer bears the whole load
-        for weights, name in ((both, "variance_exact"), (right, "variance_upper_plus_contact")):
-            variance = (weights**2).sum(axis=0)
-            assert on_layer(figure4[0][name], j) == pytest.approx(variance, rel=1e-12)
 
 
 def test_chains_balance_as_drawn() -> None:

@@ -1,21 +1,17 @@
 """Only what is called for: tests on the work that was executed, and on what it depends on."""
 
 import sys
-from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import pytest
 from force_diffusion.numeric.accuracy import enclosed
-from force_diffusion.numeric.arithmetic.systems import FLOAT64
-from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice import regions
-from force_diffusion.numeric.lattice.layers import Rows
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning import planner
 from force_diffusion.numeric.planning.memory import float_bead
 from force_diffusion.numeric.run import run
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.numeric.scenes import answer, basic, planned, radii_read
@@ -120,23 +116,6 @@ def test_bits_are_added_until_the_tolerance_is_met(monkeypatch: pytest.MonkeyPat
     assert plan.system.bits in {24 * 2**k for k in range(2, 9)}
     assert accuracy.arithmetic == plan.system.name
     assert accuracy.error_bound <= 1e-40
-
-
-@settings(deadline=None)
-@given(
-    st.integers(0, 2**64 - 1),
-    st.integers(0, 10**9),
-    st.lists(st.tuples(st.integers(-(2**59), 2**59), st.integers(0, 10**7)), max_size=5),
-    st.sampled_from(["uniform", "normal", "two-point"]),
-    st.sampled_from([None, 5]),
-)
-def test_a_bead_drawn_alone_is_the_one_in_its_row(
-    seed: int, k: int, where: list[tuple[int, int]], kind: str, width: int | None
-) -> None:
-    radii = DrawnRadii(kind, Fraction(1, 1000), seed, width)
-    sites = [(2 * column + j % 2, j) for column, j in where]
-    rows = [radii.of(Rows([i], [1], j), [k], FLOAT64)[0, 0] for i, j in sites]
-    assert radii.at(sites, k, FLOAT64).tolist() == rows
 
 
 def test_memory_knows_what_is_solved_together() -> None:

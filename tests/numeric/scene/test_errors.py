@@ -2,20 +2,14 @@
 
 import json
 import os
-import string
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.accuracy import ToleranceError
-from force_diffusion.numeric.disorder.radii import RadiusError
-from force_diffusion.numeric.mechanics.sweep import NotStandingError, UnbuildableError
-from force_diffusion.numeric.run import read_scene, run
+from force_diffusion.numeric.run import read_scene
 from force_diffusion.numeric.scene.files import TableError
 from force_diffusion.numeric.scene.sections import SceneError
-from hypothesis import given
-from hypothesis import strategies as st
 
 import force_diffusion as fd
 from tests.numeric.scenes import answer, basic, parse_scene, planned, scene
@@ -234,18 +228,6 @@ def test_radii_files_name_the_line_and_the_bead(
         planned(sections, tmp_path)
 
 
-@given(
-    st.lists(st.text(alphabet='0123456789,.-+einfax"\n\r\t \x00\udcff', max_size=30), max_size=8)
-)
-def test_any_radii_file_gives_an_answer_or_a_message(
-    tmp_path_factory: pytest.TempPathFactory, lines: list[str]
-) -> None:
-    folder = tmp_path_factory.mktemp("fuzz")
-    sections = radii_file(folder, "\n".join(["i,j,delta_r", *lines]))
-    with pytest.raises(TableError):  # never four good lines by chance: the header's packing has 4
-        planned(sections, folder)
-
-
 def test_endless_files_are_refused_at_once(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
@@ -265,95 +247,3 @@ def test_endless_files_are_refused_at_once(tmp_path: Path) -> None:
         large.write_bytes(content)
         with pytest.raises(SceneError, match=says):
             read_scene(large)
-
-
-keys = st.sampled_from(
-    ["height", "width", "radius", "spacing", "kind", "relative_std", "seed", "file", "at",
-     "magnitude", "angle_deg", "geometry", "quantity", "tolerance", "realisations", "bins", "x"]
-)  # fmt: skip
-values = st.one_of(
-    st.sampled_from(
-        ["=1e400", "=-0.0", "=nan", "=2.5", "=1e-9", "=1e-4999", "uniform", "file", "point", "+",
-         "exact", "profile", "contact", "missing.csv", "", True, 10**18, 10**40, -1, 0, 1, 2, 3]
-    ),
-    st.lists(st.sampled_from([0, 1, 2, -1, 10**20, "+", "-", "x"]), max_size=4),
-    st.text(alphabet=string.ascii_letters, max_size=5),
-)  # fmt: skip
-changes = st.lists(
-    st.tuples(
-        st.sampled_from(["packing", "disorder", "load", "effects", "ask", "other"]), keys, values
-    ),
-    min_size=1,
-    max_size=4,
-)
-
-
-# What a run may end with beside an answer; anything else would be a traceback.
-REFUSALS = (
-    SceneError, TableError, UnbuildableError, NotStandingError, RadiusError, ToleranceError
-)  # fmt: skip
-
-
-def solved_or_refused(sections: dict[str, dict[str, Any]], folder: Path = Path()) -> None:
-    """Plan a scene, and run it if it is small; every end but an answer must be a message."""
-    message = None
-    try:
-        made = planned(sections, folder)
-        made.data()
-        if made.beads < 1500 and getattr(made.system, "bits", 53) <= 2000:
-            outcome = run(made)
-            json.dumps(outcome.data(), allow_nan=False)
-            accuracy = outcome.accuracy
-            if not accuracy.certified and 0 < made.problem.radii.relative_std() ** 2 < 1e-300:
-                assert accuracy.error_bound > 0  # zero would claim that nothing was rounded away
-    except REFUSALS as error:
-        message = str(error)
-    assert message is None or 10 < len(message) < 600
-
-
-@given(changes)
-def test_any_scene_gives_an_answer_or_a_message(made: list[tuple[str, str, Any]]) -> None:
-    sections = basic()
-    for section, key, value in made:
-        sections.setdefault(section, {})[key] = value
-    solved_or_refused(sections)
-
-
-far = st.sampled_from(
-    ["1e-5", "0.3", "1", "3.0", "1e-300", "1e-301", "1e-330", "1e-400", "1e-465", "1e-3000",
-     "1e-4999", "1e100", "1e101", "1e150", "1e280", "1e308", "1e400", "1e4999"]
-)  # fmt: skip
-quantities = st.sampled_from(["contact_forces", "positions", "profile", "histogram", "contact"])
-
-
-@given(st.data())
-def test_numbers_far_outside_of_floats_give_an_answer_or_a_message(
-    tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
-) -> None:
-    folder = tmp_path_factory.mktemp("far")
-    sections = basic(2, 3, quantity=data.draw(quantities))
-    if sections["ask"]["quantity"] == "contact":
-        sections["ask"]["at"] = [0, 0, "+"]
-    radius = data.draw(far)
-    mantissa, _, exponent = radius.partition("e")
-    sections["packing"]["radius"] = f"={radius}"
-    if data.draw(st.booleans()):
-        sections["packing"]["spacing"] = f"={3 * float(mantissa)}e{exponent or 0}"
-    kind = data.draw(st.sampled_from(["uniform", "normal", "two-point", "file"]))
-    if kind == "file":
-        sections["disorder"] = {"kind": "file", "file": "radii.csv"}
-        lines = [f"{i},{j},{data.draw(far)}" for j in range(3) for i in range(j % 2, 6, 2)]
-        (folder / "radii.csv").write_text("\n".join(["i,j,delta_r", *lines]))
-    else:
-        sections["disorder"] = {"kind": kind, "relative_std": f"={data.draw(far)}"}
-    sections["load"] = {"magnitude": f"={data.draw(far)}"}
-    if data.draw(st.booleans()):
-        sections["load"] = {"kind": "file", "file": "loads.csv", "magnitude": f"={data.draw(far)}"}
-        (folder / "loads.csv").write_text(f"i,j,fx,fy\n0,2,{data.draw(far)},-{data.draw(far)}")
-    elif data.draw(st.booleans()):
-        sections["load"]["angle_deg"] = data.draw(st.sampled_from([-90, 90, "=89.99"]))
-    kinds = st.sampled_from(["exact", "first-order", "ordered"])
-    sections["effects"] = {"geometry": data.draw(kinds)}
-    if data.draw(st.booleans()):
-        sections["ask"]["tolerance"] = f"={data.draw(st.sampled_from(['1e-9', '1e-330']))}"
-    solved_or_refused(sections, folder)

@@ -50,3 +50,9 @@ def test_more_looks_and_more_confidence_ask_for_more() -> None:
     assert found.half_width < first < second
     assert found.half_width < replace(found, confidence=0.99).half_width
     assert ensemble_of(m, 1).half_width == math.inf
+
+
+def test_two_packings_tell_not_how_well_the_scatter_of_a_contact_is_known() -> None:
+    found = replace(ensemble_of(case("contact of a slab"), 2), until=0.01)
+    assert math.isnan(found.std_error[0])
+    assert (found.half_width, found.reached) == (math.inf, False)

@@ -1,0 +1,52 @@
+"""Counts beside what they have to be: counting one by one."""
+
+from bisect import bisect_right
+from collections import Counter
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+import force_diffusion as fd
+
+
+def scene(quantity: str, **ask: Any) -> fd.Scene:
+    return fd.Scene(
+        packing=fd.Packing(height=2, width=64),
+        disorder=fd.Disorder(kind="uniform", relative_std=1e-3, seed=3),
+        ask=fd.Ask(quantity=quantity, realisations=3, **ask),
+    )
+
+
+@pytest.mark.parametrize("bins", [1, 2, 7, 100])
+@pytest.mark.parametrize("tolerance", [None, "1e-30"])
+def test_counts_are_those_of_the_changes(bins: int, tolerance: str | None) -> None:
+    """A change belongs to the bin of low ≤ change < high."""
+    rows = scene("histogram", bins=bins).run(tolerance).decimals()
+    listed = scene("contact_forces").run(tolerance).decimals()
+    edges = [Fraction(row["low"]) for row in rows]
+    expected = Counter(bisect_right(edges, Fraction(row["change"])) for row in listed)
+    assert [row["count"] for row in rows] == [expected[place] for place in range(1, bins + 1)]
+    assert expected.total() == 3 * 2 * 2 * 64
+
+
+@pytest.mark.parametrize("effects", [{"geometry": "ordered"}, {}])
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_realisations_that_are_alike_are_counted_too(
+    effects: dict[str, Any], dimension: int
+) -> None:
+    """Without disorder one is solved, and stands for all."""
+    std = Fraction(1, 100) if effects else Fraction(0)
+
+    def asked(quantity: str, **disorder: Any) -> Any:
+        return fd.Scene(
+            packing=fd.Packing(height=3, width=5, dimension=dimension),
+            disorder=fd.Disorder(kind="uniform", relative_std=std) if disorder else None,
+            ask=fd.Ask(quantity=quantity, realisations=4),  # type: ignore[arg-type]
+            effects=fd.Effects(**effects),
+        ).run()
+
+    beads = 5 ** (dimension - 1)
+    for drawn in ({}, {"drawn": True}):
+        assert set(asked("profile", **drawn).arrays["samples"]) == {4 * beads}
+        assert asked("histogram", **drawn).arrays["count"].sum() == 4 * 3 * dimension * beads
