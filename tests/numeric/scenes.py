@@ -127,10 +127,6 @@ def site(draw: st.DrawFn, width: int, low: int, high: int) -> list[int]:
     return [2 * draw(st.integers(0, width - 1)) + j % 2, j]
 
 
-def exact(text: str) -> Fraction:
-    return Fraction(text)
-
-
 @dataclass(frozen=True)
 class _Noted:
     """Radii that note whose they are, as they are asked for."""

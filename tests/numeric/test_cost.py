@@ -141,17 +141,21 @@ def test_rows_come_as_they_are_known() -> None:
     assert tuple(seen) == found.ways
 
 
-@pytest.mark.parametrize("change", [{"disorder": {}}, {"effects": {"geometry": "ordered"}}])
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"disorder": {}},
+        {"effects": {"geometry": "ordered"}},
+        {
+            "ask": {"quantity": "contact", "at": [21, 1, "+"]},  # which the load does not reach
+            "load": {"kind": "point", "at": [1, 3]},
+        },
+    ],
+)
 def test_without_any_change_there_is_nothing_to_measure(change: dict[str, Any]) -> None:
     sections = {k: v for k, v in (basic() | change).items() if v}
     with pytest.raises(SceneError, match="exactly zero"):
         fd.cost(scene(sections))
-
-
-def test_a_contact_that_no_load_reaches() -> None:
-    sections = basic(5, 20, quantity="contact", at=[21, 1, "+"])
-    with pytest.raises(SceneError, match="exactly zero"):
-        fd.cost(scene(sections | {"load": {"kind": "point", "at": [1, 3]}}))
 
 
 def test_a_packing_that_can_not_be_built() -> None:

@@ -2,22 +2,19 @@
 
 import statistics
 from collections.abc import Iterator
-from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.disorder.radii import RadiusError
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
-from force_diffusion.numeric.quantities.answer import answer as answered
 from force_diffusion.numeric.run.outcome import Outcome
 from hypothesis import assume, given
 
 import force_diffusion as fd
-from tests.numeric.scenes import answer, basic, planned, scene, scenes
+from tests.numeric.scenes import answer, basic, scene, scenes
 
 SMALL = {
     "change", "dx", "dy", "change_x", "change_y", "mean_change", "std", "vertical_change",
@@ -63,20 +60,6 @@ def test_a_wide_packing_is_the_slab() -> None:
         slab = answer({**basic(5, None, quantity="contact", at=[30, 2, "+"]), **effects})
         assert wide.decimals() == slab.decimals()
         assert not wide.plan.sees_images
-
-
-@pytest.mark.parametrize("quantity", ["contact_forces", "positions"])
-def test_realisations_are_independent_of_the_batch(quantity: str) -> None:
-    """Each realisation of a batch is bit for bit the one solved alone."""
-    plan = planned(basic(4, 9, quantity=quantity, realisations=5))
-    together = answered(plan.quantities, plan.problem, range(5), FLOAT64).table
-    single = replace(plan, problem=replace(plan.problem, realisations=1))
-    for k in range(5):
-        alone = answered(plan.quantities, single.problem, [k], FLOAT64).table
-        for name, column in alone.numbers.items():
-            n = len(column)
-            assert n
-            assert (together.numbers[name][k * n : (k + 1) * n] == column).all()
 
 
 def test_a_profile_is_the_moments_of_all_contact_forces() -> None:
@@ -132,21 +115,6 @@ def test_a_profile_under_a_point_load_keeps_the_digits_of_its_changes() -> None:
     sections["load"] = {"kind": "point", "at": [4, 4]}
     for row in answer(sections).decimals():
         assert 1e-32 < float(row["std"]) < 1e-28
-
-
-def test_a_load_file_of_one_bead_is_a_point_load(tmp_path: Path) -> None:
-    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n4,4,0,-2.0\n")
-    sections = basic(6, 14)
-    point = answer({**sections, "load": {"kind": "point", "at": [4, 4]}})
-    file = answer(
-        {**sections, "load": {"kind": "file", "file": "loads.csv", "magnitude": "=2.0"}}, tmp_path
-    )
-    for name, found in point.arrays.items():
-        expected = 2 * found if name in {"force", "change"} else found
-        np.testing.assert_array_equal(file.arrays[name], expected)
-    physical = point.data()["physical"]
-    assert physical == file.data()["physical"]
-    assert physical["tensile_contacts"]
 
 
 @pytest.mark.parametrize(
@@ -217,27 +185,6 @@ def test_some_layers_of_a_response_are_those_of_the_whole(
             assert all(float(one) < 2e-25 for one in error)
         else:
             assert column.tobytes() == whole.arrays[name][kept].tobytes(), name
-
-
-def test_measured_radii_are_read_exactly(tmp_path: Path) -> None:
-    """The same radii, once drawn and once written to a file as exact decimals, in other units."""
-    from force_diffusion.numeric.disorder.radii import DrawnRadii
-    from force_diffusion.numeric.lattice.layers import whole
-
-    drawn = DrawnRadii("two-point", Fraction(1, 10**4), 3, 9)
-    lines = ["i,j,delta_r"]
-    rows = whole(9, 4).rows
-    for i, j, u in zip(*rows.sites, drawn.of(rows, [0], FLOAT64)[0], strict=True):
-        lines.append(f"{i},{j},{'-' if u < 0 else ''}2.5e-4")
-    (tmp_path / "radii.csv").write_text("\n".join(lines) + "\n")
-    one = basic(4, 9, tolerance="=1e-20")
-    one["disorder"]["kind"] = "two-point"
-    two = basic(4, 9, tolerance="=1e-20")
-    two["packing"].update(radius="=2.5", spacing="=7.5")
-    two["disorder"] = {"kind": "file", "file": "radii.csv"}
-    usual, other = answer(one), answer(two, tmp_path)
-    for name in ("force", "change"):
-        assert usual.text[name] == other.text[name]
 
 
 @pytest.mark.parametrize(
@@ -313,7 +260,8 @@ def test_a_load_beside_a_surface_load_adds_its_forces(
     loads[4, top] = loads.get((4, top), 0) - 2
     rows = [f"{i},{j},0,{f}" for (i, j), f in loads.items()]
     (tmp_path / "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows]) + "\n")
-    both = answer({**sections, "load": {"kind": "file", "file": "loads.csv"}}, tmp_path)
+    listed = {"kind": "file", "file": "loads.csv", "magnitude": 2}
+    both = answer({**sections, "load": listed}, tmp_path)
     for name in ("force", "change"):
         total = [float(a + b) for a, b in zip(*(f.arrays[name] for f in alone), strict=True)]
         np.testing.assert_allclose(both.arrays[name].astype(float), total, rtol=0, atol=1e-14)

@@ -175,34 +175,6 @@ def test_rows_of_an_ensemble_stand_by_bead_then_axis(quantity: str) -> None:
     assert np.abs(whole - before).max() < 1e-14
 
 
-def inside(outcome: fd.Outcome, load: tuple[int, int, int], width: int) -> Array:
-    """Whether a contact's lower bead is reached from the load by steps along all three axes."""
-    found = []
-    for p, q, j in columns(outcome, "p", "q", "j"):
-        first, second = (load[0] - p) % width, (load[1] - q) % width
-        steps = first, second, load[2] - j - first - second
-        found.append(min(steps) > 0)
-    return np.array(found)
-
-
-def test_a_point_load_fluctuates_on_the_faces_of_its_cone_alone() -> None:
-    """To first order; what the inside bears is of second order."""
-    load = fd.PointLoad(at=(4, 4, 5))
-
-    def largest(geometry: str, std: float) -> tuple[float, float]:
-        outcome = scene("response", height=5, width=7, load=load, geometry=geometry, std=std).run()
-        change, within = np.abs(outcome.arrays["change"]), inside(outcome, (4, 4, 5), 7)
-        assert within.sum() > 20
-        return change[within].max(), change[~within].max()
-
-    silent, faces = largest("first-order", 1e-4)
-    assert silent == 0
-    assert faces > 1e-5
-    (wide, wide_faces), (narrow, narrow_faces) = (largest("exact", std) for std in (1e-4, 1e-5))
-    assert wide_faces / narrow_faces == pytest.approx(10, rel=0.02)
-    assert wide / narrow == pytest.approx(100, rel=0.02)  # the next order is a share of 1e-3
-
-
 def test_radii_of_ones_own_are_an_array_of_beads(tmp_path: Path) -> None:
     """The drawn radii, given as an array and in a file, make the same packing."""
     asked = scene(height=3, width=4)

@@ -9,11 +9,8 @@ import flint
 import numpy as np
 import pytest
 from force_diffusion.numeric.accuracy import known_digits
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, as_ball, largest_of
+from force_diffusion.numeric.arithmetic.systems import Balls, as_ball, largest_of
 from force_diffusion.numeric.disorder.radii import RadiusError
-from force_diffusion.numeric.mechanics import engine
-from force_diffusion.numeric.mechanics.physicality import Physicality
-from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.quantities.answer import answer
 from force_diffusion.numeric.quantities.base import RATIO
 from force_diffusion.numeric.run.outcome import Outcome
@@ -166,20 +163,3 @@ def test_the_stated_error_does_not_depend_on_the_compiler(name: str, std: str) -
             outcome = run(planned(sections(name, relative_std=std)))
             found.append((outcome.accuracy, outcome.data()["results"]))
     assert found[0] == found[1]
-
-
-@pytest.mark.long(sample=12)
-@pytest.mark.parametrize("kind", ["uniform", "two-point"])
-@pytest.mark.parametrize("name", CASES)
-def test_gaps_by_compiled_loops_are_those_of_numpy(name: str, kind: str) -> None:
-    problem = planned(sections(name, kind=kind, relative_std="=0.02")).problem
-    found = []
-    for way in (nullcontext, by_numpy):
-        physical = Physicality()
-        with FLOAT64.active(), way():
-            for _ in engine.packings(problem, range(5), FLOAT64, Work(), physical):
-                pass
-        found.append(physical)
-    assert found[0] == found[1]
-    assert found[0].smallest_gap is not None
-    assert np.isfinite(found[0].smallest_gap)

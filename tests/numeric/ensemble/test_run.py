@@ -106,15 +106,6 @@ def test_what_fails_goes_on_from_the_file(
 
 @pytest.mark.long
 @pytest.mark.usefixtures("small_blocks")
-def test_processes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module.engine, "compiles", lambda *_, **__: False)
-    with module._executor(M, 150, 2) as executor:
-        assert isinstance(executor, ProcessPoolExecutor)
-    assert bytes_of(fd.ensemble(SCENE, 150, workers=2)) == bytes_of_first(M, 150)
-
-
-@pytest.mark.long
-@pytest.mark.usefixtures("small_blocks")
 def test_a_process_that_is_killed_loses_nothing_that_was_kept(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -131,7 +122,9 @@ def test_a_process_that_is_killed_loses_nothing_that_was_kept(
     with pytest.raises(WorkersError, match=r"a worker died.* holds [1-9]"):
         fd.ensemble(SCENE, 4000, workers=2, store=store, progress=kill_one)
     held = read_store(store).realisations
-    found = fd.ensemble(SCENE, 150, store=store)
+    with module._executor(M, 150, 2) as executor:
+        assert isinstance(executor, ProcessPoolExecutor)
+    found = fd.ensemble(SCENE, 150, workers=2, store=store)
     assert found.solved == 150 - min(held, 150)
     assert bytes_of(found) == bytes_of_first(M, 150)
 

@@ -60,13 +60,6 @@ def test_rays_conserve_the_vertical_force(splits: float) -> None:
     assert error < 0.02
 
 
-def test_a_defect_of_no_angle_changes_nothing() -> None:
-    end, at_base, _ = double_y.walk(5, TILT, 0.0, 1000, 1)
-    straight, _, _ = double_y.walk(0, TILT, 0.0, 1000, 1)
-    assert at_base.all()
-    assert end == pytest.approx(straight, rel=1e-9)
-
-
 def test_the_response_turns_from_two_peaks_to_a_broad_one() -> None:
     def shares(splits: float) -> tuple[float, float]:
         found = double_y.profile(splits, TILT, seed=4, rays=100_000)

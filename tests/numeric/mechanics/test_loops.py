@@ -91,7 +91,9 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
         for name in ("block",) if isinstance(ours, SolvedPacking) else ("g",):
             # LLVM and NumPy round alike
             assert getattr(ours, name).tobytes() == getattr(theirs, name).tobytes()
-    assert physicality.gaps(usual[0]).smallest == physicality.gaps(same[0]).smallest
+    found = physicality.gaps(usual[0])
+    with by_numpy():
+        assert physicality.gaps(usual[0]) == found
     balls = Balls(200)
     with balls.active():
         exact = solved(phi, region, balls.from_floats(rho[:1]), rows, balls.from_floats(F), balls)

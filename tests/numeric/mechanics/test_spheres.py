@@ -1,6 +1,7 @@
 """Three dimensions: first order by other weights, and what can't rest or stand is named."""
 
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import flint
@@ -14,7 +15,7 @@ from force_diffusion.numeric.arithmetic.systems import (
     Balls,
 )
 from force_diffusion.numeric.lattice.layers import Region, whole
-from force_diffusion.numeric.mechanics.physicality import gaps
+from force_diffusion.numeric.mechanics.physicality import by_distance, gaps
 from force_diffusion.numeric.mechanics.sweep import (
     NotStandingError,
     SolvedPacking,
@@ -64,6 +65,21 @@ def test_gaps_of_touching_beads_are_told_apart() -> None:
     assert found.smallest == 0
     # three pairs a bead, in each of two layers
     assert (found.overlaps, found.undecided) == (0, 3 * 9 * 2)
+
+
+@pytest.mark.parametrize(("dimension", "phi"), [(2, Fraction(-2, 5)), (3, Fraction(-3, 10))])
+def test_pairs_come_by_distance_each_once(dimension: int, phi: Fraction) -> None:
+    found = [pair for pair, _ in zip(by_distance(dimension, float(phi)), range(400), strict=False)]
+    assert [distance for distance, _ in found] == sorted(distance for distance, _ in found)
+    steps = {one for _, one in found}
+    assert len(steps) == len(found)
+    assert not steps & {tuple(-s for s in one) for one in steps}
+    last = found[-1][0]
+    for one in product(range(-5, 6), repeat=dimension):
+        square = 4 * (sum(s * s for s in one) * (1 - phi) + sum(one) ** 2 * phi)
+        contact = sum(map(abs, one)) == 1
+        if any(one) and not contact and float(square) ** 0.5 < last - 1e-9:
+            assert one in steps or tuple(-s for s in one) in steps
 
 
 def test_a_support_that_is_too_large_is_named() -> None:
