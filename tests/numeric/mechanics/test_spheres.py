@@ -1,11 +1,10 @@
-"""Three dimensions: first order by other weights, and what can't rest or stand is named."""
+"""Three dimensions: small disorder is first order, and what can't rest or stand is named."""
 
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
 import flint
-import mpmath
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.errors import UndecidedError
@@ -24,8 +23,7 @@ from force_diffusion.numeric.mechanics.sweep import (
     sweep_down,
 )
 
-from tests.numeric.mechanics.any_dimension import force_weights, together
-from tests.numeric.spheres import columns, drawn, scene
+from tests.numeric.spheres import scene
 
 
 def spheres(rho: list[Array]) -> tuple[Region, Array]:
@@ -40,21 +38,13 @@ def from_above(region: Region, share: Any) -> Array:
     return np.full((region.dimension, beads), share)
 
 
-def test_first_order_is_the_weights_of_any_dimension() -> None:
-    """Fractions by another way: force_weights names beads of Z³, by their own numbers."""
-    M, W, phi = 3, 5, 1 - Fraction("2.9") ** 2 / 8
-    asked = scene(height=M, width=W, geometry="first-order")
-    outcome, radii = asked.run(tolerance="1e-30"), drawn(asked)
-    unit = 1 / mpmath.sqrt(float(3 * (1 + 2 * phi)))
-    change = {
-        (p, q, j, branch): float(g) / unit
-        for p, q, j, branch, g in columns(outcome, "p", "q", "j", "branch", "change")
-    }
-    for j in range(M):
-        weights = together(force_weights(3, M, j, phi))
-        # its contact begins at (j, 0, 0), along the first axis: p = j, q = 0
-        stated = sum(w * radii[a % W, b % W, a + b + c] for (a, b, c), w in weights.items())
-        assert change[j % W, 0, j, "1"] == pytest.approx(float(stated), rel=1e-14)
+def test_small_disorder_is_first_order() -> None:
+    exact, first = (
+        scene(height=3, width=4, std=1e-30, geometry=g).run(tolerance="1e-29")
+        for g in ("exact", "first-order")
+    )
+    for a, b in zip(exact.arrays["change"], first.arrays["change"], strict=True):
+        assert abs(float((a - b) / b)) < 1e-26  # second order, 1e-30, over the smallest change
 
 
 def test_gaps_of_touching_beads_are_told_apart() -> None:

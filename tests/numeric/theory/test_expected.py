@@ -13,54 +13,44 @@ PHI = 1 - 2 * 0.75**2  # s = 3 r
 M, W = 16, 32
 
 
-def scene(load: str, relative_std: float, height: int = M) -> fd.Scene:
+DISCS = fd.Packing(height=M, width=W)
+SPHERES = fd.Packing(height=8, width=10, dimension=3)
+
+
+def scene(load: fd.Load, relative_std: float, packing: fd.Packing = DISCS) -> fd.Scene:
     return fd.Scene(
-        packing=fd.Packing(height=height, width=W),
+        packing=packing,
         disorder=fd.Disorder(kind="normal", relative_std=relative_std, seed=8),
-        load=fd.Load(kind=load),
+        load=load,
         ask=fd.Ask(quantity="profile"),
     )
 
 
 @pytest.mark.parametrize(
-    ("load", "relative_std", "room"),
-    [("surface", 0.0055, 0.3), ("surface", 0.0092, 0.1), ("bulk", 0.0156, 0.2)],
+    ("load", "relative_std", "packing", "room"),
+    [
+        (fd.SurfaceLoad(), 0.0055, DISCS, 0.3),
+        (fd.SurfaceLoad(), 0.0092, DISCS, 0.1),
+        (fd.BulkLoad(), 0.0156, DISCS, 0.2),
+        (fd.SurfaceLoad(angle_deg=20), 0.004, DISCS, 0.2),
+        (fd.BulkLoad(angle_deg=-20), 0.008, DISCS, 0.2),
+        (fd.SurfaceLoad(angle_deg=50), 0.002, DISCS, 0.02),
+        (fd.SurfaceLoad(), 0.02, SPHERES, 0.2),
+        (fd.BulkLoad(), 0.03, SPHERES, 0.2),
+    ],
 )
-def test_exact_packings_have_as_many(load: str, relative_std: float, room: float) -> None:
-    """To first order, and Gaussian only for many layers: so it is an estimate, good to ``room``."""
-    found = fd.ensemble(scene(load, relative_std), 120)
-    expected = expected_tension(M, W, PHI, relative_std, load).contacts
-    assert found.tensile.sum() / 120 == pytest.approx(expected, rel=room)
-
-
-@pytest.mark.parametrize(
-    ("load", "angle", "relative_std", "room"),
-    [("surface", 20, 0.004, 0.2), ("bulk", -20, 0.008, 0.2), ("surface", 50, 0.002, 0.02)],
-)
-def test_packings_under_a_load_at_an_angle_have_as_many(
-    load: str, angle: int, relative_std: float, room: float
+def test_exact_packings_have_as_many(
+    load: fd.Load, relative_std: float, packing: fd.Packing, room: float
 ) -> None:
-    """At 50° one branch pulls in the ordered packing: about half of all contacts do."""
-    asked = scene(load, relative_std)
-    asked = asked.model_copy(update={"load": fd.Load(kind=load, angle_deg=angle)})
+    """To first order, and Gaussian only for many layers: so it is an estimate, good to ``room``.
+
+    At 50° one branch pulls in the ordered packing: about half of all contacts do.
+    """
+    asked = scene(load, relative_std, packing)
     expected = asked.explain().data()["tension"]["expected_contacts"]
     assert expected > 1
-    found = fd.ensemble(asked, 60)
-    assert found.tensile.sum() / 60 == pytest.approx(expected, rel=room)
-
-
-@pytest.mark.parametrize(("load", "relative_std"), [("surface", 0.02), ("bulk", 0.03)])
-def test_packings_of_spheres_have_as_many(load: str, relative_std: float) -> None:
-    asked = fd.Scene(
-        packing=fd.Packing(height=8, width=10, dimension=3),
-        disorder=fd.Disorder(kind="normal", relative_std=relative_std, seed=8),
-        load=fd.Load(kind=load),
-        ask=fd.Ask(quantity="profile"),
-    )
-    expected = asked.explain().data()["tension"]["expected_contacts"]
-    assert expected > 1
-    found = fd.ensemble(asked, 60)
-    assert found.tensile.sum() / 60 == pytest.approx(expected, rel=0.2)
+    found = fd.ensemble(asked, 120)
+    assert found.tensile.sum() / 120 == pytest.approx(expected, rel=room)
 
 
 @pytest.mark.long(sample=9)
@@ -97,4 +87,4 @@ def test_a_scene_whose_packings_have_tension_is_told(tmp_path, capsys) -> None:
             assert main([*command, str(path)]) == 0
             shown = capsys.readouterr()
             assert ("a typical packing of this scene has tension" in shown.err) == told
-    assert scene("surface", 0.0055).explain().data()["tension"]["height_of_one"] == 14
+    assert scene(fd.SurfaceLoad(), 0.0055).explain().data()["tension"]["height_of_one"] == 14

@@ -106,10 +106,16 @@ def test_without_tension_forces_are_as_deposited(seed: int) -> None:
 
 
 @pytest.mark.parametrize(
-    "load", [fd.BulkLoad(), fd.SurfaceLoad(angle_deg=10), fd.PointLoad(at=[0, 8])], ids=str
+    "scene",
+    [
+        strip(std=0.03, load=fd.BulkLoad()),
+        strip(std=0.03, load=fd.SurfaceLoad(angle_deg=10)),
+        strip(std=0.03, load=fd.PointLoad(at=[0, 8])),
+        *(strip(std=0.03, width=width, seed=seed) for width, seed in ((3, 2), (4, 4), (5, 2))),
+    ],
 )
-def test_all_loads_come_to_rest(load: fd.Load) -> None:
-    outcome = strip(std=0.03, load=load).run()
+def test_beads_come_to_rest(scene: fd.Scene) -> None:
+    outcome = scene.run()
     assert outcome.accuracy.certified
     at_rest(outcome)
 
@@ -124,11 +130,6 @@ def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(
 ) -> None:
     """Up to 4 M*; as deposited, these have overlaps or beads that can't rest."""
     at_rest(strip(std=std, seed=seed, width=width).run())
-
-
-@pytest.mark.parametrize(("width", "seed"), [(3, 2), (4, 4), (5, 2)])
-def test_narrow_strips_come_to_rest(width: int, seed: int) -> None:
-    at_rest(strip(std=0.03, seed=seed, width=width).run())
 
 
 @pytest.mark.long

@@ -4,7 +4,13 @@ from collections import defaultdict
 from collections.abc import Mapping
 from fractions import Fraction
 
-from tests.numeric.mechanics.any_dimension import Bead, reciprocal, stepped
+from tests.numeric.mechanics.plain_packing import Bead, stepped
+
+
+def reciprocal(dimension: int, phi: Fraction) -> tuple[Fraction, Fraction]:
+    """b^a·b^a and b^a·b^c of the reciprocal vectors."""
+    below = (1 - phi) * (1 + (dimension - 1) * phi)
+    return (1 + (dimension - 2) * phi) / below, -phi / below
 
 
 def response_weights(
@@ -42,7 +48,7 @@ def response_weights(
     bead = stepped(steps, axis, -1)
     while min(bead) >= 0:
         for c in range(dimension):
-            for contact, sign in ((bead, 1), (stepped(bead, c), -1)):
+            for contact, sign in ((bead, 1), (stepped(bead, c, 1), -1)):
                 if carries(contact, c):
                     turn(contact, c, products(sign))
         bead = stepped(bead, axis, -1)
