@@ -3,6 +3,7 @@
 import os
 import signal
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -17,13 +18,16 @@ from force_diffusion.__main__ import main
 from tests.numeric.ensemble.cases import PROFILE, bytes_of_first, case
 from tests.numeric.scenes import scene, toml
 
-distributed = pytest.importorskip("distributed")
+# a second to load, which collecting tests should not take
+pytestmark = pytest.mark.skipif(find_spec("distributed") is None, reason="without Dask")
 
 M = case("profile")
 
 
 @pytest.fixture(scope="module")
 def local() -> Iterator[Any]:
+    import distributed
+
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0"
     ) as made:
@@ -32,6 +36,8 @@ def local() -> Iterator[Any]:
 
 @pytest.fixture
 def client(local: Any) -> Iterator[Any]:
+    import distributed
+
     with distributed.Client(local.scheduler_address) as client:
         yield client
 
@@ -103,6 +109,8 @@ def test_a_scheduler_that_is_missing(
 def test_a_scheduler_without_workers(
     path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    import distributed
+
     monkeypatch.setattr(command, "PATIENCE", 1)
     with distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=":0") as empty:
         assert call(path, empty.scheduler_address) == 3
