@@ -32,7 +32,7 @@ def scenes(dimension: int, height: int, width: int, widest: int) -> st.SearchStr
 
 
 @pytest.mark.long(sample=1)
-@settings(max_examples=6 * EXAMPLES)
+@settings(max_examples=3 * EXAMPLES)
 @given(scenes(2, 5, 6, 340))
 def test_discs(scene: Any) -> None:
     stated_error_holds(scene)

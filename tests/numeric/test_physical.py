@@ -134,7 +134,7 @@ def test_discs(way: str, delta: Array, spacing: float) -> None:
     tried(way, delta, spacing)
 
 
-@pytest.mark.long(sample=2)
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("way", ["numpy", "compiled", "balls"])
 @given(spheres, st.sampled_from([2.03, 2.4, 2.9, 3.2]))
 def test_spheres(way: str, delta: Array, spacing: float) -> None:

@@ -90,11 +90,9 @@ def test_images_are_seen_where_a_wider_packing_differs(
 @pytest.mark.parametrize(
     ("changes", "says"),
     [
-        ({"packing": {"width": None}}, "packing.width"),
         ({"packing": {"spacing": 3.3}}, "packing.spacing = 3.3: must lie strictly"),
         ({"load": {"kind": "point", "at": (1, 1)}}, r"load.at.*\[p, q, j\]"),
         ({"load": {"kind": "point", "at": (9, 1, 1)}}, "p and q must be from 0 to 5"),
-        ({"effects": {"contacts": "unilateral"}}, "effects.contacts"),
         ({"ask": {"quantity": "contact", "at": (1, 1, "+")}}, "must be a contact"),
         ({"ask": {"quantity": "contact", "at": (1, 1, 4, "1")}}, "j must be from 0 to 3"),
         ({"ask": {"quantity": "positions", "at": (1, 1)}}, "must be a bead"),
@@ -123,11 +121,6 @@ def test_the_slab_is_advice_in_two_dimensions_alone(dimension: Any, ends: str) -
             disorder=fd.Disorder(kind="uniform", relative_std=1e-3),
             ask=fd.Ask(quantity="profile"),
         )
-
-
-def test_other_plots_refuse_three_dimensions() -> None:
-    with pytest.raises(fd.SceneError, match='has no figure: ask for "profile" or "histogram"'):
-        scene(height=2, width=6).run().plot()
 
 
 def test_a_profile_and_a_histogram_are_drawn() -> None:

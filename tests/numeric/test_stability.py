@@ -84,7 +84,7 @@ def bits_lost(found: fd.Solution) -> float:
 
 
 @pytest.mark.parametrize("load", LOADS)
-@pytest.mark.parametrize("exponent", [2, 3, 4, 6, 8, 10, 12, 14, 15, 16, 20, 30, 100, 300])
+@pytest.mark.parametrize("exponent", [2, 3, 4, 8, 12, 15, 16, 30, 300])
 def test_digits_do_not_depend_on_the_disorder(exponent: int, load: str) -> None:
     accurate(16, 34, 10.0**-exponent, load=load)
 
@@ -94,7 +94,7 @@ def test_nor_do_they_in_higher_packings(exponent: int) -> None:
     accurate(128, 34, 10.0**-exponent)
 
 
-@pytest.mark.parametrize("height", [2, 113])
+@pytest.mark.parametrize("height", [2, 40])
 def test_nor_do_they_in_packings_of_spheres(height: int) -> None:
     accurate(height, 9, 1e-6, spacing=Fraction(9, 4), dimension=3)
 

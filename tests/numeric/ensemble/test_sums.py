@@ -152,10 +152,7 @@ def test_the_smallest_disorder_keeps_all_digits() -> None:
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"ask": {"quantity": "positions"}}, "ask.quantity"),
-        ({"ask": {"quantity": "profile", "tolerance": "=1e-9"}}, "ask.tolerance"),
         ({"effects": {"geometry": "ordered"}}, "every realisation would be the same"),
-        ({"disorder": {"kind": "file", "file": "radii.csv"}}, "drawn"),
         ({"disorder": {"kind": "normal", "relative_std": "=0.0"}}, "the same"),
         (
             {"ask": {"quantity": "histogram"}, "load": {"kind": "point", "at": [0, 4]}},

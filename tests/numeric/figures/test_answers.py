@@ -196,11 +196,6 @@ def test_it_looks_the_same_whatever_a_user_has_set() -> None:
         assert figure._repr_png_() == usual  # type: ignore[attr-defined]
 
 
-def test_one_contact_has_no_figure() -> None:
-    with pytest.raises(fd.SceneError, match="has no figure"):
-        scene("contact", at=(0, 0, "+")).run().plot()
-
-
 def test_a_missing_library_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     outcome = scene("profile").run()
     monkeypatch.delitem(sys.modules, "force_diffusion.numeric.figures.style")

@@ -14,7 +14,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 # a walk takes no time, and cases such as two loads on either side of a seam are rare
-often = settings(max_examples=10 * settings.default.max_examples)
+often = settings(max_examples=5 * settings.default.max_examples)
 
 Sites = set[tuple[int, int]]
 

@@ -116,7 +116,7 @@ def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
         assert not planned({**sections, "effects": {"geometry": geometry}}).sees_images
 
 
-@pytest.mark.long(sample=3)
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("geometry", ["exact", "first-order", "ordered"])
 @pytest.mark.parametrize(
     ("quantity", "load"),
@@ -125,7 +125,7 @@ def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
 def test_many_contacts_see_images_where_any_one_does(
     geometry: str, quantity: str, load: str
 ) -> None:
-    for width, height, layer in product(range(1, 9), (1, 2, 4), (1, 2, 4)):
+    for width, height, layer in product((1, 2, 3, 5, 8), (1, 2, 4), (1, 2, 4)):
         if layer > height:
             continue
         sections = basic(height, width, quantity=quantity)

@@ -45,6 +45,7 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("effects", "geometry", "exakt", 'did you mean "exact"'),
     ("effects", "most_programs", 0, "at least 1"),
     ("effects", "most_seconds", "=1.50", 'contacts = "unilateral"'),
+    ("effects", "most_programs", 3, 'contacts = "unilateral"'),
     ("ask", "quantity", "forces", "must be one of"),
     ("ask", "tolerance", 0, "greater than 0"),
     ("ask", "tolerance", 1, "less than 1"),
@@ -145,12 +146,6 @@ def test_numbers_of_thousands_of_digits_in_a_file(section: str, key: str) -> Non
     sections[section][key] = "=[0x" + "f" * 4000 + ', 0, "+"]'
     with pytest.raises(SceneError, match=rf"^{section}\.{key} = .*a number of .*: .*must be"):
         scene(sections)
-
-
-def test_a_slab_has_no_list_of_everything() -> None:
-    for quantity in ("contact_forces", "positions", "profile", "histogram"):
-        with pytest.raises(SceneError, match=r"packing\.width"):
-            scene(basic(4, None, quantity=quantity))
 
 
 def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path: Path) -> None:

@@ -1,6 +1,7 @@
 """Intervals hold the true σ_f as often as they say, in small strips and of few packings, too."""
 
 import numpy as np
+import pytest
 from force_diffusion.numeric.ensemble import sums
 from force_diffusion.numeric.ensemble.sums import measurement
 from force_diffusion.numeric.statistics.confidence import half_width
@@ -15,6 +16,7 @@ MOST_MISSES = 245
 where 1.5 % do, as do σ ± t errors that come straight from the squares."""
 
 
+@pytest.mark.long
 def test_of_a_single_std_99_percent_are_held() -> None:
     """Far below M*: what is nonlinear is a share M³(σ/r)² of σ_f, 6e-7."""
     scene = fd.Scene(
