@@ -149,7 +149,7 @@ def test_fifty_digits_are_certified_beyond_it_too() -> None:
 def test_where_no_packing_exists_it_is_said() -> None:
     for tolerance in (None, "1e-40"):
         with pytest.raises(UnbuildableError, match=r"^bead \(\d+, \d+\): its supports are too far"):
-            solved(512, 16, 0.01, tolerance=tolerance)
+            solved(384, 16, 0.01, tolerance=tolerance)
 
 
 def test_balls_that_are_too_wide_are_undecided_not_unbuildable() -> None:
