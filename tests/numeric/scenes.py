@@ -1,5 +1,6 @@
 """Small scenes for the tests, and strategies that draw them."""
 
+import json
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
@@ -22,6 +23,8 @@ from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.scene import reading
 from hypothesis import strategies as st
 
+import force_diffusion as fd
+
 
 @contextmanager
 def by_numpy() -> Iterator[None]:
@@ -40,18 +43,8 @@ def toml(sections: dict[str, dict[str, Any]]) -> str:
     for name, keys in sections.items():
         lines.append(f"[{name}]")
         for key, value in keys.items():
-            if isinstance(value, bool):
-                shown = "true" if value else "false"
-            elif isinstance(value, str) and value.startswith("="):
-                shown = value[1:]
-            elif isinstance(value, str):
-                shown = f'"{value}"'
-            elif isinstance(value, list):
-                shown = (
-                    "[" + ", ".join(f'"{v}"' if isinstance(v, str) else str(v) for v in value) + "]"
-                )
-            else:
-                shown = str(value)
+            exact = isinstance(value, str) and value.startswith("=")
+            shown = value[1:] if exact else json.dumps(value)
             lines.append(f"{key} = {shown}")
     return "\n".join(lines) + "\n"
 
@@ -81,6 +74,23 @@ def basic(height: int = 6, width: int | None = 14, **ask: Any) -> dict[str, dict
         "disorder": {"kind": "uniform", "relative_std": "=1e-4", "seed": 3},
         "ask": {"quantity": "contact_forces", **ask},
     }
+
+
+def question(
+    quantity: Any, height: int, width: int, *, dimension: int = 2, spacing: Any = 3,
+    kind: Any = "uniform", std: float = 1e-3, seed: int = 1, load: fd.Load | None = None,
+    effects: dict[str, Any] | None = None, **ask: Any,
+) -> fd.Scene:  # fmt: skip
+    """Ask something of packings whose radii are drawn."""
+    return fd.Scene(
+        packing=fd.Packing(
+            height=height, width=width, dimension=dimension, spacing=spacing, allow_images=True
+        ),
+        disorder=fd.Disorder(kind=kind, relative_std=std, seed=seed),
+        load=load or fd.SurfaceLoad(),
+        effects=fd.Effects(**(effects or {})),
+        ask=fd.Ask(quantity=quantity, **ask),
+    )
 
 
 @st.composite

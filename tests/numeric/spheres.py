@@ -7,27 +7,17 @@ from typing import Any
 from force_diffusion.numeric.arithmetic.systems import Balls
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 
 def scene(
-    quantity: str = "contact_forces",
-    *,
-    height: int = 2,
-    width: int = 3,
-    std: float = 1e-2,
-    load: fd.Load | None = None,
-    geometry: Any = "exact",
-    **ask: Any,
-) -> fd.Scene:
-    return fd.Scene(
-        packing=fd.Packing(
-            height=height, width=width, dimension=3, spacing=2.9, allow_images=width <= height
-        ),
-        disorder=fd.Disorder(kind="uniform", relative_std=std, seed=5),
-        load=load or fd.SurfaceLoad(),
-        effects=fd.Effects(geometry=geometry),
-        ask=fd.Ask(quantity=quantity, **ask),  # type: ignore[arg-type]
-    )
+    quantity: str = "contact_forces", *, height: int = 2, width: int = 3, std: float = 1e-2,
+    geometry: str = "exact", **more: Any,
+) -> fd.Scene:  # fmt: skip
+    return question(
+        quantity, height, width, dimension=3, spacing=2.9, std=std, seed=5,
+        effects={"geometry": geometry}, **more,
+    )  # fmt: skip
 
 
 def columns(outcome: fd.Outcome, *names: str) -> Iterator[tuple[Any, ...]]:

@@ -6,18 +6,12 @@ import numpy as np
 import pytest
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 
-def scene(quantity: Any, *, load: fd.Load | None = None, **more: Any) -> fd.Scene:
-    dimension = more.pop("dimension", 2)
-    effects = more.pop("effects", fd.Effects())
-    return fd.Scene(
-        packing=fd.Packing(height=6, width=14 if dimension == 2 else 8, dimension=dimension),
-        disorder=fd.Disorder(kind="uniform", relative_std=1e-3, seed=5),
-        load=load or fd.SurfaceLoad(),
-        effects=effects,
-        ask=fd.Ask(quantity=quantity, **more),
-    )
+def scene(quantity: str, *, dimension: int = 2, **more: Any) -> fd.Scene:
+    width = 14 if dimension == 2 else 8
+    return question(quantity, 6, width, dimension=dimension, seed=5, **more)
 
 
 @pytest.mark.parametrize("dimension", [2, 3])

@@ -18,17 +18,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 QUANTITIES = ("contact_forces", "profile", "positions", "histogram")
 
 
-def scene(quantity: str, seed: int = 1, **effects: Any) -> Any:
-    return fd.Scene(
-        packing=fd.Packing(height=4, width=8),
-        disorder=fd.Disorder(kind="uniform", relative_std=0.01, seed=seed),
-        effects=fd.Effects(**effects),
-        ask=fd.Ask(quantity=quantity),  # type: ignore[arg-type]
-    )
+def scene(quantity: str, seed: int = 1, **effects: Any) -> fd.Scene:
+    return question(quantity, 4, 8, std=0.01, seed=seed, effects=effects)
 
 
 @pytest.fixture

@@ -96,6 +96,9 @@ def test_a_profile_is_that_of_run() -> None:
     for name, values in (("std", found.std), ("mean_change", found.mean_change)):
         meant = outcome.arrays[name].tolist()
         assert values == pytest.approx(meant, rel=1e-12, abs=1e-15 * max(found.std))
+    ratio = outcome.arrays["std"] / outcome.arrays["mean"]
+    assert outcome.arrays["std_over_mean"] == pytest.approx(ratio)
+    assert set(outcome.arrays["samples"]) == {6 * 6}
     for name, errors in (("std", found.std_error), ("mean_change", found.mean_change_error)):
         assert errors == pytest.approx(outcome.standard_errors[name], rel=1e-9)
     assert m.ordered() == pytest.approx([1 / math.sqrt(7 / 4)] * 8)

@@ -8,14 +8,11 @@ from typing import Any
 import pytest
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 
 def scene(quantity: str, **ask: Any) -> fd.Scene:
-    return fd.Scene(
-        packing=fd.Packing(height=2, width=64),
-        disorder=fd.Disorder(kind="uniform", relative_std=1e-3, seed=3),
-        ask=fd.Ask(quantity=quantity, realisations=3, **ask),
-    )
+    return question(quantity, 2, 64, seed=3, realisations=3, **ask)
 
 
 @pytest.mark.parametrize("bins", [1, 2, 7, 100])

@@ -8,7 +8,7 @@ from force_diffusion.numeric.statistics.confidence import half_width
 from force_diffusion.numeric.statistics.moments import error_of_std, with_errors
 from scipy.special import stdtrit
 
-import force_diffusion as fd
+from tests.numeric.scenes import question
 
 REPEATS, PACKINGS, LEVEL = 20_000, 48, 0.99
 MOST_MISSES = 245
@@ -19,12 +19,7 @@ where 1.5 % do, as do σ ± t errors that come straight from the squares."""
 @pytest.mark.long
 def test_of_a_single_std_99_percent_are_held() -> None:
     """Far below M*: what is nonlinear is a share M³(σ/r)² of σ_f, 6e-7."""
-    scene = fd.Scene(
-        packing=fd.Packing(height=4, width=6, allow_images=True),
-        disorder=fd.Disorder(kind="uniform", relative_std=1e-4, seed=7),
-        ask=fd.Ask(quantity="profile"),
-    )
-    m = measurement(scene)
+    m = measurement(question("profile", 4, 6, std=1e-4, seed=7))
     theory = m.theory()
     assert theory is not None
     true = float(theory(0).plus) * 2.0**-m.unit

@@ -8,22 +8,18 @@ from force_diffusion.numeric.theory.expected import expected_tension
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
+from tests.numeric.scenes import question
 
 PHI = 1 - 2 * 0.75**2  # s = 3 r
 M, W = 16, 32
 
 
-DISCS = fd.Packing(height=M, width=W)
-SPHERES = fd.Packing(height=8, width=10, dimension=3)
+DISCS: dict[str, int] = {"height": M, "width": W}
+SPHERES = {"height": 8, "width": 10, "dimension": 3}
 
 
-def scene(load: fd.Load, relative_std: float, packing: fd.Packing = DISCS) -> fd.Scene:
-    return fd.Scene(
-        packing=packing,
-        disorder=fd.Disorder(kind="normal", relative_std=relative_std, seed=8),
-        load=load,
-        ask=fd.Ask(quantity="profile"),
-    )
+def scene(load: fd.Load, relative_std: float, packing: dict[str, int] = DISCS) -> fd.Scene:
+    return question("profile", kind="normal", std=relative_std, seed=8, load=load, **packing)
 
 
 @pytest.mark.parametrize(
@@ -40,7 +36,7 @@ def scene(load: fd.Load, relative_std: float, packing: fd.Packing = DISCS) -> fd
     ],
 )
 def test_exact_packings_have_as_many(
-    load: fd.Load, relative_std: float, packing: fd.Packing, room: float
+    load: fd.Load, relative_std: float, packing: dict[str, int], room: float
 ) -> None:
     """To first order, and Gaussian only for many layers: so it is an estimate, good to ``room``.
 

@@ -13,6 +13,7 @@ from force_diffusion.numeric.unilateral.grains import Grains
 from force_diffusion.numeric.unilateral.network import Frame, Network, UnfinishedError
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 BITS = 256
 
@@ -30,19 +31,12 @@ class Packing:
 
 
 def strip(
-    quantity: str = "contact_forces", *, std: float = 0.016, seed: int = 1, **more: Any
-) -> fd.Scene:
+    quantity: str = "contact_forces", *, height: int = 8, width: int = 16, std: float = 0.016,
+    contacts: str = "unilateral", effects: dict[str, Any] | None = None, **more: Any,
+) -> fd.Scene:  # fmt: skip
     """Give a strip in which contacts would pull (seed 1, and σ/r as it is here)."""
-    effects = {"contacts": more.pop("contacts", "unilateral"), **more.pop("effects", {})}
-    return fd.Scene(
-        packing=fd.Packing(
-            height=more.pop("height", 8), width=more.pop("width", 16), allow_images=True
-        ),
-        disorder=fd.Disorder(kind="uniform", relative_std=std, seed=seed),
-        load=more.pop("load", fd.SurfaceLoad()),
-        effects=fd.Effects(**effects),
-        ask=fd.Ask(quantity=quantity, **more),
-    )
+    effects = {"contacts": contacts, **(effects or {})}
+    return question(quantity, height, width, std=std, effects=effects, **more)
 
 
 def network_of(outcome: fd.Outcome) -> Network:

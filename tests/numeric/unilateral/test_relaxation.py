@@ -39,20 +39,6 @@ def pressed(folder: Path, pressure: float, first: float) -> fd.Scene:
     return strip(load=load).model_copy(update={"folder": folder})
 
 
-def leaning(
-    seed: int, *packing: Any, bulk: bool = False, kind: Any = "uniform", **effects: Any
-) -> fd.Scene:
-    """Give a scene by (M, W, s, angle, σ/r)."""
-    height, width, spacing, angle, std = packing
-    return fd.Scene(
-        packing=fd.Packing(height=height, width=width, spacing=spacing, allow_images=True),
-        disorder=fd.Disorder(kind=kind, relative_std=std, seed=seed),
-        load=(fd.BulkLoad if bulk else fd.SurfaceLoad)(angle_deg=angle),
-        effects=fd.Effects(contacts="unilateral", **effects),
-        ask=fd.Ask(quantity="contact_forces"),
-    )
-
-
 def own(deviations: dict[tuple[int, int], float], width: int = 5, spacing: float = 3) -> fd.Scene:
     """Two layers of beads on the base, of radius 1 but for those named (layer, column)."""
     delta = np.zeros((3, width))
@@ -245,12 +231,17 @@ def test_beads_without_a_load_that_fall_through_the_base() -> None:
 def test_beads_that_bear_loads_and_fall_through_the_base_are_told() -> None:
     """Radii scatter by 0.3 r, and beads of the base are 3.3 r apart."""
     with pytest.raises(UnfinishedError, match=r"\d+ beads .* of 24, fell through the base: the w"):
-        leaning(143, 6, 4, 3.3, 10, 0.3, bulk=True).run()
+        strip(
+            height=6, width=4, spacing=3.3, std=0.3, seed=143, load=fd.BulkLoad(angle_deg=10)
+        ).run()
 
 
 def test_forces_that_are_zero_are_told_before_all_bits_are_tried() -> None:
+    load = fd.SurfaceLoad(angle_deg=38.02)
     with pytest.raises(UnfinishedError, match="degenerate: a contact bears less than 1e-60"):
-        leaning(1390, 6, 4, 3.274, 38.02, 0.06043, kind="two-point").run()
+        strip(
+            height=6, width=4, spacing=3.274, std=0.06043, seed=1390, kind="two-point", load=load
+        ).run()
 
 
 def test_what_is_not_proved_is_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
