@@ -31,7 +31,7 @@ ENOUGH = 2  # seconds after which a case is interrupted, as by Ctrl-C
 PATIENCE = 60  # seconds in which it has to end then
 MEMORY = 4 * 2**30
 # What matters is loaded once, and not by every process.
-LOADED = ["numeric.figures.style", "numeric.figures.answers_drawing", "numeric.run.cost"]
+LOADED = ["numeric.figures.style", "numeric.figures.answers", "numeric.run.cost"]
 
 Case = Callable[[Random, Path], "list[str] | answers.Judged"]
 KINDS: dict[str, tuple[int, Case]] = {

@@ -3,14 +3,8 @@
 import math
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
-from concurrent.futures import (
-    BrokenExecutor,
-    CancelledError,
-    Executor,
-    Future,
-    ProcessPoolExecutor,
-    ThreadPoolExecutor,
-)
+from concurrent import futures
+from concurrent.futures import Executor
 from contextlib import closing, contextmanager, nullcontext
 from dataclasses import replace
 from itertools import islice
@@ -32,6 +26,7 @@ from ..arithmetic.machine import cores, memory_limit
 from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
+from ..mechanics.work import bar
 from ..scene.reading import read_scene
 from ..scene.scene import Scene, program_version
 from ..statistics.confidence import looks
@@ -125,7 +120,7 @@ def ensemble(
         assert solved is not None
         with _bar(size, until) if progress is True else nullcontext(progress or _silent) as follow:
             return _joined(m, size, solved, opened, until, confidence, follow)
-    except (BrokenExecutor, CancelledError, MemoryError) as error:
+    except (futures.BrokenExecutor, futures.CancelledError, MemoryError) as error:
         raise WorkersError(
             f"a worker died, perhaps for want of memory ({error}): use fewer.{_kept(opened)}"
         ) from None
@@ -148,22 +143,14 @@ def _silent(done: int, width: float | None) -> None:
 
 @contextmanager
 def _bar(size: int, until: float | None) -> Iterator[Progress]:
-    """A bar with the time left: rich draws it in a terminal or, by ipywidgets, in a notebook."""
-    from rich.console import Console
-    from rich.progress import BarColumn, MofNCompleteColumn, TimeRemainingColumn
-    from rich.progress import Progress as Bar
+    """Show a bar of the realisations that are done, and how well σ_f is known by then."""
+    with bar("realisations", size) as update:
 
-    done_of_all, time = MofNCompleteColumn(), TimeRemainingColumn()
-    columns = "realisations", BarColumn(), done_of_all, time, "left {task.description}"
-    bar = Bar(*columns, console=Console(stderr=True), transient=True)
-    task = bar.add_task("", total=size)
+        def progress(done: int, width: float | None) -> None:
+            known = width is not None and until is not None
+            words = f", σ_f to {width:.2g}, until {until:g}" if known else ""
+            update(completed=done, description=f"{done} of {size} realisations{words}")
 
-    def progress(done: int, width: float | None) -> None:
-        known = width is not None and until is not None
-        words = f"σ_f to {width:.2g}, until {until:g}" if known else ""
-        bar.update(task, completed=done, description=words)
-
-    with bar:
         yield progress
 
 
@@ -211,7 +198,7 @@ def solved_blocks(
     m: Measurement, blocks: Iterable[Block], executor: Executor
 ) -> Generator[Sums, None, None]:
     """Give the sums of blocks in their order; some are solved ahead."""
-    todo, pending = iter(blocks), deque[Future[Sums]]()
+    todo, pending = iter(blocks), deque[futures.Future[Sums]]()
     try:
         while True:
             for block in islice(todo, AHEAD - len(pending)):
@@ -248,8 +235,8 @@ def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
     elif workers > room:
         raise ArgumentError(f"workers = {quoted(workers)}: the free memory is enough for {room}")
     if compiled or workers == 1:
-        return ThreadPoolExecutor(workers)
-    return ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent)
+        return futures.ThreadPoolExecutor(workers)
+    return futures.ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent)
 
 
 def _size(realisations: object) -> int:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .. import tables
 from ..accuracy import known_digits, of_errors
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
@@ -15,16 +16,6 @@ from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.scene import source_of
 from ..statistics.confidence import half_width
 from ..statistics.moments import error_of_std, with_errors
-from ..tables import (
-    SHOWN,
-    Tabled,
-    html_table,
-    latex_table,
-    rows_of,
-    rows_of_text,
-    significant,
-    text_of,
-)
 from .sums import Measurement, Sums
 
 if TYPE_CHECKING:
@@ -34,7 +25,7 @@ LEAST = 1e-300  # floats that are smaller have fewer digits
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Ensemble(Tabled):
+class Ensemble(tables.Tabled):
     """Statistics over N packings of G groups of alike contacts.
 
     A group is a layer and branch of a profile, one contact, or all of a histogram. Forces are in
@@ -259,11 +250,11 @@ class Ensemble(Tabled):
         found: dict[str, list[str]] = {}
         for name, column in columns.items():
             if column.dtype.kind != "f":
-                found[name] = text_of(column)
+                found[name] = tables.text_of(column)
             elif name.endswith("_error"):
                 found[name] = of_errors(column)
             elif name == "first_order_std":
-                found[name] = significant(column, np.full(len(column), 12))
+                found[name] = tables.significant(column, np.full(len(column), 12))
             else:
                 names = (f"{name}_error", f"{SCATTER_OF.get(name, name)}_error")
                 known = next((columns[n] for n in names if n in columns), np.zeros(len(column)))
@@ -290,6 +281,7 @@ class Ensemble(Tabled):
         Without ``rows`` the list of results is empty: there may be millions.
         """
         m, known = self.measurement, math.isfinite(self.half_width)
+        written = tables.rows_of_text(self.text, self.whole_numbers) if rows else []
         data: dict[str, Any] = {
             "source": self.source,
             "ensemble": {
@@ -301,7 +293,7 @@ class Ensemble(Tabled):
                 "arithmetic": "float64",
             },
             "skipped": [{"effect": s.effect, "reason": s.reason} for s in m.plan.skipped],
-            "results": {self.quantity: rows_of_text(self.text, self.whole_numbers) if rows else []},
+            "results": {self.quantity: written},
             "confidence": {
                 "level": self.confidence,
                 "largest_relative_half_width": self.half_width if known else None,
@@ -311,7 +303,7 @@ class Ensemble(Tabled):
         }
         if self.bins:  # of all that was counted
             groups = self._groups
-            (data["statistics"],) = rows_of_text(self._text_of(groups), _whole(groups))
+            (data["statistics"],) = tables.rows_of_text(self._text_of(groups), _whole(groups))
         return data
 
     def plot(self) -> "Figure":
@@ -351,15 +343,15 @@ class Ensemble(Tabled):
 
     def _repr_html_(self) -> str:
         """Show the first rows as a table in a notebook."""
-        return html_table(rows_of(self._first), str(self).splitlines(), self.rows)
+        return tables.html_table(tables.rows_of(self._first), str(self).splitlines(), self.rows)
 
     def _repr_latex_(self) -> str:
         """Show the first rows as a table in LaTeX."""
-        return latex_table(rows_of(self._first))
+        return tables.latex_table(tables.rows_of(self._first))
 
     @property
     def _first(self) -> dict[str, Array]:
-        return {name: column[:SHOWN] for name, column in self.arrays.items()}
+        return {name: column[: tables.SHOWN] for name, column in self.arrays.items()}
 
 
 def _whole(columns: dict[str, Array]) -> list[str]:

@@ -1,7 +1,5 @@
 """All figures by name: made, drawn, and the files they become."""
 
-import csv
-import io
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
@@ -10,10 +8,9 @@ from importlib import import_module
 from operator import index
 from typing import Any, SupportsIndex
 
-import numpy as np
-
 from ..arithmetic.errors import ForceDiffusionError, checked, quoted
 from ..scene.sections import SceneError
+from ..tables import csv_bytes
 from .names import FIGURES, HEIGHTS, KINDS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
 from .packings import PAPER, Made, Notice, Options, Table, planned
 
@@ -159,10 +156,5 @@ def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None
 
 def csv_file(table: Table, title: str, command: str) -> str:
     """Write columns as CSV below two lines of comment, which say what this is and what made it."""
-    text = io.StringIO()
-    text.write(f"# {title}\n# {command}\n")
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(table)
-    columns = [c.tolist() if isinstance(c, np.ndarray) else c for c in table.values()]
-    writer.writerows(zip(*columns, strict=True))
-    return text.getvalue()
+    columns = {name: list(map(str, column)) for name, column in table.items()}
+    return f"# {title}\n# {command}\n" + csv_bytes(columns).decode()

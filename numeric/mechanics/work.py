@@ -1,7 +1,9 @@
 """What a run hands on from one pass to the next: whom it tells of its progress."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 Progress = Callable[[str, int], None]
@@ -19,3 +21,16 @@ class Work:
         """Tell that beads were "deposited", "balanced", "summed" or "checked"."""
         if self.progress is not None:
             self.progress(kind, beads)
+
+
+@contextmanager
+def bar(what: str, total: int) -> Iterator[Callable[..., None]]:
+    """Show a bar with the time left: rich draws it in a terminal or, by ipywidgets, in a notebook.
+
+    Gives the function that updates it: by ``advance`` or ``completed``, and ``description``.
+    """
+    from rich.console import Console
+    from rich.progress import Progress as Bar
+
+    with Bar(console=Console(stderr=True), transient=True) as shown:
+        yield partial(shown.update, shown.add_task(what, total=total))

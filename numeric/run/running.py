@@ -14,7 +14,7 @@ from ..accuracy import Accuracy, ToleranceError, enclosed, estimated, shortfall
 from ..arithmetic.decimals import Exact, exact, parse
 from ..arithmetic.errors import WrongTypeError, checked, quoted
 from ..mechanics.sweep import NotStandingError, UnbuildableError
-from ..mechanics.work import Progress, Work
+from ..mechanics.work import Progress, Work, bar
 from ..planning.plan import Plan
 from ..planning.planner import in_balls
 from ..planning.planner import plan as make_plan
@@ -52,16 +52,12 @@ def run(what: "Plan | scene.Scene | str | Path", progress: bool | Progress = Fal
 
 @contextmanager
 def _bar(plan: Plan) -> Iterator[Progress]:
-    """Show a bar of the beads solved, in a terminal or, by ipywidgets, in a notebook."""
-    from rich.console import Console
-    from rich.progress import Progress as Bar
-
-    with Bar(console=Console(stderr=True), transient=True) as bar:
-        task = bar.add_task("solving", total=plan.beads)
+    """Show a bar of the beads solved."""
+    with bar("solving", plan.beads) as update:
 
         def progress(kind: str, beads: int) -> None:
             if kind in {"deposited", "summed"}:
-                bar.advance(task, beads)
+                update(advance=beads)
 
         yield progress
 

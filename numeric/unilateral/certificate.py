@@ -84,7 +84,7 @@ def _enclosed(
     gaps, directions = _geometry(x, contacts, known, grains)
     worst = _largest(gaps)
     # entry by entry, how much the Jacobian at x, in balls, differs from that in floats
-    off = _off(directions, grains.directions(contacts))
+    off = _largest((directions - grains.directions(contacts)).ravel())
     root = np.sqrt(len(contacts)) * (1 + 1e-9)  # ‖v‖ ≤ root · max|v|; a row has four entries
     beta = 1 / _remaining(least, 2 * root * off)
     shortest = float(min(float((known.radii[a] + known.radii[b]).lower()) for a, b in contacts))
@@ -213,16 +213,6 @@ def _geometry(x: Array, pairs: Pairs, known: Frame, grains: Grains) -> tuple[Arr
     length = np.asarray(np.sqrt(d[:, 0] * d[:, 0] + d[:, 1] * d[:, 1]))
     gaps = length - known.radii[pairs[:, 0]] - known.radii[pairs[:, 1]]
     return gaps, d / length[:, None]
-
-
-def _off(directions: Array, floats: Array) -> float:
-    return max(
-        (
-            _upper(ball - float(f))
-            for ball, f in zip(directions.ravel(), floats.ravel(), strict=True)
-        ),
-        default=0.0,
-    )
 
 
 def _balanced(
