@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_396,
     "derivations": 8_150,
-    "numeric": 10_001,
+    "numeric": 9_930,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,

@@ -115,5 +115,5 @@ def test_progress_is_shown(
     monkeypatch.setenv("FORCE_COLOR", "1")  # as on a terminal
     fd.ensemble(scene(PROFILE), 200, until=0.2, progress=True)
     shown = capsys.readouterr().err
-    assert "/200" in shown
+    assert "of 200 realisations" in shown
     assert "until 0.2" in shown
