@@ -7,7 +7,7 @@ that no line is overfull, which the compilation of the document checks.
 
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import partial
+from functools import cache, partial
 from itertools import zip_longest
 
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
@@ -30,6 +30,7 @@ _BINARY = {"+", "-", r"\cdot", "=", r"\sim", r"\approx", r"\leq", r"\geq", "<", 
 _SCRIPT = 0.7
 
 
+@cache
 def width(source: str) -> float:
     """Estimated width in points of one line of mathematics.
 

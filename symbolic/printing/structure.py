@@ -23,7 +23,8 @@ def rebuilt(expr: Basic) -> Basic:
     return expr.func(*map(rebuilt, expr.args)) if expr.args else expr
 
 
-def in_order(expr: Expr) -> list[Expr]:
+@cache
+def in_order(expr: Expr) -> Sequence[Expr]:
     """The terms of a sum, or the factors of a product, as a reader should meet them."""
     args = list(expr.args)
     if rebuilt(expr) != expr:
@@ -39,7 +40,6 @@ _MANY = 4  # terms of a polynomial that is put in order
 _TOO_MANY = 100  # terms of a part that is not factored: it would take long
 
 
-@cache
 def _by_degree(expr: Expr) -> tuple[Expr, ...]:
     """The terms of a polynomial in indices: the highest degree first, each part factored."""
     terms = expr.as_ordered_terms()
@@ -94,7 +94,7 @@ def _begins_negative(base: Expr) -> bool:
     return bool(base.is_Add and sympy.Poly(base, *held, *others).LC() < 0)
 
 
-def _with_ratio(factors: list[Expr]) -> list[Expr]:
+def _with_ratio(factors: Sequence[Expr]) -> Sequence[Expr]:
     """Factors with a power of σ/r at their end, where they hold that of σ and of 1/r."""
     powers = dict(factor.as_base_exp() for factor in factors)
     power = powers.get(sy.sigma, 0)
@@ -176,8 +176,7 @@ def digits(number: int) -> str:
 
 def _index_key(term: Expr) -> int:
     """Place of a term within an index: letters in their fixed order, numbers last."""
-    places = [sy.INDICES.index(s) for s in term.free_symbols if s in sy.INDICES]
-    return min(places, default=len(sy.INDICES))
+    return min(map(sy.INDICES.index, term.free_symbols & {*sy.INDICES}), default=len(sy.INDICES))
 
 
 class StructuredPrinter(Printer):  # type: ignore[misc]
