@@ -156,7 +156,7 @@ _OTHER_CLASSES = {
     "Derived": "force_diffusion.derivations.api.derived",
     "PaperFigure": "force_diffusion.numeric.figures.catalogue",
     "Physicality": "force_diffusion.numeric.mechanics.physicality",
-    "Piece": "force_diffusion.derivations.framework.closed_form",
+    "Piece": "force_diffusion.symbolic.piecewise",
     "Plan": "force_diffusion.numeric.planning.plan",
     "Proof": "force_diffusion.derivations.api.proof",
     "Ruling": "force_diffusion.symbolic.kernel.decisions",

@@ -67,12 +67,21 @@ class Symbol(sympy.Symbol):  # type: ignore[misc]
 
 
 class Written(sympy.Function):  # type: ignore[misc]
-    """A function written by forms, in which %(0)s, %(1)s, … stand for its arguments."""
+    """A function written by forms, in which %(0)s, %(1)s, … stand for its arguments.
+
+    Those in the places ``factors`` stand in a product.
+    """
 
     latex_form = text_form = ""
+    factors: tuple[int, ...] = ()
 
     def _filled(self, form: str, printer: Any) -> str:
-        return form % {str(n): printer._print(one) for n, one in enumerate(self.args)}
+        def shown(place: int, argument: sympy.Expr) -> str:
+            if place in self.factors:
+                return str(printer.parenthesize(argument, PRECEDENCE["Mul"]))
+            return str(printer._print(argument))
+
+        return form % {str(n): shown(n, argument) for n, argument in enumerate(self.args)}
 
     def _latex(self, printer: Any, exp: str | None = None) -> str:
         return _raised_to(exp, self._filled(self.latex_form, printer))
@@ -106,26 +115,3 @@ class WrittenAtSite(sympy.Function):  # type: ignore[misc]
     def _text(self, printer: Any) -> str:
         indices, letters = self._subscript(printer)
         return f"{self.text_head}{raised(self.branch)}_{indices if letters else f'({indices})'}"
-
-
-class WrittenDot(sympy.Function):  # type: ignore[misc]
-    """A product with a dot."""
-
-    def _factors(self, printer: Any) -> list[str]:
-        return [printer.parenthesize(arg, PRECEDENCE["Mul"]) for arg in self.args]
-
-    def _latex(self, printer: Any) -> str:
-        return r" \cdot ".join(self._factors(printer))
-
-    def _text(self, printer: Any) -> str:
-        return "·".join(self._factors(printer))
-
-
-class WrittenMatrixTimes(sympy.Function):  # type: ignore[misc]
-    """A 2×2 matrix, given by its entries, times a vector."""
-
-    def _latex(self, printer: Any) -> str:
-        matrix = printer._print(sympy.Matrix(2, 2, self.args[:4]))
-        return f"{matrix} {printer.parenthesize(self.args[4], PRECEDENCE['Mul'])}"
-
-    _text = _latex

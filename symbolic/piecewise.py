@@ -16,22 +16,32 @@ from .kernel.statistics import moment, worked_out
 from .kernel.theorem import Group, Theorem, names_for
 from .quotients import factored
 from .trees import equation
-from .weights import Piece, Weights
+from .weights import Weights
 
 Relations = tuple[sympy.Basic, ...]
 
 
 @dataclass(frozen=True, eq=False)
-class Formula:
-    """A formula, and where it holds.
+class Piece:
+    """A formula of a function, and where it holds.
 
     Attributes:
         where: relations of indices; those of any of several parts.
-        value: the formula.
+        value: the formula as the kernel has it.
     """
 
     where: tuple[Relations, ...]
     value: RationalFunction
+
+    @cached_property
+    def domain(self) -> str:
+        """Where it holds, in words, beside what holds of the whole function."""
+        return words.alternatives(self.where)
+
+    @cached_property
+    def expr(self) -> sympy.Expr:
+        """The formula."""
+        return factored(self.value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,11 +59,6 @@ class PiecewiseFunction:
     points: sets.Set
     straight: Straightening
     constants: Mapping[sympy.Symbol, sympy.Symbol] = field(default_factory=dict)
-
-    @cached_property
-    def _merged(self) -> list[Piece]:
-        """Few polynomials, each on a set of its own; where it is 0 is left out."""
-        return self.weights.formulas()
 
     @classmethod
     def of(
@@ -98,15 +103,15 @@ class PiecewiseFunction:
         return found
 
     @cached_property
-    def formulas(self) -> tuple[Formula, ...]:
+    def pieces(self) -> tuple[Piece, ...]:
         """Its formulas, on parts of the domain that cover it and share no point."""
         found = []
         left = self.points
-        for whole, value in self._merged:
+        for whole, value in self.weights.formulas():
             left = left - whole
-            found.append(Formula(self.relations(whole), self._formula(whole, value)))
+            found.append(Piece(self.relations(whole), self._formula(whole, value)))
         if not left.is_empty():
-            found.append(Formula(self.relations(left), FIELD.zero))
+            found.append(Piece(self.relations(left), FIELD.zero))
         return tuple(found)
 
     def part(self, *relations: sympy.Basic) -> "PiecewiseFunction":
@@ -125,10 +130,10 @@ class PiecewiseFunction:
         Raises:
             NotProvedError: it is not.
         """
-        formulas = self.part(*relations).formulas
-        if len(formulas) != 1:
-            raise NotProvedError(f"there it is not one formula, but {len(formulas)}")
-        return formulas[0].value
+        pieces = self.part(*relations).pieces
+        if len(pieces) != 1:
+            raise NotProvedError(f"there it is not one formula, but {len(pieces)}")
+        return pieces[0].value
 
     def total(self, index: sympy.Symbol, weight: sympy.Expr) -> Weights:
         """The sum over all values of an index, of which the number is multiplied by a weight."""
@@ -139,9 +144,9 @@ class PiecewiseFunction:
     def indices(self) -> set[sympy.Symbol]:
         """The indices on which it depends."""
         held = set().union(
-            *(one.free_symbols for each in self.formulas for part in each.where for one in part)
+            *(one.free_symbols for piece in self.pieces for part in piece.where for one in part)
         )
-        return held | {s for s in sy.INDICES if any(one.value.holds(s) for one in self.formulas)}
+        return held | {s for s in sy.INDICES if any(piece.value.holds(s) for piece in self.pieces)}
 
     def relations(self, whole: sets.Set, context: sets.Set | None = None) -> tuple[Relations, ...]:
         """Relations of indices, those of any of several parts, of a set within the domain."""
@@ -174,6 +179,6 @@ class PiecewiseFunction:
 def theorems(quantity: sympy.Expr, domain: Domain, *groups: Group) -> Iterator[Theorem]:
     """What the closed form of a quantity says: a theorem for each part of its domain."""
     rule = moment(*groups, on=domain)
-    for formula in PiecewiseFunction.of(quantity, domain, *groups).formulas:
-        for part in formula.where:
-            yield rule(equation(quantity, factored(formula.value)), domain.also(*part))
+    for piece in PiecewiseFunction.of(quantity, domain, *groups).pieces:
+        for part in piece.where:
+            yield rule(equation(quantity, piece.expr), domain.also(*part))

@@ -246,11 +246,8 @@ def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
 
 def least(symbol: sympy.Symbol, points: Set) -> int | None:
     """The least value of a symbol on a set that is not empty; None where there is none."""
-    return None if points.is_empty() else _bounded(points.min_val(_affine(({symbol: 1}, 0))))
-
-
-def _bounded(value: Any) -> int | None:
-    return None if value.is_infty() or value.is_neginfty() else value.to_python()
+    value = points.min_val(_affine(({symbol: 1}, 0)))
+    return value.to_python() if value.is_int() else None
 
 
 def equations(points: Set) -> list[Row]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from sympy import Piecewise
 
-from .notation import Symbol, Written, WrittenAtSite, WrittenDot, WrittenMatrixTimes
+from .notation import Symbol, Written, WrittenAtSite
 
 # geometry: radius, horizontal spacing (a length), base vectors' components and mutual cosine
 r = Symbol("r", positive=True)
@@ -151,11 +151,12 @@ class SecondDifference(SiteFunction):
         return 2 * DeltaR(at, layer) - DeltaR(at - 2, layer) - DeltaR(at + 2, layer)
 
 
-class Dot(WrittenDot):
+class Dot(Written):
     """u·v for vector expressions, kept whole; ``symbolic.algebra.bases`` expands it."""
 
     nargs = 2
     in_code = "dot"
+    latex_form, text_form, factors = r"%(0)s \cdot %(1)s", "%(0)s·%(1)s", (0, 1)
 
 
 class Moment(Written):
@@ -243,11 +244,13 @@ class VerticalAlong(ForceAlong):
     latex_form, text_form = r"p^{(%(0)s)}_{%(1)s,%(2)s,%(3)s}", "p%(0)s_(%(1)s,%(2)s,%(3)s)"
 
 
-class MatrixTimes(WrittenMatrixTimes):
+class MatrixTimes(Written):
     """((a, b), (c, d)) v in Cartesian components, kept whole: arguments a, b, c, d, v."""
 
     nargs = 5
     in_code = "matrix_times"
+    latex_form = r"\begin{pmatrix} %(0)s & %(1)s \\[2pt] %(2)s & %(3)s \end{pmatrix} %(4)s"
+    text_form, factors = "((%(0)s, %(1)s), (%(2)s, %(3)s)) %(4)s", (4,)
 
 
 class Braces(Written):

@@ -76,6 +76,11 @@ def in_words(relations: Iterable[sympy.Basic]) -> str:
     return ", ".join(parts(relations))
 
 
+def alternatives(several: Iterable[Iterable[sympy.Basic]]) -> str:
+    """Relations as text, those of any of several parts."""
+    return "; or ".join(map(in_words, several))
+
+
 @dataclass(frozen=True)
 class Style:
     """How expressions and the signs between them are written."""

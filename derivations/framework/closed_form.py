@@ -1,7 +1,6 @@
 """A closed form as a Python user holds it: formulas with domains, numbers, LaTeX, decisions."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from numbers import Integral
 from typing import Any
@@ -30,7 +29,7 @@ from force_diffusion.symbolic.kernel.rules import rewrite
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, flat
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.piecewise import PiecewiseFunction, Relations
+from force_diffusion.symbolic.piecewise import Piece, PiecewiseFunction, Relations
 from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import (
@@ -57,23 +56,6 @@ _LAYERS = 10_000_000
 _ORDERS = 100
 _SMALLER = {"footnotesize": 0.85, "scriptsize": 0.75, "tiny": 0.68}  # widths of LaTeX's type
 _HIGH = {1: 24, 2: 22}  # lines of a display that fits a page of usual classes, by columns
-
-
-@dataclass(frozen=True, eq=False)
-class Piece:
-    """A formula of a closed form.
-
-    Attributes:
-        domain: where it holds, in words, beside what holds of the whole form.
-        expr: the formula.
-        where: its parts as relations of indices.
-        value: the formula as the kernel has it.
-    """
-
-    domain: str
-    expr: sympy.Expr
-    where: tuple[Relations, ...]
-    value: RationalFunction
 
 
 class ClosedForm:
@@ -152,7 +134,7 @@ class ClosedForm:
         """
         return factored(self.function.on(*relations))
 
-    @cached_property
+    @property
     def pieces(self) -> tuple[Piece, ...]:
         """The formulas, each on a part of the domain; together they cover it.
 
@@ -161,10 +143,7 @@ class ClosedForm:
         >>> [piece.domain for piece in fd.variance(f_plus(i, j), load="bulk").pieces]
         ['j ≥ 2', 'j = 1', 'j = 0']
         """
-        return tuple(
-            Piece(_parts_in_words(each.where), factored(each.value), each.where, each.value)
-            for each in self.function.formulas
-        )
+        return self.function.pieces
 
     @cached_property
     def expr(self) -> sympy.Expr:
@@ -503,7 +482,7 @@ class ClosedForm:
         if function.points.is_empty():
             raise NotAStatementError(f"{text(self.quantity)} is for {self.domain}")
         if not rest.is_empty():
-            left_out = _parts_in_words(function.relations(rest))
+            left_out = words.alternatives(function.relations(rest))
             raise NotAStatementError(f"it has no value for {left_out}")
 
     def _rulings_on(self, formula: sympy.Eq, domain: Domain) -> Iterator[Ruling]:
@@ -531,10 +510,6 @@ class ClosedForm:
             return in_place(formula, {self.quantity: meant})
         (symbol,) = shown  # the quantity may be this symbol less 1
         return in_place(formula, {symbol: sympy.Add(meant, symbol - self.quantity)})
-
-
-def _parts_in_words(parts: Iterable[Relations]) -> str:
-    return "; or ".join(map(words.in_words, parts))
 
 
 def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:

@@ -8,7 +8,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic import words
 from force_diffusion.symbolic.algebra.exact import FIELD, Field
 from force_diffusion.symbolic.piecewise import Relations
-from force_diffusion.symbolic.printing.lines import COLUMNS, column_width
+from force_diffusion.symbolic.printing.lines import COLUMNS
 from force_diffusion.symbolic.quotients import factored
 
 
@@ -16,7 +16,7 @@ def room_of(columns: int) -> float:
     """Points for a line of text in one column, or in two. Raises ``ArgumentError``."""
     if not isinstance(columns, int) or isinstance(columns, bool) or columns not in COLUMNS:
         raise ArgumentError(f"columns = {quoted(columns)}: must be 1 or 2")
-    return column_width(columns)
+    return COLUMNS[columns]
 
 
 def alternatives_in_latex(parts: Iterable[Relations], before: str = "") -> list[str]:

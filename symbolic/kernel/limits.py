@@ -25,7 +25,6 @@ from ..printing.text import text
 from ..second_order import covariance
 from ..sets import EVERYTHING
 from ..signs import sign
-from ..trees import in_place
 from ..weights import Weights
 from .domain import Domain, Limit
 from .refuted import other_order
@@ -39,6 +38,7 @@ from .theorem import (
     check_domain,
     flat,
     made,
+    written_out,
 )
 
 _NEVER = 10**9  # no order is as large
@@ -221,7 +221,7 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
     finite = _late(domain)
     held = set().union(*(one.free_symbols for one in domain.relations))
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
-    form = MomentReader.on(finite, groups).in_radii(_at_height(expression, domain))
+    form = MomentReader.on(finite, groups).in_radii(written_out(expression, domain))
     if free:  # a step to the right, of the bead and of all sites
         step = {s: s - 1 if s in finite.straight.back else s + 2 for s in free}
         step |= {SITE[0]: SITE[0] + 1, SITE[1]: SITE[1] - 1}
@@ -243,18 +243,10 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
     Raises:
         NotProvedError: it is not one, or holds what neither grows nor is fixed.
     """
-    number = worked_out(_at_height(side, domain), _late(domain), tuple(groups))
+    number = worked_out(written_out(side, domain), _late(domain), tuple(groups))
     if {*number.parts} - {NUMBER}:
         raise NotProvedError(f"{text(side)} belongs to single beads")
     return _formula_in_the_limit(number.parts.get(NUMBER, Weights()), domain)
-
-
-def _at_height(side: sympy.Expr, domain: Domain) -> sympy.Expr:
-    """A side with s = 4rn_x, and z = j/M where layers are spoken of."""
-    image = {sy.spacing: 4 * sy.r * sy.n_x}
-    if sy.j in domain.indices:
-        image[sy.z] = sy.j / sy.M
-    return in_place(side, {one: value for one, value in image.items() if side.has(one)})
 
 
 def _formula_in_the_limit(number: Weights, domain: Domain) -> RationalFunction:
@@ -303,7 +295,7 @@ def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
     assert limit is not None
     if limit.relation != relation:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
-    if sy.z in formula.free_symbols and sy.j not in domain.indices:
+    if sy.z in formula.free_symbols and not {sy.j, sy.M} <= {*domain.indices}:
         raise NotProvedError(f"{text(sy.z)} neither grows nor is fixed")
     held = {s for one in limit.positive for s in one.xreplace(domain.straight.image).free_symbols}
     late = sets.where(*map(domain.straight.relation, _large(limit)))

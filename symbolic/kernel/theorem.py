@@ -367,14 +367,17 @@ def _named(theorem: Theorem) -> set[sympy.Symbol]:
 
 
 def in_kernel_symbols(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:
-    """Both sides, in the symbols of the exact field; s is 4rn_x, and with j and M, z is j/M."""
-    image: dict[sympy.Symbol, sympy.Expr] = dict(names_for(formula))
-    image[sy.spacing] = 4 * sy.r * sy.n_x
+    """Both sides, in the symbols of the exact field."""
+    left, right = (written_out(side, domain, names_for(formula)) for side in formula.args)
+    return left, right
+
+
+def written_out(side: sympy.Expr, domain: Domain, names: Image | None = None) -> sympy.Expr:
+    """A side in which s is 4rn_x, and z is j/M with j and M; and names put in."""
+    image = {**(names or {}), sy.spacing: 4 * sy.r * sy.n_x}
     if {sy.j, sy.M} <= {*domain.indices}:
         image[sy.z] = sy.j / sy.M
-    image = {symbol: one for symbol, one in image.items() if formula.has(symbol)}
-    left, right = (in_place(side, image) for side in formula.args)
-    return left, right
+    return in_place(side, {symbol: value for symbol, value in image.items() if side.has(symbol)})
 
 
 def both_sides(formula: sympy.Eq, domain: Domain, reader: Reader) -> Sides:

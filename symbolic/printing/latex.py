@@ -52,10 +52,6 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
             return rf"{base}^{{{exponent.p}/{exponent.q}}}"
         return rf"{base}^{{{self._print(exponent)}}}"
 
-    def _print_MatrixBase(self, expr: Any) -> str:
-        rows = r" \\[2pt] ".join(" & ".join(map(self._print, row)) for row in expr.tolist())
-        return rf"\begin{{pmatrix}} {rows} \end{{pmatrix}}"
-
     def _print_Derivative(self, expr: Any) -> str:
         ((symbol, _),), inner = expr.variable_count, expr.expr
         name = self._print(symbol)

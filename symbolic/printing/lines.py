@@ -344,17 +344,6 @@ def _at_terms(equation: Basic, relation: str, room: float) -> list[str]:
     return [f"{lhs} &{relation} {first}", *(rf"&\quad {line}" for line in others)]
 
 
-def column_width(columns: int) -> float:
-    """Points for a line. Raises ``ValueError`` unless there are one or two columns.
-
-    >>> column_width(2) < column_width(1)
-    True
-    """
-    if isinstance(columns, bool) or columns not in COLUMNS:
-        raise ValueError(f"columns = {columns!r}: must be 1 or 2")
-    return COLUMNS[columns]
-
-
 def _single(formulas: Iterable[Basic]) -> Iterator[Basic]:
     """The formulas one by one, those of a tuple too; one said of several domains comes once."""
     for formula in formulas:

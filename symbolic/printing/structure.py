@@ -12,7 +12,7 @@ from functools import cache
 from typing import Any
 
 import sympy
-from sympy import Add, Basic, Expr, Integer, MatrixBase, Mul, Pow, Rational, Sum, Symbol
+from sympy import Add, Basic, Expr, Integer, Mul, Pow, Rational, Sum, Symbol
 from sympy.printing.printer import Printer
 
 from .. import symbols as sy
@@ -298,8 +298,6 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
         return self.set_fraction(digits(expr.p), digits(expr.q), alone=True)
 
     def _print_Pow(self, expr: Pow, **_: Any) -> str:
-        if isinstance(expr.base, MatrixBase):
-            return self.set_power(self._print(expr.base), expr.exp)
         if expr.exp.is_negative and (expr.exp.is_Integer or expr.exp == Rational(-1, 2)):
             return self._print_Mul(Mul(Integer(1), expr, evaluate=False))
         base = self._print(expr.base)

@@ -70,10 +70,6 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
     def _print_Pi(self, _expr: Any) -> str:
         return "π"
 
-    def _print_MatrixBase(self, expr: Any) -> str:
-        rows = [f"({', '.join(map(self._print, row))})" for row in expr.tolist()]
-        return f"({', '.join(rows)})"
-
     def _print_Sum(self, expr: Sum) -> str:
         text = ""
         for index, lower, upper in reversed(expr.limits):

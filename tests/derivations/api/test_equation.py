@@ -10,7 +10,7 @@ import sympy
 from force_diffusion.derivations.framework.catalogue import modules, paper
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.printing.lines import column_width, width
+from force_diffusion.symbolic.printing.lines import COLUMNS, width
 from force_diffusion.symbolic.printing.structure import rebuilt
 
 import force_diffusion as fd
@@ -84,7 +84,7 @@ def test_notebooks_can_set_it(eq: fd.Equation) -> None:
 def test_the_lines_of_exact_forms_fit(eq: fd.Equation, columns: int) -> None:
     for form in map(eq.exact, eq.forms):
         for line in form.latex(columns).splitlines():
-            assert width(line) <= column_width(columns) + 12, line  # 12: of &
+            assert width(line) <= COLUMNS[columns] + 12, line  # 12: of &
 
 
 @pytest.mark.parametrize("number", [0, 17, -1, "thirteen", 13.5, None, [13], True])
