@@ -1,0 +1,169 @@
+"""Random changes of what is true, whose truth is known from how they are made.
+
+A true statement is multiplied by a factor, or radii are added to it. What is added is a sum of
+functions that are independent of each other: it vanishes only if all its numbers do. What is one or
+nothing is disguised. None that is false may be proved, and none that is true refuted.
+"""
+
+from collections.abc import Callable
+
+import pytest
+import sympy
+from force_diffusion.derivations.framework.decide import candidate_for
+from force_diffusion.derivations.framework.loading import load
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
+from force_diffusion.symbolic.symbols import (
+    DeltaR,
+    ForceMinus,
+    ForcePlus,
+    M,
+    b_plus,
+    i,
+    j,
+    m,
+    n_minus,
+    n_x,
+    n_y,
+    phi,
+    r,
+    spacing,
+    z,
+)  # fmt: skip
+from force_diffusion.symbolic.trees import equation
+from hypothesis import given
+from hypothesis import strategies as st
+from sympy import Add, Integer, Mul, Pow, Rational, Sum
+
+import force_diffusion as fd
+
+DISGUISES = (
+    n_x**2 + n_y**2,
+    Mul(4 * n_x**2 * n_y**2, Pow(1 - phi**2, -1, evaluate=False), evaluate=False),
+    phi + 2 * n_x**2,
+    spacing / (4 * r * n_x),
+    2 * n_y**2 - phi,
+)
+"""Of the number 1."""
+SUMS = (
+    Sum(1, (m, 1, M)) / M,
+    2 * Sum(m, (m, 1, M)) / (M * (M + 1)),
+    2 * Sum(m - j, (m, j, M)) / ((M - j) * (M - j + 1)),
+)
+"""Of the same, for packings of height M."""
+numbers = st.just(Integer(0)) | st.builds(Rational, st.integers(-6, 6), st.integers(1, 7))
+COSINES = (Integer(1), phi, phi**2, n_x, n_x * n_y, phi * n_y)
+
+
+def sums_of(*functions: sympy.Expr) -> st.SearchStrategy[dict[sympy.Expr, sympy.Rational]]:
+    return st.dictionaries(st.sampled_from(functions), numbers, max_size=3)
+
+
+def total(terms: dict[sympy.Expr, sympy.Rational]) -> sympy.Expr:
+    return Add(*(number * function for function, number in terms.items()))
+
+
+def check(ruling: Ruling, *, true: bool, about: object) -> None:
+    assert true or not ruling.verdict.is_proved, (about, str(ruling))
+    assert not true or ruling.verdict is not Verdict.REFUTED, (about, str(ruling))
+
+
+PLUS, MINUS = ForcePlus(i, j), ForceMinus(i, j)
+FORMS: dict[str, Callable[[], fd.ClosedForm]] = {
+    "surface": lambda: fd.variance(PLUS),
+    "bulk": lambda: fd.variance(PLUS, load="bulk"),
+    "a difference": lambda: fd.variance(PLUS - MINUS),
+    "both": lambda: fd.covariance(PLUS, MINUS),
+    "a shift": lambda: fd.mean(PLUS, order=2),
+}
+HEIGHT, LAYER = 12, 4
+
+
+@pytest.mark.parametrize("name", FORMS)
+@given(
+    ones=st.lists(st.sampled_from([*DISGUISES, *SUMS]), max_size=2),
+    terms=sums_of(*COSINES, M, j, M * phi, j**2),
+    exponent=st.sampled_from([1, 2, -1]),
+    at_one_place=st.booleans(),
+    elsewhere=st.integers(0, 1),
+)
+def test_multiples_of_closed_forms(
+    name: str,
+    ones: list[sympy.Expr],
+    terms: dict[sympy.Expr, sympy.Rational],
+    exponent: int,
+    at_one_place: bool,
+    elsewhere: int,
+) -> None:
+    """At one place, also times what vanishes there alone."""
+    form = FORMS[name]()
+    zero = (M - HEIGHT) ** elsewhere * (j - LAYER) ** (1 - elsewhere) if at_one_place else 1
+    factor = 1 + zero * total(terms)
+    candidate = Mul(*ones, Pow(factor, exponent, evaluate=False), form.expr, evaluate=False)
+    place = {"M": HEIGHT, "j": LAYER} if at_one_place else {}
+    true = at_one_place or sympy.expand(factor ** abs(exponent)) == 1
+    check(form.decide(candidate, **place), true=true, about=candidate)
+
+
+SHRINKING = (M ** Rational(-1, 1000), 1 / M, phi / M, z / M**2, 1 / (M + M**3 * phi**2))
+LASTING = (Integer(1), phi, phi**2, z, z**2, n_x, M * phi, M ** Rational(1, 1000))
+NOT_UNIFORM = (M / (1 + M**2 * phi**2), 1 / (1 + M * phi**2), 1 / (1 + M * (phi - z + 2) ** 2))
+"""What lasts at φ = 0; the last one shrinks, as φ − z + 2 is positive."""
+
+
+@pytest.mark.parametrize("number", [13, 14])
+@given(
+    ones=st.lists(st.sampled_from([*DISGUISES, *SUMS]), max_size=2),
+    shrinking=sums_of(*SHRINKING, NOT_UNIFORM[2]),
+    lasting=sums_of(*LASTING) | st.just({}),
+    not_uniform=st.sampled_from([Integer(0), *NOT_UNIFORM[:2]]),
+    inverse=st.booleans(),
+)
+def test_multiples_of_leading_orders(
+    number: int,
+    ones: list[sympy.Expr],
+    shrinking: dict[sympy.Expr, sympy.Rational],
+    lasting: dict[sympy.Expr, sympy.Rational],
+    not_uniform: sympy.Expr,
+    inverse: bool,
+) -> None:
+    derivation = load(number)
+    left, right = derivation.printed[0].args
+    factor = Add(1, total(shrinking), total(lasting), not_uniform)
+    power = Pow(factor, -1 if inverse else 1, evaluate=False)
+    candidate = equation(left, Mul(*ones, power, right, evaluate=False))
+    true = not_uniform == 0 and not any(lasting.values())
+    check(candidate_for(derivation, 0, candidate), true=true, about=candidate)
+
+
+PLACES = [(i, j), (i + 1, j + 1), (i + 2, j)]
+
+
+@pytest.mark.parametrize("number", [3, 4, 5, 11, 12])
+@given(
+    one=st.sampled_from(DISGUISES),
+    weights=st.dictionaries(
+        st.tuples(st.sampled_from(PLACES), st.sampled_from([b_plus, n_minus])),
+        st.tuples(numbers, st.sampled_from([*COSINES, j])),
+        max_size=3,
+    ),
+    order=st.integers(0, 2),
+)
+def test_radii_that_are_added(
+    number: int,
+    one: sympy.Expr,
+    weights: dict[tuple[tuple[sympy.Expr, sympy.Expr], sympy.Expr], tuple[sympy.Expr, sympy.Expr]],
+    order: int,
+) -> None:
+    """Eq. 12 is one of leading orders: what it drops has weights of the order of M, or less."""
+    derivation = load(number)
+    left, right = derivation.printed[0].args
+    added, highest = [], 0
+    for (place, vector), (factor, function) in weights.items():
+        if number in (3, 4, 5):
+            added.append(factor * function * vector * DeltaR(*place))
+        elif vector == b_plus:
+            added.append(factor * function * M**order * DeltaR(*place))
+            highest = max(highest, order + int(function == j) if factor else 0)
+    candidate = equation(left, Add(Mul(one, right, evaluate=False), *added, evaluate=False))
+    true = not any(added) or (number == 12 and highest < 2)
+    check(candidate_for(derivation, 0, candidate), true=true, about=candidate)
