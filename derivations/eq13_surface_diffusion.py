@@ -9,9 +9,12 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height, certificate,
-    differentiate, equation, formula, minus, moment, of_what_is_kept, rewrite, terms, times, usual)
+    differentiate, equation, minus, moment, of_what_is_kept, power, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
+from sympy import Rational
 # fmt: on
+
+HALF = Rational(1, 2)
 
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle^2}", "σ_f²(z)/⟨f⟩²"
@@ -19,7 +22,10 @@ RELATIVE_VARIANCE = Symbol(
 MEANING = {RELATIVE_VARIANCE: Variance(eq11.PRINTED.lhs)}
 IN_THE_LIMIT = eq11.LOADED.in_the_limit(at_fixed_height("∼"))
 
-PRINTED = equation(RELATIVE_VARIANCE, formula("(2M³/(1 − φ²)²) (1 − z)²(2z + 1)(σ_δr/r)²"))
+PRINTED = equation(
+    RELATIVE_VARIANCE,
+    times(2 * M**3 / (1 - phi**2) ** 2, (1 - z) ** 2, 2 * z + 1, power(sigma / r, 2)),
+)
 
 KEPT = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
 """The variance of what Eq. 12 keeps."""
@@ -28,11 +34,11 @@ WEIGHTS = times(
     6, terms(sympy.Sum((M - j) ** 2, (m, 1, j)), sympy.Sum((M - m) ** 2, (m, j + 1, M)))
 )
 """Six times the squared weights of the Δ in Eq. 12."""
-TOTAL = formula("2(M − j)²(M + 2j) − 3(M − j)² + (M − j)")
+TOTAL = terms(2 * (M - j) ** 2 * (M + 2 * j), -3 * (M - j) ** 2, M - j)
 """The same in closed form."""
-NEXT_ORDER = formula("−(3/2) M²(1 − z)(1 + 3z)")
+NEXT_ORDER = -3 * M**2 * (1 - z) * (1 + 3 * z) / 2
 """The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
-PROFILE = formula("(1 − z)²(2z + 1)")
+PROFILE = (1 - z) ** 2 * (2 * z + 1)
 
 
 def _squares_to(last: sympy.Expr) -> sympy.Expr:
@@ -94,12 +100,12 @@ def steps() -> Steps:
         "d ln σ_f²/d ln (1 − z) falls from 2 at the surface through 1, that of Brownian motion, at "
         "z = 1/4, to 0 at the base",
         PROFILE,
-        formula("6z/(2z + 1)"),
-        formula("(4z − 1)/(2z + 1)"),
+        6 * z / (2 * z + 1),
+        (4 * z - 1) / (2 * z + 1),
     )
     steps.claim(
         "1 − φ² is more than 3/4, since −½ < φ < ½",
-        equation(terms(1, -(phi**2)), formula("3/4 + (1/2 − φ)(1/2 + φ)")),
+        equation(terms(1, -(phi**2)), terms(Rational(3, 4), times(HALF - phi, HALF + phi))),
         rewrite(),
         Domain(),
     )

@@ -10,11 +10,14 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic, at_fixed_height,
-    axioms, certificate, differentiate, equation, formula, minus, mirror, moment, negligible,
+    axioms, certificate, differentiate, equation, minus, mirror, moment, negligible,
     of_what_is_kept, power, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
+from sympy import Rational
 # fmt: on
+
+HALF = Rational(1, 2)
 
 LOADED = eq11.LAYERS.loaded(axioms.BULK)
 IN_THE_LIMIT = LOADED.in_the_limit(at_fixed_height("∼"))
@@ -24,13 +27,16 @@ RELATIVE_VARIANCE = Symbol(
 )
 MEAN_FORCE = Symbol("mean_force", r"\langle f\rangle_z", "⟨f⟩_z", positive=True)
 
-PRINTED = equation(RELATIVE_VARIANCE, formula("(3M³/(10(1 − φ²)²)) (1 − z)²(4z + 1)(σ_δr/r)²"))
+PRINTED = equation(
+    RELATIVE_VARIANCE,
+    times(3 * M**3 / (10 * (1 - phi**2) ** 2), (1 - z) ** 2, 4 * z + 1, power(sigma / r, 2)),
+)
 
 RATIO = ForcePlus(i, j) / ((M - j) * m_g / (2 * n_y))
 """The force over its mean, (M − j) m g/2n_y."""
 MEANING = {RELATIVE_VARIANCE: Variance(RATIO)}
 
-AVERAGED = formula("(M − j + 1)/2"), formula("(M − m)(M − m + 1)/(2(M − j))")
+AVERAGED = times(HALF, M - j + 1), times(HALF, M - m, M - m + 1, 1 / (M - j))
 """The weights of Δ for m ≤ j and for m > j: those of Eq. 12 averaged over the heights l."""
 OVER_HEIGHTS = (
     times(1 / (M - j), sympy.Sum(l - j, (l, j + 1, M))),
@@ -46,13 +52,17 @@ WEIGHTS = times(
         sympy.Sum(power(AVERAGED[0], 2), (m, 1, j)), sympy.Sum(power(AVERAGED[1], 2), (m, j + 1, M))
     ),
 )
-HIGHEST = formula("(3/10)(M − j)²(M + 4j)")
-REST = formula("(30M²j − 5M² − 60M j² + 25M j + 30j³ − 20j² + 2)/(10(M − j))")
+HIGHEST = 3 * (M - j) ** 2 * (M + 4 * j) / 10
+REST = times(
+    Rational(1, 10),
+    terms(30 * M**2 * j, -5 * M**2, -60 * M * j**2, 25 * M * j, 30 * j**3, -20 * j**2, 2),
+    1 / (M - j),
+)
 """Six times the sum of their squares is HIGHEST and this."""
 KEPT = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
-NEXT_ORDER = formula("(3/8) M²(1 − z)²")
+NEXT_ORDER = 3 * M**2 * (1 - z) ** 2 / 8
 """The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
-PROFILE = formula("(1 − z)²(4z + 1)")
+PROFILE = (1 - z) ** 2 * (4 * z + 1)
 
 
 def averaged_force() -> sympy.Expr:
@@ -88,7 +98,7 @@ def gained(above: int) -> sympy.Eq:
     the second derivative of Eq. 14 in j at its maximum.
     """
     upper = RATIO.xreplace({i: i + 1, j: j + 1})
-    apart = formula("j + 1/2 − (M/6 − 5/24)").xreplace({M: 6 * j + above})
+    apart = (j + HALF - (M / 6 - Rational(5, 24))).xreplace({M: 6 * j + above})
     return equation(
         terms(Variance(upper), -RELATIVE_VARIANCE), times(layers.UNIT, -3, M, sympy.expand(apart))
     )
@@ -178,8 +188,8 @@ def steps() -> Steps:
         "d ln σ_f²/d ln (1 − z) falls from 2 at the surface through 1, that of Brownian motion, at "
         "z = 3/8, is 0 at the maximum, z = 1/6, and negative nearer the base",
         PROFILE,
-        formula("(12z − 2)/(4z + 1)"),
-        formula("(8z − 3)/(4z + 1)"),
+        times(12 * z - 2, 1 / (4 * z + 1)),
+        (8 * z - 3) / (4 * z + 1),
     )
     steps.claim(
         "at fixed z the printed form has one maximum, at z = 1/6: it falls short of that by "

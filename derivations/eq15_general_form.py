@@ -10,7 +10,7 @@ from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, axioms, equation, formula, moment,
+    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, axioms, equation, moment,
     power, power_law, rewrite, tensile, terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.symbols import (
@@ -42,11 +42,11 @@ NEXT = {"surface": -Rational(1, 2), "bulk": Rational(11, 40)}
 HEIGHT_SHIFT = {"surface": Rational(1, 6), "bulk": Rational(-11, 24)}
 """M at which the exact mean is 1, less M*, as M* → ∞."""
 
-PROFILES = {"surface": formula("2(1 − z)²(1 + 2z)"), "bulk": formula("(3/2)(1 − z)²(1 + 4z)")}
+PROFILES = {"surface": 2 * (1 - z) ** 2 * (1 + 2 * z), "bulk": 3 * (1 - z) ** 2 * (1 + 4 * z) / 2}
 """σ_f²/⟨f⟩² at leading order in units of (M/M*)³."""
 BELOW_THE_PEAK = {
-    "surface": (sympy.Integer(2), formula("2z²(3 − 2z)")),
-    "bulk": (Rational(125, 72), formula("(1/72)(1 − 6z)²(17 − 12z)")),
+    "surface": (sympy.Integer(2), 2 * z**2 * (3 - 2 * z)),
+    "bulk": (Rational(125, 72), (1 - 6 * z) ** 2 * (17 - 12 * z) / 72),
 }
 """The largest value of a profile, at z = 0 and 1/6, and what a profile is below it."""
 

@@ -12,7 +12,7 @@ from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, equation,
-    formula, inducted, lattice, leading_order_of, minus, mirror, moment, rewrite, same, shown,
+    inducted, lattice, leading_order_of, minus, mirror, moment, power, rewrite, same, shown,
     terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.symbols import (
@@ -52,7 +52,7 @@ MEANING = {
 }
 """What the symbols stand for; f⁺_ij inside of the cone has no part of order 0 to be tilted."""
 
-PRINTED = equation(RESPONSE, formula("(3/(2(1 − φ²)²)) (l + j)(σ_δr/r)²"))
+PRINTED = equation(RESPONSE, times(3 / (2 * (1 - phi**2) ** 2), terms(l, j), power(sigma / r, 2)))
 
 # bead (i, j) is p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l)
 ALL_BELOW = Domain.of(j >= 0, j < l, indices=(i, k), loading=axioms.POINT)

@@ -1,8 +1,6 @@
 """Eqs. B7, B8, B12 and B21: correlations of contact forces, and means over neighbours."""
 
 # fmt: off
-from collections.abc import Iterable
-
 import sympy
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations.beyond.variances import PAPER
@@ -12,11 +10,11 @@ from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
     Decide, Forms, Row, are_same, equals, goes_as, highest, leads, ruled)
-from force_diffusion.symbolic.as_written import relations
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceMinus, ForcePlus, M, N, i, j, k, l, p, phi, r, sigma, z)
+from force_diffusion.symbolic.words import in_words
 from sympy import Eq, Rational
 # fmt: on
 
@@ -99,15 +97,15 @@ def _contacts(number: Number, name: str, load: str) -> Row:
     )  # fmt: skip
 
 
-def uncorrelated(domains: Iterable[str]) -> Decide:
+def uncorrelated(*domains: tuple[sympy.Basic, ...]) -> Decide:
     """f⁺_ij and the f⁻ of layer l whose diagonals cross p layers above (i, j) are uncorrelated."""
 
     def decide(_: Forms) -> Ruling:
-        for words in domains:
-            domain = (j <= l, *relations(words))
-            form = covariance(ForcePlus(i, j), ForceMinus(i + 2 * p + j - l, l), where=domain)
+        for domain in domains:
+            where = (j <= l, *domain)
+            form = covariance(ForcePlus(i, j), ForceMinus(i + 2 * p + j - l, l), where=where)
             if not form.function.weights.is_zero():
-                return ruled(False, f"they are correlated somewhere in {words}")
+                return ruled(False, f"they are correlated somewhere in {in_words(domain)}")
         return ruled(True, "")
 
     return decide
@@ -205,9 +203,9 @@ DERIVATIONS: dict[Number, Row] = {
             "f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
             "from both, from the base and from the surface, and, if q layers above both, where q "
             "and j differ by four or more":
-                uncorrelated(["4 − j ≤ p ≤ −4", "4 ≤ p ≤ l − j − 4",
-                              "l − j + 4 ≤ p ≤ M − j − 4 and p ≤ l − 4",
-                              "l − j + 4 ≤ p ≤ M − j − 4 and p ≥ l + 4"]),
+                uncorrelated((4 - j <= p, p <= -4), (p >= 4, p <= l - j - 4),
+                             (l - j + 4 <= p, p <= M - j - 4, p <= l - 4),
+                             (l - j + 4 <= p, p <= M - j - 4, p >= l + 4)),
         },
     ),
     "B21": _contacts("B21", "neighbouring_contacts_bulk", "bulk"),

@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import Any
 
 import sympy
-from force_diffusion.symbolic.as_written import too_large
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -16,6 +15,7 @@ from force_diffusion.symbolic.kernel.decisions import (
 )
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.sizes import too_large
 from force_diffusion.symbolic.trees import equation, nodes
 from sympy.logic.boolalg import BooleanAtom
 

@@ -6,7 +6,6 @@ What makes an expression as it is printed, the axioms, the rules, and what a der
 # fmt: off
 from force_diffusion.symbolic.as_printed import certificate, minus, power, terms, times
 from force_diffusion.symbolic.trees import equation
-from force_diffusion.symbolic.as_written import formula
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_height
@@ -30,7 +29,7 @@ Groups = tuple[Group, ...]
 __all__ = [
     "FIRST_ORDER", "Derivation", "Domain", "Groups", "Limit", "Rule", "Step", "Steps", "Symbol",
     "Theorem", "along", "asymptotic", "at_fixed_height", "axioms", "below", "certificate",
-    "differentiate", "equation", "follows", "formula", "induct", "inducted", "instance",
+    "differentiate", "equation", "follows", "induct", "inducted", "instance",
     "lattice", "leading_order_of", "minus", "mirror", "mirror_of", "moment", "negligible",
     "of_what_is_kept", "order", "power", "power_law", "reach", "rewrite", "same", "shown",
     "solve", "tensile", "terms", "times", "usual",

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import sympy
 from force_diffusion.derivations.beyond import correlations
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.closed_form import ClosedForm
@@ -13,7 +14,7 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.sets import OpenSumError
-from force_diffusion.symbolic.symbols import M, l, r, sigma, t
+from force_diffusion.symbolic.symbols import M, j, l, p, r, sigma, t
 from force_diffusion.symbolic.weights import Weights
 
 import force_diffusion as fd
@@ -93,10 +94,14 @@ def test_claims_are_proved_and_false_of_other_forms(number: str) -> None:
 
 @pytest.mark.parametrize(
     ("domain", "is_proved"),
-    [("4 − j ≤ p ≤ −4", True), ("2 − j ≤ p ≤ −4", False), ("4 ≤ p ≤ l − j − 1", False)],
+    [
+        ((4 - j <= p, p <= -4), True),
+        ((2 - j <= p, p <= -4), False),
+        ((p >= 4, p <= l - j - 1), False),
+    ],
 )
 def test_branches_are_correlated_nearer_to_where_diagonals_cross(
-    domain: str, is_proved: bool
+    domain: tuple[sympy.Basic, ...], is_proved: bool
 ) -> None:
-    ruling = correlations.uncorrelated([domain])({})
+    ruling = correlations.uncorrelated(domain)({})
     assert ruling.verdict.is_proved == is_proved
