@@ -38,7 +38,7 @@ TOTAL = terms(2 * (M - j) ** 2 * (M + 2 * j), -3 * (M - j) ** 2, M - j)
 """The same in closed form."""
 NEXT_ORDER = -3 * M**2 * (1 - z) * (1 + 3 * z) / 2
 """The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
-PROFILE = (1 - z) ** 2 * (2 * z + 1)
+PROFILE = times((1 - z) ** 2, 2 * z + 1)
 
 
 def _squares_to(last: sympy.Expr) -> sympy.Expr:

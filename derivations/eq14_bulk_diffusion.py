@@ -62,7 +62,7 @@ REST = times(
 KEPT = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
 NEXT_ORDER = 3 * M**2 * (1 - z) ** 2 / 8
 """The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
-PROFILE = (1 - z) ** 2 * (4 * z + 1)
+PROFILE = times((1 - z) ** 2, 4 * z + 1)
 
 
 def averaged_force() -> sympy.Expr:

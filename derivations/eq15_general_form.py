@@ -42,7 +42,10 @@ NEXT = {"surface": -Rational(1, 2), "bulk": Rational(11, 40)}
 HEIGHT_SHIFT = {"surface": Rational(1, 6), "bulk": Rational(-11, 24)}
 """M at which the exact mean is 1, less M*, as M* → ∞."""
 
-PROFILES = {"surface": 2 * (1 - z) ** 2 * (1 + 2 * z), "bulk": 3 * (1 - z) ** 2 * (1 + 4 * z) / 2}
+PROFILES = {
+    "surface": times(2, (1 - z) ** 2, 1 + 2 * z),
+    "bulk": times(Rational(3, 2), (1 - z) ** 2, 1 + 4 * z),
+}
 """σ_f²/⟨f⟩² at leading order in units of (M/M*)³."""
 BELOW_THE_PEAK = {
     "surface": (sympy.Integer(2), 2 * z**2 * (3 - 2 * z)),
