@@ -11,10 +11,9 @@ from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height, certificate,
     differentiate, equation, minus, moment, of_what_is_kept, power, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
-from sympy import Rational
 # fmt: on
 
-HALF = Rational(1, 2)
+HALF = sympy.S.Half
 
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle^2}", "σ_f²(z)/⟨f⟩²"
@@ -105,7 +104,7 @@ def steps() -> Steps:
     )
     steps.claim(
         "1 − φ² is more than 3/4, since −½ < φ < ½",
-        equation(terms(1, -(phi**2)), terms(Rational(3, 4), times(HALF - phi, HALF + phi))),
+        equation(terms(1, -(phi**2)), terms(1 - HALF**2, times(HALF - phi, HALF + phi))),
         rewrite(),
         Domain(),
     )

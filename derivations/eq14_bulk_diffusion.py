@@ -14,10 +14,9 @@ from force_diffusion.derivations.framework.vocabulary import (
     of_what_is_kept, power, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
-from sympy import Rational
 # fmt: on
 
-HALF = Rational(1, 2)
+HALF = sympy.S.Half
 
 LOADED = eq11.LAYERS.loaded(axioms.BULK)
 IN_THE_LIMIT = LOADED.in_the_limit(at_fixed_height("∼"))
@@ -54,7 +53,7 @@ WEIGHTS = times(
 )
 HIGHEST = 3 * (M - j) ** 2 * (M + 4 * j) / 10
 REST = times(
-    Rational(1, 10),
+    sympy.Rational(1, 10),
     terms(30 * M**2 * j, -5 * M**2, -60 * M * j**2, 25 * M * j, 30 * j**3, -20 * j**2, 2),
     1 / (M - j),
 )
@@ -98,7 +97,7 @@ def gained(above: int) -> sympy.Eq:
     the second derivative of Eq. 14 in j at its maximum.
     """
     upper = RATIO.xreplace({i: i + 1, j: j + 1})
-    apart = (j + HALF - (M / 6 - Rational(5, 24))).xreplace({M: 6 * j + above})
+    apart = (j + HALF - (M / 6 - sympy.Rational(5, 24))).xreplace({M: 6 * j + above})
     return equation(
         terms(Variance(upper), -RELATIVE_VARIANCE), times(layers.UNIT, -3, M, sympy.expand(apart))
     )

@@ -16,8 +16,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_396,
-    "derivations": 8_150,
+    "symbolic": 4_157,
+    "derivations": 8_149,
     "numeric": 9_930,
     "force_diffusion": 78,
     "benchmarks": 836,

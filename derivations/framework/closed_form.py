@@ -351,12 +351,12 @@ class ClosedForm:
         if whole.count(r"\\") <= _HIGH[columns]:
             return [whole]
         if not half:  # a single formula is set in smaller type
-            smaller = ((n, self._shown(pieces, columns, size)) for n, size in _SMALLER.items())
-            name, small = next(
-                ((size, shown) for size, shown in smaller if shown.count(r"\\") <= _HIGH[1]),
-                ("tiny", self._shown(pieces, columns, _SMALLER["tiny"])),
-            )
-            return [rf"\mbox{{\{name}$\displaystyle {small}$}}"]
+            for name, size in _SMALLER.items():
+                small = self._shown(pieces, columns, size)
+                display = rf"\mbox{{\{name}$\displaystyle {small}$}}"
+                if small.count(r"\\") <= _HIGH[1]:
+                    break
+            return [display]
         return [*self._displays(pieces[:half], columns), *self._displays(pieces[half:], columns)]
 
     def _repr_latex_(self) -> str:

@@ -66,7 +66,8 @@ def _further(statement: Derivation, formula: sympy.Eq, domain: Domain) -> Iterat
         return
     for theorem in theorems:
         yield rules.follows(theorem)
-        yield from (_component(theorem, vector) for vector in (sy.e_x, *sy.VECTORS))
+        for vector in (sy.e_x, *sy.VECTORS):
+            yield rules.follows(rules.along(theorem, vector))
     if domain.loading == axioms.LOADED:
         yield _under_a_vertical_load
     else:
@@ -79,10 +80,6 @@ def _under_a_vertical_load(formula: sympy.Eq, domain: Domain) -> Theorem:
     groups = (*load(7).theorems, *loads), *_geometry()
     rules.rewrite(*groups)(formula, domain.loaded(axioms.LOADED_VERTICALLY))
     raise NotProvedError("it holds under a vertical load; whether under any is not decided")
-
-
-def _component(theorem: Theorem, vector: sympy.Expr) -> Rule:
-    return rules.follows(rules.along(theorem, vector))
 
 
 def _geometry() -> tuple[Group, ...]:

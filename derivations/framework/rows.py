@@ -233,7 +233,8 @@ def turns_positive(
     """The leading order is positive above a value of z or φ alone, and negative below it."""
 
     def decide(forms: Forms) -> Ruling:
-        leading = _leading(forms[name], where)
+        form = forms[name]
+        leading = highest(form.on(*where), M) if where else form.leading(1)
         factor = symbol - threshold
         if threshold.is_number:
             factor = sympy.minimal_polynomial(threshold, symbol)
@@ -253,10 +254,6 @@ def has_sign(name: str, expected: int, *where: sympy.Basic, at: Values | None = 
         return _has_sign(value, expected, sets.where(*(symbol >= 0 for symbol in at or ())))
 
     return decide
-
-
-def _leading(form: ClosedForm, where: tuple[sympy.Basic, ...]) -> sympy.Expr:
-    return highest(form.on(*where), M) if where else form.leading(1)
 
 
 def highest(value: sympy.Expr, symbol: sympy.Symbol) -> sympy.Expr:
