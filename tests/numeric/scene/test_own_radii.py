@@ -40,11 +40,6 @@ def same(found: fd.Outcome, reference: Any) -> bool:
     return bool(np.allclose(found.arrays["change"], reference, rtol=0, atol=1e-15))
 
 
-def test_radii_themselves(tmp_path: Path, reference: Any) -> None:
-    rows = [(i, j, R + float(DELTA[j, q])) for j, q, i in SITES]
-    assert same(solved(listed(tmp_path / "r.csv", "i,j,r", rows)), reference)
-
-
 def test_an_array(tmp_path: Path, reference: Any) -> None:
     np.save(tmp_path / "radii.npy", R + DELTA)
     found = solved(tmp_path / "radii.npy")
