@@ -200,16 +200,6 @@ def test_a_disk_that_fails(made_up, tmp_path: Path, monkeypatch, capsys, number,
     assert not out.exists()
 
 
-def test_an_interrupt_in_this_process(made_up, tmp_path: Path, monkeypatch, capsys) -> None:
-    def interrupted(*_: object) -> None:
-        raise KeyboardInterrupt
-
-    monkeypatch.setattr("force_diffusion.derivations.framework.runner.run", interrupted)
-    assert main(["derive", "1", "--out", str(tmp_path / "out")]) == 130
-    assert "interrupted" in capsys.readouterr().err
-    assert not (tmp_path / "out").exists()
-
-
 @pytest.mark.skipif(not Path("/proc/self").exists(), reason="there is no /proc here")
 def test_a_file_system_that_takes_no_files() -> None:
     done = run(*COMMAND, "derive", "1", "--out", "/proc/out")

@@ -42,12 +42,3 @@ def test_no_packing_ends_in_words_with_status_3(
     assert main(["run", str(scene)]) == 3
     said = capsys.readouterr().err
     assert "no packing was found, though one may exist: beads still slide after 1 linear" in said
-
-
-@pytest.mark.long(sample=1)
-@pytest.mark.parametrize("quantity", ["contact_forces", "positions"])
-def test_figures_of_a_scene(quantity: str, tmp_path: Path) -> None:
-    scene, out = tmp_path / "scene.toml", tmp_path / "out"
-    scene.write_text(SCENE.replace("contact_forces", quantity))
-    assert main(["figures", str(scene), "--out", str(out)]) == 0
-    assert {path.suffix for path in out.iterdir()} == {".csv", ".json", ".pdf", ".png", ".svg"}

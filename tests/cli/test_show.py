@@ -15,13 +15,13 @@ from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.printing.structure import rebuilt
 from force_diffusion.symbolic.printing.text import text
 
 from force_diffusion.__main__ import main
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = list(modules())
+BEYOND = [number for number in NUMBERS if number not in {*paper(), "B1"}]
 
 
 def shown(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
@@ -80,19 +80,8 @@ def test_the_right_hand_side_of_13_in_one_line(capsys: pytest.CaptureFixture[str
     assert value == expected
 
 
-@pytest.mark.parametrize("number", NUMBERS)
-def test_sympy_source_reads_back(capsys: pytest.CaptureFixture[str], number: int) -> None:
-    lines = shown(capsys, str(number), "--as", "sympy").splitlines()
-    equations = load(number).printed
-    assert len(lines) == len(equations)
-    for line, equation in zip(lines, equations, strict=True):
-        balance = equation.rhs == 0 and number in paper()
-        side = equation.lhs if balance else equation.rhs
-        assert rebuilt(sympy.sympify(eval(line, names()))) == rebuilt(side)
-
-
 @pytest.mark.long(sample=4)
-@pytest.mark.parametrize("number", [number for number in NUMBERS if load(number).exact])
+@pytest.mark.parametrize("number", [13, 14, 15, 16, *BEYOND])
 def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int | str) -> None:
     """SymPy source, Python source, JSON and text are those of the closed forms."""
     forms = load(number).exact_forms

@@ -11,28 +11,21 @@ from force_diffusion.derivations.framework.catalogue import Number, modules, pap
 from force_diffusion.derivations.framework.decide import candidate_for
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Step
-from force_diffusion.derivations.framework.record import Statement
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_FORCES
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
-ALL = [load(number) for number in modules()]
-PAPER = [load(number) for number in paper()]
 
-every_equation = pytest.mark.parametrize("statement", ALL, ids=lambda d: f"eq{d.number:02}")
-every_printed = pytest.mark.parametrize("derivation", PAPER, ids=lambda d: f"eq{d.number:02}")
-
-
-@every_equation
-def test_proved(statement: Statement) -> None:
-    outcome = run(statement)
-    assert outcome.assuming == ((GAUSSIAN_FORCES,) if statement.number == 15 else ())
-    assert outcome.verdict is (Verdict.ASSUMING if statement.number == 15 else Verdict.PROVED)
+@pytest.mark.parametrize("number", modules())
+def test_proved(number: Number) -> None:
+    outcome = run(load(number))
+    assert outcome.assuming == ((GAUSSIAN_FORCES,) if number == 15 else ())
+    assert outcome.verdict is (Verdict.ASSUMING if number == 15 else Verdict.PROVED)
     for check in outcome.checks:
         if check.name.startswith("printed equation"):
             assert check.verdict is Verdict.PROVED
-    assert len(outcome.refuted) == (statement.number == 16)
+    assert len(outcome.refuted) == (number == 16)
 
 
 @pytest.mark.parametrize(
@@ -130,7 +123,7 @@ def _rests_on(step: Step) -> set[Number]:
     """The equations whose theorems are among the premises of a step's, near and far."""
     shown = {
         id(theorem): one.number
-        for one in PAPER
+        for one in map(load, paper())
         for of in (*one.proof, *one.proof.claims)
         for theorem in of.theorems
     }
@@ -143,9 +136,9 @@ def _rests_on(step: Step) -> set[Number]:
     return {shown[one] for one in seen & {*shown}}
 
 
-@every_printed
-def test_what_a_step_follows_from_is_among_its_premises(derivation: Statement) -> None:
-    for step in derivation.proof:
+@pytest.mark.parametrize("number", paper())
+def test_what_a_step_follows_from_is_among_its_premises(number: int) -> None:
+    for step in load(number).proof:
         found = _rests_on(step)
         assert {*step.equations_used} <= found
         assert all(place < step.number for place in step.steps_used)

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.catalogue import modules, paper
+from force_diffusion.derivations.framework.catalogue import Number, modules, paper
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.printing.lines import COLUMNS, width
@@ -15,9 +15,7 @@ from force_diffusion.symbolic.printing.structure import rebuilt
 
 import force_diffusion as fd
 
-ALL = [fd.equation(number) for number in modules()]
-every_equation = pytest.mark.parametrize("eq", ALL, ids=lambda eq: f"eq{eq.number:02}")
-PAPER = [eq for eq in ALL if eq.number in paper()]
+every_equation = pytest.mark.parametrize("number", modules())
 
 
 def test_the_package_is_light_until_it_is_used() -> None:
@@ -30,16 +28,18 @@ def test_the_package_is_light_until_it_is_used() -> None:
 
 
 @every_equation
-def test_expr_and_rhs(eq: fd.Equation) -> None:
+def test_expr_and_rhs(number: Number) -> None:
+    eq = fd.equation(number)
     lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     sides = list(eq.rhs) if isinstance(eq.rhs, sympy.Tuple) else [eq.rhs]
     assert [line.rhs for line in lines] == sides
     printed = {7: 2, 8: 2, 15: 2, "B1": 2}.get(eq.number, 1)
-    assert len(lines) == (len(eq.forms) if eq not in PAPER and eq.forms else printed)
+    assert len(lines) == (len(eq.forms) if number not in paper() and eq.forms else printed)
 
 
 @every_equation
-def test_source_reads_back_with_its_own_symbols(eq: fd.Equation) -> None:
+def test_source_reads_back_with_its_own_symbols(number: Number) -> None:
+    eq = fd.equation(number)
     lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     names = {**vars(sympy), **eq.symbols}
     for source, line in zip(eq.sympy_code().splitlines(), lines, strict=True):
@@ -68,7 +68,8 @@ STANDARD = {
 
 @pytest.mark.long(sample=8)
 @every_equation
-def test_notebooks_can_set_it(eq: fd.Equation) -> None:
+def test_notebooks_can_set_it(number: Number) -> None:
+    eq = fd.equation(number)
     for formula in (eq, *map(eq.exact, eq.forms)):
         shown = formula._repr_latex_()
         assert shown == rf"$\displaystyle {formula.latex()}$"
@@ -81,7 +82,8 @@ def test_notebooks_can_set_it(eq: fd.Equation) -> None:
 @pytest.mark.long(sample=8, share=2)
 @pytest.mark.parametrize("columns", [1, 2])
 @every_equation
-def test_the_lines_of_exact_forms_fit(eq: fd.Equation, columns: int) -> None:
+def test_the_lines_of_exact_forms_fit(number: Number, columns: int) -> None:
+    eq = fd.equation(number)
     for form in map(eq.exact, eq.forms):
         for line in form.latex(columns).splitlines():
             assert width(line) <= COLUMNS[columns] + 12, line  # 12: of &
