@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_157,
     "derivations": 8_149,
-    "numeric": 9_930,
+    "numeric": 9_911,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,

@@ -245,33 +245,18 @@ class Region:
         upper = self.bead(layer, column)
         return AxisContact(lower_bead(upper, branch, self.side), Axis(branch))
 
-    def here(self, values: Array, source: Layer, layer: Layer) -> Array:
-        """Read the values of a row at the sites of a part of it."""
-        return values if source == layer else pick(values, source, layer, self.width)
-
     def step(self, axis: int, count: int) -> tuple[int, ...]:
         """Give so many steps along one base vector."""
         return tuple(count if a == axis else 0 for a in range(self.dimension))
 
-    def moved(
-        self,
-        values: Array,
-        source: Layer,
-        layer: Layer,
-        steps: tuple[int, ...],
-        zero: Any = None,
-    ) -> Array:
-        """Read the values of row ``source`` at x + Σ steps_a e_a, for each x of ``layer``.
-
-        Shapes: (…, source.count) → (…, layer.count). Sites that ``source`` lacks read ``zero``;
-        without a ``zero`` they raise ``LookupError``.
-        """
-        return self.look(source, layer, steps, zero)(values)
-
     def look(
         self, source: Layer, layer: Layer, steps: tuple[int, ...], zero: Any = None
     ) -> Callable[[Array], Array]:
-        """Give the function that reads so whatever belongs to the row ``source``."""
+        """Give the function that reads what belongs to row ``source`` at x + Σ steps_a e_a.
+
+        For each x of ``layer``: shapes (…, source.count) → (…, layer.count). Sites that ``source``
+        lacks read ``zero``; without a ``zero`` they raise ``LookupError``.
+        """
         if self.dimension == 2:
             first = layer.first + steps[0] - steps[1]
             wanted = Layer(layer.j + sum(steps), first, layer.count)

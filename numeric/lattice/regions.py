@@ -69,7 +69,7 @@ def reached(loaded: Iterable[Site], rows: Rows, region: Region) -> list[Layer]:
         here = np.zeros(row.count, bool)
         here[columns % (region.width or max(row.count, 1))] = True
         for axis in range(region.dimension if upper.count else 0):
-            here |= region.moved(above, upper, row, region.step(axis, 1), False)
+            here |= region.look(upper, row, region.step(axis, 1), False)(above)
         ends = np.flatnonzero(np.diff(here, prepend=False, append=False)).reshape(-1, 2)
         found += [Layer(row.j, row.first + 2 * a, b - a) for a, b in ends[::-1].tolist()]
         upper, above = row, here

@@ -74,14 +74,11 @@ class Physicality:
         found = gaps(packing)
         self.overlaps += found.overlaps
         self.undecided_gaps += found.undecided
-        if found.between is not None and not found.smallest >= self._smallest:
+        before = math.inf if self.smallest_gap is None else self.smallest_gap
+        if found.between is not None and not found.smallest >= before:
             lower, upper = found.between
             self.smallest_gap, self.smallest_in = found.smallest, self.looks_at[found.packing]
             self.between = named(packing, lower), named(packing, upper)
-
-    @property
-    def _smallest(self) -> float:
-        return math.inf if self.smallest_gap is None else self.smallest_gap
 
     def look_at_forces(self, forces: Forces) -> None:
         """Count the contacts that surely pull and those whose sign stays open."""

@@ -19,8 +19,8 @@ from ..arithmetic.carried import CARRYING, NONE, Carried, Carrying, Sizes
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import Radii, RadiusError
-from ..lattice.branch import AxisContact, Contact, Direction, PerBranch
-from ..lattice.layers import Layer, Region, Rows, RowView, bead_of
+from ..lattice.branch import Direction, PerBranch
+from ..lattice.layers import Layer, Region, Rows, RowView, bead_of, pick
 from .loads import LoadSpec
 from .local import balance, balance_linear, cosine, metric, nested, rest, rest_linear
 from .loops import Loops, loops
@@ -130,10 +130,6 @@ class Forces:
         """Give (branch, F, g) of the contacts below row j."""
         for branch, F in self.ordered:
             yield branch, F[j], self.change[branch][j]
-
-    def contact(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
-        """Name the contact below a bead of a row."""
-        return self.region.contact_below(layer, branch, column)
 
 
 @dataclass(frozen=True)
@@ -303,7 +299,7 @@ def _balanced(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool) -> An
                 moved(look, g[:, a, force]),
                 tuple(moved(packed, x) for x in turns),
             )
-        part = partial(region.here, source=deposited[j], layer=layer)
+        part = partial(pick, source=deposited[j], wanted=layer, width=region.width)
         dn = tuple(
             tuple(moved(part, block[:, d + a * d + b, here]) for b in range(d)) for a in range(d)
         )

@@ -8,7 +8,7 @@ import numpy as np
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
 from ..lattice.branch import Branch
-from ..lattice.layers import Rows, column, whole
+from ..lattice.layers import column, whole
 from ..mechanics.engine import solve
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route, axes
@@ -56,7 +56,7 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
         turn[1::2] = 1
         turn[-1] += width % 2 * 2  # the first follows the last
         rise = apart * (1 + turn.max())
-    i, j = _sites(rows)
+    i, j = rows.sites
     lift = np.where(j > 0, apart * np.tile(turn, len(rows)), 0)
     grains.x = np.stack([2 * nx * i, rise * j + lift], axis=1)
     return grains, None
@@ -159,16 +159,10 @@ def loads(problem: Problem, system: NumberSystem) -> Array:
     return np.stack([(minus - plus) * nx, -(plus + minus) * ny], axis=1)
 
 
-def _sites(rows: Rows) -> tuple[Array, Array]:
-    """Give i and j of all beads, (N,) each."""
-    i = np.concatenate([row.first + 2 * np.arange(row.count) for row in rows])
-    return i, np.repeat(np.arange(len(rows)), rows[0].count)
-
-
 def _centres(problem: Problem, packing: SolvedPacking, system: NumberSystem) -> Array:
     """Give the centres of deposited beads, (N, 2)."""
     nx, ny = axes(problem.n_x, system)
-    i, j = (numbers.astype(system.dtype) for numbers in _sites(packing.region.rows))
-    plus, minus = (np.concatenate(list(c)) for c in (packing.c.plus, packing.c.minus))
+    i, j = (numbers.astype(system.dtype) for numbers in packing.region.rows.sites)
+    plus, minus = packing.block[0, :2]
     x: list[Any] = [2 * nx * i + (plus - minus) / (2 * nx), 2 * ny * j + (plus + minus) / (2 * ny)]
     return np.stack(x, axis=1)
