@@ -41,7 +41,6 @@ DISGUISES = (
     Mul(4 * n_x**2 * n_y**2, Pow(1 - phi**2, -1, evaluate=False), evaluate=False),
     phi + 2 * n_x**2,
     spacing / (4 * r * n_x),
-    2 * n_y**2 - phi,
 )
 """Of the number 1."""
 SUMS = (
