@@ -64,7 +64,7 @@ def certify(
         WrongTypeError: ``numbers`` is a single one.
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
-        raise WrongTypeError(f"certify takes several numbers: certify([{quoted(numbers)}])")
+        raise WrongTypeError(f"certify takes a list of numbers: certify([{quoted(numbers)}])")
     asked = coq_statements(numbers)
     with TemporaryDirectory() as folder:
         coq = CoqFolder(Path(folder))

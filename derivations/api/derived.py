@@ -117,7 +117,7 @@ def derive(
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
         single = getattr(numbers, "number", numbers)
-        raise WrongTypeError(f"derive takes several, in a list: derive([{quoted(single)}])")
+        raise WrongTypeError(f"derive takes a list: derive([{quoted(single)}])")
     outcomes = []
     tell = notice or (lambda _: None)
     wanted = [equation(number).number for number in (modules() if numbers is None else numbers)]

@@ -55,7 +55,7 @@ def derive(
         from ..export.article import names_of_files
 
         if out and out.absolute() == article.absolute():
-            raise OutputError(f"'{article}' is that of --out, too. Give another folder.")
+            raise OutputError(f"'{article}' is also the folder of --out. Give another one.")
         paper = Output(article, names_of_files(), overwrite)
 
     def finished(outcome: "ProofOutcome") -> None:

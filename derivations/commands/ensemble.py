@@ -138,7 +138,7 @@ def _solved(
     except ArgumentError as error:
         raise ForceDiffusionError(f"--{error}") from None
     except KeyboardInterrupt as interrupt:
-        nothing = "nothing was kept; with --store FILE it would have been."
+        nothing = "nothing was saved; with --store FILE it would have been."
         for note in getattr(interrupt, "__notes__", [] if store else [nothing]):
             tell(note)
         raise

@@ -36,7 +36,7 @@ def equation_number(word: str) -> Number:
     number = number_of(word)
     if number is not None:
         return number
-    several = " To derive, several have spaces between them, as derive 13 14." * ("," in word)
+    several = " Put spaces between several, as in derive 13 14." * ("," in word)
     raise typer.BadParameter(
         f"'{word}' is not an equation of this package. Give a number {allowed()} ('force-diffusion "
         f"list' names them).{several}",

@@ -58,7 +58,7 @@ def _heights(text: str | None) -> tuple[int, ...] | None:
     different = len(set(heights)) == len(heights) <= MOST_HEIGHTS
     if not heights or not different or not all(1 <= M <= HIGHEST for M in heights):
         raise typer.BadParameter(
-            f"'{text}' names no heights. Give up to {MOST_HEIGHTS} different whole numbers from 1 "
+            f"'{text}' doesn't name heights. Give up to {MOST_HEIGHTS} different whole numbers from 1 "
             f"to {HIGHEST}, with commas between them, such as 32,128.",
             param_hint="--heights",
         )
@@ -156,12 +156,13 @@ def figures(
             )
     if seed is not None and scenes == wanted:
         raise typer.BadParameter(
-            "is of the paper's figures; a scene has its own, disorder.seed.", param_hint="--seed"
+            "is for the paper's figures; a scene has its own seed, disorder.seed.",
+            param_hint="--seed",
         )
     stems = [FIGURES[name].file if name in FIGURES else Path(name).stem for name in wanted]
     if len(set(stems)) < len(stems):
         raise typer.BadParameter(
-            "several figures would have the same files; give scenes other names.",
+            "several figures would be written to the same files; give the scenes other names.",
             param_hint="WHICH",
         )
     import force_diffusion.numeric.figures.style  # noqa: F401  or leave before anything is solved

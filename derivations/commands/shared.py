@@ -37,7 +37,7 @@ Written = Annotated[
 def checked(written: Format, out: Path | None) -> None:
     """Refuse a format that can't be written, before anything is solved."""
     if written != Format.CSV and out is None:
-        raise ForceDiffusionError(f"--format {written} is for files: give --out DIR, too")
+        raise ForceDiffusionError(f"--format {written} writes files: give --out DIR, too")
     answers.check(written)
 
 

@@ -77,7 +77,7 @@ class CoqFolder:
         number = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
         if version.failed or not number:
             raise CoqAbsentError(
-                f"coqc does not say its version ({version.failed or version.printed.strip()}). "
+                f"coqc doesn't say what version it is ({version.failed or version.printed.strip()}). "
                 f"Install Coq: {INSTALL}"
             )
         self.checker = f"Coq {number[1]}"

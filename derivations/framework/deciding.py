@@ -126,5 +126,5 @@ def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str
     names = {symbol.name for symbol in known}
     for symbol in by_name(formula.free_symbols - {*known}):
         if symbol.name in names:
-            return f"{symbol.name} is not the {symbol.name} of the equation"
+            return f"this {symbol.name} is not that of the equation: take it from its symbols"
     return ""

@@ -57,7 +57,7 @@ def parse(text: str) -> Fraction:
     stripped = text.strip()
     if not _DECIMAL.fullmatch(stripped) or len(stripped) > MOST_DIGITS:
         shown = stripped if len(stripped) <= 40 else stripped[:40] + "…"
-        raise ValueError(f"{shown!r} is no finite decimal number")
+        raise ValueError(f"{shown!r} is not a finite decimal number")
     return exact(Decimal(stripped))
 
 

@@ -73,7 +73,7 @@ class Store:
         """
         self.path, self.ensemble, self.held = path, ensemble or {}, set[Block]()
         if path.exists() and not path.is_file():
-            raise StoreError(f"{path} is no ordinary file: give another name")
+            raise StoreError(f"{path} must be a regular file: give another name")
         if ensemble is None and not path.exists():
             raise StoreError(f"{path}: there is no such store")
         with _reading(path):
@@ -235,7 +235,7 @@ def _reading(path: Path) -> Iterator[None]:
             raise _not_ours(path) from None
         if code in (sqlite3.SQLITE_CANTOPEN, sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM):
             raise StoreError(
-                f"{path} can't be written to ({error}): give a place that can"
+                f"{path} can't be written to ({error}): choose a folder that can be"
             ) from None
         if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR):
             raise StoreFailedError(f"{path} can't be used ({error})") from None

@@ -541,13 +541,13 @@ def solve(
         beads = " × ".join(map(str, shape[1 - dimension :]))
         turned = "swapaxes(-1, -2)" if batch else "T"
         remedy = (
-            f"transposed? then give {given.name}.{turned}; " if dimension == 2 <= shape[-1] else ""
+            f"if transposed, give {given.name}.{turned}; " if dimension == 2 <= shape[-1] else ""
         )
         raise SceneError(
             given.name,
             None,
-            f"shape {shape}: {layers} layers of {beads} beads bear on their own periodic "
-            f"images; {remedy}if that is what it is, say allow_images=True",
+            f"shape {shape}: {layers} layers of {beads} beads would bear on their "
+            f"own images; {remedy}if you mean it, say allow_images=True",
         )
     if radius is None:
         radius = Fraction(float(given.values.mean())) if delta_r is None else 1

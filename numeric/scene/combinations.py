@@ -50,7 +50,7 @@ def refusal(asked: Request) -> tuple[str, str] | None:
     """Give the key of the scene that is refused, and why; None where nothing is.
 
     >>> refusal(Request(command="ensemble", tolerance=True))
-    ('ask.tolerance', 'an ensemble is solved in float64: leave it out')
+    ('ask.tolerance', 'must be left out in an ensemble, which is solved in float64')
     >>> refusal(Request(command="cost", dimension=3)) is None
     True
     """
@@ -100,7 +100,7 @@ def refusal(asked: Request) -> tuple[str, str] | None:
         (
             command == "ensemble" and quantity not in _GATHERED,
             "ask.quantity",
-            f"an ensemble is of {either(_GATHERED)}",
+            f"must be {either(_GATHERED)} in an ensemble",
         ),
         (
             command in {"ensemble", "cost"} and opens,
@@ -110,17 +110,17 @@ def refusal(asked: Request) -> tuple[str, str] | None:
         (
             command == "ensemble" and asked.tolerance,
             "ask.tolerance",
-            "an ensemble is solved in float64: leave it out",
+            "must be left out in an ensemble, which is solved in float64",
         ),
         (
             command == "ensemble" and not asked.drawn,
             "disorder.kind",
-            "an ensemble needs radii that are drawn",
+            'must be "uniform", "normal" or "two-point" in an ensemble: its radii are drawn',
         ),
         (
             asked.reach and quantity != "histogram",
             "ask.quantity",
-            'only a "histogram" has bins that reach',
+            'must be "histogram" with reach, which sets the edges of its bins',
         ),
         (
             command == "figures" and not drawn,

@@ -67,7 +67,7 @@ def rows_of_table(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
     except ForeignFileError as error:
         raise TableError(f"{key}: {path}: {error}") from None
     except (UnicodeDecodeError, csv.Error) as error:
-        raise TableError(f"{name}: is no CSV text in UTF-8 ({error})") from None
+        raise TableError(f"{name}: is not a CSV file in UTF-8 ({error})") from None
 
 
 def _lines(name: str, file: TextIOWrapper) -> Iterator[str]:
@@ -77,7 +77,7 @@ def _lines(name: str, file: TextIOWrapper) -> Iterator[str]:
         number += 1
         if len(line) > LONGEST_LINE:
             most = f"a line has at most {LONGEST_LINE} characters, and this one has more"
-            raise TableError(f"{name}, line {number}: {most}: is it a table of one bead a line?")
+            raise TableError(f"{name}, line {number}: {most}: is it a table with one bead a line?")
         yield line
 
 

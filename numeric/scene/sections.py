@@ -191,8 +191,8 @@ def radii_array(value: object) -> Array:
             raise ValueError
     except ValueError:
         raise ValueError(
-            "must be an array of real numbers, all rows equally long; others than NumPy's, such as "
-            "Fractions, are first to be rounded, by .astype(float)"
+            "must be an array of real numbers, all rows equally long; round numbers of other "
+            "types, such as Fractions, by .astype(float)"
         ) from None
     with np.errstate(all="ignore"):
         values = np.array(given, dtype=np.float64)

@@ -158,7 +158,7 @@ def test_an_article_that_can_not_be_written_costs_no_proof(
     made_up, drawn, tmp_path, capsys
 ) -> None:
     out = str(tmp_path / "out")
-    for words, says in ((["--out", out], "is that of --out, too"), ([], "exists already")):
+    for words, says in ((["--out", out], "is also the folder of --out"), ([], "exists already")):
         assert main(["derive", "2", "--article", out, *words]) == 2
         printed = capsys.readouterr()
         assert printed.out == ""

@@ -129,7 +129,7 @@ WRONG: list[tuple[list[Any], str]] = [
     (["--workers", 0], "--workers = 0"),
     (["--workers", 2, "--scheduler", "tcp://x:1"], "exclude each other"),
     (["--reach", 2], "histogram"),
-    (["--store", "."], "no ordinary file"),
+    (["--store", "."], "must be a regular file"),
     (["--store", SCENE], "not the store of an ensemble"),
     (["--out", SCENE], "is a file"),
 ]
@@ -206,7 +206,7 @@ def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
             run.kill()
     assert run.returncode == 130
     assert err.splitlines() == [
-        "force-diffusion: nothing was kept; with --store FILE it would have been.",
+        "force-diffusion: nothing was saved; with --store FILE it would have been.",
         "force-diffusion: interrupted; no half-written file is left.",
     ]
 

@@ -35,9 +35,9 @@ def test_all_are_copied_and_named(tmp_path: Path, capsys: pytest.CaptureFixture[
     ("words", "says"),
     [
         ([], "Missing argument 'DIR'"),
-        ([""], "'' names no folder"),
-        (["."], "'.' names no folder"),
-        (["a/.."], "'a/..' names no folder"),
+        ([""], "'' can't name a new folder"),
+        (["."], "'.' can't name a new folder"),
+        (["a/.."], "'a/..' can't name a new folder"),
         (["a", "b"], "b"),
         (["--out", "a"], "--out"),
     ],

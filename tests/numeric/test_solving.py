@@ -67,7 +67,7 @@ def test_equal_radii_are_the_ordered_packing() -> None:
         ({"radii": np.ones((3, 4)), "radius": 0.1}, "close to the mean radius"),
         ({"radii": np.ones((3, 4)), "load": "surface"}, "must be SurfaceLoad()"),
         ({"radii": np.ones((3, 4)), "load": fd.PointLoad(at=(1, 2))}, "i + j must be even"),
-        ({"radii": np.ones((3, 4)), "tolerance": "x"}, "no finite decimal number"),
+        ({"radii": np.ones((3, 4)), "tolerance": "x"}, "not a finite decimal number"),
         ({"radii": np.ones((3, 4)), "tolerance": 2}, "between 0 and 1"),
         ({"radii": np.ones((3, 4)), "certified": True}, "needs a tolerance"),
     ],
@@ -96,7 +96,7 @@ def test_a_bead_that_cannot_rest_is_named() -> None:
 def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...], remedy: str) -> None:
     with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True") as told:
         fd.solve(np.ones(shape))
-    assert f"transposed? then give {remedy};" in str(told.value)
+    assert f"if transposed, give {remedy};" in str(told.value)
     assert fd.solve(np.ones(shape), allow_images=True).force.shape[-2:] == (12, shape[-1])
 
 

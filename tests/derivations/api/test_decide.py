@@ -117,7 +117,7 @@ NO_STATEMENTS: list[tuple[int | str, str, Callable[[sympy.Eq], Any]]] = [
     (3, "a number", lambda eq: equal(eq.lhs, sy.r)),
     (13, "not a number", lambda eq: sympy.oo),
     (13, "may be zero", lambda eq: sympy.Pow(0, -1, evaluate=False)),
-    (13, "M is not the M of the equation", lambda eq: eq.rhs * sympy.Symbol("M") / sy.M),
+    (13, "this M is not that of the equation", lambda eq: eq.rhs * sympy.Symbol("M") / sy.M),
 ]  # fmt: skip
 
 

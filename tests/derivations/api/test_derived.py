@@ -37,7 +37,7 @@ def test_a_number_that_is_no_equation(number: object) -> None:
 
 def test_one_number_in_place_of_several_is_told_in_words() -> None:
     for one in (13, 13.5, "B1", object()):
-        with pytest.raises(TypeError, match=r"^derive takes several, in a list: derive\(\["):
+        with pytest.raises(TypeError, match=r"^derive takes a list: derive\(\["):
             fd.derive(one)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match=r"derive\(\[13\]\)$"):
         fd.derive(fd.equation(13))  # type: ignore[arg-type]

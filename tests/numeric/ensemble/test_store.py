@@ -89,7 +89,7 @@ def test_files_of_another_kind_are_refused(tmp_path: Path) -> None:
         database.execute("CREATE TABLE sums (first INTEGER)")
     database.close()
     refused(path, "not the store of an ensemble")
-    with pytest.raises(StoreError, match="no ordinary file"):
+    with pytest.raises(StoreError, match="must be a regular file"):
         Store(tmp_path, KEY)
     with pytest.raises(StoreError, match="can't be written to"):
         Store(tmp_path / "no folder" / "ensemble.fd", KEY)
