@@ -58,8 +58,8 @@ def _heights(text: str | None) -> tuple[int, ...] | None:
     different = len(set(heights)) == len(heights) <= MOST_HEIGHTS
     if not heights or not different or not all(1 <= M <= HIGHEST for M in heights):
         raise typer.BadParameter(
-            f"'{text}' doesn't name heights. Give up to {MOST_HEIGHTS} different whole numbers from 1 "
-            f"to {HIGHEST}, with commas between them, such as 32,128.",
+            f"'{text}' doesn't name heights. Give up to {MOST_HEIGHTS} different whole numbers "
+            f"from 1 to {HIGHEST}, with commas between them, such as 32,128.",
             param_hint="--heights",
         )
     return heights
