@@ -156,8 +156,7 @@ def figures(
             )
     if seed is not None and scenes == wanted:
         raise typer.BadParameter(
-            "is for the paper's figures; a scene has its own seed, disorder.seed.",
-            param_hint="--seed",
+            "is for the paper's figures; a scene has disorder.seed instead.", param_hint="--seed"
         )
     stems = [FIGURES[name].file if name in FIGURES else Path(name).stem for name in wanted]
     if len(set(stems)) < len(stems):

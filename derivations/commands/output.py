@@ -31,9 +31,7 @@ def folder_of(word: str) -> Path:
     """Read the name of a folder."""
     path = Path(word)
     if path.name in {"", ".."}:  # such as '.', or nothing, which a path would take for it
-        raise typer.BadParameter(
-            f"'{word}' can't name a new folder. Give one that doesn't exist yet."
-        )
+        raise typer.BadParameter(f"'{word}' can't name a new folder. Give another name.")
     return path
 
 

@@ -77,8 +77,8 @@ class CoqFolder:
         number = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
         if version.failed or not number:
             raise CoqAbsentError(
-                f"coqc doesn't say what version it is "
-                f"({version.failed or version.printed.strip()}). Install Coq: {INSTALL}"
+                f"coqc doesn't say its version ({version.failed or version.printed.strip()}). "
+                f"Install Coq: {INSTALL}"
             )
         self.checker = f"Coq {number[1]}"
 

@@ -144,7 +144,7 @@ def test_spheres_are_those_of_a_scene() -> None:
         ((2, 3, 4, 5), None, r"shape \(2, 3, 4, 5\): spheres take \(layers, W, W\)"),
         ((2, 3, 4, 4), 2, r"shape \(2, 3, 4, 4\): discs take \(layers, W\)"),
         ((1, 4, 4), 3, "at least 2 layers"),
-        ((5, 4, 4), 3, r"5 layers of 4 × 4 beads.*images; if that is.*allow_images=True"),
+        ((5, 4, 4), 3, r"5 layers of 4 × 4 beads.*images; if you mean it.*allow_images=True"),
         ((3, 4), 4, "^dimension = 4: must be 2, of discs, or 3, of spheres"),
         ((3, 4), "3", '^dimension = "3": must be 2'),
         ((3, 4), True, "^dimension = true: must be 2"),

@@ -173,7 +173,7 @@ def test_a_program_without_a_version_is_no_coq(programs: Path, tmp_path: Path, s
     put(programs, "coqc", script)
     with pytest.raises(CoqAbsentError, match="apt-get install coq"):
         CoqFolder(tmp_path)
-    with pytest.raises(CoqAbsentError, match="doesn't say what version it is"):
+    with pytest.raises(CoqAbsentError, match="doesn't say its version"):
         fd.certify([1])
 
 
