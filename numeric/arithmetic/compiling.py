@@ -11,9 +11,7 @@ sources that the code comes from, the versions of what compiled it, and the proc
 import ctypes
 import hashlib
 import operator
-import os
 import sys
-import tempfile
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import lru_cache, partial
@@ -23,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from . import carried
-from .machine import user_cache
+from .machine import user_cache, write_whole
 
 CODES = user_cache() or Path(__file__).parent / "__pycache__"
 """Where machine code lies."""
@@ -82,7 +80,9 @@ def compiled(
         if sys.stderr is not None and sys.stderr.isatty():
             print("compiling for this machine, once: about 10 s", file=sys.stderr, flush=True)
         code = target.emit_object(_made(entries, called))
-        _put(path, code)
+        with suppress(OSError):
+            CODES.mkdir(parents=True, exist_ok=True)
+            write_whole(path, code)
     engine = binding.create_mcjit_compiler(binding.parse_assembly(""), target)
     engine.add_object_file(binding.ObjectFileRef.from_data(code))
     engine.finalize_object()
@@ -102,16 +102,6 @@ def _callable(engine: Any, name: str, kinds: Sequence[str]) -> Callable[..., int
 
     call.engine = engine  # type: ignore[attr-defined]  # it owns the code
     return call
-
-
-def _put(path: Path, content: bytes) -> None:
-    """Write a file, all of it or nothing, where that is possible."""
-    with suppress(OSError):
-        path.parent.mkdir(parents=True, exist_ok=True)
-        handle, made = tempfile.mkstemp(dir=path.parent)
-        with open(handle, "wb") as file:
-            file.write(content)
-        os.replace(made, path)
 
 
 def _made(entries: Sequence[tuple[Function, Sequence[str]]], called: Sequence[Function]) -> Any:

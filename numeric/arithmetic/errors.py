@@ -112,6 +112,12 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
     return call
 
 
+def check_progress(progress: object) -> None:
+    """Raise ``WrongTypeError`` where nothing can follow progress."""
+    if not (isinstance(progress, bool) or callable(progress)):
+        raise WrongTypeError(f"progress must be True, False or a function, not {quoted(progress)}")
+
+
 def rule(error: "ValidationError") -> str:
     """Say what pydantic's first error asks of a value."""
     first = error.errors()[0]

@@ -1,6 +1,7 @@
-"""What this machine has to offer: cores, free memory, and a folder for what is made once."""
+"""What this machine has to offer: cores, free memory, and files, written as a whole."""
 
 import os
+import secrets
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
@@ -19,6 +20,24 @@ def user_cache() -> Path | None:
         return Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache") / "force-diffusion"
     except RuntimeError:
         return None
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file, all of it or nothing: beside its place first, and renamed.
+
+    What is no file, such as a pipe, is written as it stands. Raises ``OSError``.
+    """
+    place = path.resolve()
+    if place.exists() and not place.is_file():
+        place.write_bytes(content)
+        return
+    beside = place.with_name(f".{place.name}.{secrets.token_hex(4)}")
+    try:
+        with beside.open("xb") as file:
+            file.write(content)
+        beside.replace(place)
+    finally:
+        beside.unlink(missing_ok=True)
 
 
 def cores() -> int:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
 from numbers import Real
+from pathlib import Path
 from time import process_time
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +21,7 @@ from ..arithmetic.errors import (
     ForceDiffusionError,
     UndecidedError,
     WrongTypeError,
+    check_progress,
     checked,
     printable,
 )
@@ -31,7 +33,7 @@ from ..planning.planner import plan
 from ..quantities.answer import answer
 from ..scene.scene import refuse
 from ..scene.sections import Ask, Disorder, Load, SceneError
-from .running import Scene, run
+from .running import Scene, read_scene, run
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -136,14 +138,17 @@ class CostStudy:
 
 @checked
 def cost(
-    scene: Scene, seconds: float = 20, progress: bool | Callable[[Way], object] = False
+    scene: Scene | str | Path,
+    seconds: float = 20,
+    progress: bool | Callable[[Way], object] = False,
 ) -> CostStudy:
     """Measure what accuracy costs: error and seconds of one packing, in each arithmetic.
 
-    These are float64, balls that certify 15, 30 and 100 digits, and mpmath. All of it takes about
-    so many ``seconds``; what would take longer is extrapolated from fewer layers. ``progress``
-    prints each way as soon as it is known, or is called with it. Raises ``SceneError`` where
-    nothing changes, and what is raised where a packing can't be built.
+    ``scene`` may be the path of one. The arithmetics are float64, balls that certify 15, 30 and
+    100 digits, and mpmath. All of it takes about so many ``seconds``; what would take longer is
+    extrapolated from fewer layers. ``progress`` prints each way as soon as it is known, or is
+    called with it. Raises ``SceneError`` where nothing changes, and what is raised where a packing
+    can't be built.
 
     >>> import force_diffusion as fd
     >>> scene = fd.Scene(
@@ -159,10 +164,11 @@ def cost(
     balls 100 True certified
     mpmath 30 True measured
     """
+    check_progress(progress)
+    if isinstance(scene, str | Path):
+        scene = read_scene(scene)
     if not isinstance(scene, Scene):
-        raise WrongTypeError(
-            f"cost takes a scene, not {type(scene).__name__}: Scene(…) or read_scene(path)"
-        )
+        raise WrongTypeError(f"cost takes a scene or the path of one, not {type(scene).__name__}")
     refuse("cost", scene)
     if not isinstance(seconds, Real) or not 0 < seconds < 1e9:
         raise SceneError("seconds", seconds, "must be a positive number")

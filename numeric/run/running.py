@@ -12,7 +12,7 @@ from typing import Any
 
 from ..accuracy import Accuracy, ToleranceError, enclosed, estimated, shortfall
 from ..arithmetic.decimals import Exact, exact, parse
-from ..arithmetic.errors import WrongTypeError, checked, quoted
+from ..arithmetic.errors import WrongTypeError, check_progress, checked, quoted
 from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..mechanics.work import Progress, Work, bar
 from ..planning.plan import Plan
@@ -34,6 +34,7 @@ def run(what: "Plan | scene.Scene | str | Path", progress: bool | Progress = Fal
     ``ToleranceError``, ``SceneError``, ``WrongTypeError`` for what is none of these, and what the
     sweeps raise for a packing that can't be built.
     """
+    check_progress(progress)
     if isinstance(what, str | Path):
         what = read_scene(what)
     if isinstance(what, scene.Scene):

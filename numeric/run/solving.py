@@ -17,7 +17,8 @@ from numpy.typing import ArrayLike
 from ..accuracy import CARRIED, Accuracy
 from ..arithmetic.carried import stated_error
 from ..arithmetic.decimals import Exact
-from ..arithmetic.errors import ForceDiffusionError, checked
+from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, checked, quoted
+from ..arithmetic.machine import write_whole
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import ArrayRadii
 from ..lattice.branch import Contact, axis_names, bead_names, directions
@@ -202,12 +203,15 @@ class Solution(Tabled):
         Raises:
             SceneError: there is no such column or packing, spheres were solved, or no contact bears
                 so much.
+            WrongTypeError: ``ax`` is none of matplotlib's axes.
             MissingLibraryError: matplotlib is missing.
         """
         from ..figures.answers import contacts_of
 
         if self._dimension > 2:
             raise SceneError("plot", None, "spheres can't be drawn in the plane: use .to_vtk(path)")
+        if ax is not None and not hasattr(ax, "add_collection"):
+            raise WrongTypeError(f"ax must be axes of matplotlib, not {quoted(ax)}")
         at, r = self._packing(packing), float(self.scene.packing.radius)
         if not isinstance(least, Real):
             raise SceneError("least", least, "must be a number")
@@ -234,12 +238,12 @@ class Solution(Tabled):
         Lengths and forces are as in ``contacts``; ``radius`` belongs to the points.
         """
         at = self._packing(packing)
-        Path(path).write_text(vtk(*self._places(at), self.contacts.of(at)), encoding="utf-8")
+        write_whole(Path(path), vtk(*self._places(at), self.contacts.of(at)).encode())
 
     def to_dump(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the beads of one packing as a *dump* of LAMMPS, which OVITO opens."""
         places = self._places(self._packing(packing))
-        Path(path).write_text(dump(*places, self._box(places)), encoding="utf-8")
+        write_whole(Path(path), dump(*places, self._box(places)).encode())
 
     def to_dump_local(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the contacts of one packing as a *dump local* of LAMMPS, a line each.
@@ -249,7 +253,7 @@ class Solution(Tabled):
         """
         at = self._packing(packing)
         text = dump_local(self.contacts.of(at), self._box(self._places(at)))
-        Path(path).write_text(text, encoding="utf-8")
+        write_whole(Path(path), text.encode())
 
     def _packing(self, number: int) -> int:
         """The number of a packing. Raises ``SceneError``."""

@@ -48,14 +48,19 @@ def rows_of_table(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
             lines = _lines(name, file)
             first = next(lines, "")
             delimiter = max(",;\t", key=first.count)
-            written = [word.strip() for word in next(csv.reader([first], delimiter=delimiter), [])]
+            written = [
+                word.strip().lower() for word in next(csv.reader([first], delimiter=delimiter), [])
+            ]
             columns = [SAME.get(word, word) for word in written]
             header = next((one for one in headers if {*one} <= {*columns}), None)
             if header is None:
                 allowed = " or ".join(map(",".join, headers))
                 raise TableError(f"{name}: the first line must name the columns {allowed}")
             if twice := [word for word in header if columns.count(word) > 1]:
-                raise TableError(f"{name}: the first line names {twice[0]} twice")
+                called = [word for word in written if SAME.get(word, word) == twice[0]]
+                raise TableError(
+                    f"{name}: the first line names one column twice: {' and '.join(called)}"
+                )
             places = [columns.index(word) for word in header]
             reader = csv.reader(lines, delimiter=delimiter, strict=True)
             for row in filter(None, reader):
@@ -122,7 +127,8 @@ def _on_lattice(where: str, x: Fraction, y: Fraction, packing: Packing) -> Site:
     if not off < 0.5:
         raise TableError(
             f"{place} lies {off:.2g} r from the nearest site {(i, j)} of the ordered packing, and "
-            "half of r is allowed: bead (0, 0) is at 0, 0"
+            "half of r is allowed: bead (0, 0) is at 0, 0; in Python read_radii fits the lattice "
+            "to the centres"
         )
     return (i if width is None else i % (2 * width)), j
 

@@ -264,6 +264,8 @@ def source_of(scene: Scene, files: dict[str, str] | None = None) -> dict[str, An
         sections["disorder"] = {"kind": "given", disorder.name: list(disorder.values.shape)}
         hashes[f"disorder.{disorder.name}"] = hashlib.sha256(disorder.values.tobytes()).hexdigest()
     drawn = disorder is not None and disorder.kind not in {"file", "given"}
+    if disorder is not None and not drawn:
+        sections["disorder"].pop("seed", None)
     return {
         "program": PROGRAM,
         "version": program_version(),
