@@ -136,9 +136,7 @@ def _answer(
     about["source"] = sourced(about["source"], scene, command_line())
     if folder:
         folder.write(files_of(answers, about, written))
-    rows = ", ".join(
-        f"{answer.quantity}: {answer.count} row{'s' * (answer.count != 1)}" for answer in answers
-    )
+    rows = ", ".join(f"{answer.quantity}: {answer.count} rows" for answer in answers)
     lines = [rows, *outcome_lines(about)]
     show(answers, about, lines, as_json=as_json, quiet=quiet, written=folder is not None)
 

@@ -1,14 +1,11 @@
 """Processes of this machine: how they start, and how they end."""
 
-import ctypes
 import os
 import signal
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from multiprocessing import connection, parent_process
-
-_SIGNAL_OF_DEATH = 1  # PR_SET_PDEATHSIG of Linux
 
 
 @contextmanager
@@ -27,24 +24,6 @@ def without_interrupts(*more: int) -> Iterator[None]:
         yield
     finally:
         signal.pthread_sigmask(signal.SIG_SETMASK, before)
-
-
-def ending_with(parent: int) -> Callable[[], None] | None:
-    """Give what another program does first (``preexec_fn``), so that it ends when its parent does.
-
-    However that ends: SIGKILL leaves no time to end a program. None where the system can't do it.
-    """
-    try:
-        prctl = ctypes.CDLL(None).prctl
-    except (AttributeError, OSError, TypeError):  # not on this system
-        return None
-
-    def first() -> None:
-        prctl(_SIGNAL_OF_DEATH, signal.SIGKILL)
-        if os.getppid() != parent:  # it has ended before
-            os._exit(1)
-
-    return first
 
 
 def end_with_parent() -> None:

@@ -108,7 +108,7 @@ def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:
             "ASCII",
             "DATASET POLYDATA",
             f"POINTS {len(points)} double",
-            *_lines(points),
+            *map(_words, points.tolist()),
             f"LINES {n} {3 * n}",
             *(f"2 {a} {b}" for a, b in ends.tolist()),
             f"POINT_DATA {len(points)}",
@@ -116,7 +116,7 @@ def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:
             f"CELL_DATA {n}",
             *(line for name, column in columns.items() for line in _scalars(name, column)),
             "VECTORS force_vector double",
-            *_lines(_three(contacts.force_vector)),
+            *map(_words, _three(contacts.force_vector).tolist()),
             "",
         ]
     )
@@ -175,10 +175,6 @@ def _scalars(name: str, values: Array) -> list[str]:
 def _three(vectors: Array) -> Array:
     """Vectors of the plane with a third component, 0."""
     return np.pad(vectors, ((0, 0), (0, 3 - vectors.shape[1])))
-
-
-def _lines(rows: Array) -> Iterable[str]:
-    return map(_words, rows.tolist())
 
 
 def _words(values: Iterable[Any]) -> str:

@@ -74,19 +74,14 @@ def _answered(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
                 raise
             missed = str(error)  # rounding may have made it so: balls tell
         if missed:
-            plan = _in_balls(plan, missed)
+            try:
+                plan = in_balls(plan, f"float64 was tried: {missed}")
+            except SceneError as error:
+                why = f"float64: {missed}; and balls: {error}"
+                raise ToleranceError(f"the tolerance can't be reached: {why}") from None
     if plan.certified:
         return enclosed(plan, work)
     return plan, answer, judged
-
-
-def _in_balls(plan: Plan, missed: str) -> Plan:
-    try:
-        return in_balls(plan, f"float64 was tried: {missed}")
-    except SceneError as error:
-        raise ToleranceError(
-            f"the tolerance can't be reached: float64: {missed}; and balls: {error}"
-        ) from None
 
 
 def read_tolerance(value: Any) -> Fraction:

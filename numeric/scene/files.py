@@ -57,10 +57,7 @@ def rows_of_table(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
                 allowed = " or ".join(map(",".join, headers))
                 raise TableError(f"{name}: the first line must name the columns {allowed}")
             if twice := [word for word in header if columns.count(word) > 1]:
-                called = [word for word in written if SAME.get(word, word) == twice[0]]
-                raise TableError(
-                    f"{name}: the first line names one column twice: {' and '.join(called)}"
-                )
+                raise TableError(f"{name}: the first line names {twice[0]} twice; radius is r, too")
             places = [columns.index(word) for word in header]
             reader = csv.reader(lines, delimiter=delimiter, strict=True)
             for row in filter(None, reader):

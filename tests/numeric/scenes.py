@@ -18,8 +18,8 @@ from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
-from force_diffusion.numeric.run import Scene, run
 from force_diffusion.numeric.run.outcome import Outcome
+from force_diffusion.numeric.run.running import Scene, run
 from force_diffusion.numeric.scene import reading
 from hypothesis import strategies as st
 

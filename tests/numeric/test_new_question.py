@@ -12,7 +12,7 @@ from force_diffusion.numeric.lattice.layers import Region
 from force_diffusion.numeric.mechanics.problem import Problem
 from force_diffusion.numeric.mechanics.sweep import Solved
 from force_diffusion.numeric.quantities.base import Gatherer, Quantity, Table, column
-from force_diffusion.numeric.run import run
+from force_diffusion.numeric.run.running import run
 
 from tests.numeric.scenes import basic, planned
 

@@ -17,7 +17,7 @@ from force_diffusion.numeric.ensemble.sums import (
 )
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.run import run
+from force_diffusion.numeric.run.running import run
 from force_diffusion.numeric.scene.sections import SceneError
 
 from tests.numeric.ensemble.cases import CASES, PROFILE, case, ensemble_of, first

@@ -12,7 +12,7 @@ from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem
 from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice.layers import Rows
 from force_diffusion.numeric.planning.plan import Plan
-from force_diffusion.numeric.run import run
+from force_diffusion.numeric.run.running import run
 
 from tests.numeric.scenes import basic, planned, radii_read
 

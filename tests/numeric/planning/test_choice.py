@@ -12,8 +12,8 @@ from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import in_balls
 from force_diffusion.numeric.quantities.answer import answer
 from force_diffusion.numeric.quantities.base import Table
-from force_diffusion.numeric.run import run
 from force_diffusion.numeric.run.outcome import Outcome
+from force_diffusion.numeric.run.running import run
 from force_diffusion.numeric.scene.sections import SceneError
 from hypothesis import given
 from hypothesis import strategies as st

@@ -10,7 +10,7 @@ from force_diffusion.numeric.lattice import regions
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.planning import planner
 from force_diffusion.numeric.planning.memory import float_bead
-from force_diffusion.numeric.run import run
+from force_diffusion.numeric.run.running import run
 from hypothesis import given
 from hypothesis import strategies as st
 

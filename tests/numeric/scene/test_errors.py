@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.run import read_scene
+from force_diffusion.numeric.run.running import read_scene
 from force_diffusion.numeric.scene.files import TableError
 from force_diffusion.numeric.scene.sections import SceneError
 

@@ -116,5 +116,5 @@ def test_columns_of_radii_files_may_have_any_order(header: str, tmp_path: Path) 
     expected = solved.forces.arrays["force"]  # of doubles, not of the decimals that they print
     assert scene.run().arrays["force"] == pytest.approx(expected, rel=1e-13)
     (tmp_path / "radii.csv").write_text("i,j,r,radius\n0,0,1,1\n")
-    with pytest.raises(fd.TableError, match="names one column twice: r and radius"):
+    with pytest.raises(fd.TableError, match="names r twice; radius is r, too"):
         scene.run()
