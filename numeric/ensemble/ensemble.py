@@ -19,7 +19,6 @@ from ..arithmetic.errors import (
     ArgumentError,
     ForceDiffusionError,
     WrongTypeError,
-    check_progress,
     checked,
     quoted,
 )
@@ -108,7 +107,6 @@ def ensemble(
         raise WrongTypeError(
             f"ensemble takes a scene or the path of one, not {type(scene).__name__}"
         )
-    check_progress(progress)
     size = _size(scene.ask.realisations if realisations is None else realisations)
     until = None if until is None else _number("until", until)
     confidence = _number("confidence", confidence)

@@ -327,13 +327,13 @@ class Ensemble(tables.Tabled):
         lines = [f"{self.quantity}: {self.rows} rows, {self.realisations} packings"]
         if math.isfinite(self.half_width):
             lines.append(
-                f"all σ_f known to {_percent(self.half_width)} "
+                f"all σ_f known to {float(f'{100 * self.half_width:.2g}'):g} % "
                 f"({100 * self.confidence:g} %, simultaneous)"
             )
         if self.unbuildable:
             share = self.unbuildable / (self.realisations + self.unbuildable)
             lines.append(
-                f"{self.unbuildable} more, {_percent(share)} of all, can't be built and are left "
+                f"{self.unbuildable} more, {100 * share:.2g} % of all, can't be built and are left "
                 f"out, the first of them realisation {self.sums.first_left_out}"
             )
         skipped = [f"{s.effect} ({s.reason})" for s in self.measurement.plan.skipped]
@@ -356,8 +356,3 @@ class Ensemble(tables.Tabled):
 
 def _whole(columns: dict[str, Array]) -> list[str]:
     return [name for name, column in columns.items() if column.dtype.kind == "i"]
-
-
-def _percent(share: float) -> str:
-    """Write a share in two digits."""
-    return f"{float(f'{100 * share:.2g}'):g} %"

@@ -76,8 +76,7 @@ class Plan:
     @cached_property
     def sees_images(self) -> bool:
         """Whether the answer is that of the periodic strip, and not of the slab."""
-        unilateral = self.problem.route == Route.UNILATERAL
-        return unilateral or sees_images(self.problem)
+        return self.problem.route == Route.UNILATERAL or sees_images(self.problem)
 
     @cached_property
     def tension(self) -> ExpectedTension | None:

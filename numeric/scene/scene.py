@@ -178,8 +178,7 @@ def _check_place(
 
 
 def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
-    shape, rank = given.values.shape, packing.dimension
-    wanted = packing.shape
+    shape, wanted, rank = given.values.shape, packing.shape, packing.dimension
     if shape[-rank:] != wanted or len(shape) not in (rank, rank + 1):
         beads = " × ".join(map(str, wanted[1:]))
         raise SceneError(
