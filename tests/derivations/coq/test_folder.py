@@ -99,7 +99,7 @@ VERSION = 'if [ "$1" = --print-version ]; then echo "8.16.1 4.14.1"; exit; fi\n'
 
 @pytest.mark.parametrize("number", [13, "13"])
 def test_a_single_number_is_refused_in_words(number: object) -> None:
-    with pytest.raises(TypeError, match="several numbers"):
+    with pytest.raises(TypeError, match="a list of numbers"):
         fd.certify(number)
 
 
