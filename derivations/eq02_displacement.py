@@ -74,7 +74,7 @@ def steps() -> Steps:
     slope = contacts.jacobian([epsilon]).subs(epsilon, 0)
     linear = steps.show(
         "It holds at ε = 0, so its derivative there must vanish too.",
-        sympy.Tuple(*(equation(sympy.expand(one), 0) for one in slope)),
+        sympy.Tuple(*(equation(sympy.expand(side), 0) for side in slope)),
         tuple(order(theorem, 1) for theorem in exact.theorems),
         definitions=supports,
     )

@@ -223,9 +223,10 @@ def claims(steps: Steps) -> None:
         [INSIDE, LEFT_LEG],
     )
     beside = FAMILY[2:]
+    none = [force for force, _ in beside]
     steps.claim(
         "no force of first order outside of the cone",
-        sympy.Tuple(*(one for one, _ in beside), *(lattice.mirror(one) for one, _ in beside)),
+        sympy.Tuple(*none, *map(lattice.mirror, none)),
         rewrite(forces()),
         [*(where for _, where in beside), *(where.mirrored() for _, where in beside)],
     )

@@ -31,9 +31,9 @@ def coq_statements(numbers: Iterable[Number] | None = None) -> dict[Number, list
     wanted = paper() if numbers is None else [equation(number).number for number in numbers]
     for number in wanted:
         if number not in paper():
-            last = max(paper())
-            message = f"Eq. {number} is not stated for Coq: give a number from 1 to {last}"
-            raise NoSuchFormError(message, "number")
+            raise NoSuchFormError(
+                f"Eq. {number} is not stated for Coq: give a number from 1 to {max(paper())}"
+            )
     derivations = ((number, load(number)) for number in wanted)
     return {n: statements(whole) for n, whole in derivations if isinstance(whole, Derivation)}
 

@@ -11,6 +11,7 @@ from force_diffusion.symbolic.kernel.decisions import Verdict
 from ..export.document import DOCUMENT, document, fragment_name, statement_latex
 from ..export.terminal import (
     expected_text,
+    markdown_table,
     outcomes_data,
     summary_line,
     trouble_lines,
@@ -80,12 +81,11 @@ class Derived:
     __repr__ = __str__
 
     def _repr_markdown_(self) -> str:
-        head = ("Eq.", "verdict", "title", "seconds")
         rows = (
             (str(of.derivation.number), of.words, of.derivation.title, f"{of.seconds:.2f}")
             for of in self.outcomes
         )
-        return "\n".join(f"| {' | '.join(row)} |" for row in (head, ("---",) * len(head), *rows))
+        return markdown_table(("Eq.", "verdict", "title", "seconds"), rows)
 
 
 @checked

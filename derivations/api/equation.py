@@ -25,7 +25,7 @@ from ..framework.catalogue import allowed, modules, number_of
 from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
 from ..framework.deciding import decided
-from ..framework.evaluation import evaluate, indices_at
+from ..framework.evaluation import by_name_only, evaluate, in_order, indices_at
 from ..framework.lists import both, either
 from ..framework.loading import load
 from ..framework.record import Derivation, Statement
@@ -36,14 +36,7 @@ from .proof import Proof, StepList
 
 
 class NoSuchFormError(ForceDiffusionError, ValueError):
-    """No such equation, or no such exact form; the message lists those that exist.
-
-    ``hint``: "number" or "exact", for what of the request is wrong.
-    """
-
-    def __init__(self, message: str, hint: str) -> None:
-        super().__init__(message)
-        self.hint = hint
+    """No such equation, or no such exact form; the message lists those that exist."""
 
 
 class Equation:
@@ -308,21 +301,19 @@ class Equation:
             having = [str(number) for number in modules() if load(number).exact]
             raise NoSuchFormError(
                 f"Eq. {self.number} has no exact form at finite size of its own; "
-                f"{either(having)} has.",
-                "exact",
+                f"{either(having)} has."
             )
         if form is None:
             return next(iter(self._derivation.exact_forms.values()))
         if form not in self._derivation.exact_forms:
             raise NoSuchFormError(
-                f"Eq. {self.number} has no exact form {quoted(form)}. It has {both(self.forms)}.",
-                "exact",
+                f"Eq. {self.number} has no exact form {quoted(form)}. It has {both(self.forms)}."
             )
         return self._derivation.exact_forms[form]
 
     # numbers
 
-    def at(self, **arguments: Any) -> Any:
+    def at(self, *unnamed: Any, **arguments: Any) -> Any:
         """The value of the right-hand side: exact for exact numbers, otherwise a float.
 
         For equations whose right-hand side is a number, such as Eqs. 13 to 16; ``j`` may be
@@ -349,11 +340,13 @@ class Equation:
         Raises:
             ArgumentError: a name is unknown or missing, a value is not allowed, or the shapes of
                 arrays do not go together; the message names the element.
+            WrongTypeError: a value is given without its name.
         """
         if isinstance(self._derivation, Row):
-            return self.exact().at(**arguments)
+            return self.exact().at(*unnamed, **arguments)
         sides = self._numbers
         formula = f"Eq. {self.number}", set().union(*(side.free_symbols for side in sides))
+        by_name_only(unnamed, in_order(symbol.in_code for symbol in formula[1]))
         return evaluate(formula, [partial(_put_in, side) for side in sides], arguments)
 
     @property
@@ -515,6 +508,5 @@ def equation(number: EquationNumber) -> Equation:
     place = number_of(number) if isinstance(number, str) else number
     is_number = isinstance(place, Integral | str) and not isinstance(place, bool)
     if not is_number or place not in modules():
-        message = f"there is no equation {quoted(number)}: give a number {allowed()}"
-        raise NoSuchFormError(message, "number")
+        raise NoSuchFormError(f"there is no equation {quoted(number)}: give a number {allowed()}")
     return _equation(place)

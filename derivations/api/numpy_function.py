@@ -48,7 +48,7 @@ class NumpyFunction:
     ) -> None:
         needed = {symbol.in_code: symbol for side in expressions for symbol in side.free_symbols}
         self._by_name = {name: needed[name] for name in in_order(needed)}
-        self._sides = [sympy.lambdify(self._by_name.values(), one, "numpy") for one in expressions]
+        self._sides = [sympy.lambdify(self._by_name.values(), rhs, "numpy") for rhs in expressions]
         self._equation = equation
         kind = inspect.Parameter.POSITIONAL_OR_KEYWORD
         self.__signature__ = inspect.Signature([inspect.Parameter(n, kind) for n in self._by_name])
@@ -69,7 +69,7 @@ class NumpyFunction:
                 np.isfinite(result), lambda _: "the value is beyond the range of floats: use at"
             )
         # a side may not depend on all of the arrays
-        return unpacked([np.array(np.broadcast_to(one, shape), float)[()] for one in results])
+        return unpacked([np.array(np.broadcast_to(side, shape), float)[()] for side in results])
 
     def __reduce__(self) -> tuple[Callable[[Any], Any], tuple[Any]]:
         return type(self._equation).function, (self._equation,)
@@ -107,7 +107,7 @@ def _assert_allowed(values: Arrays) -> None:
             right = together(*(values[symbol] for symbol in pair))
             message = ", ".join(f"{text(s)} = {{:g}}" for s in pair) + f": {words} is allowed"
             given = [values[symbol] for symbol in pair]
-            _refuse(right, lambda at: message.format(*(one[at] for one in given)))  # noqa: B023
+            _refuse(right, lambda at: message.format(*(array[at] for array in given)))  # noqa: B023
 
 
 def _refuse(right: Any, words: Callable[[tuple[int, ...]], str]) -> None:

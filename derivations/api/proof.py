@@ -12,6 +12,7 @@ from ..export.terminal import (
     expected_text,
     follows_text,
     heading,
+    markdown_table,
     rests_text,
     steps_text,
     summary_line,
@@ -70,19 +71,9 @@ class Proof:
     __repr__ = __str__
 
     def _repr_markdown_(self) -> str:
-        def row(*cells: str) -> str:
-            return f"| {' | '.join(cell.replace('|', chr(92) + '|') for cell in cells)} |"
-
-        rows = [row(one.kind, one.words, one.name, one.note) for one in self.checks]
-        return "\n".join(
-            [
-                self._headline("**"),
-                "",
-                row("kind", "verdict", "check", "note"),
-                row("---", "---", "---", "---"),
-                *rows,
-            ]
-        )
+        rows = ((check.kind, check.words, check.name, check.note) for check in self.checks)
+        table = markdown_table(("kind", "verdict", "check", "note"), rows)
+        return f"{self._headline('**')}\n\n{table}"
 
 
 class StepList(tuple[Step, ...]):

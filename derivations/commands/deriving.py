@@ -75,7 +75,7 @@ def derive(
         about = {"command": command_line(), "version": version("force-diffusion")}
         data = {**about, **outcomes_data(found.in_order, timed=False)}
         folder.write({**found.latex(), MANIFEST: json.dumps(data, indent=2) + "\n"})
-    folders = [printable(str(one)) for one in (out, article) if one]
+    folders = [printable(str(path)) for path in (out, article) if path]
     if as_json:
         print(json.dumps(found.data(), indent=2), flush=True)
     else:

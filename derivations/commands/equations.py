@@ -100,7 +100,8 @@ def _exact(equation: "Equation", form: OutputForm, columns: int) -> list[str]:
             return [sympy_source(exact.expr) for exact in forms.values()]
         case OutputForm.PYTHON:
             return [exact.python(f"{equation.name}_{name}") for name, exact in forms.items()]
-    return [f"Eq. {equation.number}, {name}: {exact}" for name, exact in forms.items()]
+    texts = {name: "\n".join(exact.lines()) for name, exact in forms.items()}
+    return [f"Eq. {equation.number}, {name}: {text}" for name, text in texts.items()]
 
 
 def _displayed(bodies: Iterable[str]) -> str:

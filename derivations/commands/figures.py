@@ -166,7 +166,7 @@ def figures(
         )
     import force_diffusion.numeric.figures.style  # noqa: F401  or leave before anything is solved
 
-    possible = {*stems, *(one.file for one in FIGURES.values())}
+    possible = {*stems, *(figure.file for figure in FIGURES.values())}
     own_files = (f"{stem}.{kind}" for stem in possible for kind in (*KINDS, "json", "csv"))
     folder = Output(out, [*own_files, *(f"{table}.csv" for table in OF_MODELS.values())], overwrite)
     data: dict[str, Any] = {"command": command_line(), "figures": {}}
@@ -194,9 +194,9 @@ def figures(
     if as_json:
         print(json.dumps(data, indent=2))
         return
-    for name, one in data["figures"].items():
-        say(f"{name}: {out / one['files'][0]}")
-        print("\n".join(f"  {line}" for line in one["says"]))
+    for name, figure in data["figures"].items():
+        say(f"{name}: {out / figure['files'][0]}")
+        print("\n".join(f"  {line}" for line in figure["says"]))
 
 
 def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":

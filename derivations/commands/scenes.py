@@ -39,10 +39,7 @@ def _scene(command: str) -> Any:
 _Scene = Annotated[Path, _scene("run")]
 _Tolerance = Annotated[
     str | None,
-    typer.Option(
-        metavar="T",
-        help="Largest relative error allowed, such as 1e-30.",
-    ),
+    typer.Option(metavar="T", help="Largest relative error allowed, such as 1e-30."),
 ]
 _Certified = Annotated[
     bool, typer.Option("--certified", help="With a tolerance: accept only a rigorous bound.")

@@ -53,8 +53,8 @@ def _apart(values: str) -> list[str]:
     >>> _apart('8,16'), _apart('[0, 0, "+"],[2, 0, "-"]')
     (['8', '16'], ['[0, 0, "+"]', '[2, 0, "-"]'])
     """
-    found = [one.strip() for one in re.findall(r"((?:\[[^\]]*\]|\"[^\"]*\"|[^,])+)(?:,|$)", values)]
-    return found or [values]
+    parts = [*map(str.strip, re.findall(r"((?:\[[^\]]*\]|\"[^\"]*\"|[^,])+)(?:,|$)", values))]
+    return parts or [values]
 
 
 def name_of(changes: dict[str, str]) -> str:

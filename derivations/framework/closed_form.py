@@ -46,7 +46,7 @@ from force_diffusion.symbolic.trees import equation, in_place
 from .catalogue import Number as EquationNumber
 from .deciding import decided, strange_symbol
 from .display import alternatives_in_latex, over_common, room_of, with_commas
-from .evaluation import Number, evaluate, in_order, indices_at, with_values
+from .evaluation import Number, by_name_only, evaluate, in_order, indices_at, with_values
 from .proof import equations_of
 
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
@@ -54,6 +54,7 @@ _DIGITS = 40  # of harmonic numbers, beside floats
 _HIGHEST = 100_000  # M up to which they are exact
 _LAYERS = 10_000_000
 _ORDERS = 100
+_MOST_LINES = 60  # that print shows
 _SMALLER = {"footnotesize": 0.85, "scriptsize": 0.75, "tiny": 0.68}  # widths of LaTeX's type
 _HIGH = {1: 24, 2: 22}  # lines of a display that fits a page of usual classes, by columns
 
@@ -219,7 +220,7 @@ class ClosedForm:
         named = {name_of(symbol): symbol for symbol in self._needed}
         return {name: named[name] for name in in_order(named)}
 
-    def at(self, **values: Any) -> Any:
+    def at(self, *unnamed: Any, **values: Any) -> Any:
         """The value for given numbers.
 
         Exact for int, Fraction, Decimal, SymPy's Rational and ``flint.fmpq``, whatever their size;
@@ -241,7 +242,9 @@ class ClosedForm:
 
         Raises:
             ArgumentError: a name is unknown or missing, or a value is outside of the domain.
+            WrongTypeError: a value is given without its name.
         """
+        by_name_only(unnamed, self.symbols)
         dimension = self.kernel_domain.dimension
         about = text(self.quantity), self._needed
         return evaluate(about, [self.value], values, dimension, in_packing=False)
@@ -338,10 +341,6 @@ class ClosedForm:
         factor, values = over_common([piece.expr for piece in self.pieces], field)
         return factor, dict(zip(self.pieces, values, strict=True))
 
-    def first(self, columns: int = 1) -> str:
-        """LaTeX of its first formula, and where it holds."""
-        return self._shown(self.pieces[:1], columns)
-
     def displays(self, columns: int = 1) -> list[str]:
         """The same as displays that fit a page, several if needed."""
         return self._displays(self.pieces, columns)
@@ -412,12 +411,16 @@ class ClosedForm:
         return lines
 
     def __str__(self) -> str:
-        return "\n".join(self.lines())
+        lines = self.lines()
+        if len(lines) > _MOST_LINES:
+            how = 'print(*form.lines(), sep="\\n") shows all of them'
+            lines[1:] = [f"  {len(self.pieces)} formulas, in .pieces; {how}"]
+        return "\n".join(lines)
 
     def __repr__(self) -> str:
         count = len(self.pieces)
         formulas = "formula" if count == 1 else "formulas"
-        return f"<{text(self.quantity)}: {count} {formulas}{self._for_domain}>"
+        return f"<{text(self.quantity)}: {count} {formulas}{self._for_domain}; print(…) shows more>"
 
     # a candidate
 

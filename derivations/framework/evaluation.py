@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import sympy
 from flint import fmpq, fmpz
-from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
+from force_diffusion.numeric.arithmetic.errors import ArgumentError, WrongTypeError, quoted
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.code import name_of
@@ -66,6 +66,13 @@ def arguments(
     if missing := [name for name in names if name not in given]:
         raise ArgumentError(f"{', '.join(missing)} missing: {takes}")
     return by_name
+
+
+def by_name_only(unnamed: Sequence[Any], names: Iterable[str]) -> None:
+    """Refuse values without names. Raises ``WrongTypeError``, which tells the names."""
+    if unnamed:
+        call = ", ".join(f"{name}=…" for name in names)
+        raise WrongTypeError(f"{quoted(unnamed[0])} has no name: give values as at({call})")
 
 
 def read_arguments(

@@ -8,26 +8,11 @@ import numpy as np
 import pytest
 import sympy
 from force_diffusion.derivations.calculator.loads import ObservableError
-from force_diffusion.numeric.arithmetic.errors import ArgumentError
-from force_diffusion.symbolic.symbols import Position, m, n
+from force_diffusion.numeric.arithmetic.errors import ArgumentError, WrongTypeError
+from force_diffusion.symbolic.symbols import Position, m, n, z
 
 import force_diffusion as fd
-from force_diffusion.symbols import (
-    M,
-    N,
-    delta_x,
-    f_along,
-    f_minus,
-    f_plus,
-    i,
-    j,
-    k,
-    l,
-    p,
-    phi,
-    t,
-    z,
-)  # fmt: skip
+from force_diffusion.symbols import M, N, delta_x, f_along, f_minus, f_plus, i, j, k, l, p, phi, t
 
 FORCE = f_plus(i, j)
 IN_SPACE = f_along(1, i, j, k)
@@ -179,3 +164,18 @@ def test_division_by_zero() -> None:
     assert form.at(M=5, j=2, a=3) == sympy.Rational(1, 2)
     with pytest.raises(ArgumentError, match="it has no value there: it divides by 0"):
         form.at(M=5, j=2, a=1)
+
+
+@pytest.mark.parametrize("number", [13, "B2"])
+def test_values_without_names(number: int | str) -> None:
+    with pytest.raises(WrongTypeError, match=r"^10 has no name: give values as at\(M=…, "):
+        fd.equation(number).at(10)
+
+
+def test_a_long_form_says_how_to_see_all_of_it() -> None:
+    form = fd.covariance(f_plus(i, j), f_minus(k, l))
+    for shown in (str(form), repr(form)):
+        assert f"{len(form.pieces)} formulas" in shown
+        assert "print(" in shown
+        assert len(shown.splitlines()) <= 6
+    assert len(form.lines()) > len(form.pieces)
