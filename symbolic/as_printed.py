@@ -12,7 +12,7 @@ def terms(*summands: sympy.Expr) -> sympy.Add:
 
 def times(*factors: sympy.Expr) -> sympy.Mul:
     """A product that is not reordered or expanded; a factor of 1 is left out."""
-    return sympy.Mul(*(one for one in factors if one != 1), evaluate=False)
+    return sympy.Mul(*(factor for factor in factors if factor != 1), evaluate=False)
 
 
 def power(base: sympy.Expr, exponent: sympy.Expr | int) -> sympy.Pow:

@@ -34,7 +34,7 @@ def eliminated(
     image, names = _named(unknowns)
     named = (equation(*(side.xreplace(image) for side in row.args)) for row in rows)
     system = [part for row in named for part in forms(row)]
-    held = [name for one in unknowns for name in names[one]]
+    held = [name for quantity in unknowns for name in names[quantity]]
     if len(system) != len(held):
         raise NotExactError(f"{len(system)} equations for {len(held)} unknown numbers")
     matrix = [[_slope(row, name, held) for name in held] for row in system]
@@ -50,13 +50,13 @@ def _named(
     image: dict[sympy.Expr, sympy.Expr] = {}
     names: dict[sympy.Expr, tuple[sympy.Symbol, ...]] = {}
     spare = list(reversed(UNKNOWNS))
-    for one in unknowns:
-        if getattr(one, "is_vector", False):
-            names[one] = (spare.pop(), spare.pop())
-            image[one] = names[one][0] * sy.b_plus + names[one][1] * sy.b_minus
+    for unknown in unknowns:
+        if getattr(unknown, "is_vector", False):
+            names[unknown] = (spare.pop(), spare.pop())
+            image[unknown] = names[unknown][0] * sy.b_plus + names[unknown][1] * sy.b_minus
         else:
-            names[one] = (spare.pop(),)
-            image[one] = names[one][0]
+            names[unknown] = (spare.pop(),)
+            image[unknown] = names[unknown][0]
     return image, names
 
 

@@ -99,13 +99,13 @@ class Straightening:
         """
         image: dict[sympy.Symbol, sympy.Expr] = {}
         back: dict[sympy.Symbol, sympy.Expr] = {}
-        for one in even:
-            factors, constant = sets.row(sympy.expand(one.xreplace(image)))
+        for relation in even:
+            factors, constant = sets.row(sympy.expand(relation.xreplace(image)))
             odd = [symbol for symbol, number in factors.items() if number % 2]
             symbol = next((s for s in (*_ACROSS, *sy.INDICES) if s in odd and s not in image), None)
             if symbol is None:
                 if odd or constant % 2:
-                    raise NotExactError(f"{text(one)} is not shown to be even")
+                    raise NotExactError(f"{text(relation)} is not shown to be even")
                 continue
             rest = sympy.Add(*(s for s in odd if s != symbol), constant % 2)
             value = {symbol: rest - 2 * symbol}
@@ -197,7 +197,7 @@ def _moved(factor: Factor, image: Image) -> Factor:
     """A force at the place that other indices give."""
     if isinstance(factor, str):
         return factor
-    return factor.func(*(sympy.expand(one.xreplace(dict(image))) for one in factor.args))
+    return factor.func(*(sympy.expand(arg.xreplace(dict(image))) for arg in factor.args))
 
 
 Vector = tuple[Form, Form]
@@ -214,7 +214,7 @@ class Known:
     def at(self, site: tuple[sympy.Expr, ...]) -> tuple[Set, tuple[Form, ...]]:
         """The same of a bead with other coordinates."""
         image = dict(zip(SOURCE, site, strict=False))
-        return sets.at(self.points, image), tuple(one.at(image) for one in self.value)
+        return sets.at(self.points, image), tuple(form.at(image) for form in self.value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -298,7 +298,9 @@ class Reader:
         Raises:
             NotAStatementError: none is there.
         """
-        x, y = (sympy.expand(one.xreplace(self.straight.image)) for one in (across, layer))
+        x, y = (
+            sympy.expand(coordinate.xreplace(self.straight.image)) for coordinate in (across, layer)
+        )
         beside = sympy.expand((y - x) / 2)
         if not is_whole(beside):
             beside = sympy.expand(beside.xreplace(self._fixed))
@@ -311,11 +313,11 @@ class Reader:
 
     def scalar(self, expression: sympy.Expr) -> RationalFunction:
         """A number without quantities, whose divisors vanish nowhere."""
-        for one in expression.atoms(sympy.Pow):
-            if one.exp.is_negative and not one.base.is_positive:
-                base = FIELD.from_sympy(one.base.xreplace(self.straight.image))
+        for atom in expression.atoms(sympy.Pow):
+            if atom.exp.is_negative and not atom.base.is_positive:
+                base = FIELD.from_sympy(atom.base.xreplace(self.straight.image))
                 if not never_zero(base, self.points):
-                    raise NotAStatementError(f"the divisor {text(one.base)} may be zero")
+                    raise NotAStatementError(f"the divisor {text(atom.base)} may be zero")
         return FIELD.from_sympy(expression.xreplace(self.straight.image))
 
     @cached_property
@@ -331,8 +333,8 @@ class Reader:
         if kind in VERTICAL:
             return self._vertical(kind, quantity)
         left, found = self.points, None
-        for one in self.known.get(kind, ()):
-            points, value = one.at(site)
+        for known in self.known.get(kind, ()):
+            points, value = known.at(site)
             inside = left & points
             if not inside.is_empty():
                 there = tuple(part.on(inside).renamed(self._fixed) for part in value)
@@ -357,7 +359,7 @@ class Reader:
         if self.kind is not Form and kind is not sy.DeltaR:
             raise NotExactError(f"{text(quantity)} is not determined by the radii")
         if kind in FORCES:
-            place = kind(*(sympy.expand(one.xreplace(self._fixed)) for one in site))
+            place = kind(*(sympy.expand(coordinate.xreplace(self._fixed)) for coordinate in site))
             if self.summed & place.free_symbols:
                 raise NotExactError(f"{text(quantity)} in a sum is not known")
             one = Weights(((sets.EVERYTHING, FIELD.one),))
@@ -375,7 +377,7 @@ class Reader:
         axis, *place = quantity.args
         if type(quantity) not in self.known or axis not in (1, 2, 3):
             raise NotExactError(f"{text(quantity)} is not known")
-        site = tuple(sympy.expand(one.xreplace(self.straight.image)) for one in place)
+        site = tuple(sympy.expand(coordinate.xreplace(self.straight.image)) for coordinate in place)
         form: Form = self.known[type(quantity)](int(axis) - 1).at(site)[1][0]
         return form
 
@@ -504,7 +506,9 @@ class Reader:
     def _shifted(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
         """Straightened indices, all of which go on by as many columns."""
         old = self.straight
-        further = {one: old.back.get(one, one).xreplace({one: one + by}) for one in indices}
+        further = {
+            index: old.back.get(index, index).xreplace({index: index + by}) for index in indices
+        }
         return {
             index: sympy.expand(form.xreplace(dict(old.image))) for index, form in further.items()
         }
@@ -523,7 +527,7 @@ class Reader:
         body = sympy.Sum(series.function, *others) if others else series.function
         value = inner.read(body)
         if isinstance(value, tuple):
-            first, second = (one.on(inner.points).summed(index) for one in value)
+            first, second = (component.on(inner.points).summed(index) for component in value)
             return first, second
         return value.on(inner.points).summed(index)
 

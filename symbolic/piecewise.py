@@ -94,7 +94,9 @@ class PiecewiseFunction:
     def _names(self) -> Field:
         """The field, in which constants have their own names."""
         own = {stand_in: symbol for symbol, stand_in in self.constants.items()}
-        return Field(own.get(one, one) for one in FIELD.generators) if own else FIELD
+        return (
+            Field(own.get(generator, generator) for generator in FIELD.generators) if own else FIELD
+        )
 
     @cached_property
     def domain(self) -> Relations:
@@ -144,7 +146,7 @@ class PiecewiseFunction:
     def indices(self) -> set[sympy.Symbol]:
         """The indices on which it depends."""
         held = set().union(
-            *(one.free_symbols for piece in self.pieces for part in piece.where for one in part)
+            *(row.free_symbols for piece in self.pieces for part in piece.where for row in part)
         )
         return held | {s for s in sy.INDICES if any(piece.value.holds(s) for piece in self.pieces)}
 
@@ -163,7 +165,7 @@ class PiecewiseFunction:
         """A value in the old indices, without those that the equations of its part give."""
         value = value.substitute({s: FIELD.from_sympy(x) for s, x in self.straight.back.items()})
         held = (sympy.Eq(self._whole(form), 0, evaluate=False) for form in sets.equations(whole))
-        given = {one.lhs: FIELD.from_sympy(one.rhs) for one in words.equations(held)}
+        given = {fixed.lhs: FIELD.from_sympy(fixed.rhs) for fixed in words.equations(held)}
         with suppress(NotExactError):  # a divisor vanishes there
             value = value.substitute(given)
         value = value.reduced()

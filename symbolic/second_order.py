@@ -76,13 +76,13 @@ class Means:
         return {
             kind: tuple(
                 replace(
-                    one,
+                    jet,
                     value=tuple(
-                        Jet({**form.parts, SHIFT: shift.on(one.points)})
-                        for form, shift in zip(one.value, shifts[kind], strict=True)
+                        Jet({**form.parts, SHIFT: shift.on(jet.points)})
+                        for form, shift in zip(jet.value, shifts[kind], strict=True)
                     ),
                 )
-                for one in self.known[kind]
+                for jet in self.known[kind]
             )
             for kind in shifts
             if kind in self.known
@@ -98,9 +98,9 @@ class Means:
         if kind in _FORCE and self.top is not None:
             left = left & sets.where(sympy.Le(sympy.Add(*_BEAD), self.top - 1, evaluate=False))
         counted = sets.NOTHING
-        for one in self.known.get(kind, ()):
-            total = total + one.value[component].on(one.points - counted)
-            counted, left = counted | one.points, left - one.points
+        for known in self.known.get(kind, ()):
+            total = total + known.value[component].on(known.points - counted)
+            counted, left = counted | known.points, left - known.points
         if not left.is_empty():
             raise NotExactError(f"{kind.__name__} is not determined by the radii for every bead")
         return total
@@ -140,7 +140,7 @@ class Means:
 
     def _force(self, branch: int) -> Weights:
         """⟨f⟩ at second order: what every bead further up the contact's line turns into it."""
-        turned = [self._turned(one, branch) for one in (PLUS, MINUS)]
+        turned = [self._turned(side, branch) for side in (PLUS, MINUS)]
         gained = Weights()
         for one, axis in zip(turned, _BEAD, strict=True):
             gained = gained + one - one.at({axis: axis - 1})

@@ -370,6 +370,6 @@ def sample(points: Set) -> dict[sympy.Symbol, int]:
 def union(pieces: Iterable[Set]) -> Set:
     """The points of any of several sets."""
     whole = NOTHING
-    for one in pieces:
-        whole = whole | one
+    for piece in pieces:
+        whole = whole | piece
     return whole

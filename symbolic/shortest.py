@@ -24,7 +24,7 @@ def joined(pieces: Sequence[Set]) -> Set:
     return union(
         kept
         for part in several
-        for kept in ([part] if _steep(part) <= known else (part & one for one in before))
+        for kept in ([part] if _steep(part) <= known else (part & other for other in before))
     )
 
 
@@ -54,8 +54,8 @@ def conditions(whole: Set, context: Set) -> list[Conditions]:
             continue
         held = _needed(sorted(equations(part), key=_length), context)
         forms = [*sorted(rows(part)[1], key=_length, reverse=True), *reversed(held)]
-        for one in tuple(forms):
-            fewer = [form for form in forms if form is not one]
+        for row in tuple(forms):
+            fewer = [form for form in forms if form is not row]
             if _inside(context, fewer, held).is_subset(whole):
                 forms = fewer
         left = left - _inside(context, forms, held)
@@ -72,8 +72,8 @@ def conditions(whole: Set, context: Set) -> list[Conditions]:
 
 def _inside(points: Set, forms: Iterable[Row], equations: Iterable[Row]) -> Set:
     """The points at which some forms are 0, as those of ``equations`` are, or at least 0."""
-    for one in forms:
-        points = points.add_constraint(constraint(one, one in equations))
+    for form in forms:
+        points = points.add_constraint(constraint(form, form in equations))
     return points
 
 
@@ -84,10 +84,10 @@ def _both(points: Set, told: Conditions) -> Set:
 def _needed(equations: Iterable[Row], context: Set) -> list[Row]:
     """Equations that the context and those before them do not imply."""
     found = []
-    for one in equations:
-        more = context.add_constraint(constraint(one, True))
+    for equation in equations:
+        more = context.add_constraint(constraint(equation, True))
         if not context.is_subset(more):
-            found.append(one)
+            found.append(equation)
             context = more
     return found
 

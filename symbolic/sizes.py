@@ -9,7 +9,7 @@ def written_out(tree: sympy.Basic) -> int:
     """How many nodes a tree has when a part that it holds twice is counted twice."""
     count: dict[int, int] = {}
     for node in nodes(tree):
-        count[id(node)] = 1 + sum(count[id(one)] for one in node.args)
+        count[id(node)] = 1 + sum(count[id(arg)] for arg in node.args)
     return count[id(tree)]
 
 
@@ -17,7 +17,7 @@ def bits(tree: sympy.Basic) -> int:
     """A bound on the length of its numbers when all of it is carried out; symbols count eight."""
     found: dict[int, int] = {}
     for node in nodes(tree):
-        parts = [found[id(one)] for one in node.args]
+        parts = [found[id(arg)] for arg in node.args]
         if isinstance(node, sympy.Rational):
             length = sum(int(part).bit_length() for part in (node.p, node.q))
         elif isinstance(node, sympy.Pow) and isinstance(node.exp, sympy.Rational):

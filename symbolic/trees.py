@@ -22,7 +22,7 @@ def nodes(tree: sympy.Basic) -> Iterator[sympy.Basic]:
         elif id(node) not in seen:
             seen.add(id(node))
             left.append((node, True))
-            left += [(one, False) for one in node.args]
+            left += [(arg, False) for arg in node.args]
 
 
 def in_place(tree: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:
@@ -36,7 +36,7 @@ def _in_place(tree: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
     """`what`, a node or a class of them, put in wherever the tree has it, without recursion."""
     put: dict[int, sympy.Basic] = {}
     for node in nodes(tree):
-        args = [put[id(one)] for one in node.args]
+        args = [put[id(arg)] for arg in node.args]
         if node == what:
             put[id(node)] = image
         elif isinstance(what, type) and isinstance(node, what):

@@ -20,7 +20,7 @@ def alone(form: sympy.Expr) -> tuple[sympy.Symbol, sympy.Expr, int]:
     """A symbol of a form c·symbol + rest with c = ±1, −rest/c, and c; any c where there is none."""
     factors = sympy.expand(form).as_coefficients_dict()
     held = [symbol for symbol in _ALONE if factors.get(symbol)]
-    symbol = next((one for one in held if abs(factors[one]) == 1), held[0])
+    symbol = next((symbol for symbol in held if abs(factors[symbol]) == 1), held[0])
     factor = factors[symbol]
     return symbol, sympy.expand(symbol - form / factor), 1 if factor > 0 else -1
 
@@ -47,7 +47,7 @@ def bounds(relations: Iterable[sympy.Basic], given: Iterable[sympy.Eq] = ()) -> 
 
     ``given`` symbols do not stand in them.
     """
-    values = {one.lhs: one.rhs for one in given}
+    values = {item.lhs: item.rhs for item in given}
     found: dict[sympy.Symbol, tuple[list[sympy.Expr], list[sympy.Expr]]] = {}
     for relation in relations:
         if isinstance(relation, sympy.Eq):
@@ -100,7 +100,7 @@ def parts(relations: Iterable[sympy.Basic], style: Style = TEXT) -> list[str]:
     """The same, one by one."""
     relations, shown = tuple(relations), style.shown
     solved = equations(relations)
-    found = [f"{shown(one.lhs)}{style.equal}{shown(one.rhs)}" for one in solved]
+    found = [f"{shown(index.lhs)}{style.equal}{shown(index.rhs)}" for index in solved]
     for low, symbol, high in bounds(relations, solved):
         if len(low) == 1 and high:
             found.append(style.at_most.join(map(shown, (low[0], symbol, high[0]))))
@@ -118,7 +118,7 @@ _TURNED = {sympy.Ge: sympy.Le, sympy.Gt: sympy.Lt}
 def chains(relations: Sequence[sympy.Basic]) -> tuple[str, ...]:
     """Relations in their order, as "0 ≤ j < M" where one begins with what the last ends with."""
     return tuple(
-        " ".join(_SIGNS[one] if isinstance(one, type) else text(one) for one in chain)
+        " ".join(_SIGNS[link] if isinstance(link, type) else text(link) for link in chain)
         for chain in _chains(relations)
     )
 

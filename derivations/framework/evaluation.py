@@ -235,7 +235,7 @@ def evaluate(
                 results[n, *place] = value if exact else rounded(value)
         except ArgumentError as error:
             raise ArgumentError(f"{at_element(place)}{error}") from None
-    return unpacked([one if shape or exact else float(one) for one in results])
+    return unpacked([result if shape or exact else float(result) for result in results])
 
 
 def unpacked(values: Sequence[Any]) -> Any:

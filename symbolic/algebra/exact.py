@@ -123,12 +123,12 @@ class Field:
     def total(self, values: Iterable["RationalFunction"]) -> "RationalFunction":
         """The sum of elements; what has one denominator is brought to lowest terms once."""
         found: list[list[Polynomial]] = []  # numerators and denominators; flint's have no hash
-        for one in values:
-            same = next((part for part in found if part[1] == one.denominator), None)
+        for value in values:
+            same = next((part for part in found if part[1] == value.denominator), None)
             if same is None:
-                found.append([one.numerator, one.denominator])
+                found.append([value.numerator, value.denominator])
             else:
-                same[0] = same[0] + one.numerator
+                same[0] = same[0] + value.numerator
         return sum((RationalFunction(self, *part) for part in found), self.zero)
 
 
@@ -309,7 +309,7 @@ class RationalFunction:
             return self
         if any(image.denominator != 1 for image in images.values()):
             numerator, divisor = (
-                self._put_in(one, images) for one in (self.numerator, self.denominator)
+                self._put_in(part, images) for part in (self.numerator, self.denominator)
             )
             return numerator / divisor
         full = list(self.domain._gens)
@@ -421,7 +421,7 @@ def _harmonic(last: RationalFunction) -> RationalFunction:
     if last.holds(M):
         between = range(min(number, 0), max(number, 0))
         steps = [field.generator(M) + field.constant(k) for k in between]
-        inverse = [field.one / (one + field.one) for one in steps]
+        inverse = [field.one / (step + field.one) for step in steps]
         return sum(inverse, found) if number > 0 else found - sum(inverse, field.zero)
     if number < 0:
         raise NotExactError("a harmonic sum starts below 1")

@@ -122,7 +122,7 @@ def tensile(variance: Theorem, mean: Theorem, *groups: Group) -> Rule:
             raise NotProvedError("it is not about the mean over all layers of P(f < 0)")
         below = _powers(_argument(formula.rhs), domain, groups)
         v = FIELD.from_sympy(variance.formula.rhs) * FIELD.constant(2)
-        if any(v.holds(one) for one in sy.INDICES if one != sy.M):
+        if any(v.holds(index) for index in sy.INDICES if index != sy.M):
             raise NotProvedError("the variance is not said in terms of z and M")
         twice = [(base, 2 * power) for base, power in below]
         if not (_whole_power([*twice, (v, sympy.S.One)]) - FIELD.one).is_zero():

@@ -93,10 +93,10 @@ def loads(loading: Loading) -> tuple[Theorem, ...]:
     Raises:
         NotProvedError: it is none of those below, nor one of them at another place.
     """
-    if not any(loading.is_like(one) for one in LOADINGS):
+    if not any(loading.is_like(kind) for kind in LOADINGS):
         raise NotProvedError(f"{loading.name} is not a known loading")
     at_place = Domain.of(sympy.Ge(loading.place[-1], 0), loading=loading)
-    given = [made(one, at_place, "loading") for one in loading.given]
+    given = [made(item, at_place, "loading") for item in loading.given]
     beads = Domain.of(site_s >= 0, indices=(site_r,), loading=loading)
     everywhere = [made(one, beads.also(*when), "loading") for one, when in loading.everywhere]
     return (*given, *everywhere)

@@ -98,7 +98,9 @@ def all_of(*rulings: Ruling) -> Ruling:
             if ruling.verdict is verdict:
                 return ruling
     notes = dict.fromkeys(ruling.note for ruling in rulings)
-    return proved("; ".join(notes), (one for ruling in rulings for one in ruling.assuming))
+    return proved(
+        "; ".join(notes), (assumption for ruling in rulings for assumption in ruling.assuming)
+    )
 
 
 def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Ruling:

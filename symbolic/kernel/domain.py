@@ -42,7 +42,7 @@ class Loading:
     @property
     def fixed(self) -> set[sympy.Symbol]:
         """The symbols of its place."""
-        return set().union(*(one.free_symbols for one in self.place))
+        return set().union(*(coordinate.free_symbols for coordinate in self.place))
 
     def implies(self, other: "Loading | None") -> bool:
         """Whether all that is known by another one is known by this, at the same place.
@@ -70,12 +70,12 @@ class Loading:
             NotExactError: the place would hold r or s, which stand for any bead.
         """
         image = {symbol: one for symbol, one in image.items() if symbol in self.fixed}
-        if self.everywhere and any(one.has(sy.site_r, sy.site_s) for one in image.values()):
+        if self.everywhere and any(value.has(sy.site_r, sy.site_s) for value in image.values()):
             raise NotExactError("the indices r and s stand for any bead of this loading")
         return replace(
             self,
-            place=tuple(one.xreplace(image) for one in self.place),
-            given=tuple(_at(one, image) for one in self.given),
+            place=tuple(coordinate.xreplace(image) for coordinate in self.place),
+            given=tuple(_at(item, image) for item in self.given),
             everywhere=tuple(
                 (_at(one, image), tuple(_at(relation, image) for relation in when))
                 for one, when in self.everywhere
@@ -195,8 +195,10 @@ class Domain:
     def __post_init__(self) -> None:
         if self.dimension not in (2, 3):
             raise ValueError(f"dimension {self.dimension}: 2 and 3 are allowed")
-        held = set().union(*(one.free_symbols for one in self.relations))
-        held |= set().union(*(one.free_symbols for bead in self.beads for one in bead))
+        held = set().union(*(relation.free_symbols for relation in self.relations))
+        held |= set().union(
+            *(coordinate.free_symbols for bead in self.beads for coordinate in bead)
+        )
         if not held <= {*self.indices} or not {*self.indices} <= {*sy.INDICES}:
             raise ValueError("a domain is one of the paper's indices, all of which it names")
 
@@ -218,18 +220,18 @@ class Domain:
         Raises:
             ValueError: the dimension is neither 2 nor 3.
         """
-        held = {*indices}.union(*(one.free_symbols for one in relations))
+        held = {*indices}.union(*(relation.free_symbols for relation in relations))
         held |= loading.fixed if loading else set()
         by_default = (bead for bead in LATTICE if held & {*bead})
         places = tuple(by_default if beads is None else beads)
-        held |= set().union(*(one.free_symbols for place in places for one in place))
+        held |= set().union(*(coordinate.free_symbols for place in places for coordinate in place))
         ordered = tuple(symbol for symbol in sy.INDICES if symbol in held)
-        kept = tuple(one for one in dict.fromkeys(relations) if one != sympy.true)
+        kept = tuple(relation for relation in dict.fromkeys(relations) if relation != sympy.true)
         return cls(ordered, kept, loading, tuple(dict.fromkeys(places)), dimension, limit)
 
     def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Domain":
         """The part of it where further relations hold, in further indices."""
-        new = {*indices}.union(*(one.free_symbols for one in relations)) - {*self.indices}
+        new = {*indices}.union(*(relation.free_symbols for relation in relations)) - {*self.indices}
         return Domain.of(
             *self.relations,
             *relations,
@@ -256,8 +258,12 @@ class Domain:
         return Domain(
             tuple(symbol for symbol in sy.INDICES if symbol in held),
             (
-                *(_at(one, image) for one in self.relations),
-                *(sympy.Ge(one, 1, evaluate=False) for one in positive if not one.is_positive),
+                *(_at(relation, image) for relation in self.relations),
+                *(
+                    sympy.Ge(expression, 1, evaluate=False)
+                    for expression in positive
+                    if not expression.is_positive
+                ),
             ),
             self.loading and self.loading.put_in(image),
             tuple((a.xreplace(image), b.xreplace(image)) for a, b in self.beads),
@@ -284,7 +290,7 @@ class Domain:
     @cached_property
     def points(self) -> sets.Set:
         """Its points, in straightened indices."""
-        positive = (one for one in self.indices if one.is_positive)
+        positive = (index for index in self.indices if index.is_positive)
         least = (sympy.Ge(symbol, 1, evaluate=False) for symbol in positive)
         return sets.where(*map(self.straight.relation, self.relations), *least)
 
@@ -309,7 +315,7 @@ class Domain:
         """Its relations in plain text, such as "0 ≤ j < M", and its load."""
         from ..words import chains
 
-        further = [one.words for one in (self.loading, self.limit) if one]
+        further = [part.words for part in (self.loading, self.limit) if part]
         return (*chains(self.relations), *further)
 
     def __str__(self) -> str:

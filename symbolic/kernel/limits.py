@@ -80,12 +80,12 @@ def negligible(*groups: Group) -> Rule:
         force = _only_force(formula)
         slope = sympy.expand(formula.lhs - formula.rhs).coeff(force)
         whole, rest = (
-            _in_radii(one, groups, domain)
-            for one in (slope * force, sympy.Add(formula.lhs, -formula.rhs, evaluate=False))
+            _in_radii(expression, groups, domain)
+            for expression in (slope * force, sympy.Add(formula.lhs, -formula.rhs, evaluate=False))
         )
         if not rest.parts.get(NUMBER, Weights()).is_zero():
             raise NotProvedError("the means of both sides differ")
-        kept, dropped = (_variance(one, domain) for one in (whole, rest))
+        kept, dropped = (_variance(form, domain) for form in (whole, rest))
         if not _vanishes_nowhere(leading(kept, limit), limit):
             raise NotProvedError("the force is not shown to vary everywhere")
         if not order(dropped, limit) < order(kept, limit):
@@ -129,7 +129,7 @@ def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
             raise NotProvedError("it is not the variance of what something was dropped from")
         (whole,) = formula.lhs.args
         beside = (whole - left, left - left.coeff(force) * force)
-        if not all(sympy.expand(one).is_number for one in beside):
+        if not all(sympy.expand(expression).is_number for expression in beside):
             raise NotProvedError("it is not the variance of what something was dropped from")
         _check_leading_order(sy.Variance(right), formula.rhs, domain, exact, dropping)
         return made(formula, domain, "leading order of what is kept", (dropping, *exact))
@@ -196,7 +196,7 @@ def bounded(*groups: Group) -> Rule:
         orders = [
             _order_at_sites(value, limit) for _, value in form.parts.get(RADII, Weights()).pieces
         ]
-        if any(2 * one > order(whole, limit) for one in orders):
+        if any(2 * height > order(whole, limit) for height in orders):
             raise NotProvedError("a radius has more, or that is not excluded")
         return made(formula, domain, "largest share", flat(groups))
 
@@ -206,7 +206,7 @@ def bounded(*groups: Group) -> Rule:
 def _order_at_sites(weight: RationalFunction, limit: Limit) -> int:
     """The order of a weight at any site: a bead is at most of the order of M away."""
     _uniform(weight, limit)
-    if any(weight.denominator.degrees()[FIELD.position[one]] > 0 for one in SITE):
+    if any(weight.denominator.degrees()[FIELD.position[coordinate]] > 0 for coordinate in SITE):
         raise NotProvedError("a weight is divided by what depends on the site")
     above = _degrees(weight.numerator, (*limit.growing, *SITE, sy.H_M))  # H_M is at most M
     return max(above) - max(_degrees(weight.denominator, limit.growing))
@@ -219,7 +219,7 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
         NotProvedError: they are not given, or that place does matter.
     """
     finite = _late(domain)
-    held = set().union(*(one.free_symbols for one in domain.relations))
+    held = set().union(*(relation.free_symbols for relation in domain.relations))
     free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
     form = MomentReader.on(finite, groups).in_radii(written_out(expression, domain))
     if free:  # a step to the right, of the bead and of all sites
@@ -277,11 +277,11 @@ def _late(domain: Domain) -> Domain:
 
 
 def _large(limit: Limit) -> Iterator[sympy.Basic]:
-    return (sympy.Ge(one, _LARGE, evaluate=False) for one in limit.positive)
+    return (sympy.Ge(expression, _LARGE, evaluate=False) for expression in limit.positive)
 
 
 def _not_in(symbols: Iterable[sympy.Symbol]) -> list[sympy.Symbol]:
-    return [one for one in sets.DIMENSIONS if one not in {*symbols}]
+    return [dimension for dimension in sets.DIMENSIONS if dimension not in {*symbols}]
 
 
 def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
@@ -297,7 +297,11 @@ def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
     if sy.z in formula.free_symbols and not {sy.j, sy.M} <= {*domain.indices}:
         raise NotProvedError(f"{text(sy.z)} neither grows nor is fixed")
-    held = {s for one in limit.positive for s in one.xreplace(domain.straight.image).free_symbols}
+    held = {
+        s
+        for expression in limit.positive
+        for s in expression.xreplace(domain.straight.image).free_symbols
+    }
     late = sets.where(*map(domain.straight.relation, _large(limit)))
     if not late.is_subset(sets.without(domain.points, *_not_in(held))):
         raise NotProvedError(f"its domain does not hold all of {limit.words}")
@@ -328,10 +332,14 @@ def _uniform(value: RationalFunction, limit: Limit) -> None:
             what is fixed, or goes as what may vanish.
     """
     known = {*_FIXED, *limit.growing, *SITE} | ({sy.H_M} if sy.M in limit.growing else set())
-    strange = by_name(one for one in FIELD.generators if value.holds(one) and one not in known)
+    strange = by_name(
+        generator
+        for generator in FIELD.generators
+        if value.holds(generator) and generator not in known
+    )
     if strange:
         raise NotProvedError(f"{text(strange[0])} neither grows nor is fixed")
-    growing = [FIELD.position[one] for one in (*limit.growing, sy.H_M)]
+    growing = [FIELD.position[symbol] for symbol in (*limit.growing, sy.H_M)]
     for factor, _ in value.denominator.factor()[1]:
         degrees = factor.degrees()
         grows = any(degrees[place] > 0 for place in growing)
@@ -351,7 +359,7 @@ def _vanishes_nowhere(value: RationalFunction, limit: Limit, dimension: int = 2)
 
 
 def _degrees(polynomial: Polynomial, growing: Sequence[sympy.Symbol]) -> list[int]:
-    places = [FIELD.position[one] for one in growing]
+    places = [FIELD.position[symbol] for symbol in growing]
     return [sum(int(powers[place]) for place in places) for powers in polynomial.to_dict()]
 
 

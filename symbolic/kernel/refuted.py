@@ -55,7 +55,7 @@ def shown(value: RationalFunction, limit: Limit | None = None) -> str:
 
 
 def _supposes(groups: Groups) -> bool:
-    return any(one.supposed for one in flat(groups))
+    return any(group.supposed for group in flat(groups))
 
 
 def _witness(
@@ -63,7 +63,9 @@ def _witness(
 ) -> tuple[dict[sympy.Symbol, sympy.Integer], dict[sympy.Symbol, sympy.Integer], sympy.Expr] | None:
     """A point at which a function is not zero: its indices, its site, and the value there."""
     for part in sets.parts(points):
-        for at in _samples(part, [one for one in FIELD.generators if value.holds(one)]):
+        for at in _samples(
+            part, [generator for generator in FIELD.generators if value.holds(generator)]
+        ):
             numbers = {one: sympy.Integer(number) for one, number in at.items()}
             held = {s: FIELD.constant(number) for s, number in numbers.items() if value.holds(s)}
             straight = domain.straight.image
@@ -73,9 +75,9 @@ def _witness(
             there = value.substitute(held)
             if not there.is_zero():
                 indices = {
-                    one: straight.get(one, one).xreplace(numbers)
-                    for one in domain.indices
-                    if value.holds(one) or sets.depends_on(part, one)
+                    index: straight.get(index, index).xreplace(numbers)
+                    for index in domain.indices
+                    if value.holds(index) or sets.depends_on(part, index)
                 }
                 return indices, {s: numbers[s] for s in SITE}, factored(there.reduced())
     return None
@@ -97,8 +99,12 @@ def _samples(
     points: sets.Set, among: Iterable[sympy.Symbol] = (), most: int = 8
 ) -> Iterator[dict[sympy.Symbol, int]]:
     """Some points of a set, which differ in what it is said by and in symbols ``among``."""
-    idle = [one for one in sets.DIMENSIONS if one not in among and not sets.depends_on(points, one)]
-    points = points & sets.where(*(sympy.Eq(one, 0, evaluate=False) for one in idle))
+    idle = [
+        dimension
+        for dimension in sets.DIMENSIONS
+        if dimension not in among and not sets.depends_on(points, dimension)
+    ]
+    points = points & sets.where(*(sympy.Eq(symbol, 0, evaluate=False) for symbol in idle))
     for _ in range(most):
         if points.is_empty():
             return

@@ -332,7 +332,7 @@ def inducted(
         later = domain.also(sympy.Le(*ends, evaluate=False))
         if not later.points.is_empty():
             premises.append(proved_by(step(tuple(supposed)), claim, later))
-    if any(one.supposed - {supposition} for one in premises):
+    if any(premise.supposed - {supposition} for premise in premises):
         raise NotProvedError("inductions can't be nested")
     return tuple(
         made(claim, domain, "induction", premises, ended=(supposition,))
@@ -364,11 +364,14 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
 
         beads = Domain.of(sy.j >= 0)
         gained = {about.func(sy.i + side, sy.j + 1) - about for side in (1, -1)}
-        if origin.formula.lhs != about.func(0, 0) or {one.formula.lhs for one in up} != gained:
+        if (
+            origin.formula.lhs != about.func(0, 0)
+            or {theorem.formula.lhs for theorem in up} != gained
+        ):
             raise NotProvedError("the steps do not reach every bead")
-        if any(one.formula.rhs.has(about.func) for one in (origin, *up)):
+        if any(theorem.formula.rhs.has(about.func) for theorem in (origin, *up)):
             raise NotProvedError("the change is given in terms of other beads")
-        for one, where in ((origin, Domain()), *((one, beads) for one in up)):
+        for one, where in ((origin, Domain()), *((theorem, beads) for theorem in up)):
             here = moved(one, {}, where)
             apart = difference(read(said(here.formula), where), where)
             if any(form.parts for form in apart):
@@ -386,13 +389,13 @@ def differentiate(formula: sympy.Eq, domain: Domain) -> Theorem:
 
     Of z no other symbol is a function; beside others none of this package may stand.
     """
-    variables = {by for one in formula.atoms(sympy.Derivative) for by in one.variables}
+    variables = {by for atom in formula.atoms(sympy.Derivative) for by in atom.variables}
     ours = {*sy.PARAMETERS, *sy.INDICES, *sy.VECTORS}
     strange = formula.free_symbols & ours if variables - {sy.z} else formula.free_symbols - ours
     if not variables or strange or formula.free_symbols & {*sy.INDICES}:
         raise NotProvedError("a part of it may depend on the variable of the derivative")
-    for one in formula.atoms(sympy.Derivative):
-        read(equation(one.expr, one.expr), domain)  # what SymPy cancels has a value
+    for atom in formula.atoms(sympy.Derivative):
+        read(equation(atom.expr, atom.expr), domain)  # what SymPy cancels has a value
     done = equation(*(_done(side) for side in formula.args))
     apart = difference(read(done, domain), domain)
     if any(form.parts for form in apart):

@@ -89,7 +89,7 @@ class MomentReader(Reader):
         if isinstance(moment, sy.Shift):
             form = self.in_radii(moment.args[0], Jet)
             return form.parts.get(SHIFT, Weights()).scaled(_SQUARE)
-        forms = [self.in_radii(one, Form) for one in moment.args]
+        forms = [self.in_radii(arg, Form) for arg in moment.args]
         if isinstance(moment, sy.Mean):
             return forms[0].parts.get(NUMBER, Weights())
         if isinstance(moment, sy.Variance | sy.Covariance):
@@ -134,7 +134,7 @@ def moment(*groups: Group, on: Domain | None = None) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         check_domain(formula, domain)
         whole = domain if on is None else on
-        about = [(one.loading, one.beads, one.dimension, one.limit) for one in (whole, domain)]
+        about = [(each.loading, each.beads, each.dimension, each.limit) for each in (whole, domain)]
         if about[0] != about[1]:
             raise NotProvedError("the larger domain is another one")
         if not domain.points.is_subset(whole.points):

@@ -95,7 +95,7 @@ class Theorem:
     @cached_property
     def fixed(self) -> set[sympy.Symbol]:
         """The symbols for which nothing is put in: those of its suppositions."""
-        return set().union(*(one.fixed for one in self.supposed))
+        return set().union(*(supposition.fixed for supposition in self.supposed))
 
     @cached_property
     def subject(self) -> tuple[sympy.Expr, sympy.Expr]:
@@ -126,10 +126,12 @@ def made(
         TypeError: a premise is no theorem.
     """
     premises = tuple(dict.fromkeys(premises))
-    if not all(type(one) is Theorem for one in premises):
+    if not all(type(premise) is Theorem for premise in premises):
         raise TypeError("a theorem rests on theorems only")
-    supposed = frozenset(supposed).union(*(one.supposed for one in premises)) - frozenset(ended)
-    assumed = frozenset(assuming).union(*(one.assuming for one in premises))
+    supposed = frozenset(supposed).union(*(premise.supposed for premise in premises)) - frozenset(
+        ended
+    )
+    assumed = frozenset(assuming).union(*(premise.assuming for premise in premises))
     return Theorem(formula, domain, rule, premises, supposed, assumed, _MADE_HERE)
 
 
@@ -178,10 +180,10 @@ def isolated(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]
         NotProvedError: the equation does not fix it everywhere.
     """
     factors = sympy.Mul.make_args(formula.lhs)
-    about = [one for one in factors if _is_quantity(one)]
+    about = [quantity for quantity in factors if _is_quantity(quantity)]
     if len(about) != 1 or formula.rhs.has(about[0]):
         raise NotProvedError(f"{text(formula.lhs)} is not a single quantity times a known factor")
-    others = [one for one in factors if one != about[0]]
+    others = [quantity for quantity in factors if quantity != about[0]]
     for factor in others:
         if (
             isinstance(factor, sympy.Pow)
@@ -262,7 +264,7 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
     there = theorem.domain.put_in(image)
     known_here = there.loading is None or (domain.loading and domain.loading.implies(there.loading))
     same = known_here and (there.dimension, there.limit) == (domain.dimension, domain.limit)
-    held = set().union(*(one.free_symbols for one in image.values())) & {*sy.INDICES}
+    held = set().union(*(value.free_symbols for value in image.values())) & {*sy.INDICES}
     if (
         not same
         or theorem.fixed & {*image}
@@ -286,7 +288,7 @@ def with_indices(formula: sympy.Eq, image: Image) -> sympy.Eq:
         raise NotProvedError(f"{text(sy.H_M)} is that of the height {text(sy.M)} alone")
     if image and formula.has(sy.z):
         raise NotProvedError(f"{text(sy.z)} is the height of one layer alone")
-    put_in = {*image}.union(*(one.free_symbols for one in image.values()))
+    put_in = {*image}.union(*(value.free_symbols for value in image.values()))
     if both := by_name(summed & put_in):
         raise NotProvedError(f"{text(both[0])} would have two meanings")
     return equation(*(side.xreplace(dict(image)) for side in formula.args))
@@ -294,7 +296,7 @@ def with_indices(formula: sympy.Eq, image: Image) -> sympy.Eq:
 
 def _summed(formula: sympy.Basic) -> set[sympy.Symbol]:
     """The indices over which an equation sums."""
-    summed = {limit[0] for one in formula.atoms(sympy.Sum) for limit in one.limits}
+    summed = {limit[0] for atom in formula.atoms(sympy.Sum) for limit in atom.limits}
     return summed | ({sy.n} if formula.has(sy.MeanOver) else set())
 
 
@@ -354,7 +356,7 @@ def knowing(reader: Reader, domain: Domain, groups: Groups, kind: type[Form] = F
     for theorem in flat(groups):
         here = _under(theorem, domain.loading)
         for symbol in _named(here) & {*domain.indices}:
-            images = (one.straight.image.get(symbol) for one in (here.domain, domain))
+            images = (place.straight.image.get(symbol) for place in (here.domain, domain))
             if len({*images}) > 1:
                 raise NotProvedError(f"{text(symbol)} is the place of a bead in one domain alone")
     return replace(reader, known=facts, kind=kind)
@@ -400,12 +402,12 @@ def names_for(*expressions: sympy.Basic) -> dict[sympy.Symbol, sympy.Symbol]:
         NotProvedError: there are too many of them.
     """
     ours = {*FIELD.position, *sy.VECTORS}
-    foreign = set().union(*(one.free_symbols for one in expressions)) - ours
+    foreign = set().union(*(expression.free_symbols for expression in expressions)) - ours
     found: dict[sympy.Symbol, sympy.Symbol] = {}
     for symbols, names in zip(
         (
-            [one for one in by_name(foreign) if one.is_positive],
-            [one for one in by_name(foreign) if not one.is_positive],
+            [symbol for symbol in by_name(foreign) if symbol.is_positive],
+            [symbol for symbol in by_name(foreign) if not symbol.is_positive],
         ),
         CONSTANTS,
         strict=True,

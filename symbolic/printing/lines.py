@@ -363,10 +363,12 @@ def latex_body(
 
     ``below``: pieces of LaTeX that stand in lines of their own, such as where the equations hold.
     """
-    found = [latex_lines(one, relation, room) for one in _single(equations)]
-    if any(one[0].startswith("&") for one in found):  # one too wide to stand below another's sign
-        found = [[f"&{one[0].replace('&', '', 1)}", *one[1:]] for one in found]
-    lines = [line for one in found for line in one]
+    found = [latex_lines(formula, relation, room) for formula in _single(equations)]
+    if any(
+        display[0].startswith("&") for display in found
+    ):  # one too wide to stand below another's sign
+        found = [[f"&{display[0].replace('&', '', 1)}", *display[1:]] for display in found]
+    lines = [line for display in found for line in display]
     left_over = room - max(float(width(line.split("&")[0])) for line in lines) - 22
     lines += [rf"&\quad {line}" for line in _packed(below, left_over)]
     if len(lines) == 1:
@@ -433,7 +435,7 @@ def _lines(formula: Basic, room: float) -> list[str]:
 
 
 def _packed(pieces: Iterable[str], room: float) -> list[str]:
-    parts = [part for one in pieces for part in _in_parts(one, room)]
+    parts = [part for piece in pieces for part in _in_parts(piece, room)]
     pieces = [line for part in parts for line in folded(part, room)]
     return pack([(piece, float(width(piece))) for piece in pieces], room, room)
 
@@ -449,7 +451,9 @@ def _in_parts(piece: str, room: float) -> list[str]:
 def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> list[str]:
     """An equation as lines of plain text, continued lines indented."""
     if isinstance(equation, Tuple):
-        return [line for one in _single([equation]) for line in text_lines(one, relation, room)]
+        return [
+            line for formula in _single([equation]) for line in text_lines(formula, relation, room)
+        ]
     printer = PaperText()
     pieces = _Pieces(printer, "{", "}")
     if not isinstance(equation, Eq):

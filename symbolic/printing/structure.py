@@ -51,7 +51,7 @@ def _by_degree(expr: Expr) -> tuple[Expr, ...]:
         rest, monomial = term.as_independent(*held, as_Add=False)
         degree = sum(n for symbol, n in monomial.as_powers_dict().items() if symbol != sy.H_M)
         parts.setdefault(int(degree), {}).setdefault(monomial, []).append(rest)
-    return tuple(one for n in sorted(parts, reverse=True) for one in _factored(parts[n]))
+    return tuple(factor for n in sorted(parts, reverse=True) for factor in _factored(parts[n]))
 
 
 def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
@@ -64,7 +64,7 @@ def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
     found = []
     for monomial, terms in part.items():
         if len(terms) == 1 or monomial == 1:
-            found += [one * monomial for one in terms]
+            found += [term * monomial for term in terms]
         else:
             number, factors = sympy.factor_list(Add(*terms))
             if len(factors) > 1:  # unlike (1 − φ)²
