@@ -59,7 +59,7 @@ def _from_the_surface_down(statements: tuple[sympy.Eq, ...], domain: Domain) -> 
         M - 1,
         balancing(()),
         balancing,
-        [(one, domain) for one in statements],
+        [(statement, domain) for statement in statements],
         down=True,
     )
 

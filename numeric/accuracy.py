@@ -133,7 +133,7 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
                     of_balls(table, system, floor)
                     for table, floor in zip(found.tables, floors, strict=True)
                 ]
-            missed = [one for one in judged if not one.within(plan.tolerance)]
+            missed = [accuracy for accuracy in judged if not accuracy.within(plan.tolerance)]
             if not missed:
                 return replace(plan, system=system), found, judged
             why = f"at {system.bits} bits {missed[0].still}"

@@ -106,7 +106,7 @@ def text_table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
     for name, column in zip(names, zip(*lines, strict=True), strict=True):
         width = max(map(len, column))
         words = any(isinstance(row[name], str) and row[name][:1].isalpha() for row in rows)
-        adjusted.append([one.ljust(width) if words else one.rjust(width) for one in column])
+        adjusted.append([cell.ljust(width) if words else cell.rjust(width) for cell in column])
     return ["  ".join(line).rstrip() for line in zip(*adjusted, strict=True)]
 
 

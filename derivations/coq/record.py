@@ -53,7 +53,7 @@ class Certification:
     @property
     def passed(self) -> bool:
         """Whether all is accepted."""
-        return all(one.accepted for one in self.equations)
+        return all(equation.accepted for equation in self.equations)
 
     def data(self) -> dict[str, Any]:
         """What JSON can hold."""

@@ -43,7 +43,7 @@ def stamp(functions: Sequence[Function]) -> str:
     from llvmlite import binding
 
     files = {function.__code__.co_filename for function in functions}
-    texts = [Path(one).read_bytes() for one in sorted({*files, __file__, carried.__file__})]
+    texts = [Path(file).read_bytes() for file in sorted({*files, __file__, carried.__file__})]
     features = binding.get_host_cpu_features().flatten()
     made = [version("numba"), version("llvmlite"), binding.get_host_cpu_name(), features]
     return hashlib.sha256(b"\0".join([*texts, *map(str.encode, made)])).hexdigest()[:24]

@@ -80,12 +80,12 @@ def free_of_groups(
             folder, limit, used = _GROUPS[controllers]
             top = root / folder
             group = top / name.lstrip("/")  # as seen from outside: in a container it is not there
-            for one in {top, group, *(p for p in group.parents if top in p.parents)}:
+            for path in {top, group, *(p for p in group.parents if top in p.parents)}:
                 with suppress(OSError, ValueError):  # no such file, or "max"
-                    allowed = int((one / limit).read_text())
-                    counts = map(str.split, (one / "memory.stat").read_text().splitlines())
+                    allowed = int((path / limit).read_text())
+                    counts = map(str.split, (path / "memory.stat").read_text().splitlines())
                     cache = sum(int(size) for key, size in counts if key in _CACHE)
-                    yield allowed - int((one / used).read_text()) + cache
+                    yield allowed - int((path / used).read_text()) + cache
 
 
 def _free_of_process() -> Iterator[int]:

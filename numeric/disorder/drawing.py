@@ -153,5 +153,5 @@ def deviates(kind: str, seed: int, realisations: Sequence[int], low: Array, high
         return np.asarray(form(*words(low, high, keys[:, :1], keys[:, 1:])))
     found = np.empty((len(keys), len(low)))
     arrays = (keys, low, high, found, *np.empty((2, _TOGETHER), np.uint64))
-    loop(KINDS.index(kind), *(one.ctypes.data for one in arrays), len(keys), len(low))
+    loop(KINDS.index(kind), *(array.ctypes.data for array in arrays), len(keys), len(low))
     return found

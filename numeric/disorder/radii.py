@@ -156,7 +156,7 @@ class MeasuredRadii:
 
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
-        i, j = (one.tolist() for one in rows.sites)
+        i, j = (site.tolist() for site in rows.sites)
         return self.at(list(zip(i, j, strict=True)), 0, system)[None][[0] * len(realisations)]
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:

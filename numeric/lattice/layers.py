@@ -395,7 +395,7 @@ class Naming(NamedTuple):
         if self.dimension == 2:
             return int(at[0]), int(at[1])
         assert self.side is not None
-        return site_of([int(one) for one in at], self.side)
+        return site_of([int(coordinate) for coordinate in at], self.side)
 
     def bead(self, site: Site) -> tuple[int, ...]:
         """Name a bead as a scene does."""

@@ -248,7 +248,7 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
         m = metric_array(packing.phi, CARRYING)[:3]  # its numbers without their errors
         constants = np.array([*m, *steps, float(square), float(square - 4)])
         sizes = len(rho), len(rows), rise, region.width or 0, region.beads, block.strides[1] // 8
-        arrays = (one.ctypes.data for one in (rho, block, found, table, constants))
+        arrays = (array.ctypes.data for array in (rho, block, found, table, constants))
         made.gaps(*arrays, *sizes)
         return found
     layers, metric = tuple(rows), local.metric(d, packing.phi, FLOAT64.number)

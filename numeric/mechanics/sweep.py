@@ -163,8 +163,8 @@ def rounded(solved: Solved) -> Solved:
     packing, forces = solved.packing, solved.forces
     if packing is None:
         assert solved.single is not None
-        most = max(abs(float(one.error)) for one in solved.single)
-        force = max(abs(float(one.value)) for one in solved.single)
+        most = max(abs(float(ball.error)) for ball in solved.single)
+        force = max(abs(float(ball.value)) for ball in solved.single)
         single = solved.single[0].nearest, solved.single[1].nearest
         return Solved(FLOAT64, None, None, single, Sizes(most, 0.0, most, force))
     d, block = packing.region.dimension, packing.block
@@ -341,7 +341,7 @@ def metric_array(phi: Fraction, system: NumberSystem) -> Array:
     """Give what φ decides of discs, as ``loops`` takes it: errors behind the numbers."""
     m = metric(2, phi, system.number)
     if isinstance(system, Carrying):
-        return np.array([one.value for one in m] + [one.error for one in m])
+        return np.array([number.value for number in m] + [number.error for number in m])
     return np.array(m)
 
 
@@ -476,7 +476,7 @@ def _check_rest(
         if bad.any():
             why, first = STEEP if region.dimension == 2 else STEEP_PLANE, tuple(np.argwhere(bad)[0])
             if not number:
-                why = NESTED if any(system.signs(one)[0][first] for one in close()) else APART
+                why = NESTED if any(system.signs(value)[0][first] for value in close()) else APART
             raise UnbuildableError(_site(bad, layer, region), why)
         open_question |= not good.all()
     if open_question:

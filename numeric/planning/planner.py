@@ -217,4 +217,4 @@ def expected(
     highest = critical_height(problem.radii.relative_std())
     if problem.route == Route.EXACT and problem.height > highest * SOUND:
         return None
-    return PRINTED * (1 + max(gathering(one, problem) for one in quantities)) * UNIT
+    return PRINTED * (1 + max(gathering(quantity, problem) for quantity in quantities)) * UNIT

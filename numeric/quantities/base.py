@@ -294,7 +294,7 @@ def contact_forces(
     """
     system, forces = solved.system, solved.forces
     if solved.single is not None:  # line sums of the one contact
-        force, change = (column([one], system) for one in solved.single)
+        force, change = (column([number], system) for number in solved.single)
         return force, change[None]
     assert forces is not None
     zero = system.zeros(1)[0]

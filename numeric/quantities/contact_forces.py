@@ -81,9 +81,9 @@ class ContactForces(ContactQuantity):
     def _steps(self, branch: Array) -> Array:
         """Give the numbers of upper beads less those of lower ones, (2, contacts), or (3, …)."""
         if self.naming.dimension == 2:
-            steps = {one.value: [one.side, 1] for one in self.branches}
+            steps = {part.value: [part.side, 1] for part in self.branches}
         else:
-            steps = {one.value: [*(one.number == k for k in (0, 1)), 1] for one in self.branches}
+            steps = {part.value: [*(part.number == k for k in (0, 1)), 1] for part in self.branches}
         parts = [np.outer(step, branch == name) for name, step in steps.items()]
         return np.asarray(np.sum(parts, axis=0, dtype=np.int64))
 

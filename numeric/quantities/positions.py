@@ -77,7 +77,7 @@ class Positions(Listed):
         """Give c of each direction, row by row."""
         system, packing = solved.system, solved.packing
         if solved.single is not None:  # line sums of the one bead
-            return [column([one], system) for one in solved.single]
+            return [column([number], system) for number in solved.single]
         if packing is None:
             return [system.zeros(sum(row.count for row in rows))] * len(self.branches)
         region = packing.region
@@ -89,10 +89,10 @@ class Positions(Listed):
     def _ordered(self, problem: Problem, index: Columns, system: NumberSystem) -> tuple[Array, ...]:
         """Give the positions of beads in the ordered packing, in units of r."""
         *columns, j = index.values()
-        steps = [2 * one for one in (*columns, j - sum(columns))]
+        steps = [2 * across for across in (*columns, j - sum(columns))]
         if len(columns) == 1:
             steps = [j + columns[0], j - columns[0]]
-        return cartesian([_whole(one, system) for one in steps], problem, system, raised=True)
+        return cartesian([_whole(step, system) for step in steps], problem, system, raised=True)
 
 
 def _whole(numbers: Array, system: NumberSystem) -> Any:

@@ -226,7 +226,7 @@ class _Study:
             except FAILURES as error:
                 self.failures[f"{name}, {digits} digits"] = error
             if self.true is not None or name == "mpmath":
-                yield from (self._way(*one, unit or 1) for one in waiting)
+                yield from (self._way(*way, unit or 1) for way in waiting)
                 waiting = []
 
     def _way(self, name: str, digits: int, timed: _Timed, unit: float) -> Way:

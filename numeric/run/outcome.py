@@ -167,8 +167,8 @@ class Outcome(Result):
         questions ``accuracy`` is that of the least accurate answer.
         """
         found = self.results.values()
-        accuracy = max((one.accuracy for one in found), key=lambda one: one.error_bound)
-        sampling = [one.sampling_error for one in found if one.sampling_error is not None]
+        accuracy = max((answer.accuracy for answer in found), key=lambda one: one.error_bound)
+        sampling = [answer.sampling_error for answer in found if answer.sampling_error is not None]
         data = {
             "source": self.source,
             **self.plan.data(),

@@ -52,7 +52,7 @@ def rows_of_table(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
                 word.strip().lower() for word in next(csv.reader([first], delimiter=delimiter), [])
             ]
             columns = [SAME.get(word, word) for word in written]
-            header = next((one for one in headers if {*one} <= {*columns}), None)
+            header = next((names for names in headers if {*names} <= {*columns}), None)
             if header is None:
                 allowed = " or ".join(map(",".join, headers))
                 raise TableError(f"{name}: the first line must name the columns {allowed}")
@@ -234,5 +234,5 @@ def read_loads(
         site = _site(where, bead, packing)
         if site in loads:
             raise TableError(f"{where}: bead {bead} is named twice")
-        loads[site] = tuple(one / magnitude for one in force)
+        loads[site] = tuple(component / magnitude for component in force)
     return loads

@@ -99,7 +99,7 @@ def read_radii(
     wheres, table = [], []
     for where, header, row in rows_of_table("radii", Path(path), ["x", "y", "r"]):
         wheres.append(where)
-        table.append([float(one) for one in numbers_of(where, header, row)])
+        table.append([float(number) for number in numbers_of(where, header, row)])
     if len(table) < 4:
         raise TableError(f"radii: {Path(path).name}: a packing has at least 4 beads")
     x, y, pixels = np.array(table).T

@@ -352,7 +352,7 @@ def explained(error: ValidationError, model: type[Section], values: dict[str, An
     """Turn pydantic's first error into one line in the words of a scene."""
     errors = error.errors()
     # a required key that is missing may be one that is misspelt
-    first = next((one for one in errors if one["type"] == "extra_forbidden"), errors[0])
+    first = next((each for each in errors if each["type"] == "extra_forbidden"), errors[0])
     kind, value, context = first["type"], first["input"], first.get("ctx", {})
     within = context.get("error")
     if isinstance(within, SceneError):  # of a section within this one
