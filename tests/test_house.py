@@ -16,7 +16,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_194,
+    "symbolic": 4_206,
     "derivations": 8_147,
     "numeric": 9_911,
     "force_diffusion": 78,

@@ -23,6 +23,8 @@ LINE_WIDTH = COLUMNS[1]
 TEXT_WIDTH = 96
 """Characters for one line on a terminal."""
 
+# Where a line of text may be broken: outside round brackets, or at any sign.
+_PLACES = r" (?=[+−] |\{ )(?![^(]*\))", r" (?=[+−] )"
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\S")
 _NO_WIDTH = {r"\hat", r"\mathbf", r"\mathrm", r"\!", r"\displaystyle"}
 _SPACES = {r"\,": 1.7, r"\:": 2.2, r"\;": 2.8, r"\quad": 10.0, r"\qquad": 20.0}
@@ -457,13 +459,27 @@ def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> 
     printer = PaperText()
     pieces = _Pieces(printer, "{", "}")
     if not isinstance(equation, Eq):
-        first, *others = pack(pieces.of(equation, room), room - 4, room)
-        return [first, *("    " + line for line in others)]
+        return _text_packed(pieces.of(equation, room), room)
     whole = f"{printer.doprint(equation.lhs)} {relation} {printer.doprint(equation.rhs)}"
     if len(whole) <= room:
         return [whole]
     left = pieces.of(equation.lhs, room)
     right = pieces.of(equation.rhs, room - 4)
     right = [(f"{relation} {right[0][0]}", right[0][1] + 2), *right[1:]]
-    first, *others = pack([*left, *right], room - 4, room)
-    return [first, *("    " + line for line in others)]
+    return _text_packed([*left, *right], room)
+
+
+def _text_packed(
+    pieces: Iterable[tuple[str, float]], room: int, places: Sequence[str] = _PLACES
+) -> list[str]:
+    """Lines of text; one that is too long is broken at signs and braces, the outer ones first."""
+    first, *others = pack(pieces, room - 4, room)
+    lines = []
+    for indent, line in (("", first), *(("    ", line) for line in others)):
+        if places and len(indent + line) > room:
+            parts = [(part, len(part) + 1) for part in re.split(places[0], line)]
+            broken = _text_packed(parts, room - len(indent), places[1:])
+        else:
+            broken = [line]
+        lines += [indent + part for part in broken]
+    return lines
