@@ -107,12 +107,12 @@ def bulk_variance_of_spheres(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> An
 
 
 def surface_mean_shift(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact ⟨f^±_ij⟩ over its ordered value, less 1, at order σ², surface load (Eq. B5)."""
+    """Exact ⟨f^±_ij⟩ over its ordered value, minus 1, at order σ², surface load (Eq. B5)."""
     return _of_contact(generated.surface_mean_shift, M, j, phi, sigma, r)
 
 
 def bulk_mean_shift(M: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact ⟨f^±_ij⟩ over its ordered value, less 1, at order σ², bulk load (Eq. B6)."""
+    """Exact ⟨f^±_ij⟩ over its ordered value, minus 1, at order σ², bulk load (Eq. B6)."""
     return _of_contact(generated.bulk_mean_shift, M, j, phi, sigma, r)
 
 
@@ -140,7 +140,7 @@ def beads_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) ->
 
 
 def response(l: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Printed leading order of σ²(p)/f_load² inside of the cone of a load on layer l (Eq. 16).
+    """Printed leading order of σ²(p)/f_load² inside the cone of a load on layer l (Eq. 16).
 
     p is the vertical force that both of its upper contacts exert on a bead of layer j ≥ 0. As an
     asymptotic form it holds for l → ∞ at fixed j/l.

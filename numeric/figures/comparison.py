@@ -114,7 +114,7 @@ def _draw(axes: Axes, found: Sequence[Comparison], medium: Medium) -> None:
 
 
 def _draw_ratio(axes: Axes, found: Sequence[Comparison]) -> None:
-    """Draw simulation over the exact curve, less 1, in %: all of a band has to hold zero."""
+    """Draw simulation over the exact curve, minus 1, in %: all of a band has to hold zero."""
     axes.axhline(0, color="0.6", lw=0.7, zorder=0.5)
     widest = 0.0
     for c, one in enumerate(found):
@@ -125,7 +125,7 @@ def _draw_ratio(axes: Axes, found: Sequence[Comparison]) -> None:
         axes.plot(z, low, z, high, color=f"C{c}", lw=0.5)
         points(axes, z[some], (100 * (one.band.value / one.theory - 1))[some], c, ms=2.6)
         widest = max(widest, -1.15 * low.min(), 1.15 * high.max())
-    axes.set(xlabel=RELATIVE_HEIGHT, ylabel="simulated over\nexact, less 1 (%)")
+    axes.set(xlabel=RELATIVE_HEIGHT, ylabel="simulated over\nexact, minus 1 (%)")
     axes.set_ylim(-widest, widest)
 
 

@@ -36,7 +36,7 @@ def cosine(spacing: Fraction) -> float:
 
 
 def theory(load: str, height: int, spacing: Fraction) -> Array:
-    """⟨f⟩ over its ordered value, less 1, in units of (σ/r)², shape (M,) (Eqs. B5, B6)."""
+    """⟨f⟩ over its ordered value, minus 1, in units of (σ/r)², shape (M,) (Eqs. B5, B6)."""
     *_, form = LOADS[load]
     return np.array([form(height, j, cosine(spacing), 1.0, 1.0) for j in range(height)])
 

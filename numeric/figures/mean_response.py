@@ -1,4 +1,4 @@
-"""Figure B9: the mean response to a point load at order σ²: a plateau inside of the cone.
+"""Figure B9: the mean response to a point load at order σ²: a plateau inside the cone.
 
 Simulated are exact, nonlinear packings, each solved to first order as well (``band_of_shift``),
 whose mean response is that of the ordered packing. Curves are Eq. B9.
@@ -37,7 +37,7 @@ def theory(spacing: Fraction) -> Array:
 
 
 def beside(answer: Solved, number: int) -> tuple[Array]:
-    """Changes of f⁺ inside of the cone, averaged with their mirror images; (number, l − j − 1)."""
+    """Changes of f⁺ inside the cone, averaged with their mirror images; (number, l − j − 1)."""
     assert answer.forces is not None
     change = answer.forces.change
     # row m holds what lies below the beads of layer m: l − m + 1 of them, from the left
@@ -73,7 +73,7 @@ def figure(o: Options) -> Made:
         curve(axes, OFFSETS, one.theory, slice(1, None), c)
         name = rf"$\phi={cosine(spacing):.3g}$, simulated"
         points(axes, OFFSETS, one.band.value, c, name, one.bars)
-    axes.set(xlabel=r"$i-k$ of a contact $f^{+}$ inside of the cone", ylim=(-2.3, 3))
+    axes.set(xlabel=r"$i-k$ of a contact $f^{+}$ inside the cone", ylim=(-2.3, 3))
     mean = r"$2n_y\langle f^{+}\rangle\,/\,[f^{\rm load}(\sigma_{\delta r}/r)^2]$"
     axes.set_ylabel(mean)
     axes.legend(loc="upper center")
