@@ -59,8 +59,7 @@ def pytest_report_header(config: pytest.Config) -> str | None:
 MANY = 8
 """Cases of a slow test, of which CI runs a half."""
 DERIVING = tuple(
-    f"tests/{place}"
-    for place in ("derivations/", "symbolic/", "cli/test_derive", "cli/test_show", "soundness/")
+    f"tests/{place}" for place in ("derivations/", "symbolic/", "cli/test_derive", "cli/test_show")
 )
 """Tests that prove equations and work out closed forms: in one process, which does so once."""
 

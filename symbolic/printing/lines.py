@@ -23,8 +23,8 @@ LINE_WIDTH = COLUMNS[1]
 TEXT_WIDTH = 96
 """Characters for one line on a terminal."""
 
-# Where a line of text may be broken: outside round brackets, or at any sign.
-_PLACES = r" (?=[+−] |\{ )(?![^(]*\))", r" (?=[+−] )"
+# Where a line of text may be broken: behind a semicolon, outside round brackets, or at any sign.
+_PLACES = r" (?=[+−] |\{ )(?![^(]*\))|(?<=;) ", r" (?=[+−] )"
 _TOKEN = re.compile(r"\\[A-Za-z]+|\\.|[{}^_&]|\S")
 _NO_WIDTH = {r"\hat", r"\mathbf", r"\mathrm", r"\!", r"\displaystyle"}
 _SPACES = {r"\,": 1.7, r"\:": 2.2, r"\;": 2.8, r"\quad": 10.0, r"\qquad": 20.0}

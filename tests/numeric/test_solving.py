@@ -216,7 +216,7 @@ def test_of_a_bead_that_no_supports_hold_it_is_said_why(
 def test_no_column_is_turned_into_a_single_row() -> None:
     with pytest.raises(fd.SceneError) as one:
         fd.solve(np.ones((5, 1)))
-    with pytest.raises(fd.SceneError, match=r"transposed\? then give radii.T"):
+    with pytest.raises(fd.SceneError, match=r"transposed, give radii\.T"):
         fd.solve(np.ones((5, 2)))
     assert "transposed" not in str(one.value)
 

@@ -26,7 +26,7 @@ from tests.properties.mutants import mutants
 FAULTS = {
     # what a theorem is, and what is a statement
     "anybody makes theorems": ("kernel.theorem", "Theorem.__post_init__", "is not _MADE_HERE", "is NotImplemented"),
-    "premises that are no theorems": ("kernel.theorem", "made", "type(one) is Theorem", "isinstance(one, Theorem)"),
+    "premises that are no theorems": ("kernel.theorem", "made", "type(premise) is Theorem", "isinstance(premise, Theorem)"),
     "any domain": ("kernel.theorem", "check_domain", "domain.points.is_empty()", "False"),
     "any index": ("kernel.theorem", "check_domain", "free & {*sy.INDICES} - {*domain.indices}", "set()"),
     "reserved names": ("kernel.theorem", "check_domain", "free & _RESERVED", "False"),
@@ -40,7 +40,7 @@ FAULTS = {
     "odd places": ("kernel.domain", "Domain.straight", "for across, up in self.beads", "for across, up in ()"),
     "parity is not compared": ("kernel.domain", "Domain.lies_in", "self.points.is_subset(sets.even(form))", "True"),
     "any dimension": ("kernel.domain", "Domain.__post_init__", "self.dimension not in (2, 3)", "False"),
-    "heights that are negative": ("kernel.domain", "Domain.put_in", "if not one.is_positive", "if False"),
+    "heights that are negative": ("kernel.domain", "Domain.put_in", "if not expression.is_positive", "if False"),
     "any load implies another": ("kernel.domain", "Loading.implies", "other is None or self == other", "True"),
     # rules
     "rules prove other statements": ("kernel.rules", "proved_by", "theorem.formula != formula or theorem.domain != domain", "False"),
@@ -59,7 +59,7 @@ FAULTS = {
     "other suppositions": ("kernel.rules", "suppose", "(formula, domain) not in supposition.members", "False"),
     "suppositions of the same value": ("kernel.rules", "suppose", "supposition.index - supposition.before", "supposition.index"),
     "no steps to other beads": ("kernel.rules", "reach", "any(form.parts for form in apart)", "False"),
-    "steps that say nothing": ("kernel.rules", "reach", "one.formula.rhs.has(about.func)", "False"),
+    "steps that say nothing": ("kernel.rules", "reach", "theorem.formula.rhs.has(about.func)", "False"),
     "linked derivatives": ("kernel.rules", "differentiate", "not variables or strange", "not variables"),
     # moments and limits
     "products are dropped in moments": ("forms", "Reader._refuse_squares", "self.linear and", "False and"),
@@ -72,7 +72,7 @@ FAULTS = {
     "limits beside the domain": ("kernel.limits", "limit_of", "not late.is_subset(sets.without(domain.points, *_not_in(held)))", "False"),
     "any order is negligible": ("kernel.limits", "negligible", "not order(dropped, limit) < order(kept, limit)", "False"),
     "other means are negligible": ("kernel.limits", "negligible", "not rest.parts.get(NUMBER, Weights()).is_zero()", "False"),
-    "large shares": ("kernel.limits", "bounded", "2 * one > order(whole, limit)", "False"),
+    "large shares": ("kernel.limits", "bounded", "2 * height > order(whole, limit)", "False"),
     "H_M is as large as M": ("kernel.limits", "order", "_degrees(value.denominator, limit.growing)", "_degrees(value.denominator, (*limit.growing, sy.H_M))"),
     "powers of negative numbers": ("kernel.averages", "_powers", "sign(value, EVERYTHING) != 1", "False"),
     "any prefactor": ("kernel.averages", "power_law", "not (ratio - FIELD.one).is_zero()", "False"),

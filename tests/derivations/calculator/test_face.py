@@ -102,7 +102,7 @@ def test_a_constant_in_source_leading_orders_and_candidates() -> None:
     assert said.startswith("refuted")
     doubled = fd.mean(a * f_plus(i, j)).decide(3 * a)
     assert str(doubled) == "refuted: at j = 0, M = 1: the sides differ by −2 a"
-    assert str(mean.decide(sympy.Symbol("a"))).startswith("not a statement: a is not the a of")
+    assert str(mean.decide(sympy.Symbol("a"))).startswith("not a statement: this a is not that of")
     assert str(mean.decide(sympy.Symbol("b"))).startswith("not a statement: b is not a symbol of")
 
 
