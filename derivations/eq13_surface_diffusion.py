@@ -104,7 +104,7 @@ def steps() -> Steps:
     )
     steps.claim(
         "1 − φ² is more than 3/4, since −½ < φ < ½",
-        equation(terms(1, -(phi**2)), terms(1 - HALF**2, times(HALF - phi, HALF + phi))),
+        equation(terms(1, -(phi**2)), terms(sympy.Rational(3, 4), times(HALF - phi, HALF + phi))),
         rewrite(),
         Domain(),
     )

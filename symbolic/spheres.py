@@ -142,7 +142,7 @@ def _vertical(load: str, axis: int) -> Known:
     return vertical(_force(load, axis), 3, axis)
 
 
-def known_forces(load: str) -> Mapping[type, Callable[[int], Known]]:
+def forces_in_radii(load: str) -> Mapping[type, Callable[[int], Known]]:
     """The forces of all contacts of a packing of spheres, as functions of the axis."""
     return {ForceAlong: partial(_force, load), VerticalAlong: partial(_vertical, load)}
 

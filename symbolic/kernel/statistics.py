@@ -107,7 +107,7 @@ class MomentReader(Reader):
         if self.domain.dimension == _PLANE:
             reader = knowing(plain, self.domain, self.groups, kind)
         elif linear and loading and loading in SPHERES.values():
-            reader = replace(plain, known=spheres.known_forces(loading.name))
+            reader = replace(plain, known=spheres.forces_in_radii(loading.name))
         else:
             raise NotExactError("that is not known in three dimensions")
         form = reader.number(expression).on(self.points).merged()
