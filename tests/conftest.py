@@ -40,9 +40,9 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def _leaves_out(config: pytest.Config) -> bool:
     """Whether long tests are left out: neither files are named nor is the profile that of CI.
 
-    Of a test that is marked ``long(sample=8)`` eight cases are run nevertheless. Of one that is
-    marked ``long(share=3)`` the profile of CI runs a third of the cases, those that the seed says;
-    of one that has many cases, a half.
+    Of a test that is marked ``long(sample=8)`` eight cases are run nevertheless. Of one that has
+    many cases the profile of CI runs a third, those that the seed says; of one that is marked
+    ``long(share=2)`` a half.
     """
     by_default = config.args_source is pytest.Config.ArgsSource.TESTPATHS
     return by_default and config.getoption("--hypothesis-profile") in {None, "quick"}
@@ -57,7 +57,7 @@ def pytest_report_header(config: pytest.Config) -> str | None:
 
 
 MANY = 8
-"""Cases of a slow test, of which CI runs a half."""
+"""Cases of a slow test, of which CI runs a third."""
 DERIVING = tuple(
     f"tests/{place}" for place in ("derivations/", "symbolic/", "cli/test_derive", "cli/test_show")
 )
@@ -90,7 +90,7 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         mark = every[0].get_closest_marker("long")
         wanted = mark.kwargs if mark else {}
         if of_ci:
-            share = wanted.get("share", 1 if len(every) < MANY else 2)
+            share = wanted.get("share", 1 if len(every) < MANY else 3)
             kept = set(range(seed % share, len(every), share))
         else:
             sample = min(wanted.get("sample", 0), len(every))
