@@ -79,7 +79,8 @@ def wrong_variance(number: int) -> CoqStatement:
     derivation = load(number)
     ((name, form),) = derivation.exact_forms.items()
     first, *others = form.pieces
-    other = replace(first, expr=first.expr + sympy.Rational(1, 1000) * sy.phi)
+    wrong_value = first.expr + sympy.Rational(1, 1000) * sy.phi
+    other = SimpleNamespace(where=first.where, expr=wrong_value)
     changed = replace(derivation, exact=lambda: {name: SimpleNamespace(pieces=(other, *others))})
     (made,) = (one for one in statements(changed) if one.name.endswith("_exact"))
     return replace(made, companions=())
