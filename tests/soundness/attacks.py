@@ -8,6 +8,7 @@ import copy
 import pickle
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from types import SimpleNamespace
 from typing import Any
 
@@ -21,7 +22,7 @@ from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Steps
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import CONSTANTS, SITE, UNKNOWNS
-from force_diffusion.symbolic.kernel import axioms, rules
+from force_diffusion.symbolic.kernel import axioms, limits, rules
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import (
     AT_FIXED_RATIO,
@@ -31,62 +32,10 @@ from force_diffusion.symbolic.kernel.domain import (
     at_fixed_height,
     at_large_height,
 )
-from force_diffusion.symbolic.kernel.limits import (
-    asymptotic,
-    bounded,
-    negligible,
-    of_what_is_kept,
-)
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Theorem, made
-from force_diffusion.symbolic.symbols import (
-    H_M,
-    Covariance,
-    DeltaNMinus,
-    DeltaNPlus,
-    DeltaR,
-    DeltaX,
-    Dot,
-    ForceMinus,
-    ForcePlus,
-    LargestShare,
-    LoadForce,
-    M,
-    MatrixTimes,
-    Mean,
-    MeanOver,
-    N,
-    Position,
-    Shift,
-    Variance,
-    VerticalMinus,
-    VerticalPlus,
-    e_x,
-    e_y,
-    epsilon,
-    f_load,
-    i,
-    j,
-    k,
-    l,
-    m,
-    n,
-    n_minus,
-    n_plus,
-    n_x,
-    n_y,
-    p,
-    phi,
-    q,
-    r,
-    sigma,
-    site_r,
-    site_s,
-    spacing,
-    t,
-    z,
-)
+from force_diffusion.symbolic.symbols import H_M, M, N, i, j, k, l, m, n, n_x, n_y, phi, r, sigma, z
 from force_diffusion.symbolic.trees import equation, in_place
 from sympy import Derivative, Eq, Integer, Mul, Pow, Rational, Sum, Symbol, sqrt
 
@@ -94,6 +43,7 @@ REFUSALS = ValueError, TypeError
 """NotProvedError, NotExactError and NotAStatementError are ValueErrors."""
 
 Attempt = Callable[[], object]
+Sides = tuple[Any, Any]
 
 
 @dataclass(frozen=True)
@@ -122,25 +72,39 @@ def prove(rule: Rule, left: Any, right: Any, domain: Domain) -> Theorem:
     return rules.proved_by(rule, equation(*map(sympy.sympify, (left, right))), domain)
 
 
-def both(
-    name: str, rule: Rule, sides: tuple[Any, Any], wrong: tuple[Any, Any], refused: str, on: Domain
-) -> None:
-    """One rule on one domain, of a true and of a false statement."""
-    attack(name, lambda: prove(rule, *wrong, on), refused, lambda: prove(rule, *sides, on))
+def proof(rule: Rule, sides: Sides, domain: Domain) -> Attempt:
+    return partial(prove, rule, *sides, domain)
 
 
+def table(rule: Rule, domain: Domain, *rows: tuple[str, Sides, str, Sides]) -> None:
+    """Of one rule on one domain: what is tried, what is false, the refusal, and what is true."""
+    for name, wrong, refused, sides in rows:
+        attack(name, proof(rule, wrong, domain), refused, proof(rule, sides, domain))
+
+
+def beside(about: str, true: Attempt, *rows: tuple[str, Attempt, str]) -> None:
+    """What is tried beside one thing that is true, and the refusals."""
+    for name, false, refused in rows:
+        attack(f"{about}, {name}", false, refused, true)
+
+
+REWRITE = rules.rewrite()
 BEADS, ABOVE = Domain.of(j >= 0), Domain.of(j >= 1)
+IN_SPACE = replace(BEADS, dimension=3)
 TWO = Domain.of(j >= 0, l >= 0)
 SURFACE = Domain.of(j >= 0, j <= M - 1, indices=(i,), loading=axioms.SURFACE)
 LOADED = Domain.of(l >= 1, loading=axioms.LOADED)
 HEIGHTS = Domain.of(indices=(M,))
-HERE, BETWEEN = DeltaR(i, j), DeltaR(i - 1, j - 1)
-FORCE, TOP = ForcePlus(i, j), ForcePlus(k, l)
+HERE, BETWEEN, THERE = sy.DeltaR(i, j), sy.DeltaR(i - 1, j - 1), sy.DeltaR(k, l)
+MOVE, PLACE = sy.DeltaX(i, j), sy.Position(i, j)
+FORCE, TOP = sy.ForcePlus(i, j), sy.ForcePlus(k, l)
 ON_LOADED = axioms.loads(axioms.LOADED)
 POSITIONS, DISPLACED, BASE = load(1).theorem, load(3).theorem, axioms.base()
+MOVED = DISPLACED.formula.args
 DIRECTIONS = load(4).theorem, load(5).theorem
 FORCES = eq11.in_radii()
-A, B = Symbol("a", positive=True), Symbol("b", positive=True)
+NOTHING = equation(r, Integer(0))
+V = Symbol("v")
 
 
 def limit(relation: str, orders: int = 1) -> Domain:
@@ -155,31 +119,28 @@ def over_itself(divisor: sympy.Expr) -> sympy.Expr:
     return Mul(divisor, over(divisor), evaluate=False)
 
 
+def times(factor: Any, theorem: Theorem) -> Sides:
+    left, right = theorem.formula.args
+    return factor * left, factor * right
+
+
+def as_it_is(theorem: Theorem) -> Attempt:
+    """A rule that takes whatever is asked for this theorem."""
+    return partial(rules.proved_by, lambda *_: theorem)
+
+
+# What is tried stands above its refusal and what is true.
+# fmt: off
+
 # theorems are made by the kernel alone
 
-attack(
-    "a theorem by its class",
-    lambda: Theorem(equation(r, Integer(0)), BEADS, "mine"),
-    "only rules of the kernel",
-    lambda: prove(rules.rewrite(), r, r, BEADS),
-)
-attack(
-    "another formula of a theorem",
-    lambda: replace(BASE, formula=equation(r, Integer(0))),
-    "only rules of the kernel",
-    lambda: prove(rules.follows(BASE), 2 * DeltaX(i, j), 0, BASE.domain),
-)
-for name, copied in (
-    ("copied", copy.copy),
-    ("copied deeply", copy.deepcopy),
-    ("pickled", lambda one: pickle.loads(pickle.dumps(one))),
-):
-    attack(
-        f"a theorem {name}",
-        lambda c=copied: c(BASE),  # type: ignore[misc]
-        "neither copied nor pickled",
-        lambda c=copied: c((1, 2)),  # type: ignore[misc]
-    )
+attack("a theorem by its class", lambda: Theorem(NOTHING, BEADS, "mine"),
+       "only rules of the kernel", proof(REWRITE, (r, r), BEADS))
+attack("another formula of a theorem", lambda: replace(BASE, formula=NOTHING),
+       "only rules of the kernel", proof(rules.follows(BASE), (2 * MOVE, 0), BASE.domain))
+for way in (copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))):
+    attack("a theorem, copied", partial(way, BASE),
+           "neither copied nor pickled", partial(way, (1, 2)))
 
 
 class Forged(Theorem):
@@ -189,262 +150,58 @@ class Forged(Theorem):
         pass
 
 
-MOVED = load(3).theorem
-FORGED = Forged(equation(DeltaX(i, j), 2 * MOVED.formula.rhs), MOVED.domain, "mine")
-SAME = SimpleNamespace(formula=equation(r, Integer(0)), domain=BEADS, supposed=(), assuming=())
+FORGED = Forged(equation(MOVE, 2 * MOVED[1]), DISPLACED.domain, "mine")
+SAME = SimpleNamespace(formula=NOTHING, domain=BEADS, supposed=(), assuming=())
 for name, attempt in (
     ("put in", lambda one: prove(rules.rewrite(one), *one.formula.args, one.domain)),
     ("followed", lambda one: prove(rules.follows(one), *one.formula.args, one.domain)),
     ("mirrored", rules.mirror),
     ("put elsewhere", lambda one: rules.instance(one, {i: i + 2}, one.domain)),
-    ("taken along a vector", lambda one: rules.along(one, n_plus)),
-    (
-        "solved",
-        lambda one: prove(rules.solve([one], [DeltaX(i, j)]), *one.formula.args, one.domain),
-    ),
+    ("taken along a vector", lambda one: rules.along(one, sy.n_plus)),
+    ("solved", lambda one: prove(rules.solve([one], [MOVE]), *one.formula.args, one.domain)),
+    ("a premise", lambda one: made(equation(r, r), BEADS, "mine", (one,))),
 ):
-    attack(
-        f"a forged theorem, {name}",
-        lambda a=attempt: a(FORGED),  # type: ignore[misc]
-        "theorems only",
-        lambda a=attempt, b=MOVED: a(b),  # type: ignore[misc]
-    )
-attack(
-    "a forged theorem as it is",
-    lambda: rules.proved_by(rules.same(FORGED), FORGED.formula, FORGED.domain),
-    "the rule made no theorem",
-    lambda: rules.proved_by(rules.same(BASE), BASE.formula, BASE.domain),
-)
-attack(
-    "something like a theorem",
-    lambda: rules.proved_by(lambda *_: SAME, SAME.formula, BEADS),  # type: ignore[arg-type,return-value]
-    "the rule made no theorem",
-    lambda: rules.proved_by(lambda *_: BASE, BASE.formula, BASE.domain),
-)
-attack(
-    "a theorem that is another statement",
-    lambda: rules.proved_by(lambda *_: BASE, equation(r, Integer(0)), BASE.domain),
-    "another statement",
-    lambda: rules.proved_by(lambda *_: BASE, BASE.formula, BASE.domain),
-)
-attack(
-    "a premise that is none",
-    lambda: made(equation(r, r), BEADS, "mine", (FORGED,)),
-    "theorems only",
-    lambda: made(equation(r, r), BEADS, "mine", (BASE,)),
-)
+    attack(f"a forged theorem, {name}", partial(attempt, FORGED),
+           "theorems only", partial(attempt, DISPLACED))
+THE_BASE = partial(as_it_is(BASE), BASE.formula, BASE.domain)
+beside("a rule that is no rule", THE_BASE,
+       ("but a forged theorem", partial(as_it_is(FORGED), FORGED.formula, FORGED.domain),
+        "the rule made no theorem"),
+       ("but something like a theorem", partial(as_it_is(SAME), SAME.formula, BEADS),
+        "the rule made no theorem"),
+       ("but another statement", partial(as_it_is(BASE), NOTHING, BASE.domain),
+        "another statement"))
 
 # domains, loads and limits
 
-attack(
-    "dimension 4",
-    lambda: Domain.of(j >= 0, dimension=4),
-    "2 and 3",
-    lambda: Domain.of(j >= 0, dimension=3),
-)
-attack(
-    "dimension 1 by replacement",
-    lambda: replace(BEADS, dimension=1),
-    "2 and 3",
-    lambda: replace(BEADS, dimension=3),
-)
-attack(
-    "a domain of sites",
-    lambda: Domain.of(j >= 0, i >= 0, Eq(SITE[0], -9, evaluate=False)),
-    "paper's indices",
-    lambda: Domain.of(j >= 0, i >= 0, Eq(i, j)),
-)
-attack(
-    "relations of what a domain does not name",
-    lambda: Domain((i,), (j >= 0,)),
-    "all of which it names",
-    lambda: Domain((i, j), (j >= 0,), beads=((i, j),)),
-)
-attack(
-    "a place where no bead is",
-    lambda: prove(rules.rewrite(), HERE, 0, BEADS.also(Eq(i + j, 1))),
-    "its domain is empty",
-    lambda: prove(rules.rewrite(), HERE, HERE, BEADS.also(Eq(i + j, 2))),
-)
-attack(
-    "beads at two places that can't be",
-    lambda: Domain.of(j >= 0, beads=[(i, j), (i + 1, j)]).points,
-    "not shown to be even",
-    lambda: Domain.of(j >= 0, beads=[(i, j), (i + 2, j)]).points,
-)
-attack(
-    "a limit of no order",
-    lambda: Limit("∼", "", (M,), (M,), 0),
-    "at least one order",
-    lambda: Limit("∼", "", (M,), (M,), 2),
-)
-attack(
-    "a limit in which indices grow in no ratio",
-    lambda: Limit("∼", "", (M, j), (M, M - j)),
-    "each sum is what grows",
-    lambda: Limit("∼", "", (M, j), (M - j, j)),
-)
-attack(
-    "an unknown loading",
-    lambda: axioms.loads(
-        replace(axioms.SURFACE, everywhere=((equation(LoadForce(site_r, site_s), 0), ()),))
-    ),
-    "not a known loading",
-    lambda: axioms.loads(axioms.SURFACE.put_in({M: M + 1})),
-)
-PLACELESS = Loading("mine", "", (), (), axioms.SURFACE.everywhere)
+attack("dimension 4", lambda: Domain.of(j >= 0, dimension=4),
+       "2 and 3", lambda: Domain.of(j >= 0, dimension=3))
+attack("a domain of sites", lambda: Domain.of(j >= 0, i >= 0, Eq(SITE[0], -9, evaluate=False)),
+       "paper's indices", lambda: Domain.of(j >= 0, i >= 0, Eq(i, j)))
+attack("relations of what a domain does not name", lambda: Domain((i,), (j >= 0,)),
+       "all of which it names", lambda: Domain((i, j), (j >= 0,), beads=((i, j),)))
+attack("a place where no bead is", proof(REWRITE, (HERE, 0), BEADS.also(Eq(i + j, 1))),
+       "its domain is empty", proof(REWRITE, (HERE, HERE), BEADS.also(Eq(i + j, 2))))
+attack("beads at two places that can't be",
+       lambda: Domain.of(j >= 0, beads=[(i, j), (i + 1, j)]).points,
+       "not shown to be even", lambda: Domain.of(j >= 0, beads=[(i, j), (i + 2, j)]).points)
+attack("a limit of no order", lambda: Limit("∼", "", (M,), (M,), 0),
+       "at least one order", lambda: Limit("∼", "", (M,), (M,), 2))
+attack("a limit in which indices grow in no ratio", lambda: Limit("∼", "", (M, j), (M, M - j)),
+       "each sum is what grows", lambda: Limit("∼", "", (M, j), (M - j, j)))
+NO_LOAD = equation(sy.LoadForce(sy.site_r, sy.site_s), 0)
+attack("an unknown loading",
+       lambda: axioms.loads(replace(axioms.SURFACE, everywhere=((NO_LOAD, ()),))),
+       "not a known loading", lambda: axioms.loads(axioms.SURFACE.put_in({M: M + 1})))
 NONE_BELOW = axioms.loads(axioms.SURFACE)[0]
-attack(
-    "the same loads without their place",
-    lambda: prove(
-        rules.follows(NONE_BELOW),
-        LoadForce(site_r, site_s),
-        0,
-        replace(NONE_BELOW.domain, loading=PLACELESS),
-    ),
-    "is not known there",
-    lambda: prove(rules.follows(NONE_BELOW), LoadForce(site_r, site_s), 0, NONE_BELOW.domain),
-)
-attack(
-    "a load at bead (r, s), which is any bead",
-    lambda: axioms.SURFACE.put_in({M: site_s}),
-    "stand for any bead",
-    lambda: axioms.SURFACE.put_in({M: l}),
-)
+PLACELESS = Loading("mine", "", (), (), axioms.SURFACE.everywhere)
+attack("the same loads without their place",
+       proof(rules.follows(NONE_BELOW), NO_LOAD.args, NONE_BELOW.domain.loaded(PLACELESS)),
+       "is not known there", proof(rules.follows(NONE_BELOW), NO_LOAD.args, NONE_BELOW.domain))
+attack("a load at bead (r, s), which is any bead", lambda: axioms.SURFACE.put_in({M: sy.site_s}),
+       "stand for any bead", lambda: axioms.SURFACE.put_in({M: l}))
 
 # what is a statement
-
-both(
-    "an index of no domain",
-    rules.rewrite(),
-    (j * r, r * j),
-    (k * r, k * r),
-    "does not say what k is",
-    BEADS,
-)
-for reserved in (SITE[0], UNKNOWNS[0], CONSTANTS[0][0]):
-    both(
-        "a reserved name",
-        rules.rewrite(),
-        (r, r),
-        (reserved, reserved),
-        "name that the kernel reserves",
-        BEADS,
-    )
-both(
-    "a number and a vector",
-    rules.rewrite(),
-    (n_plus, n_plus),
-    (n_plus, n_plus + 1),
-    "added to a vector",
-    BEADS,
-)
-both(
-    "a vector that is a number",
-    rules.rewrite(),
-    (n_plus - n_plus, 0),
-    (n_plus, 1),
-    "equal to a vector",
-    BEADS,
-)
-both(
-    "no bead",
-    rules.rewrite(),
-    (HERE, HERE),
-    (DeltaR(i + 1, j), DeltaR(i + 1, j)),
-    "there may be no bead",
-    BEADS,
-)
-both("below the base", rules.rewrite(), (HERE, HERE), (BETWEEN, BETWEEN), "below the base", BEADS)
-for zero in (
-    phi,
-    4 * phi - 1,
-    n_x - n_y,
-    n_x**2 + n_y**2 - 1,
-    1 - phi - 2 * n_x**2,
-    j - 3,
-    z - Rational(1, 2),
-):
-    both(
-        "zero over zero",
-        rules.rewrite(),
-        (over_itself(2 + zero**2), 1),
-        (over_itself(zero), 1),
-        "may be zero",
-        BEADS,
-    )
-both(
-    "ε over itself",
-    rules.rewrite(),
-    (over_itself(1 + epsilon), 1),
-    (over_itself(epsilon), 1),
-    "may be zero",
-    BEADS,
-)
-both(
-    "a sum that ends early",
-    rules.rewrite(),
-    (Sum(1, (m, 1, j)), j),
-    (Sum(1, (m, 3, j)), j - 2),
-    "no agreed value",
-    BEADS,
-)
-both(
-    "a sum over an index of the domain",
-    rules.rewrite(),
-    (Sum(n, (n, 1, j)), j * (j + 1) / 2),
-    (Sum(l, (l, 1, j)), j * (j + 1) / 2),
-    "has another meaning",
-    TWO,
-)
-both(
-    "one index for two sums",
-    rules.rewrite(),
-    (Sum(n, (n, 1, m), (m, 1, j)), j * (j + 1) * (j + 2) / 6),
-    (Sum(n, (n, 1, 2), (n, 1, j)), 3 * j),
-    "has another meaning",
-    BEADS,
-)
-both(
-    "a sum without a closed form",
-    rules.rewrite(),
-    (Sum(over(m), (m, 1, M)), H_M),
-    (Sum(over(m**2), (m, 1, M)), H_M),
-    "more than one divisor",
-    HEIGHTS,
-)
-both(
-    "a square of a displacement and a first order",
-    rules.rewrite(),
-    (HERE**2, 0),
-    (HERE, 0),
-    "differs by 1",
-    BEADS,
-)
-both(
-    "two radii that may be one",
-    rules.rewrite(),
-    (HERE - DeltaR(k, l), HERE - DeltaR(k, l)),
-    (HERE, DeltaR(k, l)),
-    "differs by",
-    TWO,
-)
-both(
-    "s of another packing",
-    rules.rewrite(),
-    (spacing, 4 * r * n_x),
-    (spacing, 4 * r * n_y),
-    "differ by",
-    BEADS,
-)
-both(
-    "the other height z",
-    rules.rewrite(),
-    (z * M, j),
-    (z * M, j + 1),
-    "differ by",
-    Domain.of(j >= 1, j <= M - 1),
-)
 
 
 class Alias(sy.SiteFunction):
@@ -452,307 +209,184 @@ class Alias(sy.SiteFunction):
 
 
 Alias.__name__ = "DeltaR"
-both(
-    "a quantity with a name of the paper's",
-    moment(),
-    (Variance(HERE), sigma**2),
-    (Variance(Alias(i, j)), sigma**2),
-    "not a quantity of a packing",
-    BEADS,
+TRIPLE = Sum(n, (n, 1, m), (m, 1, j))
+table(
+    REWRITE, BEADS,
+    ("an index of no domain", (k * r, k * r), "does not say what k is", (j * r, r * j)),
+    *(("a reserved name", (name, name), "name that the kernel reserves", (r, r))
+      for name in (SITE[0], UNKNOWNS[0], CONSTANTS[0][0])),
+    ("a number and a vector", (sy.n_plus, sy.n_plus + 1), "added to a vector",
+     (sy.n_plus, sy.n_plus)),
+    ("a vector that is a number", (sy.n_plus, 1), "equal to a vector", (sy.n_plus * 0, 0)),
+    ("no bead", (sy.DeltaR(i + 1, j),) * 2, "there may be no bead", (HERE, HERE)),
+    ("below the base", (BETWEEN, BETWEEN), "below the base", (HERE, HERE)),
+    *(("zero over zero", (over_itself(zero), 1), "may be zero", (over_itself(2 + zero**2), 1))
+      for zero in (phi, 4 * phi - 1, n_x - n_y, n_x**2 + n_y**2 - 1, 1 - phi - 2 * n_x**2, j - 3,
+                   z - Rational(1, 2))),
+    ("ε over itself", (over_itself(sy.epsilon), 1), "may be zero",
+     (over_itself(1 + sy.epsilon), 1)),
+    ("a sum that ends early", (Sum(1, (m, 3, j)), j - 2), "no agreed value",
+     (Sum(1, (m, 1, j)), j)),
+    ("one index for two sums", (Sum(n, (n, 1, 2), (n, 1, j)), 3 * j), "has another meaning",
+     (TRIPLE, j * (j + 1) * (j + 2) / 6)),
+    ("a square of a displacement and a first order", (HERE, 0), "differs by 1", (HERE**2, 0)),
+    ("s of another packing", (sy.spacing, 4 * r * n_y), "differ by", (sy.spacing, 4 * r * n_x)),
+    ("a mean of unknown forces", (sy.MeanOver(FORCE, 2, i), FORCE), "not known",
+     (sy.MeanOver(HERE, 1, i), HERE)),
 )
+table(
+    REWRITE, TWO,
+    ("a sum over an index of the domain", (Sum(l, (l, 1, j)), j * (j + 1) / 2),
+     "has another meaning", (Sum(n, (n, 1, j)), j * (j + 1) / 2)),
+    ("two radii that may be one", (HERE, THERE), "differs by", (HERE - THERE, HERE - THERE)),
+)
+table(
+    REWRITE, HEIGHTS,
+    ("a sum without a closed form", (Sum(over(m**2), (m, 1, M)), H_M), "more than one divisor",
+     (Sum(over(m), (m, 1, M)), H_M)),
+    ("a leading order at finite size", (M + 1, M), "differ by", (M + 1, 1 + M)),
+)
+table(REWRITE, Domain.of(j >= 1, j <= M - 1),
+      ("the other height z", (z * M, j + 1), "differ by", (z * M, j)))
+table(moment(), BEADS,
+      ("a quantity with a name of the paper's", (sy.Variance(Alias(i, j)), sigma**2),
+       "not a quantity of a packing", (sy.Variance(HERE), sigma**2)))
 
 # forces as divisors
 
-both(
-    "a force over itself, which is zero",
-    rules.rewrite(ON_LOADED),
-    (TOP, 0),
-    (over_itself(TOP), 0),
-    "may be zero",
-    LOADED,
-)
-attack(
-    "a force that is zero, squared and divided by",
-    lambda: prove(
-        rules.rewrite(prove(rules.rewrite(ON_LOADED), TOP**2 * DeltaR(k, l), 0, LOADED)),
-        DeltaR(k, l),
-        0,
-        LOADED,
-    ),
-    "not shown to vanish nowhere",
-    lambda: prove(
-        rules.rewrite(prove(rules.rewrite(ON_LOADED), r**2 * TOP, 0, LOADED)), TOP, 0, LOADED
-    ),
-)
-attack(
-    "a factor that is zero at φ = 0",
-    lambda: prove(
-        rules.rewrite(prove(rules.rewrite(BASE), phi * DeltaX(i, j), 0, BASE.domain)),
-        DeltaX(i, j),
-        0,
-        BASE.domain,
-    ),
-    "not shown to vanish nowhere",
-    lambda: prove(
-        rules.rewrite(prove(rules.rewrite(BASE), (2 + phi) * DeltaX(i, j), 0, BASE.domain)),
-        DeltaX(i, j),
-        0,
-        BASE.domain,
-    ),
-)
+table(rules.rewrite(ON_LOADED), LOADED,
+      ("a force over itself, which is zero", (over_itself(TOP), 0), "may be zero", (TOP, 0)))
+
+
+def from_product(premises: Any, factor: Any, zero: Any, domain: Domain) -> Theorem:
+    """That what vanishes times a factor vanishes."""
+    product = prove(rules.rewrite(*premises), factor * zero, 0, domain)
+    return prove(rules.rewrite(product), zero, 0, domain)
+
+
+attack("a force that is zero, squared and divided by",
+       partial(from_product, [ON_LOADED], TOP**2, THERE, LOADED),
+       "not shown to vanish nowhere", partial(from_product, [ON_LOADED], r**2, TOP, LOADED))
+attack("a factor that is zero at φ = 0", partial(from_product, [BASE], phi, MOVE, BASE.domain),
+       "not shown to vanish nowhere", partial(from_product, [BASE], 2 + phi, MOVE, BASE.domain))
 STRAIGHT = load(9).theorem
 ZERO_AT_ORDER_0 = prove(
     rules.rewrite(STRAIGHT), (1 - STRAIGHT.formula.lhs) * HERE, 0, STRAIGHT.domain
 )
-attack(
-    "a determinant that is zero for one force",
-    lambda: prove(rules.solve([ZERO_AT_ORDER_0], [HERE]), HERE, 0, STRAIGHT.domain),
-    "the determinant holds a force",
-    lambda: prove(rules.solve([DISPLACED], [DeltaX(i, j)]), *DISPLACED.formula.args, ABOVE),
-)
+attack("a determinant that is zero for one force",
+       proof(rules.solve([ZERO_AT_ORDER_0], [HERE]), (HERE, 0), STRAIGHT.domain),
+       "the determinant holds a force", proof(rules.solve([DISPLACED], [MOVE]), MOVED, ABOVE))
 
 # rewrite, follows, along, order, solve, below
 
-both(
-    "half of Eq. 3",
-    rules.rewrite(DISPLACED),
-    (DeltaX(i, j), DISPLACED.formula.rhs),
-    (DeltaX(i, j), DISPLACED.formula.rhs / 2),
-    "differs by",
-    ABOVE,
+table(rules.rewrite(DISPLACED), ABOVE,
+      ("half of Eq. 3", (MOVE, MOVED[1] / 2), "differs by", MOVED))
+table(
+    rules.follows(DISPLACED), ABOVE,
+    ("a factor that may be zero", times(phi, DISPLACED), "may be zero", times(2 + phi, DISPLACED)),
+    ("a factor that is zero in one layer", times(j - 2, DISPLACED), "may be zero",
+     times(j, DISPLACED)),
+    ("nothing at all", (MOVE, MOVE), "not a multiple", MOVED[::-1]),
 )
-both(
-    "a factor that may be zero",
-    rules.follows(DISPLACED),
-    tuple((2 + phi) * one for one in DISPLACED.formula.args),
-    tuple(phi * one for one in DISPLACED.formula.args),
-    "may be zero",
-    ABOVE,
-)
-both(
-    "a factor that is zero in one layer",
-    rules.follows(DISPLACED),
-    tuple(j * one for one in DISPLACED.formula.args),
-    tuple((j - 2) * one for one in DISPLACED.formula.args),
-    "may be zero",
-    ABOVE,
-)
-both(
-    "nothing at all",
-    rules.follows(DISPLACED),
-    DISPLACED.formula.args[::-1],
-    (DeltaX(i, j), DeltaX(i, j)),
-    "not a multiple",
-    ABOVE,
-)
-attack(
-    "beyond its domain",
-    lambda: prove(rules.follows(DISPLACED), *DISPLACED.formula.args, BEADS),
-    "is not known there",
-    lambda: prove(rules.follows(DISPLACED), *DISPLACED.formula.args, ABOVE.also(j >= 2)),
-)
-attack(
-    "the same on another domain",
-    lambda: rules.same(DISPLACED)(DISPLACED.formula, BEADS),
-    "another statement",
-    lambda: rules.same(DISPLACED)(DISPLACED.formula, ABOVE),
-)
-attack(
-    "along what is not a vector",
-    lambda: rules.along(BASE, n_plus / phi),
-    "not a base vector",
-    lambda: rules.along(BASE, e_x),
-)
-attack(
-    "one component for another",
-    lambda: prove(
-        rules.follows(rules.along(DISPLACED, n_plus)),
-        *rules.along(DISPLACED, n_minus).formula.args,
-        ABOVE,
-    ),
-    "not a multiple",
-    lambda: prove(
-        rules.follows(rules.along(DISPLACED, n_plus)),
-        *rules.along(DISPLACED, n_plus).formula.args,
-        ABOVE,
-    ),
-)
+attack("beyond its domain", proof(rules.follows(DISPLACED), MOVED, BEADS),
+       "is not known there", proof(rules.follows(DISPLACED), MOVED, ABOVE.also(j >= 2)))
+attack("the same on another domain", lambda: rules.same(DISPLACED)(DISPLACED.formula, BEADS),
+       "another statement", lambda: rules.same(DISPLACED)(DISPLACED.formula, ABOVE))
+attack("along what is not a vector", lambda: rules.along(BASE, sy.n_plus / phi),
+       "not a base vector", lambda: rules.along(BASE, sy.e_x))
+PLUS, MINUS, UP_ONLY = (rules.along(DISPLACED, to) for to in (sy.n_plus, sy.n_minus, sy.e_y))
+table(rules.follows(PLUS), ABOVE,
+      ("one component for another", MINUS.formula.args, "not a multiple", PLUS.formula.args))
 CONTACT = axioms.contact(1)
-LEANS = Dot(n_plus, DeltaX(i, j) - DeltaX(i - 1, j - 1))
-both(
-    "the order 1 in ε",
-    rules.order(CONTACT, 1),
-    (4 * r * LEANS, 4 * r * (HERE + BETWEEN)),
-    (4 * r * LEANS, 2 * r * (HERE + BETWEEN)),
-    "not the order 1",
-    ABOVE,
-)
-both(
-    "the order 0 in ε",
-    rules.order(CONTACT, 0),
-    (4 * r**2, 4 * r**2),
-    (LEANS, HERE + BETWEEN),
-    "not the order 0",
-    ABOVE,
-)
-attack(
-    "an order below zero",
-    lambda: prove(rules.order(CONTACT, -1), LEANS, HERE, ABOVE),
-    "no such power",
-    lambda: prove(rules.order(CONTACT, 3), 0, 0, ABOVE),
-)
-both(
-    "a solution of another system",
-    load(2).step_of(0)[0].rules[0],
-    load(2).printed[0].args,
-    (DeltaX(i, j), 2 * load(2).printed[0].rhs),
-    "is not the solution",
-    ABOVE,
-)
-PLUS, MINUS, UP_ONLY = (rules.along(DISPLACED, one) for one in (n_plus, n_minus, e_y))
-for name, rows, refused in (
-    ("more unknowns than equations", [PLUS], "1 equations for 2"),
-    ("one equation, twice", [PLUS, PLUS], "determinant may be zero"),
-    ("equations of another bead", [BASE], "not known there"),
-):
-    attack(
-        name,
-        lambda a=rows: prove(rules.solve(a, [DeltaX(i, j)]), *DISPLACED.formula.args, ABOVE),  # type: ignore[misc]
-        refused,
-        lambda: prove(
-            rules.solve([MINUS, UP_ONLY], [DeltaX(i, j)]), *DISPLACED.formula.args, ABOVE
-        ),
-    )
+LEANS = sy.Dot(sy.n_plus, MOVE - sy.DeltaX(i - 1, j - 1))
+RADII = HERE + BETWEEN
+table(rules.order(CONTACT, 1), ABOVE,
+      ("the order 1 in ε", (4 * r * LEANS, 2 * r * RADII), "not the order 1",
+       (4 * r * LEANS, 4 * r * RADII)))
+table(rules.order(CONTACT, 0), ABOVE,
+      ("the order 0 in ε", (LEANS, RADII), "not the order 0", (4 * r**2, 4 * r**2)))
+attack("an order below zero", proof(rules.order(CONTACT, -1), (LEANS, HERE), ABOVE),
+       "no such power", proof(rules.order(CONTACT, 3), (0, 0), ABOVE))
+MOVED_BY_SUPPORTS = load(2).printed[0].args
+table(load(2).step_of(0)[0].rules[0], ABOVE,
+      ("a solution of another system", (MOVE, 2 * MOVED_BY_SUPPORTS[1]), "is not the solution",
+       MOVED_BY_SUPPORTS))
+
+
+def solved(*rows: Theorem) -> Attempt:
+    return proof(rules.solve(rows, [MOVE]), MOVED, ABOVE)
+
+
+beside("two components", solved(MINUS, UP_ONLY),
+       ("of one equation", solved(PLUS), "1 equations for 2"),
+       ("of one equation, twice", solved(PLUS, PLUS), "determinant may be zero"),
+       ("of another bead", solved(BASE), "not known there"))
 VERTICALLY = axioms.loads(axioms.LOADED_VERTICALLY)
 SUPPORTED = Domain.of(l >= 1, loading=axioms.LOADED_VERTICALLY)
-RIGHT = ForcePlus(k - 1, l - 1)
-attack(
-    "f⁺ = 5 f_load",
-    lambda: prove(rules.below(VERTICALLY), RIGHT, 5 * f_load, SUPPORTED),
-    "not the solution",
-    lambda: load(7).proof[0].theorems,
-)
+attack("f⁺ = 5 f_load",
+       proof(rules.below(VERTICALLY), (sy.ForcePlus(k - 1, l - 1), 5 * sy.f_load), SUPPORTED),
+       "not the solution", lambda: load(7).proof[0].theorems)
 
 # instance, mirror
 
 ANY = Domain.of(indices=(i,), beads=())
-PLACES = prove(rules.rewrite(), Sum(i, (n, 1, 2)), Sum(i, (n, 2, 3)), ANY)
-CIRCLE = prove(rules.rewrite(), 1 - phi**2, 4 * n_x**2 * n_y**2, BEADS)
-HEIGHT = prove(rules.rewrite(), Sum(1, (m, 1, M)), M, HEIGHTS)
-HARMONIC = prove(rules.rewrite(), Sum(over(n), (n, 1, M)), H_M, HEIGHTS)
+PLACES = prove(REWRITE, Sum(i, (n, 1, 2)), Sum(i, (n, 2, 3)), ANY)
+CIRCLE = prove(REWRITE, 1 - phi**2, 4 * n_x**2 * n_y**2, BEADS)
+HEIGHT = prove(REWRITE, Sum(1, (m, 1, M)), M, HEIGHTS)
+HARMONIC = prove(REWRITE, Sum(over(n), (n, 1, M)), H_M, HEIGHTS)
 LAYER = Domain.of(indices=(l,), beads=())
-for name, theorem, image, domain, refused, right_image, right in (
-    (
-        "an instance for φ",
-        CIRCLE,
-        {phi: Rational(1, 3)},
-        BEADS,
-        "not a whole number",
-        {j: j + 1, i: i + 1},
-        BEADS,
-    ),
-    (
-        "an instance for r",
-        CIRCLE,
-        {r: Integer(0)},
-        BEADS,
-        "not a whole number",
-        {i: i + 2},
-        BEADS,
-    ),
-    ("half an index", HEIGHT, {M: M / 2}, HEIGHTS, "not a whole number", {M: 2 * M}, HEIGHTS),
-    (
-        "an index that is summed over",
-        PLACES,
-        {i: n},
-        replace(ANY, indices=(n,)),
-        "two meanings",
-        {i: i + 2},
-        ANY,
-    ),
-    ("beyond its domain", DISPLACED, {j: j - 2}, ABOVE, "not known there", {j: j + 2}, ABOVE),
-    ("off the lattice", DISPLACED, {i: i + 1}, ABOVE, "not known there", {i: i + 2}, ABOVE),
-    (
-        "a height that may be negative",
-        HEIGHT,
-        {M: l},
-        LAYER,
-        "not known there",
-        {M: l},
-        replace(LAYER, relations=(l >= 1,)),
-    ),
-    ("another height of H_M", HARMONIC, {M: M + 1}, HEIGHTS, "that of the height M", {}, HEIGHTS),
-    ("in three dimensions", CIRCLE, {}, replace(BEADS, dimension=3), "not known there", {}, BEADS),
-    ("in a limit", HEIGHT, {}, limit("∼"), "not known there", {}, HEIGHTS),
-    (
-        "under another load",
-        NONE_BELOW,
-        {},
-        NONE_BELOW.domain.loaded(axioms.BULK),
-        "not known there",
-        {},
-        NONE_BELOW.domain,
-    ),
-    (
-        "without its load",
-        NONE_BELOW,
-        {},
-        NONE_BELOW.domain.loaded(None),
-        "not known there",
-        {},
-        NONE_BELOW.domain,
-    ),
+for name, theorem, refused, (image, domain), (right_image, right) in (
+    ("for φ", CIRCLE, "not a whole number", ({phi: Rational(1, 3)}, BEADS),
+     ({j: j + 1, i: i + 1}, BEADS)),
+    ("for r", CIRCLE, "not a whole number", ({r: Integer(0)}, BEADS), ({i: i + 2}, BEADS)),
+    ("half an index", HEIGHT, "not a whole number", ({M: M / 2}, HEIGHTS), ({M: 2 * M}, HEIGHTS)),
+    ("an index that is summed over", PLACES, "two meanings", ({i: n}, replace(ANY, indices=(n,))),
+     ({i: i + 2}, ANY)),
+    ("beyond its domain", DISPLACED, "not known there", ({j: j - 2}, ABOVE), ({j: j + 2}, ABOVE)),
+    ("off the lattice", DISPLACED, "not known there", ({i: i + 1}, ABOVE), ({i: i + 2}, ABOVE)),
+    ("a height that may be negative", HEIGHT, "not known there", ({M: l}, LAYER),
+     ({M: l}, replace(LAYER, relations=(l >= 1,)))),
+    ("another height of H_M", HARMONIC, "that of the height M", ({M: M + 1}, HEIGHTS),
+     ({}, HEIGHTS)),
+    ("in three dimensions", CIRCLE, "not known there", ({}, IN_SPACE), ({}, BEADS)),
+    ("in a limit", HEIGHT, "not known there", ({}, limit("∼")), ({}, HEIGHTS)),
+    *((f"under {words} load", NONE_BELOW, "not known there",
+       ({}, NONE_BELOW.domain.loaded(loading)), ({}, NONE_BELOW.domain))
+      for words, loading in (("another", axioms.BULK), ("no", None))),
 ):
-    attack(
-        name,
-        lambda a=theorem, b=image, c=domain: rules.instance(a, b, c),  # type: ignore[misc]
-        refused,
-        lambda a=theorem, b=right_image, c=right: rules.instance(a, b, c),  # type: ignore[misc]
-    )
+    attack(f"an instance, {name}", partial(rules.instance, theorem, image, domain),
+           refused, partial(rules.instance, theorem, right_image, right))
 
 
-def vertical(kind: Any, turn: Any, force: Any) -> tuple[sympy.Expr, sympy.Expr]:
-    return kind(i, j), force(i, j) * (n_y + Dot(e_y, turn(i, j)))
+def vertical(kind: Any, turn: Any, force: Any) -> Sides:
+    return kind(i, j), force(i, j) * (n_y + sy.Dot(sy.e_y, turn(i, j)))
 
 
-TILTED = prove(rules.rewrite(), *vertical(VerticalPlus, DeltaNPlus, ForcePlus), BEADS)
-both(
-    "the mirror image of a vertical component",
-    rules.mirror_of(TILTED),
-    vertical(VerticalMinus, DeltaNMinus, ForceMinus),
-    vertical(VerticalPlus, DeltaNMinus, ForceMinus),
-    "not a multiple",
-    BEADS,
-)
-both(
-    "its own mirror image",
-    rules.mirror_of(DIRECTIONS[0]),
-    DIRECTIONS[1].formula.args,
-    (DeltaNMinus(i, j), DIRECTIONS[0].formula.rhs),
-    "not a multiple",
-    BEADS,
-)
-attack(
-    "the mirror image of a place",
-    lambda: rules.mirror(prove(rules.rewrite(), i * HERE, HERE * i, BEADS)),
-    "a horizontal index",
-    lambda: rules.mirror(prove(rules.rewrite(), j * HERE, HERE * j, BEADS)),
-)
-attack(
-    "the mirror image of a matrix",
-    lambda: rules.mirror(prove(rules.rewrite(), MatrixTimes(0, 0, 1, 0, n_plus), n_x * e_y, BEADS)),
-    "a horizontal index",
-    lambda: rules.mirror(prove(rules.rewrite(), n_plus + n_minus, 2 * n_y * e_y, BEADS)),
-)
+TILTED = prove(REWRITE, *vertical(sy.VerticalPlus, sy.DeltaNPlus, sy.ForcePlus), BEADS)
+table(rules.mirror_of(TILTED), BEADS,
+      ("the mirror image of a vertical component",
+       vertical(sy.VerticalPlus, sy.DeltaNMinus, sy.ForceMinus), "not a multiple",
+       vertical(sy.VerticalMinus, sy.DeltaNMinus, sy.ForceMinus)))
+table(rules.mirror_of(DIRECTIONS[0]), BEADS,
+      ("its own mirror image", (sy.DeltaNMinus(i, j), DIRECTIONS[0].formula.rhs),
+       "not a multiple", DIRECTIONS[1].formula.args))
+TURNED = sy.MatrixTimes(0, 0, 1, 0, sy.n_plus), n_x * sy.e_y
+for name, wrong, sides in (
+    ("a place", (i * HERE, HERE * i), (j * HERE, HERE * j)),
+    ("a matrix", TURNED, (sy.n_plus + sy.n_minus, 2 * n_y * sy.e_y)),
+):
+    attack(f"the mirror image of {name}", partial(rules.mirror, prove(REWRITE, *wrong, BEADS)),
+           "a horizontal index", partial(rules.mirror, prove(REWRITE, *sides, BEADS)))
 
 # induction and reach
 
+q = sy.q
 STAYS, COUNT = rules.rewrite(BASE), Domain.of(q >= 0)
 
 
-def grows(size: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
+def grows(size: sympy.Expr) -> Sides:
     """That the origin, which stays where it is, has moved."""
-    return DeltaX(0, 0), size * e_y
+    return sy.DeltaX(0, 0), size * sy.e_y
 
 
 def by_instance(image: dict[sympy.Symbol, sympy.Expr]) -> Callable[[tuple[Theorem, ...]], Rule]:
@@ -774,10 +408,6 @@ def anew(supposed: tuple[Theorem, ...]) -> Rule:
     return rules.rewrite(rules.suppose(equation(*grows(q)), COUNT, supposition))
 
 
-def rests_on(supposed: tuple[Theorem, ...]) -> Rule:
-    return rules.rewrite(*supposed)
-
-
 SUPPOSED: list[Theorem] = []
 
 
@@ -791,459 +421,255 @@ def leaked(formula: sympy.Eq, domain: Domain) -> Theorem:
     return rules.rewrite(BASE, SUPPOSED[0])(formula, domain)
 
 
-GO = rules.induct(q, 0, STAYS, never)
-for name, size, wrong, refused in (
-    ("no step", q, rules.induct(q, 0, STAYS, never), "differ"),
-    ("no base", q + 1, rules.induct(q, 0, STAYS, by_instance({})), "differ"),
-    (
-        "what is supposed, of the next value",
-        Sum(1, (n, 1, q)),
-        rules.induct(q, 0, STAYS, by_instance({q: q + 1})),
-        "not known there",
-    ),
-    (
-        "what is supposed, by itself",
-        q,
-        rules.induct(q, 0, STAYS, by_instance({})),
-        "not a multiple",
-    ),
-    (
-        "a start that is not the domain's",
-        q * (q - 1),
-        rules.induct(q, 1, STAYS, by_instance({})),
-        "goes beyond",
-    ),
-    (
-        "downwards from nowhere",
-        q,
-        rules.induct(q, 0, STAYS, by_instance({}), down=True),
-        "goes beyond",
-    ),
-    (
-        "another supposition",
-        q * (q + 1),
-        rules.induct(q, 0, STAYS, anew),
-        "not what the induction is about",
-    ),
-    (
-        "a base that rests on what is supposed",
-        Integer(0),
-        rules.induct(q, 0, leaked, never),
-        "nothing supposed",
-    ),
-    (
-        "a step that proves another statement",
-        q,
-        rules.induct(q, 0, STAYS, lambda _: lambda *_: BASE),
-        "another statement",
-    ),
-    ("an index of no domain", Integer(0), rules.induct(p, 0, STAYS, never), "goes beyond"),
-    (
-        "one within another",
-        Integer(0),
-        rules.induct(q, 0, STAYS, lambda supposed: leaked),
-        "be nested",
-    ),
-):
-    attack(
-        f"induction, {name}",
-        lambda a=wrong, b=size: prove(a, *grows(b), COUNT),  # type: ignore[misc]
-        refused,
-        lambda: prove(GO, *grows(Integer(0)), COUNT),
-    )
-attack(
-    "what is only supposed is no proof",
-    lambda: _decided(lambda *_: SUPPOSED[0], SUPPOSED[0]),
-    "only supposed",
-    lambda: _decided(rules.same(BASE), BASE),
-)
+def induction(
+    size: Any, start: Any = 0, at_first: Rule = STAYS, step: Any = never,
+    index: sympy.Symbol = q, down: bool = False,
+) -> Attempt:
+    rule = rules.induct(index, start, at_first, step, down=down)
+    return proof(rule, grows(sympy.sympify(size)), COUNT)
 
 
-def _decided(rule: Rule, theorem: Theorem) -> None:
+ITSELF = by_instance({})
+beside("induction", induction(0),
+       ("no step", induction(q), "differ"),
+       ("no base", induction(q + 1, step=ITSELF), "differ"),
+       ("what is supposed, of the next value",
+        induction(Sum(1, (n, 1, q)), step=by_instance({q: q + 1})), "not known there"),
+       ("what is supposed, by itself", induction(q, step=ITSELF), "not a multiple"),
+       ("a start that is not the domain's", induction(q * (q - 1), 1, step=ITSELF), "goes beyond"),
+       ("downwards from nowhere", induction(q, step=ITSELF, down=True), "goes beyond"),
+       ("another supposition", induction(q * (q + 1), step=anew),
+        "not what the induction is about"),
+       ("a base that rests on what is supposed", induction(0, at_first=leaked),
+        "nothing supposed"),
+       ("a step that proves another statement", induction(q, step=lambda _: lambda *_: BASE),
+        "another statement"),
+       ("an index of no domain", induction(0, index=sy.p), "goes beyond"),
+       ("one within another", induction(0, step=lambda _: leaked), "be nested"))
+
+
+def decided(rule: Rule, theorem: Theorem) -> str:
     ruling = decide.decide(theorem.formula, theorem.domain, [rule])
     if not ruling.verdict.is_proved:
         raise ValueError(ruling.note)
+    return str(ruling)
 
 
+attack("what is only supposed is no proof", lambda: decided(lambda *_: SUPPOSED[0], SUPPOSED[0]),
+       "only supposed", lambda: decided(rules.same(BASE), BASE))
 ORIGIN, *UP = axioms.ordered()
+REACHED = POSITIONS.formula.args
 CIRCULAR = [
-    prove(
-        rules.rewrite(POSITIONS),
-        Position(i + s, j + 1) - Position(i, j),
-        Position(i + s + 2, j + 1) - Position(i + 2, j),
-        BEADS,
-    )
+    prove(rules.rewrite(POSITIONS), sy.Position(i + s, j + 1) - PLACE,
+          sy.Position(i + s + 2, j + 1) - sy.Position(i + 2, j), BEADS)
     for s in (1, -1)
 ]
-for name, up, sides, refused, domain in (
-    ("r = 0", UP, (Position(i, j), Position(i, j) * 0), "differ by", BEADS),
-    ("twice as far", UP, (Position(i, j), 2 * POSITIONS.formula.rhs), "differ by", BEADS),
-    ("steps that say nothing", CIRCULAR, (Position(i, j), 0), "other beads", BEADS),
-    ("one step for both", [UP[0], UP[0]], POSITIONS.formula.args, "every bead", BEADS),
-    (
-        "another place",
-        UP,
-        (Position(i + 2, j), POSITIONS.formula.rhs),
-        "not a quantity of bead",
-        BEADS,
-    ),
-    (
-        "in three dimensions",
-        UP,
-        POSITIONS.formula.args,
-        "not that of beads",
-        Domain.of(j >= 0, dimension=3),
-    ),
-    ("below the base", UP, POSITIONS.formula.args, "not that of beads", Domain.of(j >= -1)),
-):
-    attack(
-        f"reach, {name}",
-        lambda a=up, b=sides, c=domain: prove(rules.reach(ORIGIN, a), *b, c),  # type: ignore[misc]
-        refused,
-        lambda: prove(rules.reach(ORIGIN, UP), *POSITIONS.formula.args, BEADS),
-    )
+
+
+def reach(up: list[Theorem], sides: Sides, domain: Domain = BEADS) -> Attempt:
+    return proof(rules.reach(ORIGIN, up), sides, domain)
+
+
+beside("reach", reach(UP, REACHED),
+       ("r = 0", reach(UP, (PLACE, PLACE * 0)), "differ by"),
+       ("twice as far", reach(UP, (PLACE, 2 * REACHED[1])), "differ by"),
+       ("steps that say nothing", reach(CIRCULAR, (PLACE, 0)), "other beads"),
+       ("one step for both", reach([UP[0], UP[0]], REACHED), "every bead"),
+       ("another place", reach(UP, (sy.Position(i + 2, j), REACHED[1])), "not a quantity of bead"),
+       ("in three dimensions", reach(UP, REACHED, IN_SPACE), "not that of beads"),
+       ("below the base", reach(UP, REACHED, Domain.of(j >= -1)), "not that of beads"))
 
 # derivatives
 
-V = Symbol("v")
-for left, right in (
-    (Derivative(n_x, phi), 0),
-    (Derivative(phi, n_y), 0),
-    (Derivative(sy.L_minus, t), 0),
-    (Derivative(sy.L_plus * t, sy.L_minus), 0),
-    (Derivative(V * n_x, V, phi), 0),
-    (Derivative(V * z, z), V),
-    (Derivative(z * j, j), z),
-):
-    attack(
-        f"the derivative of {left.args[0]}",
-        lambda a=left, b=right: prove(rules.differentiate, a, b, Domain()),  # type: ignore[misc]
-        "may depend on the variable",
-        lambda: prove(rules.differentiate, Derivative(z**2 * phi, z), 2 * z * phi, Domain()),
-    )
-both(
-    "another derivative",
-    rules.differentiate,
-    (Derivative(V**2, V), 2 * V),
-    (Derivative(V**2, V), V),
-    "differ by",
-    Domain(),
-)
-both(
-    "a derivative of 0/0",
-    rules.differentiate,
-    (Derivative(z, z), 1),
-    (Derivative(Mul(over_itself(phi), z, evaluate=False), z), 1),
-    "may be zero",
-    Domain(),
+OF_Z = Derivative(z**2 * phi, z), 2 * z * phi
+DEPENDS = "may depend on the variable"
+table(
+    rules.differentiate, Domain(),
+    ("the derivative of n_x", (Derivative(n_x, phi), 0), DEPENDS, OF_Z),
+    ("the derivative of φ", (Derivative(phi, n_y), 0), DEPENDS, OF_Z),
+    ("the derivative of L⁻", (Derivative(sy.L_minus, sy.t), 0), DEPENDS, OF_Z),
+    ("the derivative of L⁺t", (Derivative(sy.L_plus * sy.t, sy.L_minus), 0), DEPENDS, OF_Z),
+    ("the second derivative of v n_x", (Derivative(V * n_x, V, phi), 0), DEPENDS, OF_Z),
+    ("the derivative of v z", (Derivative(V * z, z), V), DEPENDS, OF_Z),
+    ("the derivative of z j", (Derivative(z * j, j), z), DEPENDS, OF_Z),
+    ("another derivative", (Derivative(V**2, V), V), "differ by", (Derivative(V**2, V), 2 * V)),
+    ("a derivative of 0/0", (Derivative(Mul(over_itself(phi), z, evaluate=False), z), 1),
+     "may be zero", (Derivative(z, z), 1)),
 )
 
 # moments
 
-both(
-    "⟨f²⟩ = ⟨f⟩²",
-    moment(*FORCES),
-    (Mean(FORCE) ** 2, (f_load / (2 * n_y)) ** 2),
-    (Mean(FORCE**2), Mean(FORCE) ** 2),
-    "is not linear",
-    SURFACE,
-)
-both(
-    "no covariance anywhere",
-    moment(),
-    (Covariance(HERE, DeltaR(i + 2, j)), 0),
-    (Covariance(HERE, DeltaR(k, l)), 0),
-    "differ by",
-    TWO,
-)
-both(
-    "two radii that may be one",
-    moment(),
-    (Variance(HERE + DeltaR(i + 2, j)), 2 * sigma**2),
-    (Variance(HERE + DeltaR(k, l)), 2 * sigma**2),
-    "differ by",
-    TWO,
-)
-both(
-    "a matrix for a product",
-    moment((DISPLACED, BASE)),
-    (Mean(Dot(n_plus, MatrixTimes(1, 0, 0, 1, DeltaX(i, j)))), 0),
-    (Mean(Dot(n_plus, MatrixTimes(HERE, 0, 0, 0, DeltaX(i, j)))), 0),
-    "is not linear",
-    ABOVE,
-)
-both(
-    "a force that is not known",
-    moment(),
-    (Variance(HERE), sigma**2),
-    (Variance(FORCE), 0),
-    "not determined by the radii",
-    SURFACE,
-)
-both(
-    "a moment of a vector",
-    moment(),
-    (Mean(Dot(e_y, n_plus)), n_y),
-    (Mean(n_plus), 0),
-    "is a vector",
-    BEADS,
-)
-both(
-    "no variance",
-    moment(*FORCES),
-    (Covariance(FORCE, FORCE), Variance(FORCE)),
-    (Variance(FORCE), 0),
-    "differ by",
-    SURFACE,
-)
+Mean, Variance = sy.Mean, sy.Variance
+LENGTH = sy.Dot(MOVE, MOVE)
 OF_MEAN = (N - 1) * (2 * N - 1) * sigma**2 / (6 * N)
-attack(
-    "a mean that captures n",
-    lambda: prove(
-        moment(), Variance(MeanOver(n * HERE, N, i)), OF_MEAN, Domain.of(j >= 0, n >= 1, N >= 2)
-    ),
-    "with the index n",
-    lambda: prove(
-        moment(),
-        Variance(MeanOver(l * HERE, N, i)),
-        l**2 * sigma**2 / N,
-        Domain.of(j >= 0, l >= 1, N >= 2),
-    ),
+table(
+    moment(*FORCES), SURFACE,
+    ("⟨f²⟩ = ⟨f⟩²", (Mean(FORCE**2), Mean(FORCE) ** 2), "is not linear",
+     (Mean(FORCE) ** 2, (sy.f_load / (2 * n_y)) ** 2)),
+    ("no variance", (Variance(FORCE), 0), "differ by",
+     (sy.Covariance(FORCE, FORCE), Variance(FORCE))),
 )
-both(
-    "a mean of unknown forces",
-    rules.rewrite(),
-    (MeanOver(HERE, 1, i), HERE),
-    (MeanOver(FORCE, 2, i), FORCE),
-    "not known",
-    BEADS,
+table(
+    moment(), TWO,
+    ("no covariance anywhere", (sy.Covariance(HERE, THERE), 0), "differ by",
+     (sy.Covariance(HERE, sy.DeltaR(i + 2, j)), 0)),
 )
-both(
-    "a mean over −3 neighbours",
-    moment(),
-    (Mean(MeanOver(1 + HERE, 3, i)), 1),
-    (Mean(MeanOver(1 + HERE, -3, i)), 0),
-    "neighbours has no value",
-    BEADS,
+table(
+    moment((DISPLACED, BASE)), ABOVE,
+    ("a matrix for a product", (Mean(sy.Dot(sy.n_plus, sy.MatrixTimes(HERE, 0, 0, 0, MOVE))), 0),
+     "is not linear", (Mean(sy.Dot(sy.n_plus, sy.MatrixTimes(1, 0, 0, 1, MOVE))), 0)),
 )
-both(
-    "a mean over an angle",
-    moment(),
-    (Mean(MeanOver(1 + HERE, 3, i)), 1),
-    (Mean(MeanOver(1 + HERE, 3, phi)), 1),
-    "neighbours has no value",
-    BEADS,
+table(moment(), SURFACE,
+      ("a force that is not known", (Variance(FORCE), 0), "not determined by the radii",
+       (Variance(HERE), sigma**2)))
+OF_THREE = Mean(sy.MeanOver(1 + HERE, 3, i)), 1
+table(
+    moment(), BEADS,
+    ("a moment of a vector", (Mean(sy.n_plus), 0), "is a vector",
+     (Mean(sy.Dot(sy.e_y, sy.n_plus)), n_y)),
+    ("a mean over −3 neighbours", (Mean(sy.MeanOver(1 + HERE, -3, i)), 0),
+     "neighbours has no value", OF_THREE),
+    ("a mean over an angle", (Mean(sy.MeanOver(1 + HERE, 3, phi)), 1),
+     "neighbours has no value", OF_THREE),
 )
-attack(
-    "a larger domain of another dimension",
-    lambda: prove(moment(on=replace(BEADS, dimension=3)), Variance(HERE), sigma**2, BEADS),
-    "is another one",
-    lambda: prove(moment(on=BEADS), Variance(HERE), sigma**2, ABOVE),
-)
-attack(
-    "a larger domain that is smaller",
-    lambda: prove(moment(on=ABOVE), Variance(HERE), sigma**2, BEADS),
-    "no part of the larger one",
-    lambda: prove(moment(on=BEADS), Variance(HERE), sigma**2, ABOVE),
-)
-LENGTH = Dot(DeltaX(i, j), DeltaX(i, j))
-both(
-    "the square of an unknown displacement",
-    moment(),
-    (Shift(HERE**2), sigma**2),
-    (Shift(LENGTH), 0),
-    "not determined by the radii",
-    ABOVE,
-)
-GEOMETRY = DIRECTIONS, (DISPLACED, BASE)
+attack("a mean that captures n",
+       proof(moment(), (Variance(sy.MeanOver(n * HERE, N, i)), OF_MEAN),
+             Domain.of(j >= 0, n >= 1, N >= 2)),
+       "with the index n",
+       proof(moment(), (Variance(sy.MeanOver(l * HERE, N, i)), l**2 * sigma**2 / N),
+             Domain.of(j >= 0, l >= 1, N >= 2)))
+OF_RADIUS = Variance(HERE), sigma**2
+beside("a larger domain", proof(moment(on=BEADS), OF_RADIUS, ABOVE),
+       ("of another dimension", proof(moment(on=IN_SPACE), OF_RADIUS, BEADS), "is another one"),
+       ("that is smaller", proof(moment(on=ABOVE), OF_RADIUS, BEADS),
+        "no part of the larger one"))
+table(moment(), ABOVE,
+      ("the square of an unknown displacement", (sy.Shift(LENGTH), 0),
+       "not determined by the radii", (sy.Shift(HERE**2), sigma**2)))
 
 
 def part_of(group: tuple[Theorem, ...], *relations: sympy.Basic) -> tuple[Theorem, ...]:
     return tuple(rules.instance(one, {}, one.domain.also(*relations)) for one in group)
 
 
-SHIFTED = (
-    Shift(FORCE),
-    f_load
-    * sigma**2
-    * (4 * j - 4 * M * phi + phi**2 + phi)
-    / (4 * n_y * r**2 * (1 - phi**2) * (1 + phi)),
-)
-attack(
-    "the second order of a packing that ends early",
-    lambda: prove(
-        moment(part_of(FORCES[0], j <= M - 3), *FORCES[1:]), *SHIFTED, INNER.also(j <= M - 3)
-    ),
-    "for every bead",
-    lambda: prove(moment((*FORCES[0], *part_of(FORCES[0], j >= 3)), *FORCES[1:]), *SHIFTED, INNER),
+SHIFTED = sy.Shift(FORCE), (
+    sy.f_load * sigma**2 * (4 * j - 4 * M * phi + phi**2 + phi)
+    / (4 * n_y * r**2 * (1 - phi**2) * (1 + phi))
 )
 INNER = SURFACE.also(j >= 2, j <= M - 2)
+attack("the second order of a packing that ends early",
+       lambda: prove(moment(part_of(FORCES[0], j <= M - 3), *FORCES[1:]), *SHIFTED,
+                     INNER.also(j <= M - 3)),
+       "for every bead",
+       lambda: prove(moment((*FORCES[0], *part_of(FORCES[0], j >= 3)), *FORCES[1:]), *SHIFTED,
+                     INNER))
 
 # leading orders
 
-for name, false, refused in (
-    ("twice as much", 2 * M, "left over right"),
-    ("another power", M**2, "left less right"),
-    ("a divisor that mixes", M * (1 + over(1 + M**2 * phi**2)), "mixes what grows"),
-    ("a divisor that mixes, at odds", M * (1 + M * over(1 + M**2 * phi**2)), "mixes what grows"),
-    ("a small power", M * (1 + M ** Rational(-1, 1000)), "not a rational function"),
-    ("H_M in a divisor", M + M**3 * over(M**2 + H_M**3), "goes to 2"),
-    ("H_M M", M + H_M * M, "left over right"),
-    ("what may vanish", phi * M + 1, "left over right"),
-    ("another index", M + i, "does not say what i is"),
-    ("a constant of one's own", M + A, "not a rational function"),
-):
-    attack(
-        f"∼, {name}",
-        lambda a=false: prove(asymptotic(), a, M, limit("∼")),  # type: ignore[misc]
-        refused,
-        lambda: prove(asymptotic(), M + H_M**3 / M**2 + phi, M, limit("∼")),
-    )
-both(
-    "what vanishes at φ = 0",
-    asymptotic(),
-    ((1 + phi**2) * n_x * M + 1, (1 + phi**2) * M * (n_x + (1 - phi) / 2) / (n_x + 1)),
-    (phi * M + 1, phi * M),
-    "may vanish",
-    limit("∼"),
+ASYMPTOTIC = limits.asymptotic()
+LIKE_M = M + H_M**3 / M**2 + phi, M
+table(
+    ASYMPTOTIC, limit("∼"),
+    ("twice as much", (2 * M, M), "left over right", LIKE_M),
+    ("another power", (M**2, M), "left less right", LIKE_M),
+    ("a divisor that mixes", (M * (1 + over(1 + M**2 * phi**2)), M), "mixes what grows", LIKE_M),
+    ("a divisor that mixes, at odds", (M * (1 + M * over(1 + M**2 * phi**2)), M),
+     "mixes what grows", LIKE_M),
+    ("a small power", (M * (1 + M ** Rational(-1, 1000)), M), "not a rational function", LIKE_M),
+    ("H_M in a divisor", (M + M**3 * over(M**2 + H_M**3), M), "goes to 2", LIKE_M),
+    ("H_M M", (M + H_M * M, M), "left over right", LIKE_M),
+    ("another index", (M + i, M), "does not say what i is", LIKE_M),
+    ("a constant of one's own", (M + Symbol("a", positive=True), M), "not a rational function",
+     LIKE_M),
+    ("what vanishes at φ = 0", (phi * M + 1, phi * M), "may vanish",
+     ((1 + phi**2) * n_x * M + 1, (1 + phi**2) * M * (n_x + (1 - phi) / 2) / (n_x + 1))),
 )
-both(
-    "the second order",
-    asymptotic(),
-    (M**2 + M + 1, M**2 + M),
-    (M**2 + M + 1, M**2 + 2 * M),
-    "left less right",
-    limit("∼", 2),
-)
-both(
-    "a leading order at finite size",
-    rules.rewrite(),
-    (M + 1, 1 + M),
-    (M + 1, M),
-    "differ by",
-    HEIGHTS,
-)
-attack(
-    "a limit beside its domain",
-    lambda: prove(
-        asymptotic(),
-        M + j,
-        M,
-        Domain.of(j >= 0, j <= 9, indices=(M,)).in_the_limit(at_fixed_height("∼")),
-    ),
-    "does not hold all of",
-    lambda: prove(
-        asymptotic(), M + 1, M, Domain.of(j >= 0, j <= M).in_the_limit(at_fixed_height("∼"))
-    ),
-)
-attack(
-    "a limit that says nothing of j",
-    lambda: prove(
-        asymptotic(),
-        M + j,
-        M,
-        Domain.of(j >= 0, indices=(M,), beads=()).in_the_limit(at_large_height("∼")),
-    ),
-    "neither grows nor is fixed",
-    lambda: prove(asymptotic(), M + 1, M, limit("∼")),
-)
+table(ASYMPTOTIC, limit("∼", 2),
+      ("the second order", (M**2 + M + 1, M**2 + 2 * M), "left less right",
+       (M**2 + M + 1, M**2 + M)))
+FIXED = at_fixed_height("∼")
+attack("a limit beside its domain",
+       proof(ASYMPTOTIC, (M + j, M),
+             Domain.of(j >= 0, j <= 9, indices=(M,)).in_the_limit(FIXED)),
+       "does not hold all of",
+       proof(ASYMPTOTIC, (M + 1, M), Domain.of(j >= 0, j <= M).in_the_limit(FIXED)))
+attack("a limit that says nothing of j",
+       proof(ASYMPTOTIC, (M + j, M),
+             Domain.of(j >= 0, indices=(M,), beads=()).in_the_limit(at_large_height("∼"))),
+       "neither grows nor is fixed", proof(ASYMPTOTIC, (M + 1, M), limit("∼")))
 DROPPING = eq12.DERIVATION.domain
-LEFT, RIGHT_SIDE = eq12.PRINTED.args
-for name, extra, refused in (
-    ("half of it", -RIGHT_SIDE / 2, "is dropped"),
-    ("a large radius", M**2 * HERE, "is dropped"),
-    ("a place across", i * HERE, "place across the packing matters"),
-    ("another mean", sympy.S.One, "means of both sides differ"),
-    ("two forces", ForcePlus(i + 2, j), "not about one contact force"),
-):
-    attack(
-        f"≈, {name}",
-        lambda a=extra: prove(negligible(*FORCES), LEFT, RIGHT_SIDE + a, DROPPING),  # type: ignore[misc]
-        refused,
-        lambda: prove(negligible(*FORCES), LEFT, RIGHT_SIDE + H_M * M * HERE, DROPPING),
-    )
-both(
-    "nothing about a force",
-    negligible(*FORCES),
-    (LEFT, RIGHT_SIDE),
-    (LEFT - LEFT + FORCE, FORCE),
-    "not shown to vary",
-    DROPPING,
+LEFT, RIGHT = eq12.PRINTED.args
+DROPPED = LEFT, RIGHT + H_M * M * HERE
+table(
+    limits.negligible(*FORCES), DROPPING,
+    ("half of it", (LEFT, RIGHT / 2), "is dropped", DROPPED),
+    ("a large radius", (LEFT, RIGHT + M**2 * HERE), "is dropped", DROPPED),
+    ("a place across", (LEFT, RIGHT + i * HERE), "place across the packing matters", DROPPED),
+    ("another mean", (LEFT, RIGHT + 1), "means of both sides differ", DROPPED),
+    ("two forces", (LEFT, RIGHT + sy.ForcePlus(i + 2, j)), "not about one contact force", DROPPED),
+    ("nothing about a force", (LEFT - LEFT + FORCE, FORCE), "not shown to vary", (LEFT, RIGHT)),
 )
-KEPT = of_what_is_kept(
+KEPT = limits.of_what_is_kept(
     eq12.DERIVATION.theorem,
     *(one.theorem for one in (eq13.DERIVATION.proof[0], eq13.DERIVATION.proof[2])),
 )
-AT_Z = eq13.IN_THE_LIMIT
-UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
-WHOLE = Variance(LEFT + 1)
-both(
-    "another variance than that of what is kept",
-    KEPT,
-    (Variance(LEFT), eq13.PRINTED.rhs),
-    (Variance(LEFT), 2 * eq13.PRINTED.rhs),
-    "left over right",
-    AT_Z,
+OF_FORCE = eq13.PRINTED.rhs
+table(
+    KEPT, eq13.IN_THE_LIMIT,
+    ("another variance than that of what is kept", (Variance(LEFT), 2 * OF_FORCE),
+     "left over right", (Variance(LEFT), OF_FORCE)),
+    ("the variance of another quantity", (Variance(2 * LEFT), OF_FORCE),
+     "something was dropped from", (Variance(LEFT + 1), OF_FORCE)),
 )
-both(
-    "the variance of another quantity",
-    KEPT,
-    (WHOLE, eq13.PRINTED.rhs),
-    (Variance(2 * LEFT), eq13.PRINTED.rhs),
-    "something was dropped from",
-    AT_Z,
+SHARE = sy.LargestShare
+table(
+    limits.bounded(*FORCES), INNER.in_the_limit(at_fixed_height("O")),
+    ("a share that is too small", (SHARE(FORCE), 1 / M**2 + H_M**3 / M**3), "has more",
+     (SHARE(FORCE), 1 / M)),
+    ("a share of no radius", (SHARE(sympy.S.One), 1 / M), "not shown to vanish",
+     (SHARE(FORCE), 1 / M)),
 )
-AT_ORDER = SURFACE.also(j >= 2, j <= M - 2).in_the_limit(at_fixed_height("O"))
-for name, wrong, refused in (
-    ("that is too small", (LargestShare(FORCE), 1 / M**2 + H_M**3 / M**3), "has more"),
-    ("of no radius", (LargestShare(sympy.S.One), 1 / M), "not shown to vanish"),
-):
-    true = (LargestShare(FORCE), 1 / M)
-    both(f"a share {name}", bounded(*FORCES), true, wrong, refused, AT_ORDER)
-ROW = sympy.Sum(DeltaR(i + 2 * m, j), (m, 1, M))
-both(
-    "the share of a radius that grows with H_M",
-    bounded(),
-    (LargestShare(ROW + HERE), 1 / M),
-    (LargestShare(ROW + H_M * HERE), 1 / M),
-    "has more",
-    BEADS.also(indices=(M,)).in_the_limit(Limit("O", "M → ∞", (M,), (M,))),
+ROW = Sum(sy.DeltaR(i + 2 * m, j), (m, 1, M))
+table(
+    limits.bounded(), BEADS.also(indices=(M,)).in_the_limit(Limit("O", "M → ∞", (M,), (M,))),
+    ("the share of a radius that grows with H_M", (SHARE(ROW + H_M * HERE), 1 / M), "has more",
+     (SHARE(ROW + HERE), 1 / M)),
 )
 
 # Eq. 15
 
 CUBE, SQUARE = M**3 * sigma**2 / r**2, eq15.mean("surface", Variance)
+IN_RADII = eq15.IN_RADII["surface"]()
 AVERAGED = eq15.heights("surface").in_the_limit(at_large_height("="))
-LAW = power_law(*eq15.IN_RADII["surface"]())
 ROOT = sqrt(SQUARE), M ** Rational(3, 2) * sigma / r / (1 - phi**2)
-for name, factor, refused in (
-    ("that mixes M and φ", 1 + M * over(1 + M**2 * phi**2), "mixes what grows"),
-    ("that may be zero", 1 - 4 * phi, "not shown to be positive"),
-    ("of another size", Integer(2), "goes to"),
-    ("that is negative", Integer(-1), "not shown to be positive"),
-    ("of another power", M ** Rational(-1, 12), "goes to"),
-    ("of nearly no other power", M ** Rational(-1, 1000), "more than 20000 terms"),
-    ("with a power that is not a number", 2**phi, "is not a number"),
-):
-    attack(
-        f"Eq. 15 times a factor {name}",
-        lambda a=factor: prove(LAW, ROOT[0], Mul(ROOT[1], a, evaluate=False), AVERAGED),  # type: ignore[misc]
-        refused,
-        lambda: prove(LAW, *ROOT, AVERAGED),
-    )
-attack(
-    "a power law as σ decreases",
-    lambda: prove(power_law(), CUBE + M**2, CUBE, HEIGHTS.in_the_limit(AT_FIXED_RATIO)),
-    "only what is fixed",
-    lambda: prove(power_law(), M * (r + n_x) ** 2, M * (r * (r + 2 * n_x) + n_x**2), limit("=")),
+
+
+def by_factor(factor: Any) -> Sides:
+    return ROOT[0], Mul(ROOT[1], factor, evaluate=False)
+
+
+table(
+    power_law(*IN_RADII), AVERAGED,
+    ("a factor that mixes M and φ", by_factor(1 + M * over(1 + M**2 * phi**2)),
+     "mixes what grows", ROOT),
+    ("a factor that may be zero", by_factor(1 - 4 * phi), "not shown to be positive", ROOT),
+    ("a factor of another size", by_factor(2), "goes to", ROOT),
+    ("a factor that is negative", by_factor(-1), "not shown to be positive", ROOT),
+    ("a factor of another power", by_factor(M ** Rational(-1, 12)), "goes to", ROOT),
+    ("a factor of nearly no other power", by_factor(M ** Rational(-1, 1000)),
+     "more than 20000 terms", ROOT),
+    ("a factor with a power that is not a number", by_factor(2**phi), "is not a number", ROOT),
 )
-for size in (1 / M, H_M, M * H_M):
-    attack(
-        "a height for what does not grow as a power",
-        lambda a=size: prove(power_law(), sy.UnitHeight(sigma * a / r), r / sigma, limit("=")),  # type: ignore[misc]
-        "not one height",
-        lambda: prove(power_law(), sy.UnitHeight(sigma * M / r), r / sigma, limit("=")),
-    )
+POWER, OF_M = power_law(), (sy.UnitHeight(sigma * M / r), r / sigma)
+attack("a power law as σ decreases",
+       proof(POWER, (CUBE + M**2, CUBE), HEIGHTS.in_the_limit(AT_FIXED_RATIO)),
+       "only what is fixed",
+       proof(POWER, (M * (r + n_x) ** 2, M * (r * (r + 2 * n_x) + n_x**2)), limit("=")))
+table(POWER, limit("="), *(
+    ("a height for what does not grow as a power",
+     (sy.UnitHeight(sigma * size / r), r / sigma), "not one height", OF_M)
+    for size in (1 / M, H_M, M * H_M)
+))
 FRACTION = (
     eq15.mean("surface", sy.Tensile),
     in_place(eq15.tensile_fraction("surface"), {eq15.HEIGHT: sy.UnitHeight(SQUARE)}),
@@ -1251,46 +677,35 @@ FRACTION = (
 ONES = prove(moment(*FORCES), Mean(eq15.FORCE["surface"]), 1, eq11.LAYERS.loaded(axioms.SURFACE))
 ONE_LAYER = rules.moved(ONES, {}, ONES.domain.also(Eq(j, 3)))
 OF_LAYER = eq13.DERIVATION.theorem
-PACKING = eq15.heights("surface").in_the_limit(AT_FIXED_RATIO)
-for name, premises, sides, refused in (
-    ("with the mean of one layer", (OF_LAYER, ONE_LAYER), FRACTION, "does not hold all of"),
-    ("with another mean", (OF_LAYER, OF_LAYER), FRACTION, "mean of one force"),
-    (
-        "of half the layers",
-        (OF_LAYER, ONES),
-        (FRACTION[0] / 2, FRACTION[1]),
-        "mean over all layers",
-    ),
-    ("twice", (OF_LAYER, ONES), (FRACTION[0], 2 * FRACTION[1]), "not ∫ ½ erfc"),
-):
-    attack(
-        f"the tensile fraction {name}",
-        lambda a=premises, b=sides: prove(tensile(*a, *eq15.IN_RADII["surface"]()), *b, PACKING),  # type: ignore[misc]
-        refused,
-        lambda: prove(tensile(OF_LAYER, ONES, *eq15.IN_RADII["surface"]()), *FRACTION, PACKING),
-    )
+
+
+def fraction(means: Theorem = ONES, left: Any = 1, right: Any = 1) -> Attempt:
+    rule = tensile(OF_LAYER, means, *IN_RADII)
+    sides = left * FRACTION[0], right * FRACTION[1]
+    return proof(rule, sides, eq15.heights("surface").in_the_limit(AT_FIXED_RATIO))
+
+
+beside("the tensile fraction", fraction(),
+       ("with the mean of one layer", fraction(ONE_LAYER), "does not hold all of"),
+       ("with another mean", fraction(OF_LAYER), "mean of one force"),
+       ("of half the layers", fraction(left=Rational(1, 2)), "mean over all layers"),
+       ("twice", fraction(right=2), "not ∫ ½ erfc"))
 
 # definitions of a step
 
 
 def shown(definitions: dict[Any, Any], left: Any, right: Any) -> object:
-    return Steps(99, BEADS).show(
-        "", equation(left, right), rules.rewrite(), definitions=definitions
-    )
+    formula = equation(left, right)
+    return Steps(99, BEADS).show("", formula, REWRITE, definitions=definitions)
 
 
-for name, what, image, left, right in (
-    ("a radius", sy.DeltaR, lambda *_: Integer(0), HERE, Integer(0)),
-    ("a radius of one bead", HERE, Integer(0), HERE, Integer(0)),
-    ("a mean", sy.Mean, lambda _: Integer(0), Mean(HERE + 1), Integer(0)),
-    ("a number", Integer(2), Integer(3), Integer(2), Integer(3)),
-    ("r", r, Integer(0), r, Integer(0)),
-    ("another r", Symbol("r"), r - r, Symbol("r"), Integer(0)),
-    ("H_M", H_M, Integer(0), H_M, Integer(0)),
-):
-    attack(
-        f"a definition of {name}",
-        lambda a=what, b=image, c=left, d=right: shown({a: b}, c, d),  # type: ignore[misc]
-        "has a meaning of its own",
-        lambda: shown({V: 2 * r}, V, 2 * r),
-    )
+OWN = "has a meaning of its own"
+ZERO, STRANGE_R = Integer(0), Symbol("r")
+beside("a definition", lambda: shown({V: 2 * r}, V, 2 * r),
+       ("of a radius", lambda: shown({sy.DeltaR: lambda *_: ZERO}, HERE, ZERO), OWN),
+       ("of a radius of one bead", lambda: shown({HERE: ZERO}, HERE, ZERO), OWN),
+       ("of a mean", lambda: shown({Mean: lambda _: ZERO}, Mean(HERE + 1), ZERO), OWN),
+       ("of a number", lambda: shown({Integer(2): Integer(3)}, Integer(2), Integer(3)), OWN),
+       ("of r", lambda: shown({r: ZERO}, r, ZERO), OWN),
+       ("of another r", lambda: shown({STRANGE_R: r - r}, STRANGE_R, ZERO), OWN),
+       ("of H_M", lambda: shown({H_M: ZERO}, H_M, ZERO), OWN))
