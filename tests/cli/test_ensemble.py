@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.ensemble import ensemble as module
 
-from force_diffusion.__main__ import main
+from tests.cli.conftest import Call
 from tests.numeric.ensemble.cases import CASES
 from tests.numeric.scenes import toml
 
@@ -27,12 +27,6 @@ ask = {quantity = "profile", realisations = 40}
 """
 
 
-def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    status = main(["ensemble", *map(str, arguments)])
-    shown = capsys.readouterr()
-    return status, shown.out, shown.err
-
-
 def program(*arguments: object) -> list[str]:
     return [sys.executable, "-m", "force_diffusion", "ensemble", *map(str, arguments)]
 
@@ -44,12 +38,10 @@ def small(tmp_path: Path) -> Path:
     return path
 
 
-def test_kept_in_a_file_and_written_out(
-    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_kept_in_a_file_and_written_out(small: Path, tmp_path: Path, call: Call) -> None:
     store, out = tmp_path / "ensemble.fd", tmp_path / "out"
     arguments = [small, "--store", store, "--out", out, "--json"]
-    status, shown, err = call(capsys, *arguments)
+    status, shown, err = call("ensemble", *arguments)
     assert (status, err) == (0, "")
     data = json.loads(shown)
     assert data["ensemble"]["realisations"] == 40
@@ -58,14 +50,13 @@ def test_kept_in_a_file_and_written_out(
     lines = (out / "profile.csv").read_text().splitlines()
     assert lines[0].startswith("j,branch,samples,mean,mean_change,mean_change_error,std,std_error,")
     first = (out / "result.json").read_bytes()
-    assert call(capsys, *arguments, "--overwrite")[0] == 0  # again, from the file alone
+    assert call("ensemble", *arguments, "--overwrite")[0] == 0  # again, from the file alone
     assert (out / "result.json").read_bytes() == first
-    assert main(["ensemble-status", str(store)]) == 0
-    said = capsys.readouterr().out
+    status, said, _ = call("ensemble-status", store)
+    assert status == 0
     assert ("sound, 40 realisations" in said, "[]" in said) == (True, False)
     assert f"version: force-diffusion = {version('force-diffusion')}\n" in said
-    assert main(["ensemble-status", str(store), "--json"]) == 0
-    held = json.loads(capsys.readouterr().out)
+    held = json.loads(call("ensemble-status", store, "--json")[1])
     assert held["ranges"] == [[0, 40]]
     assert held["ensemble"]["disorder"]["seed"] == 1
 
@@ -74,108 +65,78 @@ def test_kept_in_a_file_and_written_out(
 @pytest.mark.parametrize("written", ["csv", "npz", "parquet"])
 @pytest.mark.parametrize("name", ["response", "histogram of all", "all contacts of spheres"])
 def test_every_quantity_is_written_and_printed(
-    name: str, written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    name: str, written: str, tmp_path: Path, call: Call
 ) -> None:
     if written == "parquet":
         pytest.importorskip("pyarrow")
     path = tmp_path / "scene.toml"
     path.write_text(toml(CASES[name]))
     few = [path, "--realisations", 3, "--workers", 1]
-    status, shown, err = call(capsys, *few, "--json")
+    status, shown, err = call("ensemble", *few, "--json")
     assert (status, err) == (0, "")
     data = json.loads(shown)
     for printed in ([], ["--json"]):
         out = tmp_path / f"out{len(printed)}"
-        status, shown, err = call(capsys, *few, "--out", out, "--format", written, *printed)
+        status, shown, err = call("ensemble", *few, "--out", out, "--format", written, *printed)
         assert (status, err) == (0, "")
         assert not printed or json.loads(shown) == data
         assert (out / f"{CASES[name]['ask']['quantity']}.{written}").is_file()
 
 
-def test_more_are_added_and_a_rule_stops_early(
-    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_more_are_added_and_a_rule_stops_early(small: Path, tmp_path: Path, call: Call) -> None:
     store = tmp_path / "ensemble.fd"
-    assert call(capsys, small, "--store", store)[0] == 0
+    assert call("ensemble", small, "--store", store)[0] == 0
     status, shown, _ = call(
-        capsys, small, "--store", store, "--realisations", 5000, "--until", "0.15", "--json"
+        "ensemble", small, "--store", store, "--realisations", 5000, "--until", "0.15", "--json"
     )
     assert status == 0
     data = json.loads(shown)
     assert 40 < data["ensemble"]["realisations"] < 5000
     assert data["confidence"]["reached"] is True
     assert data["confidence"]["largest_relative_half_width"] <= 0.15
-    alone = json.loads(call(capsys, small, "--realisations", 5000, "--until", "0.15", "--json")[1])
+    alone = json.loads(
+        call("ensemble", small, "--realisations", 5000, "--until", "0.15", "--json")[1]
+    )
     assert alone == data
 
 
-def test_a_rule_that_is_not_met_is_status_three(
-    small: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    status, shown, err = call(capsys, small, "--until", "0.001", "--confidence", "0.99")
+def test_a_rule_that_is_not_met_is_status_three(small: Path, call: Call) -> None:
+    status, shown, err = call("ensemble", small, "--until", "0.001", "--confidence", "0.99")
     assert status == 3
     assert "6 rows, 40 packings" in shown
     assert "not reached" in err
     assert re.search(r"about \d.* realisations may do", err)
 
 
-WRONG: list[tuple[list[Any], str]] = [
-    (["--realisations", 1], "--realisations = 1"),
-    (["--realisations", 10**10], "from 2 to"),
-    (["--realisations", "many"], "--realisations"),
-    (["--until", 0], "--until = 0"),
-    (["--until", "nan"], "--until = nan"),
-    (["--confidence", 1], "--confidence = 1"),
-    (["--workers", 0], "--workers = 0"),
-    (["--workers", 2, "--scheduler", "tcp://x:1"], "exclude each other"),
-    (["--reach", 2], "histogram"),
-    (["--store", "."], "must be a regular file"),
-    (["--store", SCENE], "not the store of an ensemble"),
-    (["--out", SCENE], "is a file"),
-]
-
-
-@pytest.mark.parametrize(("arguments", "says"), WRONG)
-def test_wrong_usage(
-    arguments: list[Any], says: str, small: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    before = SCENE.read_bytes()
-    status, shown, err = call(capsys, small, *arguments)
-    assert (status, shown) == (2, "")
-    assert says in err
-    assert "Traceback" not in err
-    assert SCENE.read_bytes() == before
-
-
-def test_scenes_without_an_ensemble(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_scenes_without_an_ensemble(tmp_path: Path, call: Call) -> None:
     for name, says in (
         ("measured", "from 2 to"),
         ("settled", "from 2 to"),
         ("none", "no such file"),
     ):
-        status, _, err = call(capsys, ROOT / "scenes" / f"{name}.toml")
+        status, _, err = call("ensemble", ROOT / "scenes" / f"{name}.toml")
         assert (status, says in err) == (2, True)
-    status, _, err = call(capsys, ROOT / "scenes" / "settled.toml", "--realisations", 9)
+    status, _, err = call("ensemble", ROOT / "scenes" / "settled.toml", "--realisations", 9)
     assert status == 2
     assert 'ask.quantity = "positions"' in err
     path = tmp_path / "wild.toml"
     path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 9'))
-    status, _, err = call(capsys, path)
+    status, _, err = call("ensemble", path)
     assert status == 2
     assert "wild.toml: 40 of 40 packings are left out" in err
     assert "realisation 0: bead (" in err
     path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 0.2'))
-    status, out, _ = call(capsys, path)
+    status, out, _ = call("ensemble", path)
     assert status == 0
     assert "can't be built and are left out, the first of them realisation" in out
-    assert main(["ensemble-status", str(tmp_path / "none")]) == 2
+    assert call("ensemble-status", tmp_path / "none")[0] == 2
 
 
 def test_without_dask_it_says_what_to_install(
-    small: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    small: Path, monkeypatch: pytest.MonkeyPatch, call: Call
 ) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
-    status, _, err = call(capsys, small, "--scheduler", "tcp://x:1")
+    status, _, err = call("ensemble", small, "--scheduler", "tcp://x:1")
     assert status == 2
     assert "pip install 'force-diffusion[cluster]'" in err
 
@@ -211,9 +172,9 @@ def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
     ]
 
 
-def test_a_histogram_says_what_it_counted(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_histogram_says_what_it_counted(call: Call) -> None:
     status, shown, _ = call(
-        capsys, ROOT / "scenes" / "distribution.toml", "--realisations", 50, "--json"
+        "ensemble", ROOT / "scenes" / "distribution.toml", "--realisations", 50, "--json"
     )
     assert status == 0
     data = json.loads(shown)
@@ -227,7 +188,7 @@ def test_a_histogram_says_what_it_counted(capsys: pytest.CaptureFixture[str]) ->
 
 
 def test_an_interrupt_says_how_to_go_on(
-    small: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    small: Path, tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(m: Any, first: int, stop: int) -> Any:
         if first:
@@ -236,6 +197,6 @@ def test_an_interrupt_says_how_to_go_on(
 
     solve = module.solve_block
     monkeypatch.setattr(module, "solve_block", interrupted)
-    status, _, err = call(capsys, small, "--store", tmp_path / "ensemble.fd")
+    status, _, err = call("ensemble", small, "--store", tmp_path / "ensemble.fd")
     assert status == 130
     assert "holds 32 realisations; the same command goes on" in err

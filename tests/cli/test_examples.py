@@ -31,27 +31,6 @@ def test_all_are_copied_and_named(tmp_path: Path, capsys: pytest.CaptureFixture[
     assert contents(out) == {**SCENES, "mine.toml": b"mine"}
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        ([], "Missing argument 'DIR'"),
-        ([""], "'' can't name a new folder"),
-        (["."], "'.' can't name a new folder"),
-        (["a/.."], "'a/..' can't name a new folder"),
-        (["a", "b"], "b"),
-        (["--out", "a"], "--out"),
-    ],
-)
-def test_wrong_folders(
-    words: list[str], says: str, tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str],
-) -> None:  # fmt: skip
-    monkeypatch.chdir(tmp_path)
-    assert main(["examples", *words]) == 2
-    assert says in capsys.readouterr().err
-    assert not list(tmp_path.iterdir())
-
-
 def test_the_version_is_that_of_the_project(capsys: pytest.CaptureFixture[str]) -> None:
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     assert main(["--version"]) == 0

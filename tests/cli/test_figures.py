@@ -13,13 +13,7 @@ import pytest
 from force_diffusion.numeric.figures import packings
 from PIL import Image
 
-from force_diffusion.__main__ import main
-
-
-def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    status = main(["figures", *(str(a) for a in arguments)])
-    shown = capsys.readouterr()
-    return status, shown.out, shown.err
+from tests.cli.conftest import Call
 
 
 def check_images(folder: Path, name: str, command: str) -> None:
@@ -42,7 +36,7 @@ def check_images(folder: Path, name: str, command: str) -> None:
 
 @pytest.mark.long
 def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     words = ["1", "2", "3", "--heights", "2,4", "--realisations", "16", "--out", "out"]
     contents = []
@@ -50,7 +44,7 @@ def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
         out = tmp_path / folder / "out"
         out.parent.mkdir()
         monkeypatch.chdir(out.parent)
-        status, printed, err = call(capsys, *words)
+        status, printed, err = call("figures", *words)
         assert (status, err) == (0, "")
         contents.append({path.name: path.read_bytes() for path in out.iterdir()})
         words = shlex.split(json.loads((out / "figure1.json").read_text())["command"])[2:]
@@ -69,49 +63,8 @@ def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
     assert [row["of"].partition(":")[0] for row in one["comparisons"]] == ["M = 2", "M = 4"]
 
 
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["5"], "no figure '5'"),
-        (["3", "--heights", "0"], "1 to 10000"),
-        (["3", "--heights", "8,8"], "different"),
-        (["3", "--heights", "1,2,3,4,5,6,7"], "up to 6"),
-        (["3", "--heights", "³"], "whole numbers"),
-        (["3", "--realisations", "15"], "16"),
-        (["3", "--seed", "-1"], "--seed"),
-        (["1", "--heights", "8"], "add 3"),
-        (["2", "--realisations", "100"], "3, 4, pf, B2, B5, B7, B9, B13 only"),
-        (["3", "--with", "triple-z"], "'q-model', 'double-y'"),
-        (["3", "--with", "double-y"], "add 4"),
-        (["3", "--out", ""], "can't name a new folder"),
-        (["1", "--spacing", "2.5"], "figures 2, 3, 4, pf, chains only"),
-        (["2", "--spacing", "3.5"], "3.4641"),
-        (["2", "--spacing", "wide"], "not a finite decimal"),
-        (["chains", "--relative-std", "0"], "between 1e-09 and 0.5"),
-        (["3", "--relative-std=-0.01"], "must be at least 0"),
-        (["3", "--spacing=5"], "or beads of the ordered packing overlap"),
-        (["pf", "--relative-std", "nan"], "not a finite decimal"),
-        (["3", "--heights", "10000"], "memory"),
-    ],
-)
-def test_wrong_words(
-    words: list[str],
-    says: str,
-    tmp_path: Path,
-    capsys: pytest.CaptureFixture[str],
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("force_diffusion.numeric.planning.planner.free_memory", lambda: 10**9)
-    status, printed, err = call(capsys, *words)
-    assert (status, printed) == (2, "")
-    assert says in err.replace("\n", " ")
-    assert "Traceback" not in err
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_heights_that_cannot_be_built(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Far above M* beads no longer find a rest: here at a disorder that no option can ask for."""
     planned = packings.planned
@@ -121,21 +74,19 @@ def test_heights_that_cannot_be_built(
 
     monkeypatch.setattr(packings, "planned", rougher)
     out = tmp_path / "out"
-    status, printed, err = call(capsys, 3, "--heights", "40", "--realisations", 16, "--out", out)
+    status, printed, err = call("figures", 3, "--heights", "40", "--realisations", 16, "--out", out)
     assert (status, printed) == (2, "")
     assert "figure 3: bead" in err
     assert "less disorder, fewer layers or a smaller spacing" in err
     assert not out.exists()
 
 
-def test_without_matplotlib(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_without_matplotlib(tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delitem(sys.modules, "force_diffusion.numeric.figures.style", raising=False)
     for module in [m for m in sys.modules if m.split(".")[0] == "matplotlib"]:
         monkeypatch.delitem(sys.modules, module)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
-    status, printed, err = call(capsys, "1", "--out", tmp_path / "out")
+    status, printed, err = call("figures", "1", "--out", tmp_path / "out")
     assert (status, printed) == (3, "")
     assert "need matplotlib" in err
     assert "force-diffusion[plots]" in err
@@ -143,25 +94,23 @@ def test_without_matplotlib(
 
 
 @pytest.mark.long
-def test_simpler_models_are_drawn_and_leave_with_their_figures(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_simpler_models_are_drawn_and_leave_with_their_figures(tmp_path: Path, call: Call) -> None:
     out, models = tmp_path / "out", ["--with", "q-model", "--with", "double-y"]
     words = [3, 4, "--heights", "3", "--realisations", 32, *models, "--out", out]
-    assert call(capsys, *words)[0] == 0
+    assert call("figures", *words)[0] == 0
     assert {"figure3_q_model.csv", "figure4_double_y.csv"} <= {path.name for path in out.iterdir()}
-    assert call(capsys, 1, "--out", out, "--overwrite")[0] == 0
+    assert call("figures", 1, "--out", out, "--overwrite")[0] == 0
     assert {path.stem for path in out.iterdir()} == {"figure1"}
 
 
-def test_a_scene_is_answered_and_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_scene_is_answered_and_drawn(tmp_path: Path, call: Call) -> None:
     scene, out = tmp_path / "my $cene.toml", tmp_path / "out"
     scene.write_text(
         "packing = {height = 4, width = 9, spacing = 2.6}\n"
         'disorder = {kind = "two-point", relative_std = 1e-3, seed = 4}\n'
         'ask = {quantity = "profile"}\n'
     )
-    status, _, err = call(capsys, scene, "--out", out)
+    status, _, err = call("figures", scene, "--out", out)
     assert (status, err) == (0, "")
     found = json.loads((out / "my $cene.json").read_text())
     check_images(out, "my $cene", found["command"])
@@ -173,5 +122,5 @@ def test_a_scene_is_answered_and_drawn(tmp_path: Path, capsys: pytest.CaptureFix
     assert len(list(csv.DictReader(rows))) == 8
     again = tmp_path / "other" / scene.name
     for words, says in (([scene, again], "the same files"), ([scene, "--seed", 5], "--seed")):
-        status, _, err = call(capsys, *words, "--out", out)
+        status, _, err = call("figures", *words, "--out", out)
         assert (status, says in err) == (2, True)

@@ -11,19 +11,13 @@ import numpy as np
 import pytest
 
 import force_diffusion as fd
-from force_diffusion.__main__ import main
+from tests.cli.conftest import Call
 
 SCENES = Path(__file__).parents[2] / "scenes"
 
 
 def digest(path: Path) -> str:
     return hashlib.sha256(path.read_bytes()).hexdigest()
-
-
-def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    status = main([str(a) for a in arguments])
-    shown = capsys.readouterr()
-    return status, shown.out, shown.err
 
 
 def numbers(path: Path) -> dict[str, Any]:
@@ -47,11 +41,11 @@ def npz_of(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
 @pytest.mark.parametrize("command", ["run", "ensemble"])
 @pytest.mark.parametrize("written", ["csv", "npz", "parquet"])
 def test_an_answer_says_where_it_came_from(
-    command: str, written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    command: str, written: str, tmp_path: Path, call: Call
 ) -> None:
     scene = SCENES / ("measured.toml" if command == "run" else "figure3.toml")
     out = tmp_path / "out"
-    status, shown, err = call(capsys, command, scene, "--out", out, "--format", written, "--quiet")
+    status, shown, err = call(command, scene, "--out", out, "--format", written, "--quiet")
     assert (status, shown, err) == (0, "", "")
     about = json.loads((out / "result.json").read_text())
     source = about["source"]
@@ -85,43 +79,41 @@ def test_an_answer_says_where_it_came_from(
 
 @pytest.mark.parametrize("written", ["npz", "parquet"])
 def test_numbers_of_longer_arithmetics_are_decimals(
-    written: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    written: str, tmp_path: Path, call: Call
 ) -> None:
     scene = SCENES / "one_contact.toml"
     out = tmp_path / "out"
-    assert call(capsys, "run", scene, "--out", out, "--format", written, "-q")[0] == 0
+    assert call("run", scene, "--out", out, "--format", written, "-q")[0] == 0
     columns, _ = (npz_of if written == "npz" else parquet_of)(out / f"contact.{written}")
     (row,) = fd.read_scene(scene).run().decimals()
     assert columns == {name: [value] for name, value in row.items()}
 
 
-def test_rows_are_printed_or_written_and_quiet_is_quiet(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_rows_are_printed_or_written_and_quiet_is_quiet(tmp_path: Path, call: Call) -> None:
     scene = SCENES / "measured.toml"
-    _, whole, _ = call(capsys, "run", scene)
+    _, whole, _ = call("run", scene)
     first = [line for line in whole.splitlines() if not line.startswith("#")]
     assert first[0] == "i,j,branch,x,y,upper_x,upper_y,wraps,force,change"
     assert "# 38 more rows: --quiet prints all, --out DIR writes them" in whole
-    _, alone, _ = call(capsys, "run", scene, "--quiet")
+    _, alone, _ = call("run", scene, "--quiet")
     rows = alone.splitlines()
     assert (len(rows), rows[:11]) == (49, first)
-    _, words, _ = call(capsys, "run", scene, "--out", tmp_path / "a")
+    _, words, _ = call("run", scene, "--out", tmp_path / "a")
     assert "contact_forces: 48 rows" in words
     assert rows[1] not in words
     assert (tmp_path / "a" / "contact_forces.csv").read_text().splitlines() == rows
-    assert call(capsys, "run", scene, "--out", tmp_path / "b", "-q")[1] == ""
+    assert call("run", scene, "--out", tmp_path / "b", "-q")[1] == ""
 
 
 def test_a_format_needs_a_folder_and_its_library(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    status, _, err = call(capsys, "run", SCENES / "measured.toml", "--format", "npz")
+    status, _, err = call("run", SCENES / "measured.toml", "--format", "npz")
     assert status == 2
     assert "--out" in err
     monkeypatch.setitem(__import__("sys").modules, "pyarrow", None)
     arguments = ("run", SCENES / "measured.toml", "--out", tmp_path / "x", "--format", "parquet")
-    status, _, err = call(capsys, *arguments)
+    status, _, err = call(*arguments)
     assert status == 2
     assert "force-diffusion[tables]" in err
     assert not (tmp_path / "x").exists()

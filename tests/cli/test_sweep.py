@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from force_diffusion.__main__ import main
+from tests.cli.conftest import Call
 
 SCENE = """
 packing = {height = 3, width = 6}
@@ -23,34 +23,28 @@ def scene(tmp_path: Path) -> Path:
     return path
 
 
-def call(capsys: pytest.CaptureFixture[str], *arguments: object) -> tuple[int, str, str]:
-    status = main([str(a) for a in arguments])
-    shown = capsys.readouterr()
-    return status, shown.out, shown.err
-
-
 def rows(text: str) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(text)))
 
 
-def test_a_value_is_that_of_a_changed_file(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_value_is_that_of_a_changed_file(scene: Path, call: Call) -> None:
     changed = scene.with_name("changed.toml")
     text = SCENE.replace("height = 3", "height = 4")
     changed.write_text(text.replace('"uniform"', '"normal", seed = 7'))
-    status, plain, _ = call(capsys, "run", changed, "--json")
+    status, plain, _ = call("run", changed, "--json")
     assert status == 0
     words = ("--set", "packing.height=4", "--set", "disorder.kind=normal", "--seed", 7)
-    status, found, _ = call(capsys, "run", scene, *words, "--json")
+    status, found, _ = call("run", scene, *words, "--json")
     assert status == 0
     assert json.loads(found)["results"] == json.loads(plain)["results"]
 
 
 def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(
-    scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    scene: Path, tmp_path: Path, call: Call
 ) -> None:
     out = tmp_path / "out"
     words = ("--set", "packing.height=2,3,4", "--set", "disorder.seed=0,1", "--out", out)
-    status, _, err = call(capsys, "run", scene, *words, "--set", "load.kind=bulk")
+    status, _, err = call("run", scene, *words, "--set", "load.kind=bulk")
     assert (status, err) == (0, "")
     assert sorted(one.name for one in out.iterdir()) == [
         f"packing.height={M},disorder.seed={seed}" for M in (2, 3, 4) for seed in (0, 1)
@@ -58,43 +52,15 @@ def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(
     for one in out.iterdir():
         height = int(one.name[len("packing.height=")])
         assert len(rows((one / "profile.csv").read_text())) == 2 * height
-    status, printed, _ = call(capsys, "run", scene, "--set", "packing.height=2,3")
+    status, printed, _ = call("run", scene, "--set", "packing.height=2,3")
     assert status == 0
     assert "# packing.height = 2\n" in printed
     assert "# packing.height = 3\n" in printed
 
 
-def test_json_of_a_sweep_is_one_list(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    status, printed, _ = call(capsys, "run", scene, "--set", "packing.height=2,3", "--json")
+def test_json_of_a_sweep_is_one_list(scene: Path, call: Call) -> None:
+    status, printed, _ = call("run", scene, "--set", "packing.height=2,3", "--json")
     assert status == 0
     for height, answer in zip((2, 3), json.loads(printed), strict=True):
-        _, alone, _ = call(capsys, "run", scene, "--set", f"packing.height={height}", "--json")
+        _, alone, _ = call("run", scene, "--set", f"packing.height={height}", "--json")
         assert answer["results"] == json.loads(alone)["results"]
-
-
-@pytest.mark.parametrize(
-    ("words", "says"),
-    [
-        (["--set", "height"], "sets nothing"),
-        (["--set", "=3"], "sets nothing"),
-        (["--set", "packing.height=2", "--set", "packing.height=3"], "more than once"),
-        (["--set", "height=3"], "not a key of a section"),
-        (["--set", "a.b.c=3"], "not a key of a section"),
-        (["--set", "packing.hieght=3"], 'did you mean "height"'),
-        (["--set", "packing.height=3]"], "is not a TOML value"),
-        (["--set", "disorder.file=other.csv"], """say --set 'disorder.file="other.csv"'"""),
-        (["--set", "disorder.file=a\\b.csv"], r"""say --set 'disorder.file="a\\b.csv"'"""),
-        (["--set", "packing.height="], "is not a TOML value"),
-        (["--set", f"packing.height=9{'9' * 5000}"], "is not a TOML value"),
-        (["--set", "packing.height=2,0"], "at least 1"),
-        (["--set", f"disorder.seed={','.join(map(str, range(1001)))}"], "1001 scenes"),
-        (["--set", "disorder.seed=1", "--seed", "2"], "leave one out"),
-    ],
-)
-def test_wrong_settings(
-    words: list[str], says: str, scene: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    status, shown, err = call(capsys, "run", scene, *words, "--out", tmp_path / "out")
-    assert (status, shown) == (2, "")
-    assert says in " ".join(err.split())
-    assert not (tmp_path / "out").exists()

@@ -1,5 +1,7 @@
 """Wrong usage and input: a clear message, exit status 2, nothing written, no traceback."""
 
+import re
+import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -8,51 +10,121 @@ import pytest
 from force_diffusion.derivations.commands.cli import COMMANDS
 
 from force_diffusion.__main__ import main
+from tests.cli.conftest import Call
 
+MANY = "9" * 5000
+SEEDS = ",".join(map(str, range(1001)))
+USAGE = [
+    ("derive 17", "'17' is not an equation"),
+    ("derive ''", "'' is not an equation"),
+    ("derive 1_3", "'1_3' is not an equation"),
+    ("derive ١٣", "is not an equation"),
+    ("derive 13,14", "Put spaces between several, as in derive 13 14"),
+    (f"derive {MANY}", "is not an equation"),
+    ('derive "__import__(\'os\').abort()"', "is not an equation"),
+    ("derive --out", "--out"),
+    ("derive --fast", "--fast"),
+    ("derive 1 --out ''", "'' can't name a new folder"),
+    ("run scene.toml --out ''", "'' can't name a new folder"),
+    ("show", "N"),
+    ("show 13 17", "'17' is not an equation"),
+    ("show 13 --as pdf", "'--as': 'pdf' is not one of 'text', 'latex', 'sympy'"),
+    ("show 13 --case base", "--case"),
+    ("show 13 12 --exact", "13, 14, 15, 16, B2"),
+    ("show 13 --exact --as steps", "steps"),
+    ("show 13 --columns 3", "'--columns': '3' must be at most 2."),
+    ("ensemble s.toml --until 5%", "'--until': '5%' must be a number."),
+    ("ensemble s.toml --workers 1.5", "'--workers': '1.5' must be a whole number, w"),
+    ("ensemble s.toml --realisations many", "--realisations"),
+    ("run scene.toml --format xlsx", "'--format': 'xlsx' is not one of 'csv', 'npz'"),
+    ("examples", "Missing argument 'DIR'"),
+    ("examples ''", "'' can't name a new folder"),
+    ("examples .", "'.' can't name a new folder"),
+    ("examples a/..", "'a/..' can't name a new folder"),
+    ("examples a b", "b"),
+    ("examples --out a", "--out"),
+    ("dervie 13", "no command 'dervie'; did you mean derive? Use derive, certify"),
+    ("prove 13", "no command 'prove'. Use derive, certify, show, list, examples, run, explain, "
+     "cost, ensemble, ensemble-status or figures"),
+]  # fmt: skip
 WRONG = [
-    (["derive", "17"], "'17' is not an equation"),
-    (["derive", ""], "'' is not an equation"),
-    (["derive", "1_3"], "'1_3' is not an equation"),
-    (["derive", "١٣"], "is not an equation"),
-    (["derive", "13,14"], "Put spaces between several, as in derive 13 14"),
-    (["derive", "9" * 5000], "is not an equation"),
-    (["derive", "__import__('os').abort()"], "is not an equation"),
-    (["derive", "--out"], "--out"),
-    (["derive", "--fast"], "--fast"),
-    (["derive", "1", "--out", ""], "'' can't name a new folder"),
-    (["run", "scene.toml", "--out", ""], "'' can't name a new folder"),
-    (["show"], "N"),
-    (["show", "13", "17"], "'17' is not an equation"),
-    (["show", "13", "--as", "pdf"], "'--as': 'pdf' is not one of 'text', 'latex', 'sympy'"),
-    (["show", "13", "--case", "base"], "--case"),
-    (["show", "13", "12", "--exact"], "13, 14, 15, 16, B2"),
-    (["show", "13", "--exact", "--as", "steps"], "steps"),
-    (["show", "13", "--columns", "3"], "'--columns': '3' must be at most 2."),
-    (["ensemble", "s.toml", "--until", "5%"], "'--until': '5%' must be a number."),
-    (["ensemble", "s.toml", "--workers", "1.5"], "'--workers': '1.5' must be a whole number, w"),
-    (["run", "scene.toml", "--format", "xlsx"], "'--format': 'xlsx' is not one of 'csv', 'npz'"),
-    (["dervie", "13"], "no command 'dervie'; did you mean derive? Use derive, certify"),
-    (
-        ["prove", "13"],
-        "no command 'prove'. Use derive, certify, show, list, examples, run, explain, "
-        "cost, ensemble, ensemble-status or figures",
-    ),
+    ("figures 5", "no figure '5'"),
+    ("figures 3 --heights 0", "1 to 10000"),
+    ("figures 3 --heights 8,8", "different"),
+    ("figures 3 --heights 1,2,3,4,5,6,7", "up to 6"),
+    ("figures 3 --heights ³", "whole numbers"),
+    ("figures 3 --realisations 15", "16"),
+    ("figures 3 --seed -1", "--seed"),
+    ("figures 1 --heights 8", "add 3"),
+    ("figures 2 --realisations 100", "3, 4, pf, B2, B5, B7, B9, B13 only"),
+    ("figures 3 --with triple-z", "'q-model', 'double-y'"),
+    ("figures 3 --with double-y", "add 4"),
+    ("figures 1 --spacing 2.5", "figures 2, 3, 4, pf, chains only"),
+    ("figures 2 --spacing 3.5", "3.4641"),
+    ("figures 2 --spacing wide", "not a finite decimal"),
+    ("figures chains --relative-std 0", "between 1e-09 and 0.5"),
+    ("figures 3 --relative-std=-0.01", "must be at least 0"),
+    ("figures 3 --spacing=5", "or beads of the ordered packing overlap"),
+    ("figures pf --relative-std nan", "not a finite decimal"),
+    ("figures 3 --heights 10000", "memory"),
+    ("run scene.toml --tolerance 0", "--tolerance"),
+    ("run scene.toml --tolerance 1", "--tolerance"),
+    ("run scene.toml --tolerance ten", "--tolerance"),
+    ("run scene.toml --tolerance 1e-9999999", "--tolerance"),
+    ("run scene.toml --format npz", "--out"),
+    ("run scene.toml --set height", "sets nothing"),
+    ("run scene.toml --set =3", "sets nothing"),
+    ("run scene.toml --set packing.height=2 --set packing.height=3", "more than once"),
+    ("run scene.toml --set height=3", "not a key of a section"),
+    ("run scene.toml --set a.b.c=3", "not a key of a section"),
+    ("run scene.toml --set packing.hieght=3", 'did you mean "height"'),
+    ("run scene.toml --set packing.height=3]", "is not a TOML value"),
+    ("run scene.toml --set packing.height=", "is not a TOML value"),
+    (f"run scene.toml --set packing.height={MANY}", "is not a TOML value"),
+    ("run scene.toml --set disorder.file=other.csv", """say --set 'disorder.file="other.csv"'"""),
+    (r"run scene.toml --set disorder.file=a\\b.csv", r"""say --set 'disorder.file="a\\b.csv"'"""),
+    ("run scene.toml --set packing.height=2,0", "at least 1"),
+    (f"run scene.toml --set disorder.seed={SEEDS}", "1001 scenes"),
+    ("run scene.toml --set disorder.seed=1 --seed 2", "leave one out"),
+    ("cost scene.toml --seconds 0", "seconds = 0"),
+    ("ensemble scene.toml --realisations 1", "--realisations = 1"),
+    ("ensemble scene.toml --realisations 10000000000", "from 2 to"),
+    ("ensemble scene.toml --until 0", "--until = 0"),
+    ("ensemble scene.toml --until nan", "--until = nan"),
+    ("ensemble scene.toml --confidence 1", "--confidence = 1"),
+    ("ensemble scene.toml --workers 0", "--workers = 0"),
+    ("ensemble scene.toml --workers 2 --scheduler tcp://x:1", "exclude each other"),
+    ("ensemble scene.toml --reach 2", "histogram"),
+    ("ensemble scene.toml --store .", "must be a regular file"),
+    ("ensemble scene.toml --store scene.toml", "not the store of an ensemble"),
+    ("ensemble scene.toml --out scene.toml", "is a file"),
+    ("ensemble-status none", "none"),
 ]
+SCENE = """
+packing = {height = 3, width = 5}
+disorder = {kind = "uniform", relative_std = 1e-4, seed = 1}
+ask = {quantity = "profile", realisations = 40}
+"""
 
 
-@pytest.mark.parametrize(("arguments", "says"), WRONG)
-def test_wrong_usage(
-    arguments: list[str], says: str, capsys: pytest.CaptureFixture[str], tmp_path: Path
+@pytest.mark.parametrize(
+    ("words", "says", "hint"),
+    [*((*row, "--help|requires an argument") for row in USAGE), *((*row, "") for row in WRONG)],
+)
+def test_wrong_words(
+    words: str, says: str, hint: str, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    out = tmp_path / "out"
-    extra = ["--out", str(out)] if arguments[0] == "derive" and "--out" not in arguments else []
-    assert main([*arguments, *extra]) == 2
-    printed = capsys.readouterr()
-    assert printed.out == ""
-    assert says in printed.err
-    assert "--help" in printed.err or "requires an argument" in printed.err  # what to do
-    assert "Traceback" not in printed.err
-    assert not out.exists()
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("force_diffusion.numeric.planning.planner.free_memory", lambda: 10**9)
+    Path("scene.toml").write_text(SCENE)
+    more = ["--out", "out"] if re.match("(derive|run)((?!--out|--format).)*$", words) else []
+    status, printed, err = call(*shlex.split(words), *more)
+    assert (status, printed) == (2, "")
+    assert says in " ".join(err.split())
+    assert re.search(hint, err)  # what to do
+    assert "Traceback" not in err
+    assert [path.name for path in Path().iterdir()] == ["scene.toml"]
+    assert Path("scene.toml").read_text() == SCENE
 
 
 def test_help_and_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
