@@ -146,7 +146,7 @@ import os, sys, time
 sys.modules["numba"] = None
 if "--multiprocessing-fork" in sys.argv:
     os.write(2, b"loading\\n")  # at once: lines of two workers do not mix
-    time.sleep(60)
+    time.sleep(5)
 """
 
 
