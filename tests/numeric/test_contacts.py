@@ -1,5 +1,6 @@
 """Contacts and beads of solved packings: their geometry, tables, pictures and files."""
 
+import re
 import sys
 from pathlib import Path
 from typing import Any
@@ -144,45 +145,31 @@ def test_without_the_libraries_tables_say_what_to_install(monkeypatch: pytest.Mo
         SOLVED["discs"]().to_dataframe()
 
 
-def vtk_of(path: Path) -> tuple[Any, Any, dict[str, Any]]:
+def vtk_of(path: Path) -> dict[str, Any]:
     """Read points, lines and columns of legacy VTK, by its description."""
-    words = path.read_text().split("\n", 3)[3].split()
-    assert words[:3] == ["DATASET", "POLYDATA", "POINTS"]
-    n = int(words[3])
-    assert words[4] == "double"
-    points = np.array(words[5 : 5 + 3 * n], float).reshape(-1, 3)
-    at = 5 + 3 * n
-    assert words[at] == "LINES"
-    lines, size = int(words[at + 1]), int(words[at + 2])
-    ends = np.array(words[at + 3 : at + 3 + size], int).reshape(lines, -1)
-    assert (ends[:, 0] == 2).all()
-    at += 3 + size
-    columns: dict[str, Any] = {}
-    count = 0
-    while at < len(words):
-        if words[at] in {"POINT_DATA", "CELL_DATA"}:
-            count = int(words[at + 1])
-            at += 2
-        elif words[at] == "SCALARS":
-            assert words[at + 4 : at + 6] == ["LOOKUP_TABLE", "default"]
-            columns[words[at + 1]] = np.array(words[at + 6 : at + 6 + count], float)
-            at += 6 + count
-        else:
-            assert words[at] == "VECTORS"
-            vectors = np.array(words[at + 3 : at + 3 + 3 * count], float)
-            columns[words[at + 1]] = vectors.reshape(-1, 3)
-            at += 3 + 3 * count
-    return points, ends[:, 1:], columns
+    text = path.read_text().replace("\nLOOKUP_TABLE default", "")
+    _, kind, data, *parts = re.split(r"\n(?=[A-Z]{3})", text)
+    assert (kind, data) == ("ASCII", "DATASET POLYDATA")
+    found = {}
+    for part in parts:
+        head, *rows = part.splitlines()
+        kind, name, *_ = head.split()
+        numbers = np.array([row.split() for row in rows], float).squeeze()
+        found[name if kind in {"SCALARS", "VECTORS"} else kind] = numbers
+    return found
 
 
 @pytest.mark.parametrize("name", ["discs", "spheres", "packings"])
 def test_vtk_has_lines_as_long_as_two_radii(name: str, tmp_path: Path) -> None:
     solution, packing = SOLVED[name](), 2 if name == "packings" else 0
     solution.to_vtk(tmp_path / "a.vtk", packing=packing)
-    points, ends, columns = vtk_of(tmp_path / "a.vtk")
-    length = np.linalg.norm(points[ends[:, 1]] - points[ends[:, 0]], axis=1)
+    columns = vtk_of(tmp_path / "a.vtk")
+    points, (two, *ends) = columns["POINTS"], columns["LINES"].T.astype(int)
+    assert (two == 2).all()
+    length = np.linalg.norm(points[ends[1]] - points[ends[0]], axis=1)
     radius = columns["radius"]
-    assert np.abs(length - radius[ends].sum(axis=1)).max() < ROUNDING * 100
+    assert len(radius) == len(points)
+    assert np.abs(length - radius[ends].sum(axis=0)).max() < ROUNDING * 100
     assert np.array_equal(columns["force"], solution.contacts.of(packing).force)
     assert np.allclose(np.linalg.norm(columns["force_vector"], axis=1), np.abs(columns["force"]))
     assert columns["wraps"].sum() == solution.contacts.wraps.sum() > 0

@@ -120,14 +120,14 @@ def holds(enclosure: Any, value: Any) -> bool:
 
 
 @st.composite
-def strips(draw: st.DrawFn, **loads: Any) -> Drawn:
+def strips(draw: st.DrawFn) -> Drawn:
     """Strips of one to six beads a layer; as high, and so often much higher than wide."""
     width, height = draw(st.integers(1, 6)), draw(st.integers(1, 6))
     count = width * (height + 1)
     delta = draw(st.lists(st.integers(-64, 64), min_size=count, max_size=count))
     beads = [(i, j) for j in range(height + 1) for i in range(j % 2, 2 * width, 2)]
     forces = st.tuples(st.integers(-3, 3), st.integers(-4, -1))
-    kind = draw(st.sampled_from(loads.get("kinds", ["surface", "bulk", "point", "file"])))
+    kind = draw(st.sampled_from(["surface", "bulk", "file", "point", "point"]))
     loaded = beads[width:] if kind == "point" else beads
     j = draw(st.integers(0, height - 1))
     i = j % 2 + 2 * draw(st.integers(0, width - 1))
@@ -150,71 +150,57 @@ def direction(strip: Plane, i: int, j: int, branch: str) -> Any:
     return strip.packing.direction((steps_to(i, j), "+-".index(branch)))
 
 
-def forces(places: list[tuple[int, int, str]]) -> Callable[[Plane], list[Any]]:
-    return lambda strip: [force(strip, *place) for place in places]
-
-
-def places(outcome: fd.Outcome) -> list[tuple[int, int, str]]:
-    return list(zip(*(outcome.arrays[name] for name in ("i", "j", "branch")), strict=True))
+def places(outcome: fd.Outcome, *names: str) -> list[tuple[Any, ...]]:
+    return list(zip(*(outcome.arrays[name] for name in names), strict=True))
 
 
 def enclosed(outcome: fd.Outcome, names: tuple[str, str], found: list[tuple[Any, Any]]) -> None:
-    columns = (outcome.arrays[name] for name in names)
-    for enclosures, true in zip(zip(*columns, strict=True), found, strict=True):
+    for enclosures, true in zip(places(outcome, *names), found, strict=True):
         assert all(holds(*pair) for pair in zip(enclosures, true, strict=True)), (names, true)
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)
 @given(strips())
-def test_one_contact(geometry: str, drawn: Drawn) -> None:
-    outcome = drawn.outcome(geometry, "contact", list(drawn.contact))
-    assert places(outcome) == [drawn.contact]
-    enclosed(outcome, ("force", "change"), truth(drawn, geometry, forces([drawn.contact])))
+def test_every_question_about_a_strip(geometry: str, drawn: Drawn) -> None:
+    beads = [(i, j) for j in range(drawn.height + 1) for i in range(j % 2, 2 * drawn.width, 2)]
+    every = [(i, j, branch) for i, j in beads for branch in "+-" if j < drawn.height]
 
+    def read(strip: Plane) -> list[Any]:
+        """Take all forces, their vertical parts, and x and y of all beads."""
+        forces = [force(strip, *at) for at in every]
+        vertical = [f * direction(strip, *at)[1] for f, at in zip(forces, every, strict=True)]
+        centres = [strip.packing.centre(steps_to(*bead)) for bead in beads]
+        return [*forces, *vertical, *(centre[axis] for axis in (0, 1) for centre in centres)]
 
-@pytest.mark.parametrize("geometry", GEOMETRIES)
-@given(strips())
-def test_all_contacts_and_their_means(geometry: str, drawn: Drawn) -> None:
-    outcome = drawn.outcome(geometry, "contact_forces")
-    every = places(outcome)
-    assert sorted(every) == sorted(
-        (i, j, branch)
-        for j in range(drawn.height)
-        for i in range(j % 2, 2 * drawn.width, 2)
-        for branch in "+-"
-    )
-    found = truth(drawn, geometry, forces(every))
-    enclosed(outcome, ("force", "change"), found)
-    profile = drawn.outcome(geometry, "profile")
-    means = []
-    for j, branch in zip(profile.arrays["j"], profile.arrays["branch"], strict=True):
-        layer = [f for f, at in zip(found, every, strict=True) if at[1:] == (j, branch)]
-        means.append(tuple(mp.fsum(column) / drawn.width for column in zip(*layer, strict=True)))
+    found = truth(drawn, geometry, read)
+    of_force = dict(zip(every, found, strict=False))
+    of_vertical = dict(zip(every, found[len(every) :], strict=False))
+    x, y = np.reshape(found[2 * len(every) :], (2, len(beads), 2)).tolist()
+
+    contacts = drawn.outcome(geometry, "contact_forces")
+    named = places(contacts, "i", "j", "branch")
+    assert sorted(named) == sorted(every)
+    enclosed(contacts, ("force", "change"), [of_force[at] for at in named])
+    one = drawn.outcome(geometry, "contact", list(drawn.contact))
+    enclosed(one, ("force", "change"), [of_force[drawn.contact]])
+
+    profile, means = drawn.outcome(geometry, "profile"), []
+    for layer in places(profile, "j", "branch"):
+        alike = [value for at, value in of_force.items() if at[1:] == layer]
+        means.append(tuple(mp.fsum(column) / drawn.width for column in zip(*alike, strict=True)))
     enclosed(profile, ("mean", "mean_change"), means)
 
+    positions = drawn.outcome(geometry, "positions")
+    assert places(positions, "i", "j") == beads
+    bead = drawn.outcome(geometry, "positions", list(drawn.contact[:2]))
+    place = beads.index(drawn.contact[:2])
+    for names, true in ((("x", "dx"), x), (("y", "dy"), y)):
+        enclosed(positions, names, true)
+        enclosed(bead, names, [true[place]])
 
-@pytest.mark.parametrize("geometry", GEOMETRIES)
-@given(strips(), st.booleans())
-def test_positions(geometry: str, drawn: Drawn, one: bool) -> None:
-    at = [drawn.contact[0], drawn.contact[1]] if one else None
-    outcome = drawn.outcome(geometry, "positions", at)
-    beads = list(zip(outcome.arrays["i"], outcome.arrays["j"], strict=True))
-    assert len(beads) == (1 if one else drawn.width * (drawn.height + 1))
-    for axis, names in enumerate((("x", "dx"), ("y", "dy"))):
-        read = lambda strip, axis=axis: [  # noqa: E731
-            strip.packing.centre(steps_to(*bead))[axis] for bead in beads
-        ]
-        enclosed(outcome, names, truth(drawn, geometry, read))
-
-
-@pytest.mark.parametrize("geometry", GEOMETRIES)
-@given(strips(kinds=["point"]))
-def test_response(geometry: str, drawn: Drawn) -> None:
-    outcome = drawn.outcome(geometry, "response")
-    there = places(outcome)
-    enclosed(outcome, ("force", "change"), truth(drawn, geometry, forces(there)))
-
-    def vertical(strip: Plane) -> list[Any]:
-        return [force(strip, *at) * direction(strip, *at)[1] for at in there]
-
-    enclosed(outcome, ("vertical", "vertical_change"), truth(drawn, geometry, vertical))
+    if drawn.kind == "point":
+        response = drawn.outcome(geometry, "response")
+        there = places(response, "i", "j", "branch")
+        enclosed(response, ("force", "change"), [of_force[at] for at in there])
+        parts = ("vertical", "vertical_change")
+        enclosed(response, parts, [of_vertical[at] for at in there])

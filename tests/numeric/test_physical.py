@@ -3,14 +3,12 @@
 What ``physical`` says against all pairs of the beads where they are said to be, one by one.
 """
 
-from contextlib import nullcontext
 from fractions import Fraction
 from itertools import product
 from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run.running import run
 from hypothesis import assume, given
@@ -27,7 +25,7 @@ of its supports rounding is enlarged by 1/h, and such are drawn with a chance of
 is off by 1e-9 has a chance below 1e-13."""
 
 
-def scene(delta: Array, spacing: float, quantity: str = "positions") -> fd.Scene:
+def scene(delta: Array, spacing: float) -> fd.Scene:
     """Beads of radius 1 + ``delta``, (M + 1, W) discs or (M + 1, W, W) spheres."""
     return fd.Scene(
         packing=fd.Packing(
@@ -38,7 +36,7 @@ def scene(delta: Array, spacing: float, quantity: str = "positions") -> fd.Scene
             allow_images=True,
         ),
         disorder=fd.GivenRadii(delta_r=delta),
-        ask=fd.Ask(quantity=quantity),  # type: ignore[arg-type]
+        ask=fd.Ask(quantity="positions"),
     )
 
 
@@ -86,21 +84,31 @@ def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> tuple[Array,
     return np.concatenate(found), np.minimum(least, least.T)
 
 
-def agree(made: Plan, delta: Array, spacing: float) -> None:
-    positions = run(plan(scene(delta, spacing)))
-    gaps, least = every_gap(delta, spacing, positions)
+def agree(delta: Array, spacing: float) -> None:
+    """Compare compiled loops, NumPy and balls with all pairs."""
+    assume(delta.any())  # of equal radii nothing is solved
+    asked = scene(delta, spacing)
+    try:
+        usual = run(plan(asked))
+    except fd.ForceDiffusionError:
+        assume(False)
+        return
+    gaps, least = every_gap(delta, spacing, usual)
     assume(np.abs(gaps).min() > ROUNDING)  # whether smaller ones overlap rounding may hide
-    physical = run(made).physical
-    assert physical is not None
-    assert physical.overlaps == (gaps < 0).sum()
-    assert physical.undecided_gaps == 0
-    assert physical.smallest_gap == pytest.approx(gaps.min(), abs=ROUNDING)
-    assert physical.between is not None
     names = ("p", "q", "j") if delta.ndim > 2 else ("i", "j")
-    sites = list(zip(*(positions.arrays[name] for name in names), strict=True))
-    nearest = tuple(map(sites.index, physical.between))
-    assert least[nearest] == pytest.approx(gaps.min(), abs=ROUNDING)
-    assert physical.sound == (gaps.min() > 0 and not physical.tensile)
+    sites = list(zip(*(usual.arrays[name] for name in names), strict=True))
+    with by_numpy():
+        swept = run(plan(asked))
+    balls = run(plan(asked, Fraction(1, 10**20), certified=True))
+    for physical in (usual.physical, swept.physical, balls.physical):
+        assert physical is not None
+        assert physical.overlaps == (gaps < 0).sum()
+        assert physical.undecided_gaps == 0
+        assert physical.smallest_gap == pytest.approx(gaps.min(), abs=ROUNDING)
+        assert physical.between is not None
+        nearest = tuple(map(sites.index, physical.between))
+        assert least[nearest] == pytest.approx(gaps.min(), abs=ROUNDING)
+        assert physical.sound == (gaps.min() > 0 and not physical.tensile)
 
 
 @st.composite
@@ -120,25 +128,15 @@ discs = radii(st.integers(2, 6), st.integers(1, 4))
 spheres = radii(st.integers(2, 4), st.integers(1, 3), st.just(0))
 
 
-def buildable(delta: Array, spacing: float) -> None:
-    assume(delta.any())  # of equal radii nothing is solved
-    try:
-        run(plan(scene(delta, spacing)))
-    except fd.ForceDiffusionError:
-        assume(False)
-
-
-@pytest.mark.parametrize("way", ["numpy", "compiled", "balls"])
 @given(discs, SPACINGS)
-def test_discs(way: str, delta: Array, spacing: float) -> None:
-    tried(way, delta, spacing)
+def test_discs(delta: Array, spacing: float) -> None:
+    agree(delta, spacing)
 
 
-@pytest.mark.long(sample=1)
-@pytest.mark.parametrize("way", ["numpy", "compiled", "balls"])
+@pytest.mark.long
 @given(spheres, st.sampled_from([2.03, 2.4, 2.9, 3.2]))
-def test_spheres(way: str, delta: Array, spacing: float) -> None:
-    tried(way, delta, spacing)
+def test_spheres(delta: Array, spacing: float) -> None:
+    agree(delta, spacing)
 
 
 @pytest.mark.parametrize(
@@ -158,13 +156,3 @@ def test_a_bead_that_overlaps_its_own_image(
     assert found.overlaps
     assert found.smallest_gap is not None
     assert found.smallest_gap <= -overlap + 1e-12
-
-
-def tried(way: str, delta: Array, spacing: float) -> None:
-    buildable(delta, spacing)
-    if way == "compiled":
-        pytest.importorskip("numba")
-    with by_numpy() if way == "numpy" else nullcontext():
-        asked = scene(delta, spacing)
-        made = plan(asked, Fraction(1, 10**20), certified=True) if way == "balls" else plan(asked)
-        agree(made, delta, spacing)

@@ -36,18 +36,6 @@ def test_a_batch_is_its_packings(shape: tuple[int, ...], dimension: int | None) 
             assert np.array_equal(getattr(together, name)[k], getattr(alone, name))
 
 
-def test_arithmetics_agree() -> None:
-    radii = 1 + np.random.default_rng(5).uniform(-1e-3, 1e-3, (4, 9))
-    usual = fd.solve(radii, radius=1)
-    longer = fd.solve(radii, radius=1, tolerance="1e-40")
-    largest = np.abs(usual.change).max()
-    apart = np.abs(longer.change.astype(np.float64) - usual.change).max()
-    assert apart <= usual.error * largest
-    assert longer.error < 1e-40
-    assert longer.certified
-    assert longer.positions.accuracy.error_bound < 1e-40
-
-
 def test_equal_radii_are_the_ordered_packing() -> None:
     solution = fd.solve(np.ones((4, 6)))
     assert solution.change.astype(float).tolist() == np.zeros((2, 3, 6)).tolist()

@@ -27,15 +27,6 @@ def test_a_response_has_vertical_forces_that_sum_to_the_load() -> None:
         assert found["vertical"][found["j"] == j].sum() == pytest.approx(1, abs=1e-14)
 
 
-def test_a_radius_that_is_not_positive_is_named() -> None:
-    asked = scene("profile", height=2, width=3, std=0.5)
-    packed = asked.model_copy(
-        update={"disorder": fd.Disorder(kind="normal", relative_std=0.9, seed=1)}
-    )
-    with pytest.raises(fd.ForceDiffusionError, match=r"bead \(\d, \d, \d\): the drawn radius"):
-        packed.run()
-
-
 def test_one_contact_and_one_bead_are_those_of_all() -> None:
     every = scene(height=3, width=4).run()
     for p, q, j, branch, change in columns(every, "p", "q", "j", "branch", "change"):

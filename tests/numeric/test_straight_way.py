@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from numpy.testing import assert_array_equal
 
 import force_diffusion as fd
-from tests.numeric.scenes import by_numpy
 
 NUMERIC = Path(str(sys.modules[fd.solve.__module__].__file__)).parents[1]
 
@@ -57,10 +56,3 @@ def test_forces_are_those_of_the_scene(
         assert_array_equal(getattr(solution, name), rows)
     assert solution.error == outcome.accuracy.error_bound
     assert solution.physical == outcome.physical
-
-
-def test_what_is_solved_without_numba_is_the_same() -> None:
-    radii = 1 + 1e-3 * np.random.default_rng(2).uniform(-1, 1, (9, 16))
-    with by_numpy():
-        usual = fd.solve(radii, spacing=3)
-    assert_array_equal(fd.solve(radii, spacing=3).change, usual.change)

@@ -9,57 +9,13 @@ import pytest
 from force_diffusion.numeric.accuracy import ToleranceError
 from force_diffusion.numeric.arithmetic.systems import (
     FLOAT64,
-    Balls,
-    BigFloat,
-    NumberSystem,
-    midpoint,
 )
 from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice.layers import Layer, Rows, whole
 from force_diffusion.numeric.mechanics import sweep
-from force_diffusion.numeric.mechanics.engine import solve
-from force_diffusion.numeric.mechanics.sweep import Forces, Solved
-from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.theory.expected import critical_height
-from hypothesis import given
-from hypothesis import strategies as st
 
-from tests.numeric.scenes import answer, basic, planned
-
-STD = st.sampled_from(["=1e-2", "=1e-5", "=1e-40"])
-
-
-def solved(plan: Plan, system: NumberSystem) -> Solved:
-    with system.active():
-        return solve(plan.problem, [0], system, Work())
-
-
-def changes(forces: Forces) -> list[Any]:
-    return [v for side in (forces.change.plus, forces.change.minus) for row in side for v in row]
-
-
-def packings(height: int, std: str, seed: int) -> Plan:
-    sections = basic(height, height + 1)
-    sections["disorder"].update(relative_std=std, seed=seed)
-    return planned(sections)
-
-
-@given(st.integers(1, 7), STD, st.integers(0, 9))
-def test_balls_contain_two_hundred_digits_and_are_small(height: int, std: str, seed: int) -> None:
-    """mpmath at 200 digits is off by far less than the radius of a 256-bit ball (77 digits)."""
-    plan = packings(height, std, seed)
-    ball, digits = solved(plan, Balls(256)), solved(plan, BigFloat(200))
-    assert ball.forces is not None
-    assert digits.forces is not None
-    largest = max(abs(v) for v in changes(digits.forces))
-    for b, value in zip(changes(ball.forces), changes(digits.forces), strict=True):
-        centre, radius = midpoint(b), midpoint(b.rad())
-        distance = abs(exact(value) - centre)
-        # The radius, and mpmath's own 200 digits less what 7 layers lose (a few).
-        assert distance <= radius + Fraction(exact(largest)) / 10**190
-        # A huge ball must not pass: 256 bits, of which 7 layers lose fewer than 32.
-        assert radius <= exact(largest) / 2**224
+from tests.numeric.scenes import answer, basic
 
 
 def exact(value: Any) -> Fraction:

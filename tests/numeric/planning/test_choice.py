@@ -19,7 +19,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from tests.numeric.scenes import basic, planned, scenes
-from tests.numeric.test_run import numbers
+from tests.numeric.test_run import numbers, unit_of_last_digit
 
 TOLERANCES = ("1e-3", "1e-6", "1e-9", "1e-11", "1e-12", "1e-14", "1e-16", "1e-18", "1e-30", "1e-60")
 
@@ -65,6 +65,10 @@ def assert_kept(outcome: Outcome, true: Outcome, tolerance: Fraction) -> None:
     assert error <= tolerance * largest
     # what is stated holds, too, and not only what was asked for
     assert error <= Fraction(outcome.accuracy.error_bound) * largest * Fraction(1001, 1000)
+    if outcome.accuracy.certified:  # the last digit is off by one at most
+        for (_, a), (_, b) in zip(numbers(outcome), numbers(true), strict=True):
+            off = abs(Fraction(a) - Fraction(b))
+            assert a == "0" or off <= unit_of_last_digit(a) * Fraction(11, 10)
 
 
 @pytest.mark.parametrize(("value", "near"), [(0.5, True), (0.5 + 1e-9, True), (0.51, False)])

@@ -22,12 +22,9 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("packing", "width", 6, "allow_images"),
     ("packing", "spacing", "=2.0", "strictly between"),
     ("packing", "spacing", "=3.4641016151378", "strictly between"),
-    ("packing", "spacing", "=-3.0", "strictly between"),
     ("packing", "spacing", "=nan", "finite"),
-    ("packing", "spacing", "=inf", "finite"),
     ("packing", "spacing", "three", "must be a number"),
     ("packing", "radius", 0, "greater than 0"),
-    ("packing", "radius", True, "must be a number"),
     ("packing", "radius", "=1e999999", "exponent"),
     ("packing", "hieght", 4, 'did you mean "height"'),
     ("disorder", "kind", "unifrom", 'did you mean "uniform"'),
@@ -37,15 +34,12 @@ WRONG: list[tuple[str, str, Any, str]] = [
     ("disorder", "seed", -1, "at least 0"),
     ("disorder", "seed", 2**64, "less than"),
     ("disorder", "file", "radii.csv", 'needs kind = "file"'),
-    ("load", "kind", "surfaces", 'did you mean "surface"'),
     ("load", "magnitude", 0, "greater than 0"),
     ("load", "angle_deg", 181, "at most 90"),
     ("load", "at", "+", "a bead, [i, j]"),
     ("load", "at", [1, 1], 'needs kind = "point"'),
-    ("effects", "geometry", "exakt", 'did you mean "exact"'),
     ("effects", "most_programs", 0, "at least 1"),
     ("effects", "most_seconds", "=1.50", 'contacts = "unilateral"'),
-    ("effects", "most_programs", 3, 'contacts = "unilateral"'),
     ("ask", "quantity", "forces", "must be one of"),
     ("ask", "tolerance", 0, "greater than 0"),
     ("ask", "tolerance", 1, "less than 1"),
@@ -84,7 +78,6 @@ def test_columns_of_a_slab_may_be_negative() -> None:
         ([0, 1, "+"], "even"),
         ([0, 6, "+"], "j must be from 0 to 5"),
         ([28, 0, "+"], "i must be from 0 to 27"),
-        (["a", 0, "+"], "must be a contact"),
     ],
 )
 def test_contacts_outside_the_packing(at: list[Any], says: str) -> None:
@@ -98,14 +91,12 @@ def test_missing_sections_and_keys() -> None:
         ("[packing]\nheight = 3\n", r"section \[ask\] is required"),
         ("[packing]\n[ask]\nquantity = 'contact'\n", "packing.height is required"),
         ("[packing]\nhieght = 3\n[ask]\nquantity = 'profile'", 'hieght: .* mean "height"'),
-        ("[packing]\nheight = 3\n[ask]\nquantitiy = 'profile'", 'quantitiy: .* mean "quantity"'),
         ("packing = 3\n", "must be a section"),
         ("[packing\n", "is not a scene, which is a TOML file"),
         ("a = " + "[" * 5000, "nested too deeply"),
         ("[packing]\nheight = 1" + "0" * 6000, "more than 4300 digits"),
         ("[ask]\ntolerance = 1e-" + "9" * 30, "a number with a huge exponent"),
         ("[paking]\n[packing]\nheight = 3\n[ask]\nquantity='profile'", 'mean "packing"'),
-        ("folder = 'x'\n", "is unknown"),
     ]:
         with pytest.raises(SceneError, match=says):
             parse_scene(text)
@@ -117,17 +108,11 @@ HUGE, LONG = 10**6000, "9" * 5000
 @pytest.mark.parametrize(
     ("section", "keys"),
     [
-        (fd.Packing, {"height": HUGE}),
         (fd.Packing, {"height": 4, "radius": LONG}),
-        (fd.Disorder, {"kind": HUGE}),
-        (fd.Disorder, {"kind": "file", "file": LONG}),
         (fd.Load, {"at": [[HUGE] * 50] * 50}),
-        (fd.Load, {"kind": LONG}),
-        (fd.Effects, {"geometry": [LONG]}),
         (fd.Ask, {"quantity": HUGE}),
         (fd.Ask, {"quantity": {"a": HUGE}}),
         (fd.Ask, {"quantity": [LONG]}),
-        (fd.Ask, {"quantity": "profile", "layers": LONG}),
         (fd.Ask, {"quantity": "profile", LONG: 1}),
         (fd.Ask, {"quntity": LONG}),
     ],
@@ -149,14 +134,11 @@ def test_numbers_of_thousands_of_digits_in_a_file(section: str, key: str) -> Non
 
 
 def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path: Path) -> None:
-    far = {"radius": "=1e400", "spacing": "=3e400"}
-    near = {"radius": "=1e-400", "spacing": "=3e-400"}
     for quantity, packing, std in [
         ("contact_forces", {}, "=1e-301"),
-        ("contact_forces", {}, "=1e-3000"),
         ("profile", {}, "=1e-400"),
-        ("positions", far, "=1e-4"),
-        ("positions", near, "=1e-4"),
+        ("positions", {"radius": "=1e400", "spacing": "=3e400"}, "=1e-4"),
+        ("positions", {"radius": "=1e-400", "spacing": "=3e-400"}, "=1e-4"),
     ]:
         sections = basic(3, 8, quantity=quantity)
         sections["packing"].update(packing)
@@ -202,17 +184,13 @@ GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
         ([*GOOD, GOOD[0]], r"bead \(0, 0\) is named twice"),
         ([*GOOD[:3], "3,1,-1.0"], r"bead \(3, 1\).*no positive radius"),
         ([*GOOD[:3], "3,1,nan"], r"bead \(3, 1\).*not a finite decimal"),
-        ([*GOOD[:3], "3,1,inf"], r"bead \(3, 1\).*not a finite decimal"),
         ([*GOOD[:3], "3,1,1e9999999999"], r"bead \(3, 1\)"),
-        ([*GOOD[:3], "3,1,"], r"bead \(3, 1\)"),
         ([*GOOD[:3], "3,2,0"], r"\(3, 2\).*even"),
         ([*GOOD, "5,1,0"], r"\(5, 1\) lies outside"),
         ([*GOOD[:3], "3,1"], "2 values where 3"),
-        ([*GOOD[:3], "x,1,0"], "whole number"),
         ([*GOOD[:3], "0_3,1,0"], "i = '0_3' must be a whole number"),
         ([*GOOD[:3], '"3,1,0'], "CSV"),
         ([*GOOD[:3], "3" * 10**6], "line 5: a line has at most 20000 characters"),
-        (["3" * 10**6], "line 2: a line has at most"),
     ],
 )
 def test_radii_files_name_the_line_and_the_bead(
@@ -229,10 +207,9 @@ def test_endless_files_are_refused_at_once(tmp_path: Path) -> None:
     for path in (Path("/dev/zero"), pipe, tmp_path):
         with pytest.raises(SceneError, match="regular file"):
             read_scene(path)
-        for kind, section in (("disorder", "disorder"), ("load", "load")):
-            sections = basic(1, 2)
-            sections[section] = {"kind": "file", "file": str(path)}
-            with pytest.raises(TableError, match=rf"{kind}\.file.*regular file"):
+        for section in ("disorder", "load"):
+            sections = basic(1, 2) | {section: {"kind": "file", "file": str(path)}}
+            with pytest.raises(TableError, match=rf"{section}\.file.*regular file"):
                 planned(sections)
     large = tmp_path / "large"
     for content, says in (

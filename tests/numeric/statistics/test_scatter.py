@@ -1,7 +1,6 @@
 """Standard errors from the scatter over packings, against sums of fractions and the jackknife."""
 
 import math
-from fractions import Fraction
 
 import numpy as np
 import pytest
@@ -35,27 +34,6 @@ def test_moments_of_groups_are_those_of_all(packings: list[list[float]], first: 
             moments.add(group)
     assert moments.average() == pytest.approx(samples.mean(axis=0), abs=1e-12)
     assert moments.std(FLOAT64) == pytest.approx(samples.std(axis=0), abs=1e-12)
-
-
-@given(PACKINGS)
-def test_errors_are_those_of_their_definition(packings: list[list[float]]) -> None:
-    of_mean, of_log = errors(np.array(packings))
-    every = [Fraction(x) for p in packings for x in p]
-    exact = sum(every) / len(every)
-    variance = sum((x - exact) ** 2 for x in every) / len(every)
-
-    def error(off: list[Fraction]) -> float:
-        n = len(packings)
-        return math.sqrt(sum(x * x for x in off) * n / (n - 1)) / len(every)
-
-    off = [sum((Fraction(x) - exact for x in p), Fraction(0)) for p in packings]
-    assert of_mean == pytest.approx(error(off), rel=1e-9, abs=1e-7)
-    squares = [
-        sum(((Fraction(x) - exact) ** 2 - variance for x in p), Fraction(0)) for p in packings
-    ]
-    of_variance = error(squares)
-    if of_variance > 1e-6 * variance:  # else it may be taken for rounding
-        assert of_log == pytest.approx(of_variance / (2 * variance), rel=1e-6)
 
 
 @given(st.floats(0.01, 100), st.floats(0.01, 100), st.floats(-100, 100))
