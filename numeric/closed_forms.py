@@ -37,7 +37,7 @@ def _whole(name: str, value: Any, least: int | None) -> int:
     except (TypeError, ValueError, OverflowError):
         whole = None
     if whole is None or whole != value or (least is not None and whole < least):
-        some = "one whole number" if least is None else f"one whole number from {least} on"
+        some = "one whole number" if least is None else f"one whole number from {least} up"
         raise ValueError(f"{name} = {value!r}: {some} is allowed")
     return whole
 

@@ -35,16 +35,16 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "columns": (lambda: fd.equation(13).latex(columns=3), "must be 1 or 2"),
     "columns of a form": (lambda: fd.equation(13).exact().latex(columns=LONG), "must be 1 or 2"),
     "a form": (lambda: fd.equation(13).exact(DIGITS), "It has layer"),
-    "what is missing": (lambda: fd.equation(13).at(M=10), r"takes M, z \(or j\), phi, sigma, r"),
     "a long z": (lambda: fd.equation(13).at(M=9, z=LONG, phi=0, sigma=1, r=1), "0 ≤ z ≤ 1"),
     "words for M": (lambda: fd.equation(13).at(M=DIGITS, z=0, phi=0, sigma=1, r=1), "one int"),
     "one number": (lambda: fd.derive(13), r"derive\(\[13\]\)"),  # type: ignore[arg-type]
     "Coq's number": (lambda: fd.certify(13), r"certify\(\[13\]\)"),  # type: ignore[arg-type]
-    "no scene": (lambda: fd.run(3), "takes a scene, the path of one"),  # type: ignore[arg-type]
+    "no scene": (lambda: fd.run(3), "takes a scene, its path"),  # type: ignore[arg-type]
     "a table": (lambda: fd.run(SCENES / "radii.csv"), "is not a scene"),
     "no packings": (lambda: fd.ensemble(SCENE, -3), "from 2 to"),
     "many packings": (lambda: fd.ensemble(SCENE, LONG), "from 2 to"),
     "workers": (lambda: fd.ensemble(SCENES / "ensemble.toml", 4, workers=DIGITS), "between 1 and"),  # type: ignore[arg-type]
+    "progress": (lambda: fd.ensemble(SCENE, 4, progress=3), "True, False or a function"),  # type: ignore[arg-type]
     "figure 7": (lambda: fd.figure(7), "give 1, 2, 3"),
     "a long figure": (lambda: fd.figure(LONG), "give 1, 2, 3"),
     "a kind": (lambda: fd.figure(3, kinds=("gif",)), "png, svg, pdf"),
@@ -57,7 +57,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "an observable": (lambda: fd.variance("f_plus"), "symbols of force_diffusion.symbols"),  # type: ignore[arg-type]
     "a load": (lambda: fd.variance(f_plus(i, j), laod="bulk"), "did you mean load"),  # type: ignore[call-arg]
     "a square": (lambda: fd.variance(f_plus(i, j) ** 2), "order=2"),
-    "neighbours": (lambda: fd.mean_over(f_plus(i, j), LONG), "a whole number from 1 on"),
+    "neighbours": (lambda: fd.mean_over(f_plus(i, j), LONG), "a whole number from 1 up"),
     "orders": (lambda: fd.variance(f_plus(i, j)).leading(LONG), "from 1 to 100"),
     "layers": (lambda: fd.variance(f_plus(i, j)).profile(M=LONG, phi=0, sigma=1, r=1), "at.j=…"),
 }

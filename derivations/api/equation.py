@@ -26,7 +26,7 @@ from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
 from ..framework.deciding import decided
 from ..framework.evaluation import by_name_only, evaluate, in_order, indices_at
-from ..framework.lists import both, either
+from ..framework.lists import both
 from ..framework.loading import load
 from ..framework.record import Derivation, Statement
 from ..framework.rows import Row
@@ -300,8 +300,8 @@ class Equation:
         if not self._derivation.exact_forms:
             having = [str(number) for number in modules() if load(number).exact]
             raise NoSuchFormError(
-                f"Eq. {self.number} has no exact form at finite size of its own; "
-                f"{either(having)} has."
+                f"Eq. {self.number} has no exact form at finite size; these have one: "
+                f"{', '.join(having)}."
             )
         if form is None:
             return next(iter(self._derivation.exact_forms.values()))
@@ -335,7 +335,7 @@ class Equation:
         >>> fd.equation(13).at(M=10, z=0.3)  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         ...
-        force_diffusion...ArgumentError: phi, sigma, r missing: Eq. 13 takes M, z (or j), ...
+        force_diffusion...ArgumentError: phi, sigma and r must be given: Eq. 13 takes M, z ...
 
         Raises:
             ArgumentError: a name is unknown or missing, a value is not allowed, or the shapes of
@@ -357,8 +357,8 @@ class Equation:
         sides = tuple(line.rhs for line in self._derivation.printed)
         if any(side.has(sy.SiteFunction, *sy.VECTORS) or side == 0 for side in sides):
             raise ArgumentError(
-                f"the right-hand side of Eq. {self.number} is no number: it holds what belongs to "
-                "single beads. equation(…).python_code() is a function of these."
+                f"the right-hand side of Eq. {self.number} is not a number: it contains quantities "
+                "of single beads. equation(…).python_code() gives it as a function of these."
             )
         return sides
 

@@ -50,7 +50,7 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
 
     Args:
         observable: of a place that is named by an index across the packing.
-        count: a whole number from 1 on, or N.
+        count: a whole number from 1 up, or N.
         across: the indices that go on, all together; i where none is given. With k it is an average
             over the loads of ``point(k, l)``.
 
@@ -60,13 +60,13 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
     try:
         averaged, number = sympy.sympify(observable, strict=True), sympy.sympify(count, strict=True)
         if number.is_Integer and not 1 <= number <= sets.LARGEST:
-            allowed = "a whole number from 1 on is allowed"
+            allowed = "a whole number from 1 up is allowed"
             raise ObservableError(f"mean_over(…, {quoted(int(number))}): {allowed}")
         sets.row(number)
     except (sympy.SympifyError, NotExactError):
         raise ObservableError(
             f"mean_over({quoted(observable)}, {quoted(count)}): give an expression of "
-            "force_diffusion.symbols, and a whole number from 1 on or N"
+            "force_diffusion.symbols, and a whole number from 1 up or N"
         ) from None
     if any(term.has(sy.MeanOver) for mean in averaged.atoms(sy.MeanOver) for term in mean.args):
         raise ObservableError("averages of averages of averages are not supported")

@@ -28,10 +28,10 @@ _ORDER = "M l j z i k phi sigma r"
 _WHOLE: tuple[str, Callable[[Any], Any]] = ("a whole number", lambda _: True)
 _ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], Any]]] = {
     sy.z: ("0 ≤ z ≤ 1", lambda value: (value >= 0) & (value <= 1)),
-    sy.sigma: ("a number from 0 on", lambda value: value >= 0),
-    sy.M: ("a whole number from 1 on", lambda value: value >= 1),
-    sy.j: ("a whole number from 0 on", lambda value: value >= 0),
-    sy.l: ("a whole number from 0 on", lambda value: value >= 0),
+    sy.sigma: ("a number from 0 up", lambda value: value >= 0),
+    sy.M: ("a whole number from 1 up", lambda value: value >= 1),
+    sy.j: ("a whole number from 0 up", lambda value: value >= 0),
+    sy.l: ("a whole number from 0 up", lambda value: value >= 0),
 }
 TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], Any]]] = {
     (sy.j, sy.M): ("0 ≤ j < M", lambda j, height: j < height),
@@ -62,9 +62,9 @@ def arguments(
     names = in_order(by_name)
     takes = f"{about} takes " + ", ".join("z (or j)" if name == "z" else name for name in names)
     if unknown := [name for name in given if name not in by_name]:
-        raise ArgumentError(f"{about} holds no {either(unknown)}: {takes}")
+        raise ArgumentError(f"{about} has no {either(unknown)}: {takes}")
     if missing := [name for name in names if name not in given]:
-        raise ArgumentError(f"{', '.join(missing)} missing: {takes}")
+        raise ArgumentError(f"{both(missing)} must be given: {takes}")
     return by_name
 
 

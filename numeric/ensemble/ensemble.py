@@ -19,6 +19,7 @@ from ..arithmetic.errors import (
     ArgumentError,
     ForceDiffusionError,
     WrongTypeError,
+    check_progress,
     checked,
     quoted,
 )
@@ -104,9 +105,8 @@ def ensemble(
     if isinstance(scene, str | Path):
         scene = read_scene(Path(scene), Scene)
     if not isinstance(scene, Scene):
-        raise WrongTypeError(
-            f"ensemble takes a scene or the path of one, not {type(scene).__name__}"
-        )
+        raise WrongTypeError(f"ensemble takes a scene or its path, not {type(scene).__name__}")
+    check_progress(progress)
     size = _size(scene.ask.realisations if realisations is None else realisations)
     until = None if until is None else _number("until", until)
     confidence = _number("confidence", confidence)
@@ -241,7 +241,7 @@ def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
 
 def _size(realisations: object) -> int:
     if not isinstance(realisations, SupportsIndex) or not 2 <= index(realisations) <= MOST:
-        allowed = f"an ensemble has from 2 to {MOST} packings; say how many (--realisations N)"
+        allowed = f"an ensemble has from 2 to {MOST} packings"
         raise ArgumentError(f"realisations = {quoted(realisations)}: {allowed}")
     return index(realisations)
 

@@ -110,7 +110,7 @@ def figure(
     if realisations is not None and not (
         isinstance(realisations, SupportsIndex) and index(realisations) >= LEAST_REALISATIONS
     ):
-        allowed = f"must be a whole number from {LEAST_REALISATIONS} on"
+        allowed = f"must be a whole number from {LEAST_REALISATIONS} up"
         raise SceneError("realisations", realisations, allowed)
     listed = isinstance(heights, Iterable) and not isinstance(heights, str)
     layers = tuple(heights) if listed else ()

@@ -123,7 +123,7 @@ def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:
 
 
 def dump_local(contacts: Contacts, box: list[str]) -> str:
-    """LAMMPS's format *dump local*: a line a contact, with the numbers of its beads from 1 on."""
+    """LAMMPS's format *dump local*: a line a contact, with the numbers of its beads, from 1."""
     pairs = contacts.pairs + 1
     rows = zip(
         pairs.tolist(),
@@ -137,7 +137,7 @@ def dump_local(contacts: Contacts, box: list[str]) -> str:
 
 
 def dump(beads: Array, radii: Array, box: list[str]) -> str:
-    """LAMMPS's format *dump*: a line a bead, with its number from 1 on."""
+    """LAMMPS's format *dump*: a line a bead, with its number, from 1."""
     header = _header("ATOMS", len(beads), box, "id type x y z radius")
     rows = zip(_three(beads).tolist(), radii.tolist(), strict=True)
     return "\n".join([*header, *(_words([k, 1, *x, r]) for k, (x, r) in enumerate(rows, 1)), ""])

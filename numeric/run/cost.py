@@ -168,7 +168,7 @@ def cost(
     if isinstance(scene, str | Path):
         scene = read_scene(scene)
     if not isinstance(scene, Scene):
-        raise WrongTypeError(f"cost takes a scene or the path of one, not {type(scene).__name__}")
+        raise WrongTypeError(f"cost takes a scene or its path, not {type(scene).__name__}")
     refuse("cost", scene)
     if not isinstance(seconds, Real) or not 0 < seconds < 1e9:
         raise SceneError("seconds", seconds, "must be a positive number")

@@ -40,9 +40,7 @@ def run(what: "Plan | scene.Scene | str | Path", progress: bool | Progress = Fal
     if isinstance(what, scene.Scene):
         what = make_plan(what)
     if not isinstance(what, Plan):
-        raise WrongTypeError(
-            f"run takes a scene, the path of one, or a plan, not {type(what).__name__}"
-        )
+        raise WrongTypeError(f"run takes a scene, its path or a plan, not {type(what).__name__}")
     plan = what
     start = perf_counter()
     files = files_read(plan.scene)

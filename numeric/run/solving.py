@@ -248,7 +248,7 @@ class Solution(Tabled):
     def to_dump_local(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the contacts of one packing as a *dump local* of LAMMPS, a line each.
 
-        ``batom1`` and ``batom2`` are the lower and the upper bead, numbered from 1 on as in
+        ``batom1`` and ``batom2`` are the lower and the upper bead, numbered from 1 as in
         ``to_dump``. OVITO reads it with its modifier *Load trajectory*, once it has the beads.
         """
         at = self._packing(packing)

@@ -67,7 +67,7 @@ def test_the_command_prints_and_writes_what_derive_gives(
         (5, {}, "there is no figure 5"),
         ("3", {"beside": ["double-y"]}, "no model 'double-y' beside figure 3"),
         (4, {"beside": ["x"]}, "no model 'x' beside figure 4"),
-        (4, {"realisations": 3}, "from 16 on"),
+        (4, {"realisations": 3}, "from 16 up"),
     ],
 )
 def test_a_figure_that_can_not_be(name: int | str, options: dict[str, object], words: str) -> None:

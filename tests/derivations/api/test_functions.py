@@ -104,7 +104,7 @@ def test_two_lines_are_two_arrays() -> None:
 def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same() -> None:
     found = fd.equation(13).at(M=10, z=np.array([]), **FLOATS)
     assert found.shape == (0,)
-    with pytest.raises(ArgumentError, match="holds no x"):
+    with pytest.raises(ArgumentError, match="has no x"):
         fd.equation(13).at(M=10, x=[], **FLOATS)
 
 
@@ -123,17 +123,17 @@ def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same() -> Non
         ({"z": np.zeros(3), "M": [4, 5]}, r"M of shape \(2,\) and z of shape \(3,\) do not"),
         ({"z": np.zeros(2) + 1j}, r"element \[0\]: z = 1j"),
         ({"M": np.array([4, 4.5]), "z": 0}, r"element \[1\]: M = 4.5: a whole number"),
-        ({"M": 0, "z": 0}, "M = 0: a whole number from 1 on is allowed"),
+        ({"M": 0, "z": 0}, "M = 0: a whole number from 1 up is allowed"),
         ({"M": "10", "z": 0}, "M = '10': one int, Fraction, SymPy Rational, Decimal or finite"),
-        ({"j": -1}, "j = -1: a whole number from 0 on is allowed"),
+        ({"j": -1}, "j = -1: a whole number from 0 up is allowed"),
         ({"j": 10}, "j = 10, M = 10: 0 ≤ j < M is allowed"),
         ({"j": 3, "phi": Fraction(-1, 2)}, "phi = .*: −1/2 < φ < 1/2 is allowed"),
         ({"j": 3, "phi": sympy.oo}, "phi = oo: one int"),
-        ({"j": 3, "sigma": -1}, "sigma = -1: a number from 0 on is allowed"),
+        ({"j": 3, "sigma": -1}, "sigma = -1: a number from 0 up is allowed"),
         ({"j": 3, "r": 0}, "r = 0: a number above 0 is allowed"),
         ({"j": 3, "z": 0}, "z and j are given, and z is j/M: leave one of them out"),
-        ({"j": 3, "x": 1, "width": 2}, "Eq. 13 holds no x or width: Eq. 13 takes M, j, phi, si"),
-        ({}, r"z missing: Eq. 13 takes M, z \(or j\), phi, sigma, r"),
+        ({"j": 3, "x": 1, "width": 2}, "Eq. 13 has no x or width: Eq. 13 takes M, j, phi, si"),
+        ({}, r"z must be given: Eq. 13 takes M, z \(or j\), phi, sigma, r"),
         ({"j": 3, "sigma": 1e300, "r": 1e-300}, "beyond the range of floats"),
         *(
             ({"j": 3, "sigma": sigma}, "sigma = .*allowed|sigma: .*allowed")
@@ -163,7 +163,7 @@ def test_what_is_not_allowed_is_named(change: dict[str, Any], says: str) -> None
 @pytest.mark.parametrize(
     ("number", "given", "says"),
     [
-        (13, {"M": 10, "z": 0.5}, "holds no z"),
+        (13, {"M": 10, "z": 0.5}, "has no z"),
         (13, {}, "a profile needs a form that depends on the layer j, and M or l"),
         (13, {"M": 0}, "M = 0"),
         (13, {"M": 10, "phi": 0.7}, "phi = 0.7: −1/2 < φ < 1/2"),
@@ -227,7 +227,7 @@ def test_a_function_takes_numbers_of_any_kind(kind: Any) -> None:
     [
         ({"z": [0.5, 1.5]}, r"element \[1\]: z = 1.5: 0 ≤ z ≤ 1 is allowed"),
         ({"z": np.nan}, "z = nan"),
-        ({"M": 0}, "M = 0: a whole number from 1 on"),
+        ({"M": 0}, "M = 0: a whole number from 1 up"),
         ({"M": [4, 2.5]}, r"element \[1\]: M = 2.5: a whole number"),
         ({"phi": 0.5}, "phi = 0.5: −1/2 < φ < 1/2"),
         ({"r": "1"}, "r = '1': numbers are allowed"),

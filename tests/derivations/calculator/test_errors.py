@@ -87,7 +87,7 @@ CALLS: list[tuple[Callable[[Any], Any], tuple[Any, ...], str]] = [
      "relations between indices are allowed, such as"),
     (lambda where: fd.variance(FORCE, where=where), (j >= M,), "no packing has these beads"),
     (lambda count: fd.variance(fd.mean_over(FORCE, count)),
-     (0, -1, 2.5, "N", None, own("N"), N / 2, N**2), "a whole number from 1 on"),
+     (0, -1, 2.5, "N", None, own("N"), N / 2, N**2), "a whole number from 1 up"),
     (lambda one: fd.mean_over(one, N), (f_plus(1, j), f_plus(p, j), FORCE + f_plus(k, l)),
      "write horizontal places with the index i"),
     (lambda one: fd.mean_over(fd.mean_over(fd.mean_over(one, 2), 3), N), (FORCE,),
@@ -137,7 +137,7 @@ HERE = {"M": 6, "j": 2, "phi": 0, "sigma": 1, "r": 1}
         ({"j": 0.5}, "j = 1/2: a whole number is allowed"),
         ({"M": np.float64(6.5)}, "M = 13/2: a whole number is allowed"),
         ({"phi": 0.5}, "phi = 0.5: −1/2 < φ < 1/2 is allowed"),
-        ({"x": 1}, r"holds no x: var\(f⁺_ij\) takes M, j, phi, sigma, r"),
+        ({"x": 1}, r"has no x: var\(f⁺_ij\) takes M, j, phi, sigma, r"),
         ({"j": [0, 6]}, r"element \[1\]: .*not for j = 6"),
     ],
 )

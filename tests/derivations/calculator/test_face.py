@@ -83,7 +83,7 @@ def test_a_constant_stands_in_the_answer_and_is_asked_for() -> None:
     three = fd.variance(3 * f_plus(i, j) + f_minus(i, j) / 2).at(**HERE)
     assert form.at(a=3, b=Fraction(-1, 2), **HERE) == three
     assert form.at(a=[3, 3], b=Fraction(-1, 2), **HERE).tolist() == [three, three]
-    with pytest.raises(fd.ForceDiffusionError, match=r"a missing: .* takes M, j, phi, sigma, a"):
+    with pytest.raises(fd.ForceDiffusionError, match=r"a must be given: .* takes M, j"):
         form.at(b=1, **HERE)
 
 

@@ -164,7 +164,7 @@ REFUSED: list[tuple[str, tuple[Any, ...], str]] = [
     ("bead_response", (1, 0, 0, 4), r"\(1, 0\) is not a site"),
     ("bead_response", (0, 0, 1, 4), r"\(1, 4\) is not a site"),
     ("bead_response", (0.5, 0, 0, 4), "i = 0.5: one whole number is allowed"),
-    ("bead_response", (0, -2, 0, 4), "j = -2: one whole number from 0 on"),
+    ("bead_response", (0, -2, 0, 4), "j = -2: one whole number from 0 up"),
     ("contact_response", (0, 0, float("nan"), 4, "+"), "k = nan"),
     ("contact_response", (0, 0, 0, None, "+"), "l = None"),
     ("contact_response", (0, 0, 0, 4, 1), "branch = 1: '\\+' or '-' is allowed"),
