@@ -73,7 +73,7 @@ class Accuracy:
 
 
 class ToleranceError(ForceDiffusionError, ArithmeticError):
-    """The asked tolerance can't be reached; the message says why."""
+    """The tolerance can't be reached; the message says why."""
 
     exit_status = NOT_REACHED
 

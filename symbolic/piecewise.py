@@ -79,7 +79,7 @@ class PiecewiseFunction:
             values: of parameters, of which the theorems hold whatever they are.
 
         Raises:
-            NotExactError: what it is of is not linear, or not given by the radii.
+            NotExactError: an observable is not linear in the radii, or not determined by them.
         """
         own = names_for(expression, divisor)
         form = worked_out(expression.xreplace(own), domain, groups)
@@ -127,10 +127,10 @@ class PiecewiseFunction:
         return replace(self, weights=self.weights.mapped(lambda one: one.substitute(values)))
 
     def on(self, *relations: sympy.Basic) -> RationalFunction:
-        """Its formula on a part of its domain, where it is one.
+        """Its formula on a part of its domain where a single formula holds.
 
         Raises:
-            NotProvedError: it is not.
+            NotProvedError: several formulas hold there.
         """
         pieces = self.part(*relations).pieces
         if len(pieces) != 1:

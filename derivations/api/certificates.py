@@ -50,18 +50,17 @@ def certify(
 ) -> Certification:
     """Ask Coq about the paper's equations, by default all of them; takes about two minutes.
 
-    Each statement is made and proved in files of its own, the axioms that it rests on are compared
-    with those that are allowed, and all that was accepted is checked once more by coqchk, the
-    theory with it.
+    Each equation is stated and proved in files of its own, and the axioms that it rests on are
+    compared with those allowed. Then coqchk checks all accepted proofs and the theory again.
 
     Args:
         numbers: of equations.
-        notice: told what is being done.
+        notice: called with words about what is being done.
 
     Raises:
         CoqAbsentError: there is no Coq on this machine.
-        NoSuchFormError: there is no equation of that number in the paper.
-        WrongTypeError: ``numbers`` is a single one.
+        NoSuchFormError: the paper has no equation of that number.
+        WrongTypeError: ``numbers`` is a single number.
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
         raise WrongTypeError(f"certify takes a list of numbers: certify([{quoted(numbers)}])")

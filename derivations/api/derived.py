@@ -108,12 +108,12 @@ def derive(
 
     Args:
         numbers: of the equations, all of them by default.
-        notice: told which equation comes next.
-        finished: given the outcome of each equation as soon as it is known.
+        notice: called with the equation that comes next.
+        finished: called with the outcome of each equation as soon as it is known.
 
     Raises:
-        NoSuchFormError: there is no equation of such a number.
-        WrongTypeError: ``numbers`` is a single one.
+        NoSuchFormError: there is no equation of that number.
+        WrongTypeError: ``numbers`` is a single number.
     """
     if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
         single = getattr(numbers, "number", numbers)

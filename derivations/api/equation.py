@@ -40,11 +40,11 @@ class NoSuchFormError(ForceDiffusionError, ValueError):
 
 
 class Equation:
-    """An equation, of the paper or beyond it; :func:`equation` gives it by its number.
+    """An equation of the paper, or one beyond it; :func:`equation` gives it by its number.
 
-    Most of the paper's equations are one printed line. Eqs. 7, 8 and 15 are two: ``expr`` and
-    ``rhs`` are then a SymPy ``Tuple``, and :meth:`at` gives a tuple. An equation beyond the paper
-    is one or more closed forms, which :meth:`exact` gives.
+    Most of the paper's equations are a single printed line. Eqs. 7, 8 and 15 have two lines: then
+    ``expr`` and ``rhs`` are a SymPy ``Tuple``, and :meth:`at` gives a tuple. An equation beyond the
+    paper is one or more closed forms, which :meth:`exact` gives.
 
     >>> import force_diffusion as fd
     >>> fd.equation(13)
@@ -69,7 +69,7 @@ class Equation:
 
     @property
     def number(self) -> EquationNumber:
-        """Its number in the paper, or its label beyond it, such as "B1".
+        """Its number in the paper, or its label if it is beyond the paper, such as "B1".
 
         >>> import force_diffusion as fd
         >>> fd.equation(13).number
@@ -139,7 +139,7 @@ class Equation:
 
     @property
     def coq(self) -> str:
-        """What Coq said of it when it was last asked; :func:`certify` asks again.
+        """What Coq said about it when it was last asked; :func:`certify` asks again.
 
         >>> import force_diffusion as fd
         >>> fd.equation(13).coq
@@ -153,7 +153,7 @@ class Equation:
     def expr(self) -> sympy.Basic:
         """The formula as a SymPy ``Eq``, or a ``Tuple`` of them if several lines are printed.
 
-        ``Eq`` stands for the printed sign too where that is ≈, ∼ or ∝.
+        SymPy's ``Eq`` is used for the printed signs ≈, ∼ and ∝, too.
 
         >>> import force_diffusion as fd
         >>> type(fd.equation(13).expr).__name__
@@ -179,10 +179,10 @@ class Equation:
 
     @property
     def symbols(self) -> dict[str, Any]:
-        """The symbols, and the functions of a bead, by the names that code and messages use.
+        """The symbols, and the functions of a bead, by their names in code and messages.
 
-        They carry assumptions (M is a positive whole number), so that ``sympy.Symbol("M")`` is
-        another symbol.
+        They carry assumptions (M is a positive whole number), so ``sympy.Symbol("M")`` is a
+        different symbol.
 
         >>> import force_diffusion as fd
         >>> list(fd.equation(13).symbols)
@@ -221,7 +221,7 @@ class Equation:
         return self._derivation.displays(columns)
 
     def data(self) -> dict[str, Any]:
-        """What JSON can hold: text and LaTeX, and domain, text and LaTeX of its exact formulas.
+        """Its text and LaTeX as JSON can hold them, with those of its exact formulas.
 
         >>> import force_diffusion as fd
         >>> found = fd.equation(13).data()["exact"]
@@ -242,7 +242,7 @@ class Equation:
         return "\n".join(map(sympy_source, sides))
 
     def python_code(self) -> str:
-        """Python source of the right-hand side: a function for each, which needs no import.
+        """Python source of the right-hand side: a function for each line, without imports.
 
         >>> import force_diffusion as fd
         >>> print(fd.equation(15).python_code())
@@ -275,7 +275,7 @@ class Equation:
 
     @property
     def forms(self) -> tuple[str, ...]:
-        """The names of its exact forms at finite size, the default first; most have none.
+        """The names of its exact forms, the default first; Eqs. 1 to 12 and B1 have none.
 
         >>> import force_diffusion as fd
         >>> fd.equation(16).forms
@@ -295,7 +295,7 @@ class Equation:
         force_diffusion...NoSuchFormError: Eq. 13 has no exact form 'leg'. It has layer.
 
         Raises:
-            NoSuchFormError: there is none, or none of that name.
+            NoSuchFormError: it has no exact form, or none of that name.
         """
         if not self._derivation.exact_forms:
             having = [str(number) for number in modules() if load(number).exact]
@@ -317,10 +317,10 @@ class Equation:
         """The value of the right-hand side: exact for exact numbers, otherwise a float.
 
         For equations whose right-hand side is a number, such as Eqs. 13 to 16; ``j`` may be
-        given in place of z. For one beyond the paper, the value of its first closed form. int,
-        Fraction, Decimal and SymPy's Rational are exact. A float is the exact value for the floats
-        that were given, rounded once. Arrays, lists and ranges are broadcast as NumPy does: an
-        array of float64 where anything given is a float, else one of exact numbers.
+        given in place of z. For an equation beyond the paper, the value of its first closed form.
+        int, Fraction, Decimal and SymPy's Rational are exact. If a float is given, the value is
+        exact for the given floats and then rounded once. Arrays, lists and ranges are broadcast as
+        in NumPy, to an array of float64 if a float is given, otherwise of exact numbers.
 
         >>> from fractions import Fraction
         >>> import force_diffusion as fd
@@ -339,7 +339,7 @@ class Equation:
 
         Raises:
             ArgumentError: a name is unknown or missing, a value is not allowed, or the shapes of
-                arrays do not go together; the message names the element.
+                arrays don't match; the message names the element.
             WrongTypeError: a value is given without its name.
         """
         if isinstance(self._derivation, Row):
@@ -363,11 +363,11 @@ class Equation:
         return sides
 
     def function(self) -> Callable[..., Any]:
-        """The right-hand side as a function for NumPy, by position or by name.
+        """The right-hand side as a NumPy function; arguments by position or by name.
 
-        It takes numbers and arrays that broadcast, calculates in float64, and gives a float, an
-        array, or a tuple of these where several lines are printed. Its signature and its docstring
-        say what it takes. ``at`` is slower: it is exact for exact numbers, and rounds a float once.
+        It takes numbers and arrays that broadcast, computes in float64, and gives a float, an
+        array, or a tuple of these if several lines are printed. Its signature and docstring say
+        what it takes. ``at`` is slower, but exact for exact numbers, and rounds floats only once.
 
         >>> import force_diffusion as fd
         >>> import numpy as np
@@ -379,8 +379,8 @@ class Equation:
         (<Signature (M, z, phi, sigma, r)>, 'Eq. 13: σ_f²(z)/⟨f⟩².')
 
         Raises:
-            ArgumentError: the right-hand side is no number; the function raises it for a value that
-                is not allowed, and never gives a value where the formula is not meant.
+            ArgumentError: the right-hand side is not a number. The function itself raises it for
+                values outside the formula's domain.
         """
         about = "; ".join(self._about(line) for line in self._derivation.printed)
         heading, meanings = f"Eq. {self.number}: {about}.", dict(self._derivation.symbols)
@@ -391,7 +391,7 @@ class Equation:
     def steps(self) -> StepList:
         """The derivation: each step has a ``reason`` in words, a ``formula`` and a ``verdict``.
 
-        ``uses`` names what the formula follows from, and ``theorem`` is what the kernel made of it.
+        ``uses`` names what the formula follows from, and ``theorem`` is the kernel's theorem.
 
         >>> import force_diffusion as fd
         >>> step = fd.equation(13).steps()[2]
@@ -417,9 +417,9 @@ class Equation:
     def decide(self, candidate: Any, **at: Any) -> Ruling:
         """Decide whether your formula is true in place of the printed one, by the same rule.
 
-        The formula is decided with the printed sign: for "∼", whether it is right to leading order.
-        ``exact().decide`` decides it with "=", at finite size. Of an equation between
-        vectors you may also give one component, with numbers such as ``Dot(e_y, …)`` on both sides.
+        The formula is judged with the printed sign: for "∼", whether it is right to leading order.
+        ``exact().decide`` judges it with "=", at finite size. For an equation between vectors you
+        may also give one component, with numbers such as ``Dot(e_y, …)`` on both sides.
 
         The verdict is *proved*; *proved, assuming* what ``.assuming`` names; *refuted*, with
         a place where it fails; *undecided*; or *not a statement*: it has no value, or no single
@@ -438,12 +438,12 @@ class Equation:
 
         Args:
             candidate: a SymPy ``Eq`` in the symbols of :attr:`symbols`; or an expression for the
-                right-hand side of a line; or, for all lines at once, as many of these as are
-                printed, in a ``Tuple``, tuple or list.
-            at: whole numbers for indices, such as ``M=12, j=4``, where alone it is to hold.
+                right-hand side of a line; or a ``Tuple``, tuple or list with one of these for
+                each printed line.
+            at: whole numbers for indices, such as ``M=12, j=4``, if it need hold only there.
 
         Raises:
-            ArgumentError: ``at`` names something else, or no whole number.
+            ArgumentError: ``at`` names something that is no index, or its value is not whole.
         """
         if isinstance(self._derivation, Derivation):
             rule_on = partial(candidate_for, self._derivation, at=indices_at(at))
@@ -489,7 +489,7 @@ def _equation(number: EquationNumber) -> Equation:
 
 
 def equation(number: EquationNumber) -> Equation:
-    """The equation with this number of the paper, or with this label: "B1" and so on.
+    """The equation of the paper with this number, or the one beyond it with this label.
 
     >>> import force_diffusion as fd
     >>> fd.equation(13).title
@@ -503,7 +503,7 @@ def equation(number: EquationNumber) -> Equation:
         number: such as 13, "13", "Eq. 13" or "B1".
 
     Raises:
-        NoSuchFormError: there is none.
+        NoSuchFormError: there is no such equation.
     """
     place = number_of(number) if isinstance(number, str) else number
     is_number = isinstance(place, Integral | str) and not isinstance(place, bool)

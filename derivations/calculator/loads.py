@@ -24,7 +24,7 @@ PLANE = 2
 
 
 class ObservableError(ForceDiffusionError, ValueError):
-    """An observable or a load that the calculator does not know; the message says what it does."""
+    """An observable or load that the calculator doesn't take; the message says what it takes."""
 
 
 @cache
@@ -113,14 +113,14 @@ _IN_THREE = {
 
 
 def point(across: sympy.Expr, layer: sympy.Expr) -> LoadCase:
-    """A load f_load straight down on the bead (k, l), and nothing else.
+    """A load f_load straight down on bead (k, l), and none on any other.
 
     Args:
         across: k, of ``force_diffusion.symbols``.
         layer: l.
 
     Raises:
-        ObservableError: other indices are given.
+        ObservableError: these are other indices than k and l.
     """
     if (across, layer) != (k, l):
         raise ObservableError(f"point({across}, {layer}): name the loaded bead (k, l)")
@@ -135,7 +135,7 @@ def leaning(ratio: sympy.Expr, load: str = "surface") -> LoadCase:
         load: "surface" or "bulk".
 
     Raises:
-        ObservableError: the ratio is something else, or there is no such load.
+        ObservableError: the ratio or the load is something else.
     """
     if load not in _LEANING:
         raise ObservableError(f"leaning(…, {load!r}): 'surface' or 'bulk' is allowed")

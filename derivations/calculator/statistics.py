@@ -24,9 +24,9 @@ def response(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 def force_moment(
     across: sympy.Expr, layer: sympy.Expr, first: sympy.Expr, second: sympy.Expr
 ) -> sympy.Expr:
-    """Σ f ℓ (u·N)(v·N) of both contacts above bead (i, j): the stress of a layer times its area.
+    """Σ f ℓ (u·N)(v·N) over both contacts above bead (i, j): the stress of a layer times its area.
 
-    ℓ is the distance of the two centres, N the unit vector between them.
+    ℓ is the distance between the two centres, N the unit vector from one to the other.
 
     Args:
         across: i.
@@ -46,16 +46,16 @@ def force_moment(
 
 
 def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Symbol) -> sympy.Expr:
-    """The average of an observable over ``count`` neighbours in a layer, two columns apart each.
+    """The average of an observable over ``count`` neighbours in a layer, at steps of 2 in i.
 
     Args:
-        observable: of a place that is named by an index across the packing.
+        observable: an expression whose horizontal place is given by an index, such as i.
         count: a whole number from 1 up, or N.
-        across: the indices that go on, all together; i where none is given. With k it is an average
+        across: the indices that are shifted, all together; by default i. With k it is an average
             over the loads of ``point(k, l)``.
 
     Raises:
-        ObservableError: no index says where across the packing it is, or the number is none.
+        ObservableError: the observable has no such index, or ``count`` is something else.
     """
     try:
         averaged, number = sympy.sympify(observable, strict=True), sympy.sympify(count, strict=True)
@@ -106,10 +106,10 @@ def variance(
         relative: whether forces are relative to the ordered force of their own contact, vertical
             forces on beads to the load, and lengths to r.
         dimension: 3 for contact forces of spheres, ``f_along(axis, x, y, z)``.
-        where: relations of indices, to which the domain is restricted.
+        where: relations between indices that restrict the domain.
 
     Raises:
-        ObservableError: it is not linear, not given by the radii, or holds a foreign symbol.
+        ObservableError: it is not linear, not determined by the radii, or has an unknown symbol.
     """
     return _closed(sy.Variance, [observable], load, relative, dimension, where)
 

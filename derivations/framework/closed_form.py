@@ -71,11 +71,11 @@ class ClosedForm:
       j = 1: ((φ⁴ − φ³ + 12 φ² − 5 φ + 7)/[2 (1 − φ²)²]) (σ_δr/r)²
 
     Attributes:
-        quantity: what it is the value of, as shown.
-        statistic: what the quantity stands for, times ``divisor``, in moments.
-        kernel_domain: its domain, with the load, as the kernel has it.
-        divisor: what of constants the statistic is divided by and may vanish, as 1 − t; or 1.
-        values: numbers for symbols of the load.
+        quantity: the symbol or statistic that it is printed as.
+        statistic: the quantity times ``divisor``, written in means and covariances.
+        kernel_domain: its domain and load, as the kernel holds them.
+        divisor: a divisor of the statistic that may be zero, such as 1 − t; otherwise 1.
+        values: numbers that replace symbols of the load.
     """
 
     def __init__(
@@ -104,7 +104,7 @@ class ClosedForm:
 
     @property
     def groups(self) -> tuple[Group, ...]:
-        """The theorems that give what it is of in the radii, put in one group after the other."""
+        """The theorems that express its observables by the radii, in the order of their use."""
         return tuple(self._groups())
 
     @cached_property
@@ -112,7 +112,7 @@ class ClosedForm:
         """Its value as a function of indices.
 
         Raises:
-            NotExactError: what it is of is not linear, or not given by the radii.
+            NotExactError: an observable is not linear in the radii, or not determined by them.
         """
         return PiecewiseFunction.of(
             self.statistic,
@@ -128,10 +128,10 @@ class ClosedForm:
         return equations_of(flat(self.groups))
 
     def on(self, *relations: sympy.Basic) -> sympy.Expr:
-        """Its formula on a part of its domain, where it is one.
+        """Its formula on a part of its domain where a single formula holds.
 
         Raises:
-            NotProvedError: it is not.
+            NotProvedError: several formulas hold there.
         """
         return factored(self.function.on(*relations))
 
@@ -148,7 +148,7 @@ class ClosedForm:
 
     @cached_property
     def expr(self) -> sympy.Expr:
-        """The formula as one SymPy expression; of several, a ``Piecewise``.
+        """The formula as one SymPy expression: a ``Piecewise`` if there are several.
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
@@ -172,7 +172,7 @@ class ClosedForm:
         return ", ".join(self.conditions())
 
     def conditions(self, style: words.Style = words.TEXT) -> list[str]:
-        """The same, one by one."""
+        """The same as a list of conditions."""
         relations, even = self._conditions_of(self._needed)
         suffix = r" \text{ even}" if style is words.LATEX else " even"
         return [*words.parts(relations, style), *(style.shown(total) + suffix for total in even)]
@@ -187,7 +187,7 @@ class ClosedForm:
 
     @cached_property
     def even(self) -> list[sympy.Expr]:
-        """Sums of indices that are even wherever beads are, each symbol solved for in one sum."""
+        """Sums of indices that are even at every bead, no two solved for the same symbol."""
         back = self.kernel_domain.straight.back
         odd = {
             symbol: {index for index, n in (2 * half).as_coefficients_dict().items() if n % 2}
@@ -216,16 +216,16 @@ class ClosedForm:
 
     @property
     def symbols(self) -> dict[str, sympy.Symbol]:
-        """The symbols on which it depends, by the names of their values in :meth:`at`."""
+        """The symbols on which it depends, by the names that :meth:`at` uses."""
         named = {name_of(symbol): symbol for symbol in self._needed}
         return {name: named[name] for name in in_order(named)}
 
     def at(self, *unnamed: Any, **values: Any) -> Any:
         """The value for given numbers.
 
-        Exact for int, Fraction, Decimal, SymPy's Rational and ``flint.fmpq``, whatever their size;
-        a float, the exact value for the given floats rounded once, where one of them is a float.
-        Arrays, lists and ranges are broadcast as NumPy does.
+        Exact if all are int, Fraction, Decimal, SymPy's Rational or ``flint.fmpq``, of any size. If
+        one is a float, the value is exact for these floats and then rounded once to a float.
+        Arrays, lists and ranges are broadcast as in NumPy.
 
         >>> from fractions import Fraction
         >>> import force_diffusion as fd
@@ -241,7 +241,7 @@ class ClosedForm:
         force_diffusion...ArgumentError: var(f⁺_ij) is for 0 ≤ j ≤ M − 1, not for j = 3, M = 3
 
         Raises:
-            ArgumentError: a name is unknown or missing, or a value is outside of the domain.
+            ArgumentError: a name is unknown or missing, or a value lies outside the domain.
             WrongTypeError: a value is given without its name.
         """
         by_name_only(unnamed, self.symbols)
@@ -252,12 +252,12 @@ class ClosedForm:
     def value(
         self, values: Mapping[sympy.Symbol, sympy.Rational], exact: bool = True
     ) -> sympy.Expr:
-        """The value for exact numbers, by symbol; their names have been looked at.
+        """The value for exact numbers by symbol, whose names were checked before.
 
-        Not ``exact``, harmonic numbers are taken to 40 digits.
+        Unless ``exact``, harmonic numbers have 40 digits.
 
         Raises:
-            ArgumentError: it is outside of the domain.
+            ArgumentError: the point lies outside the domain.
         """
         whole = {symbol: int(value) for symbol, value in values.items() if symbol in sy.INDICES}
         given = [symbol for symbol in sy.INDICES if symbol in whole]
@@ -272,7 +272,7 @@ class ClosedForm:
         raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
 
     def profile(self, **values: Number) -> Any:
-        """The values in all layers j of a packing, from the base up; the other symbols are given.
+        """The values in all layers j of a packing, from the base up; give the other symbols.
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
@@ -280,7 +280,7 @@ class ClosedForm:
         array([0.00375, 0.00215, 0.0004 ])
 
         Raises:
-            ArgumentError: it does not depend on the layer j, or as for :meth:`at`.
+            ArgumentError: it doesn't depend on the layer j; also as for :meth:`at`.
         """
         top = next((values[name] for name in ("M", "l") if name in values), None)
         if sy.j not in self._needed or top is None:
@@ -301,7 +301,7 @@ class ClosedForm:
         2*M**3*sigma**2*(1 - z)**2*(2*z + 1)/(r**2*(1 - phi**2)**2)
 
         Raises:
-            ArgumentError: its packings have no height M, or no layer j is meant.
+            ArgumentError: it doesn't depend on the height M or the layer j.
         """
         if not isinstance(orders, Integral) or not 1 <= orders <= _ORDERS:
             raise ArgumentError(f"orders = {quoted(orders)}: a whole number from 1 to {_ORDERS}")
@@ -316,7 +316,7 @@ class ClosedForm:
     def latex(self, columns: int = 1) -> str:
         """LaTeX for mathematics mode, which needs amsmath: a formula, or several in ``cases``.
 
-        The lines fit text of one column, or of two. Raises ``ArgumentError`` for any other number.
+        Lines fit a page of one or of two columns. Raises ``ArgumentError`` for any other number.
         """
         return self._shown(self.pieces, columns)
 
@@ -362,7 +362,7 @@ class ClosedForm:
         return rf"$\displaystyle {self.latex()}$"
 
     def data(self) -> list[dict[str, str]]:
-        """Its pieces for JSON: domain, text and LaTeX of each.
+        """Its pieces as JSON can hold them: domain, text and LaTeX of each.
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
@@ -375,7 +375,7 @@ class ClosedForm:
         ]
 
     def python(self, name: str = "closed_form") -> str:
-        """Python source of a function like :meth:`at`; it needs no import."""
+        """Python source of a function that computes what :meth:`at` does, without imports."""
         lines = [f"def {name}({', '.join(self.symbols)}):"]
         lines.append(f'    """{text(self.quantity)}, exact{self._for_domain}."""')
         relations, even = self._conditions_of(self._needed)
@@ -398,7 +398,7 @@ class ClosedForm:
         return "\n".join(lines) + "\n"
 
     def lines(self, room: int = TEXT_WIDTH) -> list[str]:
-        """The lines that it prints as."""
+        """The lines that ``print`` shows."""
         lines = [f"{text(self.quantity)}, exact{self._for_domain}"]
         for piece in self.pieces:
             parts = f"{piece.domain or 'everywhere'}:".replace("; or ", ";\nor ").split("\n")
@@ -438,10 +438,10 @@ class ClosedForm:
 
         Args:
             candidate: an expression, a ``Piecewise``, or an ``Eq`` with the quantity on the left.
-            at: whole numbers for indices, such as M=12: it is to hold there alone.
+            at: whole numbers for indices, such as M=12, if it need hold only there.
 
         Raises:
-            ArgumentError: an index is none that it depends on, or no whole number.
+            ArgumentError: it doesn't depend on an index given, or its value is not whole.
         """
         indices = indices_at(at, self.symbols.values())
         at_place = [sympy.Eq(symbol, n, evaluate=False) for symbol, n in indices.items()]

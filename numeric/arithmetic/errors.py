@@ -50,7 +50,7 @@ class ArgumentError(ForceDiffusionError, ValueError):
 
 
 class WrongTypeError(ForceDiffusionError, TypeError):
-    """Something is of a type that is not taken, or an argument is unknown."""
+    """A value has a wrong type, or an argument is unknown."""
 
 
 class NotReachedError(ForceDiffusionError):
@@ -64,7 +64,7 @@ class MissingLibraryError(NotReachedError):
 
 
 class UndecidedError(ForceDiffusionError, ArithmeticError):
-    """Balls have grown so wide that a question stays open: more bits are needed."""
+    """Balls are too wide to answer a question, so more bits are needed."""
 
     exit_status = NOT_REACHED
 

@@ -49,11 +49,11 @@ Progress = Callable[[int, float | None], None]
 
 
 class RealisationError(ForceDiffusionError, ValueError):
-    """Hardly a realisation can be built; the message says which can't, and why."""
+    """Hardly any packing can be built; the message names one that can't, and says why."""
 
 
 class WorkersError(ForceDiffusionError, RuntimeError):
-    """Those who should solve are missing or die; the message says what to do."""
+    """Workers are missing or have died; the message says what to do."""
 
     exit_status = NOT_REACHED
 
@@ -71,24 +71,25 @@ def ensemble(
     reach: float | None = None,
     progress: bool | Progress = False,
 ) -> Ensemble:
-    """Solve many packings of a scene, or of the path of one: statistics, the same for any workers.
+    """Solve many packings of a scene, given itself or by its path, and gather statistics.
 
     The scene asks for a ``profile``, ``contact``, ``contact_forces``, ``response`` or
-    ``histogram``, of drawn radii. There are ``realisations`` packings, by default as many as the
-    scene says; with ``until`` fewer, if every σ_f is known to that share of itself, all together
-    with confidence ``confidence``, already before. ``store`` is a file that keeps what is done, and
-    goes on from there. ``workers`` are threads where loops are compiled (the extra ``fast``), else
-    processes, which start the program anew, so that a script needs its
-    ``if __name__ == "__main__"``; None for as many as are good here. Any other ``executor`` of
-    ``concurrent.futures`` solves as well, such as that of a Dask cluster,
+    ``histogram``, and its radii are drawn. ``realisations`` is the number of packings, by default
+    that of the scene; with ``until``, fewer are solved if every σ_f is known to this relative error
+    before, all together with confidence ``confidence``. ``store`` is a file in which finished
+    blocks are saved, and from which a run continues. Results don't depend on ``workers``: threads
+    if loops are compiled (the extra ``fast``), otherwise processes, for which a script needs its
+    ``if __name__ == "__main__"``; None chooses their number. Any ``executor`` of
+    ``concurrent.futures`` may be used instead, such as that of a Dask cluster,
     ``distributed.Client(address).get_executor()``. ``reach`` is the outer edge of a histogram's
-    bins, in units of force; by default six times the largest σ_f of theory. ``progress`` shows a
-    bar, or is called with how many packings are done, and the half-width at the last look.
+    bins, in units of force; by default six times the largest σ_f of theory. ``progress=True`` shows
+    a bar; a function is called with the number of packings done and the half-width at the last
+    look.
 
-    Raises ``WrongTypeError`` for what is no scene, ``ArgumentError``, ``SceneError``,
-    ``StoreError`` for a file that can't serve, ``StoreFailedError`` where it can't be written,
-    ``RealisationError`` where hardly one can be built, and ``WorkersError``. What a store holds by
-    then stays good.
+    Raises ``WrongTypeError`` for what is not a scene, ``ArgumentError``, ``SceneError``,
+    ``StoreError`` for a file that is not the store of this ensemble, ``StoreFailedError`` if it
+    can't be written, ``RealisationError`` if hardly any packing can be built, and ``WorkersError``.
+    Blocks in the store stay valid.
 
     >>> import force_diffusion as fd
     >>> scene = fd.Scene(

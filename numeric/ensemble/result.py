@@ -26,16 +26,16 @@ LEAST = 1e-300  # floats that are smaller have fewer digits
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Ensemble(tables.Tabled):
-    """Statistics over N packings of G groups of alike contacts.
+    """Statistics over N packings, for G groups of equivalent contacts.
 
-    A group is a layer and branch of a profile, one contact, or all of a histogram. Forces are in
-    the unit in which the load's magnitude is written; arrays are float64 of shape (G,) unless they
-    say otherwise, in the order of the table: by j, i (or p, q), branch and component. The spread
-    over packings, which are independent, gives the standard errors.
+    A group is a layer and branch of a profile, a single contact, or all contacts of a histogram.
+    Forces have the unit of the load's magnitude. Unless stated otherwise, arrays are float64 of
+    shape (G,), in the order of the table: by j, i (or p, q), branch and component. Standard errors
+    come from the scatter between packings, which are independent.
 
-    ``half_width``, relative, holds for all σ_f together with confidence ``confidence``. ``until``
-    is how well they were to be known, None if nothing was asked; ``looks`` counts how often that
-    was tested. ``solved`` packings were solved now, the others were read from a store.
+    ``half_width`` holds for all σ_f together with confidence ``confidence``. ``until`` is the
+    relative half-width that was asked for, or None; ``looks`` counts how often it was tested.
+    ``solved`` packings were solved in this call; the others were read from a store.
     """
 
     measurement: Measurement
@@ -47,27 +47,27 @@ class Ensemble(tables.Tabled):
 
     @property
     def quantity(self) -> str:
-        """What was asked, as the scene calls it."""
+        """The question, by its name in a scene."""
         return self.measurement.plan.quantity.name
 
     @property
     def realisations(self) -> int:
-        """N packings."""
+        """The number N of packings."""
         return self.sums.packings
 
     @property
     def unbuildable(self) -> int:
-        """Packings that were drawn and left out: a bead of them finds no rest."""
+        """How many packings were drawn and left out, because they can't be built."""
         return self.sums.left_out
 
     @property
     def samples(self) -> int:
-        """Contacts of a group in all N packings; those of one packing are correlated."""
+        """How many contacts a group has in all packings; those of one packing are correlated."""
         return self.realisations * self.measurement.members
 
     @cached_property
     def half_width(self) -> float:
-        """Half-width of the intervals of all σ_f together, relative to σ_f; the largest."""
+        """Half-width of the widest of the simultaneous intervals of σ_f, relative to σ_f."""
         _, std, _, log_error = self._moments
         known = np.isfinite(log_error)
         errors = log_error[known].tolist()
@@ -77,7 +77,7 @@ class Ensemble(tables.Tabled):
 
     @property
     def reached(self) -> bool | None:
-        """Whether the σ_f are known as well as ``until`` asked; None if nothing was asked."""
+        """Whether ``until`` was reached; None if it was not given."""
         return None if self.until is None else self.half_width <= self.until
 
     @cached_property
@@ -103,7 +103,7 @@ class Ensemble(tables.Tabled):
         return np.asarray(scaled * self._unit)
 
     def _squares(self, roots: Array) -> Array:
-        """Raises ``ForceDiffusionError`` where floats don't hold squares in this unit of force."""
+        """Raises ``ForceDiffusionError`` if squares of forces are out of range in this unit."""
         with np.errstate(all="ignore"):
             found = np.asarray(roots**2)
         if ((roots != 0) & ~((found > LEAST) & np.isfinite(found))).any():
@@ -131,9 +131,9 @@ class Ensemble(tables.Tabled):
 
     @cached_property
     def mean_square(self) -> Array:
-        """Mean of g², the variance about the ordered force: Eqs. 13 and 14 are its theory.
+        """Mean of g², the variance about the ordered force, which Eqs. 13 and 14 predict.
 
-        Raises ``ForceDiffusionError`` where floats don't hold squares in this unit of force.
+        Raises ``ForceDiffusionError`` if squares of forces overflow or underflow in this unit.
         """
         return self._squares(self._forces(np.sqrt(self.sums.means[1])))
 
@@ -144,9 +144,9 @@ class Ensemble(tables.Tabled):
 
     @cached_property
     def std_error(self) -> Array:
-        """Standard error of ``std`` for intervals of two such errors or so; NaN if nothing varies.
+        """Standard error of ``std``, for intervals of about ± 2 errors; NaN if nothing varies.
 
-        It comes from that of ln σ_f, ε, as σ_f (e^2ε − 1)/2.
+        It is σ_f (e^2ε − 1)/2, where ε is the standard error of ln σ_f.
         """
         _, std, _, log_error = self._moments
         return self._forces(error_of_std(std, log_error))
@@ -170,9 +170,9 @@ class Ensemble(tables.Tabled):
 
     @property
     def std_over_mean(self) -> Array | None:
-        """σ_f/⟨f⟩, as the paper plots it; None where a mean may be zero: only loads straight down.
+        """σ_f/⟨f⟩, as in the paper's figures; None if a mean may be zero: loads at an angle.
 
-        Its standard error is that of ``std``, over ⟨f⟩.
+        Its standard error is that of ``std``, divided by ⟨f⟩.
         """
         load = self.measurement.problem.load
         if load.loaded is not None or load.angle_deg or "component" in self.index:
@@ -182,7 +182,7 @@ class Ensemble(tables.Tabled):
 
     @cached_property
     def first_order_std(self) -> Array | None:
-        """σ_f to first order, exact at finite M (Eqs. 13, 14, B2, B3), where they apply."""
+        """σ_f to first order, exact at finite M (Eqs. 13, 14, B2, B3); None if none applies."""
         theory = self.measurement.theory()
         if theory is None or "j" not in self.index or "component" in self.index:
             return None
@@ -198,8 +198,8 @@ class Ensemble(tables.Tabled):
     def bins(self) -> dict[str, Array] | None:
         """Bins of a histogram of g; None for other quantities.
 
-        Columns of shape (B + 2,), first and last what lies outside: ``low``, ``high``, ``count``,
-        ``share`` of all samples, and its standard error ``share_error``.
+        Columns of shape (B + 2,): ``low``, ``high``, ``count``, ``share`` of all samples, and its
+        standard error ``share_error``. The first and the last bin hold what lies outside.
         """
         m = self.measurement
         if not m.edges:
@@ -233,7 +233,7 @@ class Ensemble(tables.Tabled):
 
     @property
     def arrays(self) -> dict[str, Array]:
-        """The table's columns by name, all of one length: of groups, or of a histogram's bins."""
+        """The table's columns by name; an entry for each group, or for each bin of a histogram."""
         return self.bins or self._groups
 
     @property
@@ -243,7 +243,7 @@ class Ensemble(tables.Tabled):
 
     @cached_property
     def text(self) -> dict[str, list[str]]:
-        """The columns as text (``tables``): digits that another sample would have, too."""
+        """The columns as text, to two digits beyond their standard errors."""
         return self._text_of(self.arrays)
 
     def _text_of(self, columns: dict[str, Array]) -> dict[str, list[str]]:
@@ -265,20 +265,20 @@ class Ensemble(tables.Tabled):
 
     @property
     def whole_numbers(self) -> list[str]:
-        """The columns that are whole numbers: sites and counts."""
+        """The names of columns of whole numbers: sites and counts."""
         return _whole(self.arrays)
 
     @cached_property
     def source(self) -> dict[str, Any]:
-        """Where it came from: program, version, scene, seed and the SHA-256 of what was read."""
+        """Where it came from: program, version, scene, seed, and the SHA-256 of files read."""
         found = source_of(self.measurement.plan.scene)
         del found["scene"]["ask"]["realisations"]  # of the plan of one packing
         return found
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
-        """Give what JSON can hold; numbers have the digits that are known.
+        """The same as JSON can hold it; numbers have all known digits.
 
-        Without ``rows`` the list of results is empty: there may be millions.
+        Without ``rows`` the list of results is empty, since it may have millions of rows.
         """
         m, known = self.measurement, math.isfinite(self.half_width)
         written = tables.rows_of_text(self.text, self.whole_numbers) if rows else []
@@ -309,8 +309,8 @@ class Ensemble(tables.Tabled):
     def plot(self) -> "Figure":
         """Draw it; needs matplotlib (the extra ``plots``).
 
-        A profile is drawn as σ_f beside theory, a histogram as P(f), contact forces as force chains
-        of σ_f, a response as a map. Raises ``SceneError`` for one contact, which has no figure.
+        A profile is drawn as σ_f beside theory, a histogram as P(f), contact forces as lines as
+        thick as σ_f, a response as a map. Raises ``SceneError`` for a single contact.
         """
         from ..figures.answers import figure_of
 

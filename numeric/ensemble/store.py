@@ -39,11 +39,11 @@ _NOT_IN_IT = {"ask": {"realisations", "tolerance", "bins"}}
 
 
 class StoreError(ForceDiffusionError, ValueError):
-    """A file can't serve as the store of an ensemble: the message says why, and what to do."""
+    """A file can't be the store of this ensemble; the message says why, and what to do."""
 
 
 class StoreFailedError(NotReachedError):
-    """The file of an ensemble can't be written to: the message says why, and what it holds."""
+    """The store of an ensemble can't be written to; the message says why, and what it holds."""
 
 
 def description(m: Measurement) -> dict[str, Any]:
@@ -184,7 +184,7 @@ class StoreContent:
 
 
 def read_store(path: str | Path) -> StoreContent:
-    """What the store of an ensemble holds, checked; nothing in it is changed.
+    """Check the store of an ensemble and say what it holds, without changing it.
 
     >>> import force_diffusion as fd
     >>> fd.read_store("nowhere.sqlite")  # doctest: +ELLIPSIS
@@ -193,7 +193,7 @@ def read_store(path: str | Path) -> StoreContent:
     force_diffusion...StoreError: nowhere.sqlite: there is no such store
 
     Raises:
-        StoreError: there is no such file, or it is damaged or of another kind.
+        StoreError: there is no such file, it is damaged, or it is of another kind.
     """
     if not isinstance(path, str | Path):
         raise WrongTypeError(f"read_store takes the path of a file, not {quoted(path)}")

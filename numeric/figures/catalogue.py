@@ -18,7 +18,7 @@ LEAST_STD, MOST_STD = 1e-9, 0.5
 
 
 class NoSuchFigureError(ForceDiffusionError, ValueError):
-    """There is no such figure, or not so; the message says what is allowed."""
+    """There is no such figure, or it can't be drawn with these options."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +60,9 @@ def figure(
     command: str | None = None,
     kinds: Sequence[str] = KINDS,
 ) -> PaperFigure:
-    """One of the paper's figures from exact packings, as files in memory.
+    """Draw a figure of the paper, or one beyond it, from exact packings, as files in memory.
 
-    Needs matplotlib (the extra ``plots``). Takes a few seconds at the most.
+    Needs matplotlib (the extra ``plots``). Takes a few seconds.
 
     >>> import force_diffusion as fd
     >>> sorted(fd.figure("chains").files)
@@ -75,22 +75,22 @@ def figure(
     Args:
         name: 1 to 4 as in the paper, "pf" (density of the forces), "chains" (force chains), or the
             number of an equation beyond the paper that has a figure.
-        heights: M of the packings of figure 3.
-        realisations: packings of each ensemble of figures 3, 4, pf and of those beyond the paper;
-            ≥ 16.
+        heights: M of the packings in figure 3.
+        realisations: how many packings each ensemble has, at least 16; for figures 3, 4, pf and
+            those beyond the paper.
         seed: seed of all radii.
-        beside: "q-model" (beside figure 3) or "double-y" (beside figure 4).
-        spacing: s in units of r of figures 2, 3, 4, pf and chains, 2 < s < 2√3.
-        relative_std: σ_δr/r of figures 3, 4, pf and chains.
-        notice: told what is made next.
-        command: what every file says that made it.
-        kinds: images to draw, of "png", "svg" and "pdf".
+        beside: a simpler model: "q-model" in figure 3, "double-y" in figure 4.
+        spacing: s in units of r, 2 < s < 2√3; for figures 2, 3, 4, pf and chains.
+        relative_std: σ_δr/r; for figures 3, 4, pf and chains.
+        notice: called with the title of what is made next.
+        command: the command that the files name as the one that made them.
+        kinds: kinds of images: "png", "svg", "pdf".
 
     Raises:
         NoSuchFigureError: there is no such figure or model.
-        SceneError: heights, realisations, a seed, spacing or σ/r that can't be.
-        UnbuildableError, NotStandingError: radii of such a height can't be built or stand.
-        MissingLibraryError: there is no matplotlib.
+        SceneError: an argument is not allowed.
+        UnbuildableError, NotStandingError: a packing with such radii can't be built.
+        MissingLibraryError: matplotlib is missing.
     """
     name = name if isinstance(name, str) else quoted(name)
     if name not in FIGURES:

@@ -36,7 +36,7 @@ class UnbuildableError(ForceDiffusionError, ValueError):
 
 
 class NotStandingError(ForceDiffusionError, ValueError):
-    """No forces hold a bead up, since its contacts lie in a line or plane; ``site`` names it."""
+    """No forces can hold a bead, because its contacts lie in a line or plane; ``site`` names it."""
 
     def __init__(self, site: tuple[int, ...]) -> None:
         """Name the bead."""

@@ -31,7 +31,7 @@ METHODS = {
 
 @dataclass(frozen=True)
 class Skipped:
-    """What a scene could have called for and is left out, and why."""
+    """An effect that is left out, and why."""
 
     effect: str
     reason: str
@@ -75,7 +75,7 @@ class Plan:
 
     @cached_property
     def sees_images(self) -> bool:
-        """Whether the answer is that of the periodic strip, and not of the slab."""
+        """Whether the answer depends on periodic images, and so differs from the slab's."""
         return self.problem.route == Route.UNILATERAL or sees_images(self.problem)
 
     @cached_property

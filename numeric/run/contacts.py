@@ -31,17 +31,17 @@ class Beads:
 class Contacts:
     """All n contacts, in the order of rows: by layer and column of the lower bead, and branch.
 
-    Of N packings all but ``pairs``, ``branch`` and ``wraps`` have a first axis of length N. Points,
-    normals and force vectors are float64.
+    For N packings all but ``pairs``, ``branch`` and ``wraps`` have a first axis of length N.
+    Points, normals and force vectors are float64.
 
     Attributes:
         pairs: numbers of the lower and the upper bead, (n, 2): their rows in ``beads``.
-        branch: "+" or "-", of spheres "1", "2" or "3", (n,).
+        branch: "+" or "-", for spheres "1", "2" or "3", (n,).
         wraps: whether the contact crosses the seam of the periodic packing, (n,). Its upper bead is
             then the image beside the lower one.
         force: positive where it pushes, (n,).
-        change: the force less that of the ordered packing, (n,).
-        points: where the beads touch, (n, 2), of spheres (n, 3).
+        change: the force minus that of the ordered packing, (n,).
+        points: where the beads touch, (n, 2), for spheres (n, 3).
         normals: unit vectors from the lower to the upper bead, (n, 2) or (n, 3).
         force_vector: the force on the upper bead, (n, 2) or (n, 3).
         ends: centres of both beads, (n, 2, 2) or (n, 2, 3).

@@ -142,13 +142,13 @@ def cost(
     seconds: float = 20,
     progress: bool | Callable[[Way], object] = False,
 ) -> CostStudy:
-    """Measure what accuracy costs: error and seconds of one packing, in each arithmetic.
+    """Measure what accuracy costs: error and seconds of one packing in each arithmetic.
 
-    ``scene`` may be the path of one. The arithmetics are float64, balls that certify 15, 30 and
-    100 digits, and mpmath. All of it takes about so many ``seconds``; what would take longer is
-    extrapolated from fewer layers. ``progress`` prints each way as soon as it is known, or is
-    called with it. Raises ``SceneError`` where nothing changes, and what is raised where a packing
-    can't be built.
+    ``scene`` may be a path. The arithmetics are float64, balls that certify 15, 30 and 100 digits,
+    and mpmath. ``seconds`` limits the time of the whole study; whatever would take longer is
+    extrapolated from fewer layers. ``progress=True`` prints each result as soon as it is known; a
+    function is called with it. Raises ``SceneError`` if no force changes, and the errors of ``run``
+    for packings that can't be built.
 
     >>> import force_diffusion as fd
     >>> scene = fd.Scene(

@@ -41,7 +41,7 @@ class Result(Tabled):
 
     @property
     def quantity(self) -> str:
-        """What was asked, as the scene calls it."""
+        """The question, by its name in a scene."""
         return self.plan.quantity.name
 
     @cached_property
@@ -93,7 +93,7 @@ class Result(Tabled):
 
     @property
     def whole_numbers(self) -> list[str]:
-        """The columns that are whole numbers: sites and counts."""
+        """The names of columns of whole numbers: sites and counts."""
         return [name for name in self.text if self.arrays[name].dtype.kind == "i"]
 
     def decimals(self) -> list[Row]:
@@ -134,7 +134,7 @@ class Outcome(Result):
     """A finished run: the answer to its question (or to the first), with its error and source.
 
     ``results`` has the answer to each question by its name. ``source`` says where they came from:
-    program, version, scene, seed and the SHA-256 of what was read; ``files``: those of files.
+    program, version, scene, seed, and the SHA-256 of files read, which ``files`` lists.
     """
 
     results: dict[str, Result]
@@ -144,10 +144,10 @@ class Outcome(Result):
 
     @cached_property
     def physical(self) -> Physicality | None:
-        """Whether beads could make such a packing; None where nothing exact was solved.
+        """Whether real beads could form this packing; None unless an exact packing was solved.
 
-        ``smallest_gap`` is in the unit that radii are given in, as a float: 0 or infinite where a
-        float can't hold it, of which ``data()`` has the decimals.
+        ``smallest_gap`` is a float in the unit of the radii: 0 or infinite if it is out of range;
+        ``data()`` then has its decimals.
         """
         found = self.answer.physical
         if found is None or found.smallest_gap is None:
@@ -161,10 +161,10 @@ class Outcome(Result):
         return source_of(self.plan.scene, self.files)
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
-        """Give it as JSON can hold it; the page on answers explains the keys.
+        """The same as JSON can hold it; the page *Answers* explains the keys.
 
-        Without ``rows`` the lists of results are empty: there may be millions. Of several
-        questions ``accuracy`` is that of the least accurate answer.
+        Without ``rows`` the lists of results are empty, since they may have millions of rows. If
+        there are several questions, ``accuracy`` is that of the least accurate answer.
         """
         found = self.results.values()
         accuracy = max((answer.accuracy for answer in found), key=lambda one: one.error_bound)

@@ -27,12 +27,12 @@ from .outcome import Outcome, outcome_of
 
 @checked
 def run(what: "Plan | scene.Scene | str | Path", progress: bool | Progress = False) -> Outcome:
-    """Run a scene, the path of a scene file, or a plan, to the tolerance that it was made for.
+    """Answer the question of a scene, of a scene file or of a plan.
 
-    ``progress`` shows a bar, or is called with the kind of work and the number of beads just done.
-    Where the estimated error of float64 misses the tolerance, balls answer. Raises
-    ``ToleranceError``, ``SceneError``, ``WrongTypeError`` for what is none of these, and what the
-    sweeps raise for a packing that can't be built.
+    ``progress=True`` shows a bar; a function is called with the kind of work and the number of
+    beads just done. If the estimated error of float64 misses the tolerance, the answer is computed
+    in balls. Raises ``ToleranceError``, ``SceneError``, ``WrongTypeError`` for something else, and
+    ``UnbuildableError``, ``NotStandingError`` or ``RadiusError`` for packings that can't be built.
     """
     check_progress(progress)
     if isinstance(what, str | Path):
@@ -94,10 +94,10 @@ def read_tolerance(value: Any) -> Fraction:
 
 
 class Scene(scene.Scene):
-    """A scene that can be explained and run: the classes that a TOML file is read into.
+    """A scene, which can be explained and run; :func:`read_scene` makes one of a TOML file.
 
-    ``packing``, ``disorder`` (None: all radii are equal), ``load`` (by default a surface load),
-    ``effects`` and ``ask`` are the sections; files are relative to ``folder``. Raises
+    Its sections are ``packing``, ``disorder`` (None: all radii are equal), ``load`` (by default a
+    surface load), ``effects`` and ``ask``; paths of files start at ``folder``. Raises
     ``SceneError``, which names the key, its value and what is allowed.
 
     >>> from force_diffusion.numeric.scene.sections import Ask, Disorder, Packing
@@ -115,9 +115,9 @@ class Scene(scene.Scene):
     def explain(self, tolerance: Exact | None = None, *, certified: bool = False) -> Plan:
         """Say what ``run`` would do, what it would leave out, and why; ``print`` shows it.
 
-        ``tolerance``: error allowed, relative to the largest change; ``certified``: only a rigorous
-        bound will do. Both override what the scene asks. Raises ``SceneError`` for a scene that
-        takes too much memory or time, and ``TableError``.
+        ``tolerance`` is the largest error allowed, relative to the largest change; ``certified``
+        accepts only a rigorous bound. Both override the scene. Raises ``SceneError`` for a scene
+        that takes too much memory or time, and ``TableError`` for a file of radii or loads.
         """
         asked = None if tolerance is None else read_tolerance(tolerance)
         return make_plan(self, asked, certified=certified)

@@ -47,16 +47,16 @@ if TYPE_CHECKING:
 class Solution(Tabled):
     """Periodic packings on an ordered base, solved exactly; shapes are for a single packing.
 
-    A batch of N packings adds a first axis of length N everywhere. M layers lie above the base, W
-    beads in each. Bead (j, q) is the paper's (i, j) with i = 2q + j mod 2. Forces are in the unit
-    in which the load's magnitude is written, lengths in that of the radii.
+    For a batch of N packings all arrays have a first axis of length N. M layers of W beads lie
+    above the base. Bead (j, q) is the paper's (i, j) with i = 2q + j mod 2. Forces have the unit of
+    the load's magnitude, lengths that of the radii.
 
-    Layers of spheres hold W × W beads: shapes then have p and q in place of the column, and three
-    axes in place of two branches.
+    A layer of spheres holds W × W beads: shapes then have p and q instead of the column, and three
+    axes instead of two branches.
 
-    Numbers are float64, or where a tolerance needs more, balls: numbers of any length with a
-    rigorous error each. A ball prints only a few of its digits; ``.astype(float)`` rounds an array,
-    ``forces.decimals()`` and ``positions.decimals()`` write every digit that is known.
+    Numbers are float64 or, if a tolerance needs more, balls: numbers of any length, each with a
+    rigorous error. ``print`` shows only a few digits of a ball. ``.astype(float)`` rounds an array;
+    ``forces.decimals()`` and ``positions.decimals()`` give all known digits.
     """
 
     sections: Mapping[str, Any]
@@ -76,35 +76,35 @@ class Solution(Tabled):
 
     @cached_property
     def forces(self) -> Outcome:
-        """The run behind the forces: plan, error, rows and decimals; made when first asked for."""
+        """The forces as an ``Outcome``, with rows and decimals; made when first asked for."""
         return run(self.plan)
 
     @property
     def sees_images(self) -> bool:
-        """Whether some bead bears on another by two ways around the period."""
+        """Whether some bead bears on another in two ways round the period."""
         return self.plan.sees_images
 
     @property
     def force(self) -> Array:
         """f^±_ij, shape (2, M, W): branch (0: "+", 1: "-"), layer j and column q of the lower bead.
 
-        Compressive forces are positive. Of spheres (3, M, W, W): axis, layer j, p and q.
+        Compressive forces are positive. For spheres (3, M, W, W): axis, layer j, p and q.
         """
         return self._lattice("force") if self.found is None else self.found.force
 
     @property
     def change(self) -> Array:
-        """Each force less its value in the ordered packing, found without cancelling."""
+        """Each force minus its value in the ordered packing, computed without cancellation."""
         return self._lattice("change") if self.found is None else self.found.change
 
     @property
     def position(self) -> Array:
-        """Bead centres, (M + 1, W, 2): layer, column, (x, y); of spheres (M + 1, W, W, 3)."""
+        """Bead centres, (M + 1, W, 2): layer, column, (x, y); for spheres (M + 1, W, W, 3)."""
         return self._beads("")
 
     @property
     def displacement(self) -> Array:
-        """Bead centres less those of the ordered packing (Eqs. 1 to 3), as ``position``."""
+        """Bead centres minus those of the ordered packing (Eqs. 1 to 3), of the same shape."""
         return self._beads("d")
 
     @cached_property
@@ -123,7 +123,7 @@ class Solution(Tabled):
 
     @cached_property
     def contacts(self) -> Contacts:
-        """All contacts as arrays side by side, whose numbers of beads are those of ``beads``.
+        """All contacts as arrays side by side; ``pairs`` holds row numbers of ``beads``.
 
         >>> radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (5, 12))
         >>> solution = solve(radii)
@@ -163,7 +163,7 @@ class Solution(Tabled):
 
     @property
     def arrays(self) -> dict[str, Array]:
-        """The columns of a table of contacts: as ``contact_forces`` has them, and both radii."""
+        """The columns of a table of contacts: those of ``contact_forces``, and both radii."""
         d, contacts, beads = self._dimension, self.contacts, self.beads
         lower, upper = contacts.pairs.T
         j, *columns = np.unravel_index(lower, self._shape[-d:])
@@ -190,20 +190,20 @@ class Solution(Tabled):
         least: float = 0,
         packing: int = 0,
     ) -> "Axes":
-        """Draw force chains: a line a contact, as thick as its force; lengths in units of r.
+        """Draw force chains: a line for each contact, as thick as its force; lengths in units of r.
 
         Args:
-            ax: axes of matplotlib to draw on; without them on a new figure, ``.figure`` of the
-                axes that come back.
+            ax: matplotlib axes to draw on; by default those of a new figure, which is the
+                ``.figure`` of the axes that are returned.
             color: a column of ``contacts`` that colours the lines, "force", "change", "branch" or
-                "wraps", or an array of your own, (n,). Without it contacts that pull stand out.
-            least: the smallest force, be it push or pull, that is drawn.
-            packing: which one of several packings.
+                "wraps", or an array of your own, (n,). By default contacts that pull stand out.
+            least: the smallest force that is drawn, pushing or pulling.
+            packing: the number of the packing in a batch.
 
         Raises:
-            SceneError: there is no such column or packing, spheres were solved, or no contact bears
-                so much.
-            WrongTypeError: ``ax`` is none of matplotlib's axes.
+            SceneError: there is no such column or packing, the beads are spheres, or no contact
+                bears as much as ``least``.
+            WrongTypeError: ``ax`` is not an axes of matplotlib.
             MissingLibraryError: matplotlib is missing.
         """
         from ..figures.answers import contacts_of
@@ -235,7 +235,7 @@ class Solution(Tabled):
     def to_vtk(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the contacts of one packing as lines for ParaView: legacy VTK, with their forces.
 
-        Lengths and forces are as in ``contacts``; ``radius`` belongs to the points.
+        Lengths and forces are those of ``contacts``; each point has a ``radius``.
         """
         at = self._packing(packing)
         write_whole(Path(path), vtk(*self._places(at), self.contacts.of(at)).encode())
@@ -246,10 +246,10 @@ class Solution(Tabled):
         write_whole(Path(path), dump(*places, self._box(places)).encode())
 
     def to_dump_local(self, path: str | Path, *, packing: int = 0) -> None:
-        """Write the contacts of one packing as a *dump local* of LAMMPS, a line each.
+        """Write the contacts of one packing as a *dump local* of LAMMPS, a line for each.
 
         ``batom1`` and ``batom2`` are the lower and the upper bead, numbered from 1 as in
-        ``to_dump``. OVITO reads it with its modifier *Load trajectory*, once it has the beads.
+        ``to_dump``. In OVITO open the beads, then load this file by the modifier *Load trajectory*.
         """
         at = self._packing(packing)
         text = dump_local(self.contacts.of(at), self._box(self._places(at)))
@@ -297,7 +297,7 @@ class Solution(Tabled):
 
     @cached_property
     def positions(self) -> Outcome:
-        """The run behind the positions and their ``accuracy``, made when first asked for."""
+        """The positions as an ``Outcome``, with their ``accuracy``; made when first asked for."""
         ask = self.scene.ask.model_copy(update={"quantity": "positions"})
         made = self.plan if self.found is not None else self.forces.plan
         scene = self.scene.model_copy(update={"ask": ask})
@@ -498,23 +498,23 @@ def solve(
     """Solve periodic packings of given radii exactly: contact forces, positions and their errors.
 
     Args:
-        radii: array of shape (M + 1, W), layer 0 the base; (N, M + 1, W) for N packings. Of spheres
-            (M + 1, W, W) or (N, M + 1, W, W), [j, p, q] being bead (p, q, j).
-        delta_r: their deviations from ``radius``, in place of ``radii``; the same shapes.
+        radii: array of shape (M + 1, W), layer 0 the base; (N, M + 1, W) for N packings. For
+            spheres (M + 1, W, W) or (N, M + 1, W, W), where [j, p, q] is bead (p, q, j).
+        delta_r: deviations from ``radius``, instead of ``radii``; the same shapes.
         radius: r, the radius of the ordered packing, in the same unit; by default the mean of
-            ``radii`` (over all N packings: changes of a packing by itself need its own), and 1
-            where ``delta_r`` is given.
-        spacing: s, the distance of neighbours in the base, 2 r < s < 2√3 r, of spheres
-            2 r < s < √(32/3) r; by default 3 r.
-        load: ``SurfaceLoad()`` by default, ``BulkLoad()``, ``PointLoad(at=(k, l))`` or, of spheres,
-            ``PointLoad(at=(p, q, l))``.
-        dimension: 2 for discs, 3 for spheres. By default the shape says which; an array of shape
-            (N, W, W) could be either, and is refused without.
-        tolerance: error allowed, relative to the largest change: where float64 does not meet it,
-            balls do.
-        certified: with a tolerance, only a rigorous bound will do.
-        allow_images: let W be as small as M or smaller, so that a bead bears on one by two ways
-            around the period; without it such an array, a transposed one perhaps, is refused.
+            ``radii`` (over all N packings, so give it to compare a packing of a batch with the same
+            one alone), or 1 with ``delta_r``.
+        spacing: s, the distance between neighbours in the base, 2 r < s < 2√3 r (for spheres
+            2 r < s < √(32/3) r); by default 3 r.
+        load: ``SurfaceLoad()`` by default, ``BulkLoad()``, ``PointLoad(at=(k, l))`` or, for
+            spheres, ``PointLoad(at=(p, q, l))``.
+        dimension: 2 for discs, 3 for spheres; needed only for an array of shape (N, W, W), which
+            could be either.
+        tolerance: the largest error allowed, relative to the largest change; balls are used if
+            float64 doesn't meet it.
+        certified: accept only a rigorous bound; needs a tolerance.
+        allow_images: allow W ≤ M, so that a bead bears on another in two ways round the period;
+            otherwise such an array, which may be transposed, is refused.
 
     Raises:
         SceneError: an argument is not allowed; the message names it, and what is allowed.

@@ -25,7 +25,7 @@ FARTHEST = 2**50  # r: beyond, float64 tells no beads apart
 
 
 class TableError(ForceDiffusionError, ValueError):
-    """A radii or loads file can't be used; the message names the file, line and bead."""
+    """A file of radii or loads can't be used; the message names the file, line and bead."""
 
 
 Row = tuple[str, list[str], list[str]]

@@ -59,22 +59,22 @@ def read_radii(
     origin: tuple[float, float] | None = None,
     y_down: bool = True,
 ) -> ImageRadii:
-    """Read centres and radii of beads in an image, and put them on the lattice.
+    """Read centres and radii of beads in an image, and assign the beads to sites of the lattice.
 
-    What is not given is fitted: the lattice whose sites have the least sum of squared distances
-    from the centres. Beads are placed one beside the other, from neighbour to neighbour.
+    Whatever is not given of the lattice is fitted to the centres by least squares. Beads get their
+    sites one after another, from neighbour to neighbour.
 
     Args:
         path: a table with columns ``x``, ``y`` and ``r`` or ``radius``, in pixels; other columns
-            are left out. Commas, semicolons or tabs separate them.
-        spacing: s in units of length, from which the scale follows.
+            are ignored. Commas, semicolons or tabs separate them.
+        spacing: s in units of length, which sets the scale.
         scale: pixels in a unit of length; 1 if neither is given.
-        rotation: of the layers in degrees, anticlockwise as seen; without it less than 15°.
-        origin: the place (x, y) of bead (0, 0) of the ordered packing, in pixels.
-        y_down: whether y points downwards in the image, as it does in most.
+        rotation: of the layers, in degrees anticlockwise; it is fitted only if less than 15°.
+        origin: where bead (0, 0) of the ordered packing is, (x, y) in pixels.
+        y_down: whether y points downwards, as it does in most images.
 
     Raises:
-        TableError: the file can't be read, a bead fits no site, or a site has none or two.
+        TableError: the file can't be read, a bead fits no site, or a site has no bead or two.
         SceneError: an argument is not allowed.
 
     >>> import tempfile

@@ -127,12 +127,12 @@ def _brief(value: object) -> str:
 class Packing(Section):
     """The ordered packing: M = ``height`` layers above the base, of W = ``width`` beads each.
 
-    ``width`` None is the infinite slab. ``radius`` is r, ``spacing`` is s, the distance of
-    neighbours in a layer, 2 r < s < 2√3 r, by default 3 r; both in any one unit of length.
-    ``allow_images`` says that a periodic strip as narrow as W ≤ M is meant.
+    If ``width`` is None, it is the infinite slab. ``radius`` is r, and ``spacing`` is s, the
+    distance between neighbours in a layer, 2 r < s < 2√3 r, by default 3 r; both in the same unit
+    of length. ``allow_images`` allows periodic strips as narrow as W ≤ M.
 
-    ``dimension`` 3: spheres rest on three others, layers of W × W beads are periodic both ways, and
-    2 r < s < √(32/3) r.
+    With ``dimension`` 3 each sphere rests on three others, a layer holds W × W of them and is
+    periodic in both directions, and 2 r < s < √(32/3) r.
     """
 
     section = "packing"
@@ -145,7 +145,7 @@ class Packing(Section):
 
     @property
     def s(self) -> Fraction:
-        """s; 3 r unless ``spacing`` names it."""
+        """s; by default 3 r."""
         return 3 * Fraction(self.radius) if self.spacing is None else Fraction(self.spacing)
 
     @property
@@ -155,7 +155,7 @@ class Packing(Section):
 
     @property
     def shape(self) -> tuple[int | None, ...]:
-        """Of an array of its beads: (M + 1, W), or in three dimensions (M + 1, W, W)."""
+        """The shape of an array of its beads: (M + 1, W), or in three dimensions (M + 1, W, W)."""
         return (self.height + 1, *[self.width] * (self.dimension - 1))
 
 
@@ -218,8 +218,8 @@ class GivenRadii(Disorder):
 
     Shape (layers, W), layer 0 (the base) first, or (packings, layers, W) for several packings;
     lengths in the unit of ``packing.radius``. Column q of layer j is the bead i = 2q + j mod 2. In
-    three dimensions (layers, W, W), [j, p, q] being bead (p, q, j), or (packings, layers, W, W).
-    Each double is taken as the exact number that it is. Python only: a file is named with ``kind``.
+    three dimensions (layers, W, W), where [j, p, q] is bead (p, q, j), or (packings, layers, W, W).
+    Floats are taken as the exact numbers that they are. A scene file names a file of radii instead.
     """
 
     kind: Literal["given"] = "given"  # type: ignore[assignment]
@@ -244,11 +244,11 @@ class GivenRadii(Disorder):
 
 
 class Load(Section):
-    """The load; angles in degrees from straight down, positive towards +i, of spheres towards +x.
+    """The load; angles in degrees from straight down, positive towards +i (for spheres, +x).
 
     ``kind``: "surface" (on every bead of layer M), "bulk" (on every bead), "point" (on the bead
-    ``at`` = (k, l)) or "file" (``file`` lists i, j, fx, fy; of spheres p, q, j, fx, fy, fz, beads
-    being (p, q, j) everywhere). ``magnitude`` is the load on a bead.
+    ``at`` = (k, l)) or "file" (``file`` lists i, j, fx, fy; for spheres, whose beads are (p, q, j),
+    it lists p, q, j, fx, fy, fz). ``magnitude`` is the load on a bead.
     """
 
     section = "load"
@@ -280,9 +280,9 @@ class PointLoad(Load):
 class Effects(Section):
     """Which effects are simulated.
 
-    ``contacts``: "bilateral" ones stay closed and may pull; "unilateral" ones open instead, and
-    beads move by linear programs, one after another, until none pulls. A packing is given up after
-    ``most_programs``, by default 400, or after ``most_seconds`` of processor time.
+    ``contacts``: "bilateral" contacts stay closed and may pull. "unilateral" contacts open instead,
+    and a sequence of linear programs moves the beads until no contact pulls. The run gives up after
+    ``most_programs`` of them, by default 400, or after ``most_seconds`` of processor time.
     """
 
     section = "effects"
@@ -295,8 +295,7 @@ class Effects(Section):
 class Ask(Section):
     """The question, or several; ``at``: a contact (i, j, "+" or "-"), for positions a bead (i, j).
 
-    ``layers`` are those of the lower beads of the contacts of a response or a histogram, by default
-    all.
+    ``layers`` limits a response or a histogram to contacts whose lower beads lie in these layers.
     """
 
     section = "ask"
@@ -310,7 +309,7 @@ class Ask(Section):
 
     @property
     def quantities(self) -> tuple[str, ...]:
-        """All that is asked for."""
+        """All the questions."""
         return (self.quantity,) if isinstance(self.quantity, str) else self.quantity
 
 

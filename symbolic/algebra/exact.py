@@ -21,11 +21,11 @@ Polynomial = Any  # flint's fmpq_mpoly, which ships no types
 
 
 class NotProvedError(ValueError):
-    """A rule does not prove a statement, and why."""
+    """A rule doesn't prove a statement; the message says why."""
 
 
 class NotExactError(NotProvedError):
-    """The expression lies outside the domain in which equality is decided."""
+    """An expression is outside the domain in which equality can be decided."""
 
 
 class NotAStatementError(NotExactError):

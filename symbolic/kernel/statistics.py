@@ -84,7 +84,7 @@ class MomentReader(Reader):
         """A moment, as a function of the indices.
 
         Raises:
-            NotExactError: what it is of is not linear, or not given by the radii.
+            NotExactError: an observable is not linear in the radii, or not determined by them.
         """
         if isinstance(moment, sy.Shift):
             form = self.in_radii(moment.args[0], Jet)
