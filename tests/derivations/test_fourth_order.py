@@ -8,6 +8,7 @@ from itertools import product
 
 import numpy as np
 import pytest
+from flint import fmpq
 
 import force_diffusion as fd
 from tests.derivations.fourth_order import bulk_leading, other_laws, surface_leading, variances
@@ -19,7 +20,7 @@ ANOTHER = -0.3
 """No φ that the fit has seen: it was made at −1/8, 0, 7/25 and 2/5."""
 
 
-def by_taylor(height: int, layer: int, load: str) -> tuple[Fraction, Fraction]:
+def by_taylor(height: int, layer: int, load: str) -> tuple[fmpq, fmpq]:
     """The orders σ² and σ⁴ as fractions, of one radius or two at a time."""
     width = 2 * height + 3
     beads = [(2 * q + j % 2, j) for j, q in product(range(height + 1), range(width))]
@@ -29,24 +30,24 @@ def by_taylor(height: int, layer: int, load: str) -> tuple[Fraction, Fraction]:
         if bead[1] == height or (load == "bulk" and bead[1])
     }
 
-    def change(rho: dict[tuple[int, int], Fraction]) -> list[Fraction]:
+    def change(rho: dict[tuple[int, int], Fraction | fmpq]) -> list[fmpq]:
         solved = taylor.solve(width, height, n=N, rho=rho, loads=loads, order=3)
         found = solved.force(layer % 2, layer, "+")
         return [one / found[0] for one in found]
 
     single = {bead: change({bead: Fraction(1)}) for bead in beads}
     weights = {bead: one[1] for bead, one in single.items()}
-    squares = sum((one[2] ** 2 for one in single.values()), Fraction(0))
+    squares = sum((one[2] ** 2 for one in single.values()), fmpq(0))
     for a, one in enumerate(beads):
         for other in beads[:a]:
             both = change({one: Fraction(1), other: Fraction(1)})[2]
             squares += (both - single[one][2] - single[other][2]) ** 2 / 2
     # T is trilinear: what w + e and w − e have beyond twice w is 6 T(w, e, e)
-    alone, third = change(weights)[3], Fraction(0)
+    alone, third = change(weights)[3], fmpq(0)
     for bead in beads:
         for sign in (1, -1):
             third += change({**weights, bead: weights[bead] + sign})[3] - alone
-    return sum((w**2 for w in weights.values()), Fraction(0)), 2 * squares + third
+    return sum((w**2 for w in weights.values()), fmpq(0)), 2 * squares + third
 
 
 @pytest.mark.parametrize("load", ["surface", "bulk"])

@@ -17,6 +17,7 @@ from typing import Any
 
 import flint
 import numpy as np
+import sympy
 from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem
 from force_diffusion.numeric.lattice.branch import Branch
 from force_diffusion.numeric.lattice.layers import column, whole
@@ -25,7 +26,12 @@ from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
 
 Site = tuple[int, int]
-Coefficients = list[Fraction]
+Coefficients = list[flint.fmpq]
+
+
+def exact(value: Fraction | int | sympy.Rational | flint.fmpq) -> flint.fmpq:
+    """A fraction as one of flint's, which are faster."""
+    return flint.fmpq(int(value.numerator), int(value.denominator))
 
 
 @dataclass(frozen=True)
@@ -41,7 +47,7 @@ class Series(NumberSystem):
 
     def number(self, value: Fraction) -> Any:
         """Give a plain rational: NumPy would take a series for a sequence of numbers."""
-        return flint.fmpq(value.numerator, value.denominator)
+        return exact(value)
 
     def from_float(self, value: float) -> Any:
         """Give the constant series."""
@@ -53,11 +59,11 @@ class Series(NumberSystem):
 
     def series(self, coefficients: Sequence[Fraction]) -> Any:
         """Give the series with these coefficients of ε⁰, ε¹, …"""
-        return flint.fmpq_series([flint.fmpq(c.numerator, c.denominator) for c in coefficients])
+        return flint.fmpq_series([exact(c) for c in coefficients])
 
     def root(self, value: Fraction) -> Any:
         """Give the rational root; ``ValueError`` where there is none."""
-        return _rational_root(flint.fmpq(value.numerator, value.denominator))
+        return _rational_root(exact(value))
 
     def signs(self, values: Array) -> tuple[Array, Array]:
         """Look at the constant term: the sign for small enough ε."""
@@ -92,8 +98,8 @@ class TaylorPacking:
 
     width: int
     height: int
-    n_x: Fraction
-    n_y: Fraction
+    n_x: flint.fmpq
+    n_y: flint.fmpq
     order: int
     packing: SolvedPacking
     contact_forces: Forces
@@ -132,8 +138,7 @@ class TaylorPacking:
         return j + 1, column(i + 1 if branch == "+" else i - 1, j + 1, self.width)
 
     def _list(self, value: Any) -> Coefficients:
-        coefficients = [value[k] for k in range(self.order + 1)]
-        return [Fraction(int(c.p), int(c.q)) for c in coefficients]
+        return [value[k] for k in range(self.order + 1)]
 
 
 def solve(
@@ -167,4 +172,4 @@ def solve(
         spec = LoadSpec("file", height, width, single=loads)
         F = spec.ordered(region.rows, Strength((), supported), system)
         contact_forces = sweep_down(packing, region.rows, F)
-    return TaylorPacking(width, height, n_x, n_y, order, packing, contact_forces)
+    return TaylorPacking(width, height, exact(n_x), exact(n_y), order, packing, contact_forces)

@@ -7,7 +7,7 @@ expression are called.
 """
 
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cache, reduce
@@ -22,6 +22,7 @@ from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 from force_diffusion.symbolic import symbols as sy
 
 from tests.numeric.mechanics import taylor
+from tests.numeric.mechanics.taylor import exact
 from tests.soundness.witnesses import dimensions
 
 Direction = tuple[Fraction, Fraction]
@@ -90,29 +91,24 @@ class Sums:
     """Quantities of a packing, added up from packings in which one bead is enlarged."""
 
     def __init__(self) -> None:
-        self._ordered: dict[Any, Fraction] = {}
+        self._ordered: dict[Any, fmpq] = {}
         self._weights: dict[Any, dict[Site, fmpq]] = defaultdict(dict)
         self._shift: dict[Any, fmpq] = defaultdict(fmpq)
 
-    def add(self, key: Any, bead: Site, coefficients: Iterable[Fraction]) -> None:
-        """What a quantity is with this bead enlarged: its coefficients of ε⁰, ε¹ and ε²."""
-        self._ordered[key], slope, curve = coefficients
+    def add(self, key: Any, bead: Site, coefficients: Sequence[fmpq]) -> None:
+        """What a quantity is with this bead enlarged: its coefficients of ε⁰, ε¹ and perhaps ε²."""
+        self._ordered[key], slope, *curves = coefficients
         if slope:
-            self._weights[key][bead] = exact(slope)
-        if curve:
-            self._shift[key] += exact(curve)
+            self._weights[key][bead] = slope
+        for curve in curves:
+            self._shift[key] += curve
 
     @property
     def values(self) -> dict[Any, Value]:
         return {
-            key: Value(exact(ordered), self._weights[key], self._shift[key])
+            key: Value(ordered, self._weights[key], self._shift[key])
             for key, ordered in self._ordered.items()
         }
-
-
-def exact(value: Fraction | int | sympy.Rational) -> fmpq:
-    """A fraction as one of flint's."""
-    return fmpq(int(value.numerator), int(value.denominator))
 
 
 _NAMES = {"+": "Plus", "-": "Minus"}
@@ -120,7 +116,7 @@ _NAMES = {"+": "Plus", "-": "Minus"}
 
 @cache
 def below_many(
-    height: int, n: Direction, load: str, ratio: Fraction
+    height: int, n: Direction, load: str, ratio: Fraction, order: int
 ) -> Mapping[tuple[str, int], Value]:
     """Quantities by name and layer, of the bead or contact in column 0 (counted from there).
 
@@ -137,7 +133,7 @@ def below_many(
     sums = Sums()
     for source in range(height + 1):
         rho = {(source % 2, source): Fraction(1)}
-        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=2)
+        solved = taylor.solve(width, height, n=n, rho=rho, loads=loads, order=order)
         for j in range(height + 1):
             for i in range(j % 2, 2 * width, 2):
                 bead = (source % 2 - i + width) % (2 * width) - width, source
@@ -146,9 +142,7 @@ def below_many(
     return sums.values
 
 
-def _quantities(
-    solved: taylor.TaylorPacking, i: int, j: int
-) -> Iterator[tuple[str, list[Fraction]]]:
+def _quantities(solved: taylor.TaylorPacking, i: int, j: int) -> Iterator[tuple[str, list[fmpq]]]:
     for axis, coefficients in enumerate(solved.displacement(i, j)):
         yield f"DeltaX{axis}", coefficients
     if j < solved.height:
@@ -165,10 +159,9 @@ def below_one(level: int, n: Direction, order: int) -> Mapping[tuple[str, Site],
     Many equal loads share one packing, so far apart that none feels the bead that is enlarged below
     another; below each, it is another bead. At ``order`` 1 shifts of means are left out.
     """
-    reach = order * level + 2
-    apart = 2 * reach + 2
-    sums = Sums()
+    sums, apart = Sums(), 2 * level + 6
     for source in range(level + 1):
+        reach = level - source + 2  # two more than how far a bead below the load can be felt
         offsets = [o for o in range(-reach, reach + 1) if (o + level - source) % 2 == 0]
         tops = [level % 2 + apart * place for place in range(len(offsets))]
         width = apart * len(offsets) // 2
@@ -183,8 +176,7 @@ def below_one(level: int, n: Direction, order: int) -> Mapping[tuple[str, Site],
                 for i in range(-(level - j), level - j + 1, 2):
                     for branch, name in _NAMES.items():
                         place = (top + i) % (2 * width), j, branch
-                        force = [*solved.force(*place), Fraction(0)][:3]
-                        sums.add((f"Force{name}", (i, j)), (offset, source), force)
+                        sums.add((f"Force{name}", (i, j)), (offset, source), solved.force(*place))
     return sums.values
 
 
@@ -242,7 +234,9 @@ class Packing:
             found = below_one(self.height, self.n, self.order).get((name, (i - across, j)), Value())
             return found.at(across, 0)
         load = "surface" if self.load == "point" else self.load
-        return below_many(self.height, self.n, load, self.ratio)[name + axis, j].at(i, 0)
+        return below_many(self.height, self.n, load, self.ratio, self.order)[name + axis, j].at(
+            i, 0
+        )
 
 
 @dataclass(frozen=True)
@@ -384,11 +378,10 @@ def spheres(
                     there = (0, 0, source)
                     bead = tuple(a - b for a, b in zip(there, lower, strict=True))
                     steps = tuple((one + height + 1) % width - height - 1 for one in bead[:2])
-                    numbers = (Fraction(int(force[k].p), int(force[k].q)) for k in (0, 1))
                     sums.add(
                         (axis + 1, upper - 1),
                         (*steps, source - (upper - 1) - sum(steps)),
-                        (*numbers, Fraction(0)),
+                        [force[0], force[1]],
                     )
     return sums.values
 
