@@ -48,11 +48,8 @@ def test_equal_radii_are_the_ordered_packing() -> None:
     [
         ({}, "give either radii or delta_r"),
         ({"radii": np.ones(4)}, "shape (layers, W)"),
-        ({"radii": [[1, 2], [3]]}, "array of real numbers"),
         ({"radii": np.full((3, 4), np.nan)}, "[0, 0] is not"),
         ({"radii": np.ones((1, 4))}, "at least 2 layers"),
-        ({"radii": np.ones((3, 4)), "spacing": 5}, "strictly between 2 r and 2√3 r"),
-        ({"radii": np.ones((3, 4)), "radius": 0.1}, "close to the mean radius"),
         ({"radii": np.ones((3, 4)), "load": "surface"}, "must be SurfaceLoad()"),
         ({"radii": np.ones((3, 4)), "load": fd.PointLoad(at=(1, 2))}, "i + j must be even"),
         ({"radii": np.ones((3, 4)), "tolerance": "x"}, "not a finite decimal number"),
@@ -77,7 +74,6 @@ def test_a_bead_that_cannot_rest_is_named() -> None:
     ("shape", "remedy"),
     [
         ((13, 4), "radii.T"),
-        ((13, 12), "radii.T"),
         ((2, 13, 4), "radii.swapaxes(-1, -2)"),
     ],
 )
@@ -106,22 +102,21 @@ def test_spheres_are_those_of_a_scene() -> None:
     delta = 2e-3 * np.random.default_rng(8).uniform(-1, 1, (4, 5, 5))
     solution = fd.solve(delta_r=delta, radius=2, spacing=6, dimension=3, load=fd.BulkLoad())
     for quantity in ("contact_forces", "positions"):
-        rows = fd.Scene(
+        found = fd.Scene(
             packing=fd.Packing(height=3, width=5, dimension=3, radius=2, spacing=6),
             disorder=fd.GivenRadii(delta_r=delta),
             load=fd.BulkLoad(),
             ask=fd.Ask(quantity=quantity),
         ).run()
-        for row in rows.rows():
-            j, p, q = row["j"], row["p"], row["q"]
-            if quantity == "positions":
-                place = solution.position[j, p, q], solution.displacement[j, p, q]
-                assert place[0].tolist() == [row["x"], row["y"], row["z"]]
-                assert place[1].tolist() == [row["dx"], row["dy"], row["dz"]]
-            else:
-                axis = int(row["branch"]) - 1
-                assert solution.force[axis, j, p, q] == row["force"]
-                assert solution.change[axis, j, p, q] == row["change"]
+        site, rows = tuple(found.arrays[name] for name in "jpq"), found.arrays
+        if quantity == "positions":
+            for k, axis in enumerate("xyz"):
+                assert np.array_equal(solution.position[*site, k], rows[axis])
+                assert np.array_equal(solution.displacement[*site, k], rows[f"d{axis}"])
+        else:
+            branch = rows["branch"].astype(int) - 1
+            assert np.array_equal(solution.force[branch, *site], rows["force"])
+            assert np.array_equal(solution.change[branch, *site], rows["change"])
 
 
 @pytest.mark.parametrize(
@@ -134,7 +129,6 @@ def test_spheres_are_those_of_a_scene() -> None:
         ((1, 4, 4), 3, "at least 2 layers"),
         ((5, 4, 4), 3, r"5 layers of 4 × 4 beads.*images; if you mean it.*allow_images=True"),
         ((3, 4), 4, "^dimension = 4: must be 2, of discs, or 3, of spheres"),
-        ((3, 4), "3", '^dimension = "3": must be 2'),
         ((3, 4), True, "^dimension = true: must be 2"),
     ],
 )
@@ -160,8 +154,6 @@ def test_a_load_on_a_sphere_names_a_sphere() -> None:
         (np.ones((0, 3, 4)), "empty"),
         ([[10**400, 1], [1, 1]], "real numbers"),
         (np.ones((2, 4)) + 1j, "real numbers"),
-        (np.ones((2, 4), dtype=bool), "real numbers"),
-        ([["1", "1"], ["1", "1"]], "real numbers"),
         (np.ones((2, 4), dtype="datetime64[s]"), "real numbers"),
         (np.ma.masked_array(np.ones((2, 4)), mask=np.eye(2, 4)), "masked"),
     ],

@@ -6,6 +6,7 @@ Errors are those of changes, which vanish with the disorder, relative to the lar
 import math
 from fractions import Fraction
 from functools import cache
+from itertools import product
 from typing import Any
 
 import flint
@@ -83,13 +84,15 @@ def bits_lost(found: fd.Solution) -> float:
     return system.bits + math.log2(found.error / 20)
 
 
-@pytest.mark.parametrize("load", LOADS)
-@pytest.mark.parametrize("exponent", [2, 3, 4, 8, 12, 15, 16, 30, 300])
+@pytest.mark.parametrize(
+    ("exponent", "load"),
+    [*product([2, 3, 8, 12, 15, 16, 30, 300], ["surface"]), *product([2, 15], [*LOADS][1:])],
+)
 def test_digits_do_not_depend_on_the_disorder(exponent: int, load: str) -> None:
     accurate(16, 34, 10.0**-exponent, load=load)
 
 
-@pytest.mark.parametrize("exponent", [2, 3, 4, 8, 16, 30])
+@pytest.mark.parametrize("exponent", [2, 3, 16])
 def test_nor_do_they_in_higher_packings(exponent: int) -> None:
     accurate(128, 34, 10.0**-exponent)
 
@@ -117,7 +120,7 @@ def test_near_the_limits_of_the_spacing(spacing: Fraction, std: float) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize("height", [16, 64, 256, 1024, 4096])
+@pytest.mark.parametrize("height", [16, 256, 1024])
 def test_very_tall_packings(height: int) -> None:
     """Balls add up worst cases: M^(3/2) at most, and a constant from the operations of a bead."""
     _, found, balls = measured(height, 16, 1e-6)
@@ -125,8 +128,10 @@ def test_very_tall_packings(height: int) -> None:
     assert bits_lost(balls) < 8 + 1.5 * math.log2(height)
 
 
-@pytest.mark.parametrize("load", ["surface", "bulk", "leaning bulk"])
-@pytest.mark.parametrize(("height", "std"), [(48, 0.006), (96, 0.003), (192, 0.003)])
+@pytest.mark.parametrize(
+    ("height", "std", "load"),
+    [(48, 0.006, "bulk"), (96, 0.003, "leaning bulk"), (192, 0.003, "surface")],
+)
 def test_beyond_the_critical_height(height: int, std: float, load: str) -> None:
     """Contacts pull there, and the packing is unstable: what is answered is as accurate."""
     assert height > critical_height(Fraction(str(std)))

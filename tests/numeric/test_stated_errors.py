@@ -24,10 +24,9 @@ pytest.importorskip("numba")
 
 DISORDER = {"kind": "uniform", "relative_std": "=1e-4", "seed": 3}
 STRIP = {"height": 21, "width": 46}
-SPHERES = {"height": 9, "width": 20, "dimension": 3}
+SPHERES = {"height": 6, "width": 13, "dimension": 3}
 POINT = {"kind": "point", "at": [3, 17]}
 CASES: dict[str, dict[str, dict[str, Any]]] = {
-    "profile": {"packing": STRIP, "ask": {"quantity": "profile"}},
     "profile, bulk load": {
         "packing": STRIP, "load": {"kind": "bulk", "magnitude": "=3.7"},
         "ask": {"quantity": "profile"},
@@ -36,15 +35,11 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
     "response": {
         "packing": STRIP, "load": POINT, "ask": {"quantity": "response", "layers": [16, 0, 9, 8]},
     },
-    "response below the load": {
-        "packing": STRIP, "load": POINT, "ask": {"quantity": "response", "layers": [16]},
-    },
     "response of a slab": {
         "packing": {"height": 19}, "load": {"kind": "point", "at": [-4, 18], "angle_deg": 7},
         "ask": {"quantity": "response", "layers": [3]},
     },
     "histogram": {"packing": STRIP, "ask": {"quantity": "histogram", "bins": 7}},
-    "histogram of a layer": {"packing": STRIP, "ask": {"quantity": "histogram", "layers": [9]}},
     "histogram of a point load": {
         "packing": STRIP, "load": POINT | {"magnitude": "=3.7"}, "ask": {"quantity": "histogram"},
     },
@@ -52,7 +47,6 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
     "contact of a slab": {
         "packing": {"height": 18}, "ask": {"quantity": "contact", "at": [0, 4, "+"]},
     },
-    "all forces": {"packing": STRIP, "ask": {"quantity": "contact_forces"}},
     "all forces, in another unit": {
         "packing": STRIP, "load": {"kind": "bulk", "magnitude": "=3.7"},
         "ask": {"quantity": "contact_forces"},
@@ -64,24 +58,17 @@ CASES: dict[str, dict[str, dict[str, Any]]] = {
     "positions": {"packing": STRIP, "ask": {"quantity": "positions"}},
     "one position": {"packing": {"height": 21}, "ask": {"quantity": "positions", "at": [1, 15]}},
     "spheres, profile": {"packing": SPHERES, "ask": {"quantity": "profile"}},
-    "spheres, forces": {"packing": SPHERES, "ask": {"quantity": "contact_forces"}},
     "spheres, forces of a point load": {
-        "packing": SPHERES, "load": {"kind": "point", "at": [1, 2, 7]},
+        "packing": SPHERES, "load": {"kind": "point", "at": [1, 2, 5]},
         "ask": {"quantity": "contact_forces"},
     },
     "spheres, response": {
-        "packing": SPHERES, "load": {"kind": "point", "at": [1, 2, 7]},
+        "packing": SPHERES, "load": {"kind": "point", "at": [1, 2, 5]},
         "ask": {"quantity": "response"},
     },
     "spheres, positions": {"packing": SPHERES, "ask": {"quantity": "positions"}},
-    "spheres, one position": {
-        "packing": SPHERES, "ask": {"quantity": "positions", "at": [1, 2, 5]},
-    },
     "spheres, contact": {
         "packing": SPHERES, "ask": {"quantity": "contact", "at": [1, 2, 3, "2"]},
-    },
-    "all forces of few beads": {
-        "packing": {"height": 2, "width": 3}, "ask": {"quantity": "contact_forces"},
     },
     "response of few beads": {
         "packing": {"height": 2, "width": 6}, "ask": {"quantity": "response"},
@@ -122,11 +109,17 @@ def beyond(outcome: Outcome) -> float:
     return max(found)
 
 
-@pytest.mark.long(sample=1, share=3)
+@pytest.mark.long(sample=4)
 @pytest.mark.parametrize("name", CASES)
-def test_the_stated_error_covers_what_is_printed(name: str) -> None:
-    for seed, std in product(range(10), ("=1e-8", "=1e-3")):
-        assert beyond(run(planned(sections(name, seed=seed, relative_std=std)))) <= 1, (seed, std)
+def test_the_stated_error_covers_what_is_printed_whether_compiled_or_not(name: str) -> None:
+    for seed, std in product(range(2), ("=1e-8", "=1e-3", "=1e-140", "=1e-160")):
+        made = planned(sections(name, seed=seed, relative_std=std))
+        found = run(made)
+        with by_numpy():
+            other = run(made)
+        assert other.accuracy == found.accuracy
+        assert other.data()["results"] == found.data()["results"]
+        assert beyond(found) <= 1, (seed, std)
 
 
 @given(st.floats(-1e200, 1e200), st.floats(2.0**-52, 1e3))
@@ -138,7 +131,7 @@ def test_printing_takes_half_of_the_stated_error(value: float, ratio: float) -> 
     assert abs(Fraction(text) - Fraction(value)) <= Fraction(error) / 2 * (1 + Fraction(1, 10**15))
 
 
-@pytest.mark.parametrize("name", ["profile", "spheres, profile"])
+@pytest.mark.parametrize("name", ["profile, bulk load", "spheres, profile"])
 def test_a_radius_that_is_not_positive_is_named_alike(
     name: str,
 ) -> None:
@@ -151,15 +144,3 @@ def test_a_radius_that_is_not_positive_is_named_alike(
         said.append(str(found.value))
     assert said[0] == said[1]
     assert len(said[0].split(":")[0].split(",")) == made.problem.dimension
-
-
-@pytest.mark.long(sample=8)
-@pytest.mark.parametrize("std", ["=1e-3", "=1e-140", "=1e-160"])
-@pytest.mark.parametrize("name", CASES)
-def test_the_stated_error_does_not_depend_on_the_compiler(name: str, std: str) -> None:
-    found = []
-    for way in (nullcontext, by_numpy):
-        with way():
-            outcome = run(planned(sections(name, relative_std=std)))
-            found.append((outcome.accuracy, outcome.data()["results"]))
-    assert found[0] == found[1]

@@ -7,12 +7,13 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-import pytest
 from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem
 from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice.layers import Rows
 from force_diffusion.numeric.planning.plan import Plan
 from force_diffusion.numeric.run.running import run
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
 from tests.numeric.scenes import basic, planned, radii_read
 
@@ -69,43 +70,32 @@ def strip(height: int, width: int, geometry: str, at: list[Any]) -> dict[str, di
     return sections
 
 
-@pytest.mark.long(sample=1)
-@pytest.mark.parametrize("geometry", ["exact", "first-order"])
-@pytest.mark.parametrize("load", ["surface", "bulk"])
-def test_a_contact_sees_images_exactly_where_the_slab_differs(geometry: str, load: str) -> None:
-    for height, width in product((1, 2, 3, 4), range(1, 9)):
-        for j, branch in product(range(height), "+-"):
-            sections = strip(height, width, geometry, [j % 2 + 2 * (width // 2), j, branch])
-            if sections["ask"]["at"][0] >= 2 * width:
-                sections["ask"]["at"][0] -= 2
-            sections["load"] = {"kind": load}
-            seen = planned(sections).sees_images
-            assert seen == slab_differs(sections, width), (height, width, sections["ask"])
+@st.composite
+def single(draw: st.DrawFn) -> tuple[dict[str, dict[str, Any]], int]:
+    """Ask for a bead, or for a contact below any load; and the width."""
+    height, width = draw(st.integers(1, 5)), draw(st.integers(1, 8))
+    j = draw(st.integers(0, height - 1))
+    i, branch = j % 2 + 2 * draw(st.integers(0, width - 1)), draw(st.sampled_from("+-"))
+    kind = draw(st.sampled_from([None, "surface", "bulk", "point"]))
+    geometry = draw(st.sampled_from(["exact", "first-order"]))
+    sections = strip(height, width, geometry, [i, j, branch] if kind else [i, j])
+    if kind:
+        sections["load"] = {"kind": kind}
+    if kind == "point":  # which reaches the contact
+        above = draw(st.integers(0, height - j - 1))
+        k = i + (1 if branch == "+" else -1) - above + 2 * draw(st.integers(0, above))
+        assume(0 <= k < 2 * width)
+        sections["load"]["at"] = [k, j + 1 + above]
+    return sections, width
 
 
-@pytest.mark.parametrize("geometry", ["exact", "first-order"])
-def test_a_position_sees_images_exactly_where_the_slab_differs(geometry: str) -> None:
-    for width, j in product(range(1, 6), range(5)):
-        sections = strip(4, width, geometry, [j % 2, j])
-        assert planned(sections).sees_images == slab_differs(sections, width), (width, j)
-
-
-@pytest.mark.parametrize("geometry", ["exact", "first-order"])
-def test_a_point_load_sees_images_exactly_where_the_slab_differs(geometry: str) -> None:
-    seen = set()
-    for width, (k, top) in product((2, 3, 4, 5, 7), ((1, 1), (2, 2), (1, 3), (2, 4))):
-        for i, j, branch in ((2, 0, "+"), (2, 0, "-"), (1, 1, "+"), (3, 1, "-"), (2, 2, "+")):
-            if max(k, i) >= 2 * width:
-                continue
-            sections = strip(5, width, geometry, [i, j, branch])
-            sections["load"] = {"kind": "point", "at": [k, top]}
-            x, y = i + (1 if branch == "+" else -1), j + 1
-            if abs(k - x) > top - y:
-                continue  # the load itself does not reach the contact
-            sees = planned(sections).sees_images
-            assert sees == slab_differs(sections, width), (width, k, top, i, j, branch)
-            seen.add(sees)
-    assert seen == {True, False}
+@settings(max_examples=4 * settings.default.max_examples)
+@given(single())
+def test_images_are_seen_exactly_where_the_slab_differs(
+    asked: tuple[dict[str, dict[str, Any]], int],
+) -> None:
+    sections, width = asked
+    assert planned(sections).sees_images == slab_differs(sections, width)
 
 
 def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
@@ -116,28 +106,25 @@ def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
         assert not planned({**sections, "effects": {"geometry": geometry}}).sees_images
 
 
-@pytest.mark.long(sample=1)
-@pytest.mark.parametrize("geometry", ["exact", "first-order", "ordered"])
-@pytest.mark.parametrize(
-    ("quantity", "load"),
-    [("contact_forces", "surface"), ("contact_forces", "point"), ("profile", "bulk")],
-)
+@given(
+    st.integers(1, 6), st.integers(1, 4), st.integers(1, 4),
+    st.sampled_from(["exact", "first-order", "ordered"]),
+    st.sampled_from(["contact_forces", "profile"]), st.sampled_from(["surface", "bulk", "point"]),
+)  # fmt: skip
 def test_many_contacts_see_images_where_any_one_does(
-    geometry: str, quantity: str, load: str
+    width: int, height: int, layer: int, geometry: str, quantity: str, load: str
 ) -> None:
-    for width, height, layer in product((1, 2, 3, 5, 8), (1, 2, 4), (1, 2, 4)):
-        if layer > height:
-            continue
-        sections = basic(height, width, quantity=quantity)
-        sections["packing"]["allow_images"] = True
-        sections["effects"] = {"geometry": geometry}
-        sections["load"] = {"kind": load, **({"at": [layer % 2, layer]} if load == "point" else {})}
-        ones = []
-        for j, i, branch in product(range(height), range(2 * width), "+-"):
-            if (i + j) % 2 == 0:
-                one = {**sections, "ask": {"quantity": "contact", "at": [i, j, branch]}}
-                ones.append(planned(one).sees_images)
-        assert planned(sections).sees_images == any(ones), (width, height, layer)
+    layer = min(layer, height)
+    sections = basic(height, width, quantity=quantity)
+    sections["packing"]["allow_images"] = True
+    sections["effects"] = {"geometry": geometry}
+    sections["load"] = {"kind": load, **({"at": [layer % 2, layer]} if load == "point" else {})}
+    ones = [
+        planned({**sections, "ask": {"quantity": "contact", "at": [i, j, branch]}}).sees_images
+        for j, i, branch in product(range(height), range(2 * width), "+-")
+        if (i + j) % 2 == 0
+    ]
+    assert planned(sections).sees_images == any(ones)
 
 
 def test_what_is_seen_does_not_depend_on_how_a_load_is_written(tmp_path: Path) -> None:

@@ -20,20 +20,14 @@ POINT = 'packing = {height = 260}\nload = {kind = "point", at = [0, 260]}\n'
 SCENES = {
     "contact forces": 'packing = {height = 100, width = 350}\nask = {quantity = "contact_forces"}',
     "positions": 'packing = {height = 200, width = 350}\nask = {quantity = "positions"}',
-    "response": POINT + 'ask = {quantity = "response"}',
     "responses": POINT + 'ask = {quantity = "response", realisations = 80}',
-    "ordered response": POINT + 'ask = {quantity = "response"}\neffects = {geometry = "ordered"}',
     "contact": "packing = {height = 5}\n"
     'ask = {quantity = "contact", at = [0, 0, "+"], realisations = 50_000}',
     "histogram": "packing = {height = 10, width = 40}\n"
     'ask = {quantity = "histogram", bins = 100_000, realisations = 50}',
-    "histogram of many layers": "packing = {height = 100_000, width = 60, allow_images = true}\n"
-    'ask = {quantity = "histogram"}',
     "profile": 'packing = {height = 300, width = 1000}\nask = {quantity = "profile"}',
     "profile below a point": "packing = {height = 20, width = 60_000}\n"
     'load = {kind = "point", at = [0, 20]}\nask = {quantity = "profile"}',
-    "profiles below a point": "packing = {height = 20, width = 3_000}\n"
-    'load = {kind = "point", at = [0, 20]}\nask = {quantity = "profile", realisations = 400}',
     "balls": 'packing = {height = 40, width = 90}\nask = {quantity = "contact_forces", '
     "tolerance = 1e-30}",
 }

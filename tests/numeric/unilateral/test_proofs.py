@@ -1,6 +1,5 @@
 """The certificate proves no packing that is no equilibrium: by hand, and at random."""
 
-from collections.abc import Callable
 from copy import deepcopy
 from functools import cache
 from typing import Any
@@ -36,8 +35,12 @@ def refused(packing: Packing) -> str:
 
 
 def test_what_stands_is_proved() -> None:
-    for packing in (pile(), third_base_bead("3", "-5"), more(), more(load="-0.0e5"),
-                    more("3", "7.75"), more("3", "0.5", radius="0.4")):  # fmt: skip
+    for packing in (
+        *(pile(), third_base_bead("3", "-5"), more(), more(load="-0.0e5")),
+        *(more("3", "7.75"), more("3", "0.5", radius="0.4")),
+        *(changed("loads", 2, ["0", "-2"]), changed("centres", 2, ["15", "4"])),
+    ):
+        must_hold(packing)
         assert refused(packing) == "", packing
 
 
@@ -138,9 +141,8 @@ KINDS = ("pile", "pressed", "rattlers")
 def test_the_packings_to_be_changed_are_proved(kind: str) -> None:
     packing = known(kind)
     assert refused(packing) == ""
-    free = range(packing.fixed, len(packing.radii))
     held = {bead for pair in packing.contacts for bead in pair}
-    assert any(bead not in held for bead in free) == (kind == "rattlers")
+    assert (len(held) < len(packing.radii)) == (kind == "rattlers")
     must_hold(packing)
 
 
@@ -162,40 +164,28 @@ def changes(draw: st.DrawFn, kind: str) -> Packing:
     """One or two changes of a load, a radius, a centre, the contacts, the period, or a new bead."""
     packing = known(kind)
     for _ in range(draw(st.integers(1, 2))):
-        beads = len(packing.radii)
-        one, other = draw(st.integers(0, beads - 1)), draw(st.integers(0, beads - 1))
+        bead, other = (draw(st.integers(0, len(packing.radii) - 1)) for _ in range(2))
         axis, amount = draw(st.integers(0, 1)), draw(amounts)
-        contacts = packing.contacts
-        which = draw(st.integers(0, len(contacts) - 1)) if contacts else 0
-        size = float(packing.radii[one])
+        size, period, contacts = float(packing.radii[bead]), packing.period, packing.contacts
+        which = draw(st.integers(0, max(len(contacts) - 1, 0)))
         match draw(st.sampled_from(["load", "radius", "centre", "contact", "period", "bead"])):
             case "load":
-                loads = [amount, "0", plus(packing.loads[one][axis], amount)]
-                packing.loads[one][axis] = draw(st.sampled_from(loads))
+                load = packing.loads[bead]
+                load[axis] = draw(st.sampled_from([amount, "0", plus(load[axis], amount)]))
             case "radius":
                 sizes = ["0", repr(-size), amount, plus(repr(size), amount)]
-                packing.radii[one] = draw(st.sampled_from(sizes))
+                packing.radii[bead] = draw(st.sampled_from(sizes))
             case "centre":
-                centre = packing.centres[one]
-                if draw(st.booleans()):
-                    centre[axis] = plus(centre[axis], amount)
-                else:
-                    packing.centres[one] = list(packing.centres[other])
+                moved = list(packing.centres[bead])
+                moved[axis] = plus(moved[axis], amount)
+                packing.centres[bead] = draw(st.sampled_from([moved, packing.centres[other][:]]))
             case "contact":
-                packing.contacts = draw(
-                    st.sampled_from(
-                        [
-                            contacts[:which] + contacts[which + 1 :],
-                            [*contacts, [one, other]],
-                            [*contacts[:which], [one, other], *contacts[which + 1 :]],
-                            [*contacts, *contacts[which : which + 1]],
-                        ]
-                    )
-                )
+                pair, before, after = [bead, other], contacts[:which], contacts[which + 1 :]
+                new = [[], [pair], [*contacts[which : which + 1], pair], contacts[which:][:1] * 2]
+                packing.contacts = [*before, *draw(st.sampled_from(new)), *after]
             case "period":
-                period = float(packing.period)
-                new = [0, -period, 2 * size, 3.9 * size, period + float(amount), float(amount)]
-                packing.period = repr(draw(st.sampled_from(new)))
+                new_periods = ["0", f"-{period}", repr(2 * size), repr(3.9 * size), amount]
+                packing.period = draw(st.sampled_from([*new_periods, plus(period, amount)]))
             case "bead":
                 packing.radii.append(draw(st.sampled_from(["0.3", "1", amount])))
                 packing.loads.append(["0", draw(st.sampled_from(["0", amount]))])
@@ -212,18 +202,3 @@ def test_no_change_makes_a_proof_of_what_is_no_equilibrium(kind: str, data: Any)
     except (UnfinishedError, UndecidedError):
         return
     must_hold(packing_of(network))
-
-
-@pytest.mark.parametrize(
-    "harmless",
-    [
-        lambda p: p.loads.__setitem__(2, ["0", "-2"]),
-        lambda p: p.contacts.reverse(),
-        lambda p: p.centres[-1].__setitem__(0, plus(p.centres[-1][0], p.period)),
-    ],
-)
-def test_changes_that_keep_an_equilibrium_are_proved(harmless: Callable[[Packing], Any]) -> None:
-    packing = pile()
-    harmless(packing)
-    must_hold(packing)
-    assert refused(packing) == ""

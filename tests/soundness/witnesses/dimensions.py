@@ -4,7 +4,12 @@ from collections import defaultdict
 from collections.abc import Mapping
 from fractions import Fraction
 
-from tests.numeric.mechanics.plain_packing import Bead, stepped
+Bead = tuple[int, ...]
+
+
+def stepped(bead: Bead, axis: int, count: int) -> Bead:
+    """The bead so many steps on along a base vector."""
+    return (*bead[:axis], bead[axis] + count, *bead[axis + 1 :])
 
 
 def reciprocal(dimension: int, phi: Fraction) -> tuple[Fraction, Fraction]:
