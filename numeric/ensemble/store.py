@@ -82,8 +82,7 @@ class Store:
             )
         try:
             with _reading(path):
-                if not self._is_new():
-                    self._read()
+                self._read()
             if ensemble not in (None, self.ensemble):
                 raise StoreError(
                     f"{path} holds another ensemble: {_difference(self.ensemble, ensemble or {})}. "
@@ -93,16 +92,12 @@ class Store:
             self._database.close()
             raise
 
-    def _is_new(self) -> bool:
-        """Raises ``StoreError`` for another database."""
+    def _read(self) -> None:
+        """Look what it holds, if it is not new, and check it."""
         if not self._database.execute("SELECT * FROM sqlite_master").fetchone():
-            return True
+            return
         if self._database.execute("PRAGMA application_id").fetchone() != (APPLICATION,):
             raise _not_ours(self.path)
-        return False
-
-    def _read(self) -> None:
-        """Look what it holds, and check it."""
         if self._database.execute("PRAGMA integrity_check(1)").fetchone() != ("ok",):
             raise ValueError("the database is not in order")
         (text,) = self._database.execute("SELECT description FROM ensemble").fetchone() or ("[]",)
@@ -132,22 +127,17 @@ class Store:
             return from_bytes(content, m)
 
     def put(self, block: Block, sums: Sums) -> None:
-        """Write a block. Raises ``StoreFailedError``; what was written before stays good."""
+        """Write a block. Raises ``StoreFailedError``, or ``StoreError`` as opening it does."""
         content = sums.to_bytes()
         row = (*block, content, self._checksum(block, content))
-        try:
-            with self._database as database:
-                database.execute("BEGIN IMMEDIATE")
-                if not database.execute("SELECT * FROM sqlite_master").fetchone():
-                    for table in _TABLES:
-                        database.execute(table)
-                    database.execute(f"PRAGMA application_id = {APPLICATION}")
-                    database.execute("INSERT INTO ensemble VALUES (?)", (_text(self.ensemble),))
-                database.execute("INSERT OR REPLACE INTO blocks VALUES (?, ?, ?, ?)", row)
-        except sqlite3.Error as error:
-            raise StoreFailedError(
-                f"{self.path} can't be written to ({error}): make room, or move it to another place"
-            ) from None
+        with _reading(self.path), self._database as database:
+            database.execute("BEGIN IMMEDIATE")
+            if not database.execute("SELECT * FROM sqlite_master").fetchone():
+                for table in _TABLES:
+                    database.execute(table)
+                database.execute(f"PRAGMA application_id = {APPLICATION}")
+                database.execute("INSERT INTO ensemble VALUES (?)", (_text(self.ensemble),))
+            database.execute("INSERT OR REPLACE INTO blocks VALUES (?, ?, ?, ?)", row)
         self.held.add(block)
 
     def close(self) -> None:
@@ -238,7 +228,9 @@ def _reading(path: Path) -> Iterator[None]:
                 f"{path} can't be written to ({error}): choose a folder that can be"
             ) from None
         if code in (sqlite3.SQLITE_BUSY, sqlite3.SQLITE_FULL, sqlite3.SQLITE_IOERR):
-            raise StoreFailedError(f"{path} can't be used ({error})") from None
+            raise StoreFailedError(
+                f"{path} can't be used ({error}): make room, or move it to another place"
+            ) from None
         raise StoreError(
             f"{path} is damaged ({error}) and is left as it is: give another name, and the "
             "realisations are solved again"

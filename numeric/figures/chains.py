@@ -10,7 +10,7 @@ import numpy as np
 
 from ..theory.expected import critical_height
 from .beads import alike, bare, draw_base, draw_chains, draw_surface_load
-from .packings import Made, Medium, Options, Table, centres, one_packing, planned, table
+from .packings import Made, Medium, Options, Table, one_packing, planned
 from .style import PAGE, panels
 
 HEIGHT, WIDTH = 24, 64
@@ -24,19 +24,13 @@ def contacts(o: Options, medium: Medium) -> Table:
         "contact_forces", height=HEIGHT, width=WIDTH, seed=o.seed, std=medium.std,
         spacing=medium.spacing,
     )  # fmt: skip
-    packing, forces = one_packing(plan)
-    assert forces is not None
-    period, rows = float(medium.spacing * WIDTH), []
-    for j in range(1, HEIGHT + 1):
-        upper, lower = (np.stack(centres(packing, layer)[2:], axis=1) for layer in (j, j - 1))
-        below = packing.region.rows[j - 1].sites()
-        for branch, F, g in forces.below(j):
-            for q, i in enumerate(packing.region.rows[j].sites()):
-                own = (i - branch.side) % (2 * WIDTH)
-                x, y = lower[below.index(own)]
-                x += period * round((upper[q, 0] - x) / period)
-                rows.append((own, j - 1, branch, x, y, *upper[q], float((F[q] + g[q]) / F[q])))
-    return table("i j branch x_low y_low x_high y_high force", rows)
+    found = one_packing(plan)
+    names = {"x_low": "x", "y_low": "y", "x_high": "upper_x", "y_high": "upper_y"}
+    return {
+        **{name: found[name] for name in ("i", "j", "branch")},
+        **{name: found[column] for name, column in names.items()},
+        "force": found["force"] / (found["force"] - found["change"]),
+    }
 
 
 def figure(o: Options) -> Made:
@@ -44,11 +38,11 @@ def figure(o: Options) -> Made:
     o.notice("chains")
     medium = o.medium(MEDIUM)
     found = contacts(o, medium)
-    forces = np.array(found["force"])
-    ends = np.array([found[name] for name in ("x_low", "y_low", "x_high", "y_high")])
-    ends = ends.T.reshape(-1, 2, 2)
+    forces = found["force"]
+    ends = np.stack([found[name] for name in ("x_low", "y_low", "x_high", "y_high")], axis=1)
+    ends = ends.reshape(-1, 2, 2)
     right, top = float(medium.spacing) * SHOWN, float(ends[..., 1].max())
-    surface = np.unique(ends[np.array(found["j"]) == HEIGHT - 1, 1], axis=0)
+    surface = np.unique(ends[found["j"] == HEIGHT - 1, 1], axis=0)
     f = r"$f=\langle f\rangle$"
     keys = [(1.0, f), (3.0, r"$f=3\langle f\rangle$"), (-1.0, r"pulling, $f=-\langle f\rangle$")]
     if alike(forces):

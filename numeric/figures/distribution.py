@@ -53,11 +53,11 @@ def simulated(o: Options, number: int) -> tuple[Array, dict[str, Any]]:
     quantity = plan.quantity
     assert isinstance(quantity, ContactQuantity)
 
-    def each(answer: Solved, number: int) -> tuple[Array]:
+    def each(answer: Solved, number: int) -> Array:
         F, g = quantity.changes(plan.problem, answer, number)
-        return (g[0, :, 0] / F[0, 0],)
+        return np.asarray(g[0, :, 0] / F[0, 0])
 
-    (found,) = gathered(plan, o.notice, f"P(f), {kind} radii, M = {M}", each, number << 32)
+    found = gathered(plan, o.notice, f"P(f), {kind} radii, M = {M}", each, number << 32)
     std = np.sqrt(closed_forms.surface_variance(M, 0, float(medium.phi), medium.std, 1.0))
     smirnov, anderson = p_values(found / std, o.seed)
     return found / std, {

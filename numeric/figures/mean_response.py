@@ -36,13 +36,13 @@ def theory(spacing: Fraction) -> Array:
     return inside / (1 - phi**2) ** 2
 
 
-def beside(answer: Solved, number: int) -> tuple[Array]:
+def beside(answer: Solved, number: int) -> Array:
     """Changes of f⁺ inside the cone, averaged with their mirror images; (number, l − j − 1)."""
     assert answer.forces is not None
     change = answer.forces.change
     # row m holds what lies below the beads of layer m: l − m + 1 of them, from the left
     plus, minus = (side[LAYER + 1].reshape(number, -1) for side in (change.plus, change.minus))
-    return (np.asarray((plus[:, 1:] + minus[:, ::-1][:, 1:]) / 2),)
+    return np.asarray((plus[:, 1:] + minus[:, ::-1][:, 1:]) / 2)
 
 
 def simulated(o: Options, spacing: Fraction) -> Comparison:
@@ -55,7 +55,7 @@ def simulated(o: Options, spacing: Fraction) -> Comparison:
             load=PointLoad(at=(0, APEX)), realisations=o.realisations, spacing=spacing,
         )  # fmt: skip
         what = f"figure B9, {where}, {geometry}"
-        return packings.gathered(ensemble, o.notice, what, beside)[0]
+        return packings.gathered(ensemble, o.notice, what, beside)
 
     found = packings.band_of_shift(changed, ordered * STD**2, o.seed)
     return Comparison(f"{where}: Eq. B9", found, theory(spacing))

@@ -32,7 +32,7 @@ def beads(count: int) -> float:
     return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
 
 
-def window_means(answer: Solved, number: int) -> tuple[Array]:
+def window_means(answer: Solved, number: int) -> Array:
     """Mean squares of windows of contacts, then of beads; (number, 2 windows)."""
     forces, packing, upper = answer.forces, answer.packing, LAYER + 1
     assert forces is not None
@@ -51,13 +51,13 @@ def window_means(answer: Solved, number: int) -> tuple[Array]:
         for values in (relative[0], bead)
         for count in WINDOWS
     ]
-    return (np.stack([square.mean(axis=1) for square in each], axis=1),)
+    return np.stack([square.mean(axis=1) for square in each], axis=1)
 
 
 def simulated(o: Options) -> Comparison:
     """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
     ensemble = packings.planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
-    (square,) = packings.gathered(ensemble, o.notice, "figure B7", window_means)
+    square = packings.gathered(ensemble, o.notice, "figure B7", window_means)
     exact = [form(N) for form in (contacts, beads) for N in WINDOWS]
     what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
     return Comparison(what, packings.band_of_roots(square, o.seed), np.sqrt(exact))

@@ -8,13 +8,13 @@ from math import sqrt
 
 import numpy as np
 
-from ..arithmetic.systems import Array
+from ..arithmetic.systems import FLOAT64, Array
 from .beads import arrow, bare, draw_beads
-from .packings import N_X, SPACING, Made, Options, Table, centres, one_packing, planned, table
+from .packings import N_X, SPACING, Made, Options, Table, one_packing, planned
 from .style import COLUMN, panels
 
 HEIGHT, WIDTH, STD = 3, 16, 0.06
-SHOWN = range(9)  # columns i of the detail
+SHOWN = 9  # columns i of the detail
 NX, NY = float(N_X), sqrt(1 - N_X**2)
 NAMED = {
     (4, 2): "$(i,j)$", (5, 3): "$(i+1,j+1)$", (3, 3): "$(i-1,j+1)$", (5, 1): "$(i+1,j-1)$",
@@ -25,14 +25,19 @@ NAMED = {
 def beads(o: Options) -> Table:
     """Solve a packing and cut the detail out of it: i, j, ordered and displaced centre, radius."""
     o.notice("figure 1")
-    packing, _ = one_packing(planned("positions", height=HEIGHT, width=WIDTH, seed=o.seed, std=STD))
-    found = []
-    for j, layer in enumerate(packing.region.rows):
-        columns = (layer.sites(), *centres(packing, j), packing.radii[j])
-        for i, *numbers in zip(*columns, strict=True):
-            if i in SHOWN:
-                found.append((i, j, *map(float, numbers)))
-    return table("i j x_ordered y_ordered x y radius", found)
+    plan = planned("positions", height=HEIGHT, width=WIDTH, seed=o.seed, std=STD)
+    found = one_packing(plan)
+    found = {name: column[found["i"] < SHOWN] for name, column in found.items()}
+    sites = list(zip(found["i"].tolist(), found["j"].tolist(), strict=True))
+    return {
+        "i": found["i"],
+        "j": found["j"],
+        "x_ordered": found["x"] - found["dx"],
+        "y_ordered": found["y"] - found["dy"],
+        "x": found["x"],
+        "y": found["y"],
+        "radius": 1 + plan.problem.radii.at(sites, 0, FLOAT64),
+    }
 
 
 def at(i: float, j: float) -> Array:

@@ -10,13 +10,14 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
 from ..mechanics.engine import packings
-from ..mechanics.sweep import Forces, Solved, SolvedPacking
+from ..mechanics.sweep import Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
+from ..quantities.answer import answer
 from ..quantities.base import ContactQuantity
 from ..scene.scene import Scene
 from ..scene.sections import Ask, Disorder, Effects, Load, Packing, SurfaceLoad
-from ..statistics.bands import Band, averaged, log_relative_std, simultaneous
+from ..statistics.bands import Band, log_relative_std, simultaneous
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -171,21 +172,19 @@ def planned(
     return plan(scene)
 
 
-def one_packing(ensemble: Plan) -> tuple[SolvedPacking, Forces | None]:
-    """Solve the first realisation."""
-    with FLOAT64.active():
-        answer, _ = next(iter(packings(ensemble.problem, [0], FLOAT64)))
-    assert answer.packing is not None
-    return answer.packing, answer.forces
+def one_packing(ensemble: Plan) -> Table:
+    """Solve the first realisation; give the columns of its answer."""
+    table = answer(ensemble.quantities, ensemble.problem, [0], FLOAT64).table
+    return table.index | table.numbers
 
 
 def gathered(
     ensemble: Plan,
     notice: Notice,
     what: str,
-    each: Callable[[Solved, int], tuple[Array, ...]],
+    each: Callable[[Solved, int], Array],
     start: int = 0,
-) -> tuple[Array, ...]:
+) -> Array:
     """Solve all realisations from ``start`` on; join what ``each`` gives, (realisations, …).
 
     ``each`` takes what was solved, and of how many realisations; arrays of one have no axis of
@@ -193,10 +192,10 @@ def gathered(
     """
     count, found = ensemble.scene.ask.realisations, []
     with FLOAT64.active():
-        for answer, chunk in packings(ensemble.problem, range(start, start + count), FLOAT64):
-            found.append(each(answer, len(chunk)))
+        for solved, chunk in packings(ensemble.problem, range(start, start + count), FLOAT64):
+            found.append(each(solved, len(chunk)))
             notice(f"{what}: realisation {chunk[-1] - start} of {count}")
-    return tuple(np.concatenate(parts) for parts in zip(*found, strict=True))
+    return np.concatenate(found)
 
 
 def moments(
@@ -214,29 +213,24 @@ def moments(
     quantity, problem = ensemble.quantity, ensemble.problem
     assert isinstance(quantity, ContactQuantity)
 
-    def each(answer: Solved, number: int) -> tuple[Array, Array]:
-        F, g = quantity.changes(problem, answer, number)
+    def each(solved: Solved, number: int) -> Array:
+        F, g = quantity.changes(problem, solved, number)
         change = (g / F[:, None]).reshape(problem.height, problem.dimension, number, -1)
-        return change.mean(axis=axes).T, (change**2).mean(axis=axes).T
+        return np.stack([change.mean(axis=axes).T, (change**2).mean(axis=axes).T], axis=1)
 
-    mean, square = gathered(ensemble, notice, what, each, start)
+    mean, square = gathered(ensemble, notice, what, each, start).swapaxes(0, 1)
     return mean, square
-
-
-def band(log: Array, influence: Array, seed: int) -> Band:
-    """Give the band of exp(log), (L,), from what each realisation adds to its error."""
-    return simultaneous(averaged(log, influence), LEVEL, seed)
 
 
 def band_of_spread(mean: Array, square: Array, seed: int) -> Band:
     """Give the band of σ/⟨f⟩ (``log_relative_std``)."""
-    return band(*log_relative_std(mean, square), seed)
+    return simultaneous(*log_relative_std(mean, square), LEVEL, seed)
 
 
 def band_of_roots(squares: Array, seed: int) -> Band:
     """Give the band of root mean squares, of ``squares``, (realisations, L)."""
     mean = squares.mean(axis=0)
-    return band(np.log(mean) / 2, squares / mean / 2 - 0.5, seed)
+    return simultaneous(np.log(mean) / 2, squares / mean / 2 - 0.5, LEVEL, seed)
 
 
 def band_of_shift(
@@ -249,14 +243,4 @@ def band_of_shift(
     """
     each = (changes("exact") - changes("first-order")) / unit
     mean = each.mean(axis=0)
-    return simultaneous(averaged(mean, each - mean), LEVEL, seed, logarithmic=False)
-
-
-def centres(packing: SolvedPacking, j: int) -> tuple[Array, Array, Array, Array]:
-    """Give x and y of the beads of a layer, ordered and displaced, in units of r."""
-    nx = sqrt((1 - packing.phi) / 2)
-    ny = sqrt(1 - nx**2)
-    x = np.array(packing.region.rows[j].sites()) * (2 * nx)
-    y = np.full(len(x), 2 * j * ny)
-    cp, cm = packing.c.plus[j], packing.c.minus[j]
-    return x, y, x + (cp - cm) / (2 * nx), y + (cp + cm) / (2 * ny)
+    return simultaneous(mean, each - mean, LEVEL, seed, logarithmic=False)

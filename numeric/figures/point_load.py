@@ -7,6 +7,7 @@ contact carries all of p, half of the load on average, and fluctuates less. The 
 l are the closed forms, exact to first order; the simulation is exact and nonlinear.
 """
 
+from functools import partial
 from math import asin
 
 import numpy as np
@@ -46,10 +47,7 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
         "response", height=APEX, width=None, seed=o.seed, std=medium.std, spacing=medium.spacing,
         load=PointLoad(at=(0, APEX)), realisations=o.realisations,
     )  # fmt: skip
-    (change,) = packings.gathered(
-        ensemble, o.notice, "figure 4",
-        lambda answer, number: (np.concatenate(vertical(ensemble, answer, number), axis=1),),
-    )  # fmt: skip
+    change = packings.gathered(ensemble, o.notice, "figure 4", partial(vertical, ensemble))
     phi, square = medium.phi, change.var(axis=0) / medium.std**2
     exact = np.array([bead_response(i, j, 0, APEX, phi, 1, 1) for i, j in SITES], dtype=float)
     off = (change - change.mean(axis=0))[:, ON_CUTS] / medium.std
@@ -77,20 +75,17 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
     return table, Comparison(what, band, np.sqrt(exact[ON_CUTS]))
 
 
-def vertical(ensemble: Plan, answer: Solved, number: int) -> tuple[Array, ...]:
-    """Give the change of p by layer 0 … l − 1, shapes (number, l − j + 1): beads of the cone."""
+def vertical(ensemble: Plan, answer: Solved, number: int) -> Array:
+    """Give the change of p, (number, beads of the cone)."""
     quantity = ensemble.quantity
     assert isinstance(quantity, quantities.Response)
     _, changes = quantity.changes(ensemble.problem, answer, number)
-    contacts = changes[len(changes) // 2 :, :, 0].T  # behind the forces
-    found, at = [], 0
-    for row in ensemble.problem.force_rows[1:]:
-        both = np.zeros((number, row.count + 1))
-        both[:, :-1] += contacts[:, at : at + row.count]
-        both[:, 1:] += contacts[:, at + row.count : at + 2 * row.count]
-        found.append(both)
-        at += 2 * row.count
-    return tuple(found)
+    labels, found = quantity.labels(ensemble.problem), np.zeros((len(SITES), number))
+    rows = zip(*(labels[name] for name in ("i", "j", "component")), changes[:, :, 0], strict=True)
+    for i, j, component, change in rows:
+        if component == "vertical":
+            found[SITES.index((i, j))] += change
+    return found.T
 
 
 def figure(o: Options) -> Made:

@@ -6,18 +6,20 @@ a layer that are the same modulo 2W. For exact forces it is enough to look at la
 stand on images. There the triangle below a loaded bead (k, l) ends at k − l and k + l.
 """
 
-from collections.abc import Iterable
-from itertools import combinations, pairwise
+from itertools import combinations
 
-from ..lattice.branch import Contact, Site
-from ..lattice.layers import full_layer
+from ..lattice.branch import Contact
 from . import first_order
 from .loads import LoadSpec
 from .problem import Problem, Route
 
 
 def sees_images(problem: Problem) -> bool:
-    """Say whether any row of the answer differs, with radii in general, from the slab's."""
+    """Say whether any row of the answer differs, with radii in general, from the slab's.
+
+    Several loaded beads count as a whole layer as high as the highest: of these it is said, too,
+    where their triangles are too far apart to meet.
+    """
     width, load, contact = problem.width, problem.load, problem.contact
     if width is None or problem.route == Route.ORDERED:
         return False
@@ -26,14 +28,17 @@ def sees_images(problem: Problem) -> bool:
     if not problem.needs_forces:
         tip = problem.height if problem.site is None else problem.site[1]
         return tip >= width
+    highest = load.height
+    if load.loaded is not None:
+        highest = max((j for _, j in load.loaded), default=0)
     if problem.route == Route.EXACT:
-        if contact is not None:
-            return _exact([contact.upper], load, width, contact.upper[1])
-        sites = full_layer(1, width).sites()  # W of them, more than a memory holds
-        return _exact(((i, 1) for i in sites), load, width, 1)
+        if load.loaded is not None and len(load.loaded) == 1:
+            return highest >= width
+        layer = 1 if contact is None else contact.upper[1]
+        return 2 * highest - layer + 1 > width
     if contact is not None:
         return _first_order(contact, load, width)
-    return width <= _highest(load)  # the contact straight below the highest load is the first
+    return width <= highest  # the contact straight below the highest load is the first
 
 
 def _of_spheres(problem: Problem) -> bool:
@@ -53,71 +58,13 @@ def _of_spheres(problem: Problem) -> bool:
     return width <= 2 * height - 1
 
 
-def _highest(load: LoadSpec) -> int:
-    return load.height if load.loaded is None else max((j for _, j in load.loaded), default=0)
-
-
-def _above(apex: Site, load: LoadSpec, width: int) -> list[Site] | None:
-    """Give the loads in the upward cone of a bead, unwrapped; None if one is there twice."""
-    i, j = apex
-    found = []
-    for k, m in load.loaded or []:
-        if m < max(j, 1):
-            continue
-        first = i - (m - j) + (k - i + m - j) % (2 * width)
-        if first + 2 * width <= i + (m - j):
-            return None
-        if first <= i + (m - j):
-            found.append((first, m))
-    return found
-
-
-def _exact(apexes: Iterable[Site], load: LoadSpec, width: int, layer: int) -> bool:
-    """Look at the triangles below all loads that stand on one of the ``apexes`` of a ``layer``."""
-    widest = 2 * _highest(load) - layer + 1
-    if load.loaded is None or widest <= width:
-        return widest > width
-    for apex in apexes:
-        above = _above(apex, load, width)
-        if above is None or _overlap(
-            _joined([((k - m) // 2, (k + m) // 2) for k, m in above]), width
-        ):
-            return True
-    return False
-
-
-def _joined(runs: list[tuple[int, int]]) -> list[tuple[int, int]]:
-    """Join runs of columns that overlap.
-
-    >>> _joined([(4, 6), (0, 2), (2, 3)])
-    [(0, 3), (4, 6)]
-    """
-    joined: list[tuple[int, int]] = []
-    for first, last in sorted(runs):
-        if joined and first <= joined[-1][1]:
-            joined[-1] = (joined[-1][0], max(last, joined[-1][1]))
-        else:
-            joined.append((first, last))
-    return joined
-
-
-def _overlap(runs: list[tuple[int, int]], width: int) -> bool:
-    """Say whether runs of different columns overlap modulo W.
-
-    >>> _overlap([(0, 3), (4, 6)], 7), _overlap([(0, 3), (4, 6)], 6), _overlap([(-1, 1)], 2)
-    (False, True, True)
-    """
-    home = sorted((first % width, first % width + last - first) for first, last in runs)
-    if not home:
-        return False
-    around = (home[0][0] + width, 0)
-    return any(left[1] >= right[0] for left, right in pairwise([*home, around]))
-
-
 def _first_order(contact: Contact, load: LoadSpec, width: int) -> bool:
     """Look at the diagonals that decide a contact, and at the loads above it."""
-    if _above(contact.upper, load, width) is None:
-        return True
+    i, j = contact.upper
+    for k, m in load.loaded or []:
+        rise = m - j
+        if rise >= 0 and (k - i + rise) % (2 * width) + 2 * width <= 2 * rise:
+            return True  # the load stands on the contact twice
     lines = first_order.lines_read(contact, load).values()
     return any(_coincide(a, b, 2 * width) for a, b in combinations(lines, 2))
 

@@ -22,7 +22,7 @@ import numpy as np
 from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import AxisContact, Contact, directions
-from ..lattice.layers import Layer
+from ..lattice.layers import Layer, Region
 from . import local
 from .local import RESOLUTION
 from .loops import loops
@@ -69,16 +69,50 @@ class Physicality:
         if solved.forces is not None:
             self.look_at_forces(solved.forces)
 
+    @property
+    def _least_gap(self) -> float:
+        return math.inf if self.smallest_gap is None else self.smallest_gap
+
     def look_at_gaps(self, packing: SolvedPacking) -> None:
-        """Measure the gaps of all pairs of beads that could meet."""
-        found = gaps(packing)
-        self.overlaps += found.overlaps
-        self.undecided_gaps += found.undecided
-        before = math.inf if self.smallest_gap is None else self.smallest_gap
-        if found.between is not None and not found.smallest >= before:
-            lower, upper = found.between
-            self.smallest_gap, self.smallest_in = found.smallest, self.looks_at[found.packing]
-            self.between = named(packing, lower), named(packing, upper)
+        """Measure the gaps of all pairs of beads that could meet, in float64 from the deviations.
+
+        Those of pairs that are too far apart to be the closest of all packings are left out.
+        """
+        region = packing.region
+        d, phi = region.dimension, float(packing.phi)
+        if packing.system.dtype is object:
+            rho, block = as_floats(packing.rho), as_floats(packing.block)
+            packing = SolvedPacking(packing.phi, FLOAT64, region, rho, block)
+        turn, moved, widest = _bounds(packing, phi)
+        thick = 2 + 2 * widest
+        # √d/(2√λ) steps are the most of a distance of 1, λ the least eigenvalue of the Gram matrix
+        slack = 1 - turn * math.sqrt(d / _least(d, phi)) / 2
+        # no two beads of a part of the slab are farther apart; elsewhere each has images
+        farthest = math.inf if region.width is not None else 4 * region.widest + 8 * region.top + 8
+        for distance, steps in by_distance(d, phi):
+            matters = max(self._least_gap, RESOLUTION)
+            nearest = max(distance * slack, distance - moved) - thick
+            if distance > farthest or nearest > matters:
+                return
+            if distance - min(sum(map(abs, steps)) * turn, moved) - thick <= matters:
+                self._look_at_pairs(packing, steps)
+
+    def _look_at_pairs(self, packing: SolvedPacking, steps: Steps) -> None:
+        """Measure the gaps of one kind of pairs."""
+        gap = gaps_of(packing, steps)
+        self.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
+        close = np.abs(gap) <= RESOLUTION
+        self.undecided_gaps += int(np.count_nonzero(close | np.isnan(gap)))
+        least = float(np.nanmin(gap, initial=math.inf))
+        if least < self._least_gap:
+            number, bead = map(int, np.argwhere(gap == least)[0])
+            region = packing.region
+            j = int(np.searchsorted(region.starts, bead, "right")) - 1
+            own, other = region.rows[j], region.rows[j + sum(steps)]
+            column = bead - int(region.starts[j])
+            there = region.look(other, own, steps, -1)(np.arange(other.count))
+            self.smallest_gap, self.smallest_in = least, self.looks_at[number]
+            self.between = named(region, own, column), named(region, other, int(there[column]))
 
     def look_at_forces(self, forces: Forces) -> None:
         """Count the contacts that surely pull and those whose sign stays open."""
@@ -123,25 +157,6 @@ def pulling(forces: Forces) -> tuple[Any, Any]:
     return f < -room, (np.abs(f) <= room) & (f != 0)
 
 
-@dataclass
-class Gaps:
-    """The smallest gap, the number of its packing and its two beads; overlaps; what is too close.
-
-    Beads are named as (row, column).
-    """
-
-    smallest: float = math.inf
-    packing: int = 0
-    between: tuple[tuple[int, int], tuple[int, int]] | None = None
-    overlaps: int = 0
-    undecided: int = 0
-
-    @property
-    def matters(self) -> float:
-        """The size from which on gaps change nothing."""
-        return max(self.smallest, RESOLUTION)
-
-
 def _least(dimension: int, phi: float) -> float:
     """Give the least eigenvalue of the Gram matrix."""
     return min(1 - phi, 1 + (dimension - 1) * phi)
@@ -183,31 +198,6 @@ def by_distance(dimension: int, phi: float) -> Iterator[tuple[float, Steps]]:
         reach, given = 2 * reach, len(shell)
 
 
-def gaps(packing: SolvedPacking) -> Gaps:
-    """Measure gaps of packings of any arithmetic, in float64 from the deviations."""
-    region, found = packing.region, Gaps()
-    d, phi = region.dimension, float(packing.phi)
-    if packing.system.dtype is object:
-        rho, block = as_floats(packing.rho), as_floats(packing.block)
-        packing = SolvedPacking(packing.phi, FLOAT64, region, rho, block)
-    turn, moved, widest = _bounds(packing, phi)
-    thick = 2 + 2 * widest
-    # √d/(2√λ) steps are the most of a distance of 1, λ the least eigenvalue of the Gram matrix
-    slack = 1 - turn * math.sqrt(d / _least(d, phi)) / 2
-    # no two beads of a part of the slab are farther apart; elsewhere each has images
-    farthest = math.inf if region.width is not None else 4 * region.widest + 8 * region.top + 8
-    for distance, steps in by_distance(d, phi):
-        if distance > farthest:
-            return found
-        nearest = max(distance * slack, distance - moved) - thick
-        if nearest > found.matters:
-            return found
-        if distance - min(sum(map(abs, steps)) * turn, moved) - thick > found.matters:
-            continue
-        _take_in(found, packing, steps)
-    return found
-
-
 def _bounds(packing: SolvedPacking, phi: float) -> tuple[float, float, float]:
     """Bound the change of a contact's vector, twice the displacement of a bead, and δr/r."""
     d, rho, block = packing.region.dimension, packing.rho, packing.block
@@ -217,24 +207,6 @@ def _bounds(packing: SolvedPacking, phi: float) -> tuple[float, float, float]:
     turn = 2 * max(widest, deepest) + (2 + 2 * widest) * dn
     moved = 2 * math.sqrt(sum(x * x for x in most[:d]) / _least(d, phi))
     return turn * ROOM, moved * ROOM, widest
-
-
-def _take_in(found: Gaps, packing: SolvedPacking, steps: Steps) -> None:
-    """Take in the gaps of one kind of pairs."""
-    gap = gaps_of(packing, steps)
-    found.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
-    close = np.abs(gap) <= RESOLUTION
-    found.undecided += int(np.count_nonzero(close | np.isnan(gap)))
-    least = float(np.nanmin(gap, initial=math.inf))
-    if least < found.smallest:
-        number, bead = map(int, np.argwhere(gap == least)[0])
-        region = packing.region
-        j = int(np.searchsorted(region.starts, bead, "right")) - 1
-        own, other = region.rows[j], region.rows[j + sum(steps)]
-        column = bead - int(region.starts[j])
-        there = region.look(other, own, steps, -1)(np.arange(other.count))
-        found.smallest, found.packing = least, number
-        found.between = (j, column), (other.j, int(there[column]))
 
 
 def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
@@ -267,12 +239,9 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
     return found
 
 
-def named(packing: SolvedPacking, bead: tuple[int, int]) -> tuple[int, ...]:
+def named(region: Region, row: Layer, column: int) -> tuple[int, ...]:
     """Name a bead of a row as users know it, within the period."""
-    row, column = bead
-    region = packing.region
-    layer: Layer = region.rows[row]
-    site = region.bead(layer, column)
+    site = region.bead(row, column)
     if region.dimension == 2 and region.width is not None:
         return site[0] % (2 * region.width), site[1]
     return site

@@ -75,11 +75,6 @@ class SolvedPacking:
     rho: Any
     block: Any
 
-    @property
-    def radii(self) -> Sequence[Any]:
-        """Radii of each row, in units of r."""
-        return RowView(_of_one(1 + self.rho), self.region.starts)
-
     @cached_property
     def c(self) -> PerBranch[Sequence[Any]]:
         """n^a·δx/r of each row, (count,) or (packings, count)."""

@@ -174,5 +174,5 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
         many = f"About {expected:.2g} contacts are" if expected >= 1e-3 else "No contact is"
         lines.append(f"{many} expected to pull; the first one would {low}")
     if data["sees_images"]:
-        lines.append("The answer depends on periodic images: it is for the strip, not the slab")
+        lines.append("The answer may depend on periodic images: it is for the strip, not the slab")
     return lines

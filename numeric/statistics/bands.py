@@ -18,27 +18,6 @@ from ..arithmetic.systems import Array
 DRAWS = 40_000
 
 
-@dataclass(frozen=True)
-class Estimate:
-    """Estimated logarithms, shape (L,), the covariance of their errors, and its freedom."""
-
-    log: Array
-    covariance: Array
-    freedom: int
-
-    @property
-    def error(self) -> Array:
-        """Standard errors of the logarithms, shape (L,)."""
-        return np.asarray(np.sqrt(np.diag(self.covariance)))
-
-
-def averaged(log: Array, influence: Array) -> Estimate:
-    """Estimate from what each of n realisations adds to the error, shape (n, L), to first order."""
-    n = len(influence)
-    apart = influence - influence.mean(axis=0)
-    return Estimate(log, apart.T @ apart / (n - 1) / n, n - 1)
-
-
 def log_relative_std(mean: Array, square: Array) -> tuple[Array, Array]:
     """Give ln(σ/⟨f⟩), shape (L,), and the influence of each realisation on it, shape (n, L).
 
@@ -53,46 +32,41 @@ def log_relative_std(mean: Array, square: Array) -> tuple[Array, Array]:
     return log, influence
 
 
-def critical_value(estimate: Estimate, level: float, seed: int) -> float:
-    """Give c: all |errors| stay below c standard errors with probability ``level``."""
-    error = estimate.error
-    correlation = estimate.covariance / np.outer(error, error)
-    values, vectors = np.linalg.eigh(correlation)
+def critical_value(covariance: Array, freedom: int, level: float, seed: int) -> float:
+    """Give c: all |errors| stay below c standard errors with probability ``level``.
+
+    ``covariance``: of the errors, (L, L), estimated with so many degrees of ``freedom``.
+    """
+    error = np.sqrt(np.diag(covariance))
+    values, vectors = np.linalg.eigh(covariance / np.outer(error, error))
     factor = vectors * np.sqrt(np.maximum(values, 0))
     generator = np.random.default_rng(seed)
     normal = generator.standard_normal((DRAWS, len(values))) @ factor.T
-    scale = np.sqrt(generator.chisquare(estimate.freedom, DRAWS) / estimate.freedom)
+    scale = np.sqrt(generator.chisquare(freedom, DRAWS) / freedom)
     return float(np.quantile(np.abs(normal).max(axis=1) / scale, level))
 
 
 @dataclass(frozen=True)
 class Band:
-    """A simultaneous band; ``half`` is its half-width, shape (L,), in the logarithm if it is one.
+    """A simultaneous band about what was estimated; ``estimate`` and ``half``-widths are (L,).
 
-    ``logarithmic``: what was estimated are logarithms, as ``Estimate`` has them; else plain means.
+    ``logarithmic``: both are those of logarithms; else of plain means.
     """
 
-    estimate: Estimate
+    estimate: Array
+    half: Array
     level: float
-    critical: float
     logarithmic: bool = True
-
-    @property
-    def half(self) -> Array:
-        """Half-width, shape (L,)."""
-        return self.critical * self.estimate.error
 
     @property
     def value(self) -> Array:
         """What was estimated (no logarithm), shape (L,)."""
-        return self._plain(self.estimate.log)
+        return self._plain(self.estimate)
 
     @property
     def limits(self) -> tuple[Array, Array]:
         """Lower and upper edge of what was estimated (no logarithm)."""
-        return self._plain(self.estimate.log - self.half), self._plain(
-            self.estimate.log + self.half
-        )
+        return self._plain(self.estimate - self.half), self._plain(self.estimate + self.half)
 
     def _plain(self, values: Array) -> Array:
         return np.asarray(np.exp(values) if self.logarithmic else values)
@@ -100,7 +74,7 @@ class Band:
     def deviation(self, curve: Array) -> float:
         """Give the largest deviation of a curve, in units of the half-width: inside is ≤ 1."""
         own = np.log(curve) if self.logarithmic else np.asarray(curve)
-        return float((np.abs(own - self.estimate.log) / self.half).max())
+        return float((np.abs(own - self.estimate) / self.half).max())
 
     def verdict(self, deviation: float) -> str:
         """Say whether a curve with this deviation is inside."""
@@ -112,7 +86,19 @@ class Band:
 
 
 def simultaneous(
-    estimate: Estimate, level: float = 0.99, seed: int = 0, *, logarithmic: bool = True
+    estimate: Array,
+    influence: Array,
+    level: float = 0.99,
+    seed: int = 0,
+    *,
+    logarithmic: bool = True,
 ) -> Band:
-    """Give the band that holds all true values with probability ``level``."""
-    return Band(estimate, level, critical_value(estimate, level, seed), logarithmic)
+    """Give the band that holds all true values with probability ``level``.
+
+    ``influence``: what each of n realisations adds to the error, (n, L), to first order.
+    """
+    n = len(influence)
+    apart = influence - influence.mean(axis=0)
+    covariance = apart.T @ apart / (n - 1) / n
+    critical = critical_value(covariance, n - 1, level, seed)
+    return Band(estimate, critical * np.sqrt(np.diag(covariance)), level, logarithmic)

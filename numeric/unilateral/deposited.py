@@ -10,7 +10,7 @@ from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
 from ..lattice.branch import Branch
 from ..lattice.layers import column, whole
 from ..mechanics.engine import solve
-from ..mechanics.physicality import Physicality
+from ..mechanics.physicality import pulling
 from ..mechanics.problem import Problem, Route, axes
 from ..mechanics.sweep import SolvedPacking, UnbuildableError
 from ..mechanics.work import Work
@@ -102,19 +102,13 @@ def as_deposited(problem: Problem, realisation: int, known: Frame, system: Balls
     packing, forces = solved.packing, solved.forces
     assert packing is not None
     assert forces is not None
-    seen = Physicality()
-    seen.look_at_forces(forces)
-    if seen.tensile:
+    pulls, undecided = pulling(forces)
+    if np.any(pulls):
         raise UnfinishedError("a contact pulls by less than float64 can resolve")
-    if seen.undecided_signs:
+    if np.any(undecided):
         raise UndecidedError("the enclosures are too wide to tell whether a contact pulls")
-    width, height = len(known.base), problem.height
-    found = system.zeros(height, width, 2)
-    for j in range(1, len(forces.rows)):
-        for side, (_, F, g) in enumerate(forces.below(j)):
-            if len(F):
-                found[j - 1, :, side] = F + g
-    pairs, values = lattice_contacts(width, height), found.ravel()
+    width = len(known.base)
+    pairs, values = lattice_contacts(width, problem.height), (forces.F + forces.g[0]).T.ravel()
     bearing = np.array([not (f.rad() == 0 and f == 0) for f in values], dtype=bool)
     x = _centres(problem, packing, system)
     free = np.arange(width, len(x))

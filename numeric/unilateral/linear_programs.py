@@ -125,12 +125,18 @@ class _Programs:
         program.a_matrix_.index_ = A.indices
         program.a_matrix_.value_ = A.data
         solver = highspy.Highs()  # type: ignore[no-untyped-call]
-        solver.setOptionValue("output_flag", False)
+        _set(solver)
         solver.passModel(program)
         names = self.grains.named(pairs).tolist()
         optimal = highspy.HighsModelStatus.kOptimal
         if by_simplex and self.columns:
-            solver.passOptions(_by_simplex(highspy, A.shape[1] // 4))
+            # primal, and given up where it takes long
+            most, exact = A.shape[1] // 4, 1e-10
+            _set(
+                solver, solver="simplex", presolve="off", simplex_strategy=4,
+                simplex_iteration_limit=most, primal_feasibility_tolerance=exact,
+                dual_feasibility_tolerance=exact,
+            )  # fmt: skip
             basis, inactive = highspy.HighsBasis(), highspy.HighsBasisStatus.kBasic
             basis.valid = basis.alien = True
             basis.col_status = self.columns
@@ -138,7 +144,7 @@ class _Programs:
             solver.setBasis(basis)
             solver.run()
         if solver.getModelStatus() != optimal:
-            solver.passOptions(_by_interior_points(highspy, vertex=by_simplex))
+            _set(solver, solver="ipx", run_crossover="on" if by_simplex else "off")
             solver.clearSolver()
             solver.run()
         status = solver.getModelStatus()
@@ -155,19 +161,8 @@ class _Programs:
         return np.array(solution.col_value), np.array(solution.row_dual)
 
 
-def _by_simplex(highspy: Any, most: int) -> Any:
-    """Give options of HiGHS for the simplex method, which is given up after ``most`` steps."""
-    options = highspy.HighsOptions()
-    options.output_flag, options.threads, options.solver = False, 1, "simplex"
-    options.presolve, options.simplex_strategy = "off", 4  # primal
-    options.simplex_iteration_limit = most
-    options.primal_feasibility_tolerance = options.dual_feasibility_tolerance = 1e-10
-    return options
-
-
-def _by_interior_points(highspy: Any, *, vertex: bool) -> Any:
-    """Give options of HiGHS for interior points, which end at a ``vertex`` or not."""
-    options = highspy.HighsOptions()
-    options.output_flag, options.threads, options.solver = False, 1, "ipx"
-    options.run_crossover = "on" if vertex else "off"
-    return options
+def _set(solver: Any, **options: Any) -> None:
+    """Set these options of HiGHS, and all others as they are by default; it works in silence."""
+    solver.resetOptions()
+    for name, value in {"output_flag": False, "threads": 1, **options}.items():
+        solver.setOptionValue(name, value)

@@ -167,7 +167,9 @@ def test_chains_balance_as_drawn() -> None:
     for (_, j), rest in left.items():
         load = np.array([0.0, 1.0 if j == chains.HEIGHT else 0.0])
         if j:
-            assert rest == pytest.approx(load, abs=1e-12)
+            # ends are rounded to 1e-12 r: each of four contacts is turned by 1e-12 at most, and
+            # the largest force is below four times the load
+            assert rest == pytest.approx(load, abs=1.6e-11)
     facts = found.facts
     assert 0 < facts["tensile"] < facts["contacts"] / 4
     assert chains.HEIGHT < facts["critical_height"] < 2 * chains.HEIGHT

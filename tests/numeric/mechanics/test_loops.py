@@ -13,7 +13,8 @@ from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError
 from force_diffusion.numeric.lattice.branch import Branch, Contact
 from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
 from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
-from force_diffusion.numeric.mechanics import physicality, sweep
+from force_diffusion.numeric.mechanics import sweep
+from force_diffusion.numeric.mechanics.physicality import Physicality
 from force_diffusion.numeric.mechanics.sweep import (
     Forces,
     NotStandingError,
@@ -91,9 +92,11 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
         for name in ("block",) if isinstance(ours, SolvedPacking) else ("g",):
             # LLVM and NumPy round alike
             assert getattr(ours, name).tobytes() == getattr(theirs, name).tobytes()
-    found = physicality.gaps(usual[0])
+    found, again = (Physicality(looks_at=range(len(rho))) for _ in range(2))
+    found.look_at_gaps(usual[0])
     with by_numpy():
-        assert physicality.gaps(usual[0]) == found
+        again.look_at_gaps(usual[0])
+    assert again == found
     balls = Balls(200)
     with balls.active():
         exact = solved(phi, region, balls.from_floats(rho[:1]), rows, balls.from_floats(F), balls)

@@ -14,7 +14,7 @@ from force_diffusion.numeric.arithmetic.systems import (
     Balls,
 )
 from force_diffusion.numeric.lattice.layers import Region, whole
-from force_diffusion.numeric.mechanics.physicality import by_distance, gaps
+from force_diffusion.numeric.mechanics.physicality import Physicality, by_distance
 from force_diffusion.numeric.mechanics.sweep import (
     NotStandingError,
     SolvedPacking,
@@ -51,10 +51,11 @@ def test_gaps_of_touching_beads_are_told_apart() -> None:
     """At s = 2r beads of a layer touch: no gap, to the last place."""
     region, rho = spheres([np.zeros((3, 3))] * 2)
     with FLOAT64.active():
-        found = gaps(deposit(Fraction(1, 2), region, rho, FLOAT64))
-    assert found.smallest == 0
+        found = Physicality()
+        found.look_at_gaps(deposit(Fraction(1, 2), region, rho, FLOAT64))
+    assert found.smallest_gap == 0
     # three pairs a bead, in each of two layers
-    assert (found.overlaps, found.undecided) == (0, 3 * 9 * 2)
+    assert (found.overlaps, found.undecided_gaps) == (0, 3 * 9 * 2)
 
 
 @pytest.mark.parametrize(("dimension", "phi"), [(2, Fraction(-2, 5)), (3, Fraction(-3, 10))])

@@ -5,10 +5,9 @@ import pytest
 from force_diffusion.numeric.figures.comparison import averages, curves
 from force_diffusion.numeric.statistics import bands
 from force_diffusion.numeric.statistics.bands import (
-    Estimate,
-    averaged,
     critical_value,
     log_relative_std,
+    simultaneous,
 )
 from scipy.special import ndtri
 
@@ -21,14 +20,13 @@ def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch: pytest.Mo
     M, n, repetitions = 3, 50, 300
     # far below M*: what is nonlinear is a share M³(σ/r)² of σ_f, 2e-6
     mean, square = averages(M, range(n * repetitions), 5, lambda _: None)
-    truth = np.log(curves(M)[0])
+    truth = curves(M)[0]
     outside = {0.9: 0, 0.99: 0}
     for k in range(repetitions):
         part = slice(k * n, (k + 1) * n)
-        found = averaged(*log_relative_std(mean[part], square[part]))
-        largest = (np.abs(truth - found.log) / found.error).max()
+        found = log_relative_std(mean[part], square[part])
         for level in outside:
-            outside[level] += int(largest > critical_value(found, level, k))
+            outside[level] += simultaneous(*found, level, k).deviation(truth) > 1
     for level, count in outside.items():
         # a band of the right level gets past this in 999 of 1000 choices of the seed
         assert stats.binomtest(count, repetitions, 1 - level).pvalue > 1e-3, outside
@@ -37,19 +35,17 @@ def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch: pytest.Mo
 def test_one_layer_needs_the_quantile_of_t() -> None:
     from scipy import stats
 
-    one = Estimate(np.zeros(1), np.eye(1), 12)
     expected = stats.t.ppf(0.995, 12)
     # the scatter of a simulated 99 % quantile, from its density: 3 standard errors
     error = np.sqrt(0.99 * 0.01 / bands.DRAWS) / (2 * stats.t.pdf(expected, 12))
-    assert critical_value(one, 0.99, 1) == pytest.approx(expected, abs=3 * error)
+    assert critical_value(np.eye(1), 12, 0.99, 1) == pytest.approx(expected, abs=3 * error)
 
 
 def test_layers_that_always_agree_count_as_one_and_others_do_not() -> None:
-    alike = Estimate(np.zeros(6), np.ones((6, 6)), 10_000)
-    apart = Estimate(np.zeros(6), np.eye(6), 10_000)
-    assert critical_value(alike, 0.99, 1) == pytest.approx(ndtri(0.995), abs=0.05)
+    alike, apart = (critical_value(c, 10_000, 0.99, 1) for c in (np.ones((6, 6)), np.eye(6)))
+    assert alike == pytest.approx(ndtri(0.995), abs=0.05)
     each = (1 - 0.99 ** (1 / 6)) / 2
-    assert critical_value(apart, 0.99, 1) == pytest.approx(ndtri(1 - each), abs=0.06)
+    assert apart == pytest.approx(ndtri(1 - each), abs=0.06)
 
 
 # the seed is fixed, since how well first order holds hangs on the sample
