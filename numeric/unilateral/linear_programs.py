@@ -161,7 +161,7 @@ class _Programs:
         return np.array(solution.col_value), np.array(solution.row_dual)
 
 
-def _set(solver: Any, **options: Any) -> None:
+def _set(solver: Any, /, **options: Any) -> None:
     """Set these options of HiGHS, and all others as they are by default; it works in silence."""
     solver.resetOptions()
     for name, value in {"output_flag": False, "threads": 1, **options}.items():
