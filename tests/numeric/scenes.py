@@ -77,20 +77,23 @@ def basic(height: int = 6, width: int | None = 14, **ask: Any) -> dict[str, dict
 
 
 def question(
-    quantity: Any, height: int, width: int, *, dimension: int = 2, spacing: Any = 3,
-    kind: Any = "uniform", std: float = 1e-3, seed: int = 1, load: fd.Load | None = None,
-    effects: dict[str, Any] | None = None, **ask: Any,
+    quantity: Any, height: int, width: int, *, dimension: int = 2, radius: Any = 1,
+    spacing: Any = 3, kind: Any = "uniform", std: float = 1e-3, seed: int = 1,
+    radii: fd.Disorder | fd.GivenRadii | None = None, load: fd.Load | None = None,
+    effects: dict[str, Any] | None = None, folder: Path = Path(), **ask: Any,
 ) -> fd.Scene:  # fmt: skip
-    """Ask something of packings whose radii are drawn."""
+    """Ask something of packings whose radii are drawn, or given as ``radii``."""
     return fd.Scene(
         packing=fd.Packing(
-            height=height, width=width, dimension=dimension, spacing=spacing, allow_images=True
+            height=height, width=width, dimension=dimension, radius=radius, spacing=spacing,
+            allow_images=True,
         ),
-        disorder=fd.Disorder(kind=kind, relative_std=std, seed=seed),
+        disorder=radii or fd.Disorder(kind=kind, relative_std=std, seed=seed),
         load=load or fd.SurfaceLoad(),
         effects=fd.Effects(**(effects or {})),
         ask=fd.Ask(quantity=quantity, **ask),
-    )
+        folder=folder,
+    )  # fmt: skip
 
 
 @st.composite

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 ROUNDING = 1e-14  # a few roundings of numbers of about 1
 
@@ -104,10 +105,7 @@ def test_columns_stand_side_by_side_with_the_lattice() -> None:
 
 def test_contact_forces_say_where_contacts_are() -> None:
     """Places are those of positions; beads that the answer doesn't depend on have none."""
-    disorder = fd.Disorder(kind="uniform", relative_std=1e-2, seed=3)
-    questions = fd.Ask(quantity=["contact_forces", "positions"])
-    scene = fd.Scene(packing=fd.Packing(height=4, width=9), disorder=disorder, ask=questions)
-    found = scene.run().results
+    found = question(["contact_forces", "positions"], 4, 9, std=1e-2).run().results
     places = {(r["i"], r["j"]): (r["x"], r["y"]) for r in found["positions"].rows()}
     for row in found["contact_forces"].rows():
         assert (row["x"], row["y"]) == pytest.approx(places[row["i"], row["j"]], abs=1e-10)
@@ -116,9 +114,7 @@ def test_contact_forces_say_where_contacts_are() -> None:
         x, y = places[home, row["j"] + 1]
         assert (row["upper_x"], row["upper_y"]) == pytest.approx((x + 27 * turns, y), abs=1e-10)
         assert row["wraps"] == (turns != 0)
-    ask = fd.Ask(quantity="contact_forces")
-    load = fd.PointLoad(at=(4, 4))
-    cone = fd.Scene(packing=scene.packing, disorder=disorder, load=load, ask=ask).run()
+    cone = question("contact_forces", 4, 9, load=fd.PointLoad(at=(4, 4))).run()
     unreached = np.isnan(cone.arrays["upper_x"])
     assert unreached.any()
     assert not cone.arrays["force"][unreached].any()
@@ -126,11 +122,8 @@ def test_contact_forces_say_where_contacts_are() -> None:
 
 
 def test_profiles_and_histograms_become_tables() -> None:
-    packing = fd.Packing(height=4, width=10)
-    disorder = fd.Disorder(kind="normal", relative_std=1e-3)
     for quantity, sizes in (("profile", {"layer": 4, "branch": 2}), ("histogram", None)):
-        ask = fd.Ask(quantity=quantity, realisations=3)
-        scene = fd.Scene(packing=packing, disorder=disorder, ask=ask)
+        scene = question(quantity, 4, 10, kind="normal", realisations=3)
         for found in (scene.run(), fd.ensemble(scene, 3)):
             data = found.to_xarray()
             assert dict(data.sizes) == (sizes or {"bin": len(found.arrays["low"])})

@@ -18,6 +18,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 from tests.properties.packing import Packing, mp
 from tests.properties.reading import Plane, place, steps_to
 
@@ -56,20 +57,11 @@ class Drawn:
                 rows = [f"{i},{j},{x},{y}" for (i, j), (x, y) in self.loads.items()]
                 Path(folder, "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows, ""]))
                 load = {"kind": "file", "file": "loads.csv"}
-            scene = fd.Scene(
-                packing=fd.Packing(
-                    height=self.height,
-                    width=self.width,
-                    radius=self.r,
-                    spacing=self.spacing * self.r,
-                    allow_images=True,
-                ),
-                disorder=fd.GivenRadii(delta_r=self.delta * 2.0**-14),
-                load=fd.Load(**load),
-                effects=fd.Effects(geometry=geometry),
-                ask=fd.Ask(quantity=quantity, at=at),
-                folder=Path(folder),
-            )
+            scene = question(
+                quantity, self.height, self.width, radius=self.r, spacing=self.spacing * self.r,
+                radii=fd.GivenRadii(delta_r=self.delta * 2.0**-14), load=fd.Load(**load),
+                effects={"geometry": geometry}, at=at, folder=Path(folder),
+            )  # fmt: skip
             return scene.run(TOLERANCE, certified=True)
 
     def strip(self, strength: Any) -> Plane:

@@ -15,7 +15,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.numeric.scenes import by_numpy
+from tests.numeric.scenes import by_numpy, question
 
 Array = np.ndarray[Any, Any]
 
@@ -27,17 +27,9 @@ is off by 1e-9 has a chance below 1e-13."""
 
 def scene(delta: Array, spacing: float) -> fd.Scene:
     """Beads of radius 1 + ``delta``, (M + 1, W) discs or (M + 1, W, W) spheres."""
-    return fd.Scene(
-        packing=fd.Packing(
-            height=delta.shape[0] - 1,
-            width=delta.shape[1],
-            dimension=delta.ndim,
-            spacing=spacing,
-            allow_images=True,
-        ),
-        disorder=fd.GivenRadii(delta_r=delta),
-        ask=fd.Ask(quantity="positions"),
-    )
+    height, width = delta.shape[0] - 1, delta.shape[1]
+    radii = fd.GivenRadii(delta_r=delta)
+    return question("positions", height, width, dimension=delta.ndim, spacing=spacing, radii=radii)
 
 
 def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> tuple[Array, Array]:

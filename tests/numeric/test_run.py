@@ -12,7 +12,7 @@ from force_diffusion.numeric.mechanics.sweep import UnbuildableError
 from force_diffusion.numeric.run.outcome import Outcome
 
 import force_diffusion as fd
-from tests.numeric.scenes import answer, basic, scene
+from tests.numeric.scenes import answer, basic, question, scene
 
 SMALL = {
     "change", "dx", "dy", "change_x", "change_y", "mean_change", "std", "vertical_change",
@@ -185,13 +185,10 @@ def test_a_sign_that_no_precision_settles_stays_open(tmp_path: Path) -> None:
         for i in range(j % 2, 40, 2)
     ]
     (tmp_path / "radii.csv").write_text("\n".join(["i,j,delta_r", *rows]) + "\n")
-    found = fd.Scene(
-        packing=fd.Packing(height=3, width=20),
-        disorder=fd.Disorder(kind="file", file="radii.csv"),
-        load=fd.PointLoad(at=(11, 3)),
-        ask=fd.Ask(quantity="contact_forces", tolerance=1e-12, certified=True),
-        folder=tmp_path,
-    ).run()
+    radii = fd.Disorder(kind="file", file="radii.csv")
+    load = fd.PointLoad(at=(11, 3))
+    scene = question("contact_forces", 3, 20, radii=radii, load=load, folder=tmp_path)
+    found = scene.run(1e-12, certified=True)
     assert found.accuracy.certified
     assert found.physical is not None
     assert found.physical.undecided_signs > 0

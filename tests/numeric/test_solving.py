@@ -11,6 +11,7 @@ import pytest
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 
 def test_radii_and_their_deviations_are_the_same_packing() -> None:
@@ -102,12 +103,10 @@ def test_spheres_are_those_of_a_scene() -> None:
     delta = 2e-3 * np.random.default_rng(8).uniform(-1, 1, (4, 5, 5))
     solution = fd.solve(delta_r=delta, radius=2, spacing=6, dimension=3, load=fd.BulkLoad())
     for quantity in ("contact_forces", "positions"):
-        found = fd.Scene(
-            packing=fd.Packing(height=3, width=5, dimension=3, radius=2, spacing=6),
-            disorder=fd.GivenRadii(delta_r=delta),
-            load=fd.BulkLoad(),
-            ask=fd.Ask(quantity=quantity),
-        ).run()
+        found = question(
+            quantity, 3, 5, dimension=3, radius=2, spacing=6, load=fd.BulkLoad(),
+            radii=fd.GivenRadii(delta_r=delta),
+        ).run()  # fmt: skip
         site, rows = tuple(found.arrays[name] for name in "jpq"), found.arrays
         if quantity == "positions":
             for k, axis in enumerate("xyz"):

@@ -13,7 +13,7 @@ import flint
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic import systems
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -53,21 +53,6 @@ def test_threads_give_what_one_gives() -> None:
     for threads in (1, 4):
         with ThreadPoolExecutor(threads) as pool:
             assert list(pool.map(said, range(20))) == alone
-
-
-def test_another_thread_waits_for_its_bits() -> None:
-    def inside() -> int:
-        with Balls(77).active():
-            return int(flint.ctx.prec)
-
-    with ThreadPoolExecutor(1) as pool:
-        with Balls(300).active(), Balls(301).active():
-            later = pool.submit(inside)
-            with pytest.raises(TimeoutError):
-                later.result(timeout=0.05)
-            assert flint.ctx.prec == 301
-        assert later.result(timeout=600) == 77
-    assert flint.ctx.prec == 53
 
 
 @given(

@@ -66,21 +66,6 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sums, "BEADS", 4 * BEADS)
 
 
-@pytest.mark.parametrize("most", [1, 3, 16, 10**6])
-def test_blocks_are_those_of_the_scene_up_to_the_last(
-    most: int, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(sums, "BEADS", most * BEADS)
-    long = list(M.blocks(1000))
-    assert [first for first, _ in long] == [0, *(stop for _, stop in long[:-1])]
-    assert long[-1][1] == 1000
-    assert max(stop - first for first, stop in long) <= max(most, 1)
-    for size in (1, 31, 32, 100, 999):
-        blocks = list(M.blocks(size))
-        assert blocks[:-1] == long[: len(blocks) - 1]
-        assert blocks[-1] == (long[len(blocks) - 1][0], size)
-
-
 @settings(max_examples=6)
 @given(st.integers(0, 10**6), st.integers(2, 150))
 def test_what_fails_goes_on_from_the_file(

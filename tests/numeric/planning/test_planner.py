@@ -5,10 +5,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.accuracy import enclosed
 from force_diffusion.numeric.lattice import regions
-from force_diffusion.numeric.mechanics.work import Work
-from force_diffusion.numeric.planning import planner
 from force_diffusion.numeric.planning.memory import float_bead
 from force_diffusion.numeric.run.running import run
 from hypothesis import given
@@ -107,15 +104,6 @@ def test_the_plan_is_what_runs(geometry: str, quantity: str, realisations: int) 
     outcome = run(plan, progress=lambda kind, beads: seen.append(beads * (kind in kinds)))
     assert sum(seen) == plan.beads
     assert outcome.accuracy.arithmetic == plan.system.name
-
-
-def test_bits_are_added_until_the_tolerance_is_met(monkeypatch: pytest.MonkeyPatch) -> None:
-    sections = basic(quantity="contact", at=[2, 2, "+"], tolerance="=1e-40")
-    monkeypatch.setattr(planner, "initial_bits", lambda tolerance, height: 24)
-    plan, _, (accuracy,) = enclosed(planned(sections), Work())
-    assert plan.system.bits in {24 * 2**k for k in range(2, 9)}
-    assert accuracy.arithmetic == plan.system.name
-    assert accuracy.error_bound <= 1e-40
 
 
 def test_memory_knows_what_is_solved_together() -> None:

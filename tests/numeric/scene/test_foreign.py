@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 LAYERS, WIDTH = 4, 5
 GOOD = np.linspace(0.99, 1.01, LAYERS * WIDTH).reshape(LAYERS, WIDTH)
@@ -38,13 +39,8 @@ NO_FILE = "is not a NumPy file"
 
 
 def read(path: Path) -> Any:
-    packing = fd.Packing(height=LAYERS - 1, width=WIDTH)
-    scene = fd.Scene(
-        packing=packing,
-        disorder=fd.Disorder(kind="file", file=str(path)),
-        ask=fd.Ask(quantity="contact_forces"),
-    )
-    return scene.run()
+    radii = fd.Disorder(kind="file", file=str(path))
+    return question("contact_forces", LAYERS - 1, WIDTH, radii=radii).run()
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 SPACING, SCALE, ORIGIN = 7.2, 20.0, (300.0, 1200.0)
 RADII = 2.5 + 0.01 * np.random.default_rng(3).standard_normal((9, 14))
@@ -106,12 +107,8 @@ def test_columns_of_radii_files_may_have_any_order(header: str, tmp_path: Path) 
         for q in range(6):
             lines.append(delimiter.join((str(RADII[j, q]), str(j), "fine", str(2 * q + j % 2))))
     (tmp_path / "radii.csv").write_text("\n".join(lines) + "\n")
-    scene = fd.Scene(
-        packing=fd.Packing(height=3, width=6, radius=2.5, spacing=7.5),
-        disorder=fd.Disorder(kind="file", file="radii.csv"),
-        ask=fd.Ask(quantity="contact_forces"),
-        folder=tmp_path,
-    )
+    radii = fd.Disorder(kind="file", file="radii.csv")
+    scene = question("contact_forces", 3, 6, radius=2.5, spacing=7.5, radii=radii, folder=tmp_path)
     solved = fd.solve(RADII[:4, :6], radius=2.5, spacing=7.5)
     expected = solved.forces.arrays["force"]  # of doubles, not of the decimals that they print
     assert scene.run().arrays["force"] == pytest.approx(expected, rel=1e-13)

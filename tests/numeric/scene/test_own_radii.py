@@ -8,6 +8,7 @@ import pytest
 from force_diffusion.numeric.scene.files import TableError
 
 import force_diffusion as fd
+from tests.numeric.scenes import question
 
 M, W, R = 4, 9, 2.5
 DELTA = R * 1e-3 * np.random.default_rng(3).uniform(-1, 1, (M + 1, W))
@@ -15,11 +16,9 @@ SITES = [(j, q, 2 * q + j % 2) for j in range(M + 1) for q in range(W)]
 
 
 def solved(path: Path, **ask: Any) -> fd.Outcome:
-    return fd.Scene(
-        packing=fd.Packing(height=M, width=W, radius=R, spacing=7.2),
-        disorder=fd.Disorder(kind="file", file=path.name),
-        ask=fd.Ask(quantity="contact_forces", **ask),
-        folder=path.parent,
+    radii = fd.Disorder(kind="file", file=path.name)
+    return question(
+        "contact_forces", M, W, radius=R, spacing=7.2, radii=radii, folder=path.parent, **ask
     ).run()
 
 

@@ -33,15 +33,13 @@ def test_realisations_that_are_alike_are_counted_too(
     effects: dict[str, Any], dimension: int
 ) -> None:
     """Without disorder one is solved, and stands for all."""
-    std = Fraction(1, 100) if effects else Fraction(0)
+    std = 0.01 if effects else 0.0
 
     def asked(quantity: str, **disorder: Any) -> Any:
-        return fd.Scene(
-            packing=fd.Packing(height=3, width=5, dimension=dimension),
-            disorder=fd.Disorder(kind="uniform", relative_std=std) if disorder else None,
-            ask=fd.Ask(quantity=quantity, realisations=4),  # type: ignore[arg-type]
-            effects=fd.Effects(**effects),
-        ).run()
+        scene = question(
+            quantity, 3, 5, dimension=dimension, std=std, effects=effects, realisations=4
+        )
+        return (scene if disorder else scene.model_copy(update={"disorder": None})).run()
 
     beads = 5 ** (dimension - 1)
     for drawn in ({}, {"drawn": True}):

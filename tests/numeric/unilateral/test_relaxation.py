@@ -44,12 +44,8 @@ def own(deviations: dict[tuple[int, int], float], width: int = 5, spacing: float
     delta = np.zeros((3, width))
     for at, value in deviations.items():
         delta[at] = value
-    return fd.Scene(
-        packing=fd.Packing(height=2, width=width, spacing=spacing, allow_images=True),
-        disorder=fd.GivenRadii(delta_r=delta),
-        effects=fd.Effects(contacts="unilateral"),
-        ask=fd.Ask(quantity="contact_forces"),
-    )
+    radii = fd.GivenRadii(delta_r=delta)
+    return strip(height=2, width=width, spacing=spacing, radii=radii)
 
 
 def test_no_contact_pulls(relaxed: fd.Outcome) -> None:
