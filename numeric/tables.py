@@ -162,6 +162,15 @@ def latex_table(rows: Sequence[Mapping[str, Any]]) -> str:
     return "\n".join([start, heads + r" \\ \hline", " \\\\\n".join(cells), r"\end{array}$"])
 
 
+def counted(count: int, noun: str) -> str:
+    """Say how many there are.
+
+    >>> counted(1, "row"), counted(8, "row")
+    ('1 row', '8 rows')
+    """
+    return f"{count} {noun}{'s' * (count != 1)}"
+
+
 def significant(values: Array, digits: Array) -> list[str]:
     """Write float64 with 1 to 17 significant digits each; nothing for NaN.
 

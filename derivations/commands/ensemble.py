@@ -25,7 +25,7 @@ from .shared import Json, Quiet, Written, checked, show, sourced, warn
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.result import Ensemble
-    from force_diffusion.numeric.scene.scene import Scene
+    from force_diffusion.numeric.scene.scene import CheckedScene
 
 # Seconds until a scheduler has to answer, and a worker of it has to be there.
 PATIENCE = 10
@@ -118,7 +118,7 @@ def ensemble(
 
 
 def _solved(
-    scene: "Scene",
+    scene: "CheckedScene",
     realisations: int | None,
     until: float | None,
     store: Path | None,

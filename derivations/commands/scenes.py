@@ -122,6 +122,7 @@ def _answer(
 ) -> None:
     """Answer one scene, and print or write the answer."""
     from force_diffusion.numeric.run.outcome import outcome_lines
+    from force_diffusion.numeric.tables import counted
 
     warn(scene, planned)
     with named(scene.name), in_range():
@@ -133,7 +134,7 @@ def _answer(
     about["source"] = sourced(about["source"], scene, command_line())
     if folder:
         folder.write(files_of(answers, about, written))
-    rows = ", ".join(f"{answer.quantity}: {answer.count} rows" for answer in answers)
+    rows = ", ".join(f"{answer.quantity}: {counted(answer.count, 'row')}" for answer in answers)
     lines = [rows, *outcome_lines(about)]
     show(answers, about, lines, as_json=as_json, quiet=quiet, written=folder is not None)
 

@@ -90,18 +90,11 @@ def compiled(
 
 
 def _callable(engine: Any, name: str, kinds: Sequence[str]) -> Callable[..., int]:
-    """Call machine code as numba lays it out: first where the result goes, and an exception."""
+    """Call machine code as C does."""
     types = [_KINDS[kind] for kind in kinds if kind != "none"]
-    kind = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p, *types)
-    function = kind(engine.get_function_address(name))
-
-    def call(*arguments: Any) -> int:
-        found = ctypes.c_int64()
-        function(ctypes.addressof(found), None, *arguments)
-        return found.value
-
-    call.engine = engine  # type: ignore[attr-defined]  # it owns the code
-    return call
+    function = ctypes.CFUNCTYPE(ctypes.c_int64, *types)(engine.get_function_address(name))
+    function.engine = engine  # type: ignore[attr-defined]  # it owns the code
+    return function
 
 
 def _made(entries: Sequence[tuple[Function, Sequence[str]]], called: Sequence[Function]) -> Any:
@@ -126,12 +119,10 @@ def _made(entries: Sequence[tuple[Function, Sequence[str]]], called: Sequence[Fu
     modules = []
     for k, (function, of) in enumerate(entries):
         signature = numba.int64(*(kinds[kind] for kind in of))
-        made = numba.njit(
-            signature, error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True
-        )(function)
+        made = numba.njit(signature, error_model="numpy", no_cpython_wrapper=True)(function)
         (result,) = made.overloads.values()
         module = binding.parse_assembly(result.library.get_llvm_str())
-        module.get_function(result.fndesc.mangled_name).name = f"f{k}"
+        module.get_function(result.fndesc.llvm_cfunc_wrapper_name).name = f"f{k}"
         modules.append(module)
     for module in modules[1:]:
         modules[0].link_in(module)

@@ -29,7 +29,7 @@ from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
 from ..mechanics.work import bar
 from ..scene.reading import read_scene
-from ..scene.scene import Scene, program_version
+from ..scene.scene import CheckedScene, program_version
 from ..statistics.confidence import looks
 from .result import Ensemble
 from .store import Store, StoreFailedError, description
@@ -60,7 +60,7 @@ class WorkersError(ForceDiffusionError, RuntimeError):
 
 @checked
 def ensemble(
-    scene: Scene | str | Path,
+    scene: CheckedScene | str | Path,
     realisations: int | None = None,
     *,
     until: float | None = None,
@@ -103,11 +103,11 @@ def ensemble(
     >>> bool((abs(found.std / found.first_order_std - 1) < found.half_width).all())
     True
     """
-    if isinstance(scene, str | Path):
-        scene = read_scene(Path(scene), Scene)
-    if not isinstance(scene, Scene):
-        raise WrongTypeError(f"ensemble takes a scene or its path, not {type(scene).__name__}")
     check_progress(progress)
+    if isinstance(scene, str | Path):
+        scene = read_scene(Path(scene), CheckedScene)
+    if not isinstance(scene, CheckedScene):
+        raise WrongTypeError(f"ensemble takes a scene or its path, not {type(scene).__name__}")
     size = _size(scene.ask.realisations if realisations is None else realisations)
     until = None if until is None else _number("until", until)
     confidence = _number("confidence", confidence)

@@ -25,7 +25,7 @@ from ..mechanics.sweep import NotStandingError, Solved, UnbuildableError
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
-from ..scene.scene import Scene, refuse
+from ..scene.scene import CheckedScene, refuse
 from ..scene.sections import SceneError
 from ..statistics.confidence import looks
 from ..statistics.moments import unit_near
@@ -106,7 +106,7 @@ class Measurement:
                 first = min(first + most, end)
 
 
-def measurement(scene: Scene, *, reach: float | None = None) -> Measurement:
+def measurement(scene: CheckedScene, *, reach: float | None = None) -> Measurement:
     """Say what is measured of an ensemble of a scene's packings.
 
     ``reach`` is the outer edge of a histogram, in units of force; by default six times the largest

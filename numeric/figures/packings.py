@@ -15,7 +15,7 @@ from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.answer import answer
 from ..quantities.base import ContactQuantity
-from ..scene.scene import Scene
+from ..scene.scene import CheckedScene
 from ..scene.sections import Ask, Disorder, Effects, Load, Packing, SurfaceLoad
 from ..statistics.bands import Band, log_relative_std, simultaneous
 
@@ -160,7 +160,7 @@ def planned(
     A ``width`` of 0 is 2M: then no exact force sees an image. None is the infinite slab.
     """
     width, narrow = 2 * height if width == 0 else width, width is not None
-    scene = Scene(
+    scene = CheckedScene(
         packing=Packing(
             height=height, width=width, spacing=spacing, dimension=dimension, allow_images=narrow
         ),

@@ -7,7 +7,7 @@ from ..lattice.layers import Region, Rows
 from ..mechanics.engine import chunk_size
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity
-from ..scene.scene import Scene
+from ..scene.scene import CheckedScene
 from ..scene.sections import SceneError
 
 # Bytes of a bead of balls, a packing whose rows are listed, and a line of a file; measured, rounded
@@ -85,7 +85,7 @@ def _bytes(
     return needed
 
 
-def refuse_memory(scene: Scene, needed: int, limit: int) -> None:
+def refuse_memory(scene: CheckedScene, needed: int, limit: int) -> None:
     """Raise ``TooLargeError`` where a scene needs more than ``limit`` bytes.
 
     Of the height, the width and the realisations the largest is named.

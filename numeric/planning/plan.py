@@ -11,7 +11,7 @@ from ..disorder.radii import ArrayRadii, MeasuredRadii
 from ..mechanics.images import sees_images
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity, has_theory
-from ..scene.scene import Scene
+from ..scene.scene import CheckedScene
 from ..theory.expected import (
     ExpectedTension,
     critical_height,
@@ -45,7 +45,7 @@ class Plan:
     ``error``: expected relative to the largest change; None where only the sweep can tell.
     """
 
-    scene: Scene
+    scene: CheckedScene
     quantities: tuple[Quantity, ...]
     problem: Problem
     tolerance: Fraction | None

@@ -22,7 +22,7 @@ from ..lattice.layers import Region, Rows
 from ..mechanics.problem import Problem, Route
 from ..quantities import quantities_of
 from ..quantities.base import Quantity
-from ..scene.scene import Scene
+from ..scene.scene import CheckedScene
 from ..scene.sections import SceneError
 from ..theory.expected import critical_height
 from .memory import memory, refuse_beads, refuse_memory
@@ -36,7 +36,7 @@ SOUND = 0.5
 
 
 def plan(
-    scene: Scene,
+    scene: CheckedScene,
     tolerance: Fraction | None = None,
     memory_limit: int | None = None,
     *,
@@ -80,7 +80,7 @@ def in_balls(made: Plan, reason: str, limit: int | None = None, *, text: bool = 
 
 
 def _problem(
-    scene: Scene, quantities: Sequence[Quantity], limit: int, *, text: bool
+    scene: CheckedScene, quantities: Sequence[Quantity], limit: int, *, text: bool
 ) -> tuple[Problem, list[Skipped]]:
     """Say which beads are solved, by which theory, and what that leaves out.
 
@@ -149,7 +149,7 @@ def _problem(
     return problem, skipped
 
 
-def _why_ordered(scene: Scene) -> str:
+def _why_ordered(scene: CheckedScene) -> str:
     """Say why nothing is disordered, where that is plain without reading any file; else nothing."""
     disorder = scene.disorder
     if scene.effects.contacts == "unilateral":

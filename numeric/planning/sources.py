@@ -7,7 +7,7 @@ from ..lattice.branch import Site
 from ..lattice.layers import Naming, Rows
 from ..mechanics.loads import LoadSpec
 from ..scene.files import TableError, read_array, read_loads, read_radii
-from ..scene.scene import Scene
+from ..scene.scene import CheckedScene
 from ..scene.sections import GivenRadii
 
 # Units of length of an array by which r may differ from 1.
@@ -18,7 +18,7 @@ LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)
 MOST = Fraction(10**280)
 
 
-def load_of(scene: Scene) -> LoadSpec:
+def load_of(scene: CheckedScene) -> LoadSpec:
     """Give the load. Raises ``TableError``."""
     load, packing = scene.load, scene.packing
     naming, d = Naming(packing.dimension, packing.width), packing.dimension
@@ -29,7 +29,7 @@ def load_of(scene: Scene) -> LoadSpec:
     return LoadSpec(load.kind, packing.height, naming.row, load.angle_deg, at, single, d)
 
 
-def radii_of(scene: Scene, rows: Rows) -> Radii:
+def radii_of(scene: CheckedScene, rows: Rows) -> Radii:
     """Give the radii of the beads of ``rows``; without rows, of all. Raises ``TableError``."""
     disorder, packing, r = scene.disorder, scene.packing, scene.packing.radius
     assert disorder is not None
@@ -56,7 +56,7 @@ def radii_of(scene: Scene, rows: Rows) -> Radii:
     return MeasuredRadii(measured, width)
 
 
-def beyond_floats(scene: Scene, radii: Radii, load: LoadSpec) -> bool:
+def beyond_floats(scene: CheckedScene, radii: Radii, load: LoadSpec) -> bool:
     """Say whether float64 would overflow, or round a change that is asked for to zero.
 
     A change is about δr/r times the load, or times the unit of length. Errors of given radii are

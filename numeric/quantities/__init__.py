@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from ..scene.scene import Scene
+from ..scene.scene import CheckedScene
 from .base import Quantity
 from .contact import ContactForce
 from .contact_forces import ContactForces
@@ -11,7 +11,7 @@ from .positions import Positions
 from .profile import Profile
 from .response import Response
 
-QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
+QUANTITIES: dict[str, Callable[[CheckedScene], Quantity]] = {
     "contact": ContactForce,
     "contact_forces": ContactForces,
     "positions": Positions,
@@ -21,6 +21,6 @@ QUANTITIES: dict[str, Callable[[Scene], Quantity]] = {
 }
 
 
-def quantities_of(scene: Scene) -> tuple[Quantity, ...]:
+def quantities_of(scene: CheckedScene) -> tuple[Quantity, ...]:
     """Give the questions that a scene asks."""
     return tuple(QUANTITIES[name](scene.asking(name)) for name in scene.ask.quantities)

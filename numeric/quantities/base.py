@@ -24,7 +24,7 @@ from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
 from ..mechanics.work import Work
-from ..scene.scene import Scene
+from ..scene.scene import CheckedScene
 from ..theory.expected import std_of_spheres, stds_of_discs
 
 # σ_f/⟨f⟩, and the columns that scatter from sample to sample as others do, whose errors are known.
@@ -100,7 +100,7 @@ class Quantity(ABC):
     roundings: ClassVar[int] = 6
     """Of a number of the answer, sums over many apart, in units 2^-53 of the largest change."""
 
-    def __init__(self, scene: Scene) -> None:
+    def __init__(self, scene: CheckedScene) -> None:
         """Ask a scene's question."""
         self.scene, self.height = scene, scene.packing.height
         self.naming = Naming(scene.packing.dimension, scene.packing.width)

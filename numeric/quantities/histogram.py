@@ -6,7 +6,7 @@ from ..arithmetic.systems import Array
 from ..lattice.layers import Region
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
-from ..scene.scene import Scene
+from ..scene.scene import CheckedScene
 from .base import ContactQuantity, Table, contact_forces
 from .contact import SingleContact
 
@@ -51,6 +51,6 @@ class ContactHistogram(SingleContact, Histogram):
     """Changes of one contact force over many packings."""
 
 
-def histogram_of(scene: Scene) -> Histogram:
+def histogram_of(scene: CheckedScene) -> Histogram:
     """Ask about one contact or about all."""
     return Histogram(scene) if scene.ask.at is None else ContactHistogram(scene)

@@ -1,6 +1,6 @@
 """A scene becomes an outcome: planned, solved, checked, and its error known.
 
-``Scene`` is the one of ``numeric.scene`` with the two verbs that need all the rooms below.
+``Scene`` adds to ``CheckedScene`` the two verbs that need all the rooms below.
 """
 
 from collections.abc import Iterator, Mapping
@@ -19,14 +19,14 @@ from ..planning.plan import Plan
 from ..planning.planner import in_balls
 from ..planning.planner import plan as make_plan
 from ..quantities.answer import Answer
-from ..scene import reading, scene
-from ..scene.scene import files_read
+from ..scene import reading
+from ..scene.scene import CheckedScene, files_read
 from ..scene.sections import SceneError
 from .outcome import Outcome, outcome_of
 
 
 @checked
-def run(what: "Plan | scene.Scene | str | Path", progress: bool | Progress = False) -> Outcome:
+def run(what: Plan | CheckedScene | str | Path, progress: bool | Progress = False) -> Outcome:
     """Answer the question of a scene, of a scene file or of a plan.
 
     ``progress=True`` shows a bar; a function is called with the kind of work and the number of
@@ -37,7 +37,7 @@ def run(what: "Plan | scene.Scene | str | Path", progress: bool | Progress = Fal
     check_progress(progress)
     if isinstance(what, str | Path):
         what = read_scene(what)
-    if isinstance(what, scene.Scene):
+    if isinstance(what, CheckedScene):
         what = make_plan(what)
     if not isinstance(what, Plan):
         raise WrongTypeError(f"run takes a scene, its path or a plan, not {type(what).__name__}")
@@ -93,7 +93,7 @@ def read_tolerance(value: Any) -> Fraction:
     return asked
 
 
-class Scene(scene.Scene):
+class Scene(CheckedScene):
     """A scene, which can be explained and run; :func:`read_scene` makes one of a TOML file.
 
     Its sections are ``packing``, ``disorder`` (None: all radii are equal), ``load`` (by default a

@@ -32,12 +32,11 @@ from ..planning.planner import plan
 from ..planning.sources import FARTHEST_UNIT
 from ..quantities.base import cartesian
 from ..scene.combinations import either
-from ..scene.scene import Scene
 from ..scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
 from ..tables import Tabled
 from .contacts import Beads, Contacts, box_of, dump, dump_local, lattice_pairs, vtk
 from .outcome import Outcome
-from .running import read_tolerance, run
+from .running import Scene, read_tolerance, run
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -238,12 +237,12 @@ class Solution(Tabled):
         Lengths and forces are those of ``contacts``; each point has a ``radius``.
         """
         at = self._packing(packing)
-        write_whole(Path(path), vtk(*self._places(at), self.contacts.of(at)).encode())
+        _write(path, vtk(*self._places(at), self.contacts.of(at)))
 
     def to_dump(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the beads of one packing as a *dump* of LAMMPS, which OVITO opens."""
         places = self._places(self._packing(packing))
-        write_whole(Path(path), dump(*places, self._box(places)).encode())
+        _write(path, dump(*places, self._box(places)))
 
     def to_dump_local(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the contacts of one packing as a *dump local* of LAMMPS, a line for each.
@@ -252,8 +251,7 @@ class Solution(Tabled):
         ``to_dump``. In OVITO open the beads, then load this file by the modifier *Load trajectory*.
         """
         at = self._packing(packing)
-        text = dump_local(self.contacts.of(at), self._box(self._places(at)))
-        write_whole(Path(path), text.encode())
+        _write(path, dump_local(self.contacts.of(at), self._box(self._places(at))))
 
     def _packing(self, number: int) -> int:
         """The number of a packing. Raises ``SceneError``."""
@@ -357,6 +355,14 @@ class Solution(Tabled):
         known = "certified" if self.certified else "estimated"
         beads = f"{layers} layers of {across} {'discs' if d == 2 else 'spheres'}"
         return f"<{several}{beads}; {verdict}; error {self.error:.2g} ({known})>"
+
+
+def _write(path: str | Path, text: str) -> None:
+    """Write a file. Raises ``SceneError`` where there is no such folder, or it is not ours."""
+    try:
+        write_whole(Path(path), text.encode())
+    except OSError as error:
+        raise SceneError("path", str(path), f"can't be written ({error.strerror})") from None
 
 
 def _colours(contacts: Contacts, color: Any) -> Array:
@@ -568,7 +574,7 @@ def solve(
         )
         load = SurfaceLoad() if load is None else load
         ask = Ask(quantity="contact_forces", realisations=batch[0] if batch else 1)
-        sections = {"packing": packing, "disorder": given, "load": load, "ask": ask}
+        sections: dict[str, Any] = {"packing": packing, "disorder": given, "load": load, "ask": ask}
         if tolerance is None and (found := _directly(given, packing, load)) is not None:
             return Solution(sections, found=found)
         scene = Scene(**sections)

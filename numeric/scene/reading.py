@@ -11,12 +11,12 @@ from types import MappingProxyType
 from typing import TypeVar
 
 from ..arithmetic.foreign import ForeignFileError, opened
-from .scene import Scene
+from .scene import CheckedScene
 from .sections import SceneError, unknown
 
 LARGEST_FILE = 16_000  # bytes of a scene file, in which nothing takes long to read
 LONGEST_VALUE = 6000
-S = TypeVar("S", bound=Scene)
+S = TypeVar("S", bound=CheckedScene)
 _NO_SCENE = "is not a scene, which is a TOML file with [packing] and [ask]"
 _WORD = re.compile(r"(?!(true|false|inf|nan)$)[A-Za-z][A-Za-z_-]*", re.ASCII)
 
@@ -74,7 +74,7 @@ def parse_scene(
 ) -> S:
     """Check the text of a scene, whose files lie in ``folder``. Raises ``SceneError``.
 
-    >>> parse_scene('packing = {height = 4}\\nask = {quantity = "profle"}', Scene)
+    >>> parse_scene('packing = {height = 4}\\nask = {quantity = "profle"}', CheckedScene)
     Traceback (most recent call last):
     ...
     force_diffusion.numeric.scene.sections.SceneError: ask.quantity = "profle": must be one of \
@@ -91,7 +91,7 @@ def parse_scene(
         why = "has a number with a huge exponent, or an integer of more than 4300 digits"
         raise SceneError("scene", None, why) from None
     if "folder" in raw:
-        raise SceneError("folder", raw["folder"], unknown("folder", Scene))
+        raise SceneError("folder", raw["folder"], unknown("folder", CheckedScene))
     for name, written in changes.items():
         section, _, key = name.partition(".")
         keys = raw.setdefault(section, {})

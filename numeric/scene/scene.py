@@ -27,8 +27,8 @@ PROGRAM = "force-diffusion"
 FARTHEST = 10**307  # units of length, in which float64 are given
 
 
-class Scene(Section):
-    """A whole scene; files are relative to ``folder``. Raises ``SceneError``."""
+class CheckedScene(Section):
+    """The sections of a scene, checked; files are relative to ``folder``. Raises ``SceneError``."""
 
     packing: Packing
     disorder: Disorder | None = None
@@ -58,14 +58,14 @@ class Scene(Section):
         i, j = self.ask.at
         return int(i), int(j)
 
-    def asking(self, quantity: str) -> "Scene":
+    def asking(self, quantity: str) -> "CheckedScene":
         """Give the scene with one of its questions."""
         if self.ask.quantity == quantity:
             return self
         return self.model_copy(update={"ask": self.ask.model_copy(update={"quantity": quantity})})
 
 
-def check(scene: Scene) -> None:
+def check(scene: CheckedScene) -> None:
     """Check what keys say about each other. Raises ``SceneError``."""
     packing, disorder, load, ask = scene.packing, scene.disorder, scene.load, scene.ask
     _check_packing(packing)
@@ -88,7 +88,7 @@ def check(scene: Scene) -> None:
     _check_layers(ask, load, packing.height)
 
 
-def _check_need(scene: Scene, need: Need) -> None:
+def _check_need(scene: CheckedScene, need: Need) -> None:
     """Refuse a key that means nothing beside what another says, and miss one that is needed."""
     section, _, name = need.key.partition(".")
     keys = getattr(scene, section)
@@ -103,7 +103,7 @@ def _check_need(scene: Scene, need: Need) -> None:
         raise SceneError(need.key, value, f"needs {need.other} = {either(need.values)}")
 
 
-def refuse(command: str, scene: Scene, *, reach: bool = False) -> None:
+def refuse(command: str, scene: CheckedScene, *, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
     packing, effects, ask = scene.packing, scene.effects, scene.ask
     for quantity in ask.quantities:
@@ -241,7 +241,7 @@ def program_version() -> str:
         return "unknown"
 
 
-def files_read(scene: Scene) -> dict[str, str]:
+def files_read(scene: CheckedScene) -> dict[str, str]:
     """Give the SHA-256 of the bytes of the files of radii and loads, as they are now."""
     disorder, load = scene.disorder, scene.load
     radii = None if disorder is None else disorder.file
@@ -249,13 +249,13 @@ def files_read(scene: Scene) -> dict[str, str]:
     return {key: sha256(scene.folder / file) for key, file in files.items() if file is not None}
 
 
-def source_of(scene: Scene, files: dict[str, str] | None = None) -> dict[str, Any]:
+def source_of(scene: CheckedScene, files: dict[str, str] | None = None) -> dict[str, Any]:
     """Give program, version, scene, seed (null where nothing is drawn) and SHA-256 of what is read.
 
     Numbers of the scene are strings, exact. ``sha256`` is that of the ``files_read``, and of the
     doubles of an array, in the order of its rows.
     """
-    held = {name: getattr(scene, name) for name in Scene.model_fields if name != "folder"}
+    held = {name: getattr(scene, name) for name in CheckedScene.model_fields if name != "folder"}
     sections = {name: _said(section) for name, section in held.items() if section is not None}
     sections["packing"]["spacing"] = _exact(scene.packing.s)
     disorder, hashes = scene.disorder, dict(files_read(scene) if files is None else files)

@@ -313,9 +313,15 @@ class Ask(Section):
         return (self.quantity,) if isinstance(self.quantity, str) else self.quantity
 
 
+OF_IMAGES = ("origin", "rotation", "scale", "y_down")
+"""What ``read_radii`` takes, and no scene."""
+
+
 def unknown(key: str, model: type[Section]) -> str:
     """Say what a key could have meant."""
     known = [name for name in model.model_fields if name != "folder"]
+    if model.section == "disorder" and key in OF_IMAGES:
+        return f"is known of images alone: fd.read_radii(path, {key}=…) puts their beads on a lattice"
     close = difflib.get_close_matches(key, known, n=1)
     hint = f'did you mean "{close[0]}"? ' if close else ""
     return f"is unknown; {hint}allowed are {', '.join(known)}"
@@ -369,4 +375,8 @@ def explained(error: ValidationError, model: type[Section], values: dict[str, An
         return SceneError(key, values[name], _LISTS[key])
     if kind in {"model_type", "model_attributes_type", "dict_type"}:
         return SceneError(key, value, f"must be a section, written [{key}]")
+    bounds = model.model_fields[name].metadata
+    low, high = ([getattr(b, side) for b in bounds if hasattr(b, side)] for side in ("ge", "le"))
+    if low and high and kind in {"greater_than_equal", "less_than_equal"}:
+        return SceneError(key, value, f"must be from {low[0]} to {high[0]}")
     return SceneError(key, value, rule(error))
