@@ -49,7 +49,8 @@ def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
             f"{observable!r} is text: write it with the symbols of force_diffusion.symbols"
         )
     if isinstance(observable, type):
-        raise ObservableError(f"{getattr(observable, "in_code", observable.__name__)} needs a place, such as (i, j)")
+        name = getattr(observable, "in_code", observable.__name__)
+        raise ObservableError(f"{name} needs a place, such as (i, j)")
     try:
         expression = sympy.sympify(observable, strict=True)  # else SymPy evaluates text
     except sympy.SympifyError:

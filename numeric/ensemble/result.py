@@ -324,7 +324,8 @@ class Ensemble(tables.Tabled):
 
     def __str__(self) -> str:
         """Say how many rows and packings there are, and how sure they are."""
-        lines = [f"{self.quantity}: {tables.counted(self.rows, 'row')}, {self.realisations} packings"]
+        rows = tables.counted(self.rows, "row")
+        lines = [f"{self.quantity}: {rows}, {self.realisations} packings"]
         if math.isfinite(self.half_width):
             lines.append(
                 f"all σ_f known to {float(f'{100 * self.half_width:.2g}'):g} % "

@@ -321,7 +321,7 @@ def unknown(key: str, model: type[Section]) -> str:
     """Say what a key could have meant."""
     known = [name for name in model.model_fields if name != "folder"]
     if model.section == "disorder" and key in OF_IMAGES:
-        return f"is known of images alone: fd.read_radii(path, {key}=…) puts their beads on a lattice"
+        return f"is for images: fd.read_radii(path, {key}=…) puts their beads on the lattice"
     close = difflib.get_close_matches(key, known, n=1)
     hint = f'did you mean "{close[0]}"? ' if close else ""
     return f"is unknown; {hint}allowed are {', '.join(known)}"
