@@ -6,14 +6,14 @@ from fractions import Fraction
 
 import numpy as np
 
-from ..arithmetic.systems import Array, as_floats
+from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import axis_names, bead_names
-from ..lattice.layers import Block, Region, full_layer
+from ..lattice.layers import Block, Naming, Region, full_layer
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
 from ..scene.sections import LARGEST
 from ..unilateral.network import Network, Relaxed
-from .base import Columns, ContactQuantity, Table
+from .base import Columns, ContactQuantity, Table, cartesian
 from .positions import Positions
 
 
@@ -56,40 +56,51 @@ class ContactForces(ContactQuantity):
         usual = packing.model_copy(update={"radius": Fraction(1), "spacing": spacing})
         beads = Positions(self.scene.model_copy(update={"packing": usual})).rows(problem, solved)
         there = np.stack([beads.index[name] for name in names])
-        centres = np.stack([as_floats(beads.numbers[axis]) for axis in axes])
+        columns = [*axes, *(f"d{axis}" for axis in axes)]
+        numbers = np.stack([as_floats(beads.numbers[name]) for name in columns])
         lower = np.stack([contacts[name] for name in names])
+        low, moved = np.split(numbers_of(lower, there, numbers), 2)
         if isinstance(solved, Relaxed):
             upper = np.stack([contacts["upper_i"], contacts["upper_j"]])
+            high, period = numbers_of(upper, there, numbers)[:d], float(solved.network.frame.period)
+            turns = np.round((low[0] - high[0]) / period)
+            high[0] += turns * period
+            wraps = turns != 0
         else:
-            upper = lower + self._steps(contacts["branch"])
-        home = upper.copy()
-        if self.naming.side is not None:
-            home[:-1] %= self.naming.side if d > 2 else 2 * self.naming.side
-        low, high = centres_of(lower, there, centres), centres_of(home, there, centres)
-        turns = (upper - home)[:-1] * float(spacing)
-        if isinstance(solved, Relaxed):
-            period = float(solved.network.frame.period)
-            turns = np.round((low[:1] - high[:1]) / period) * (2 * period)
-        high[0] += turns.sum(axis=0) - turns[-1] / 2
-        high[1] += turns[-1] * (math.sqrt(3) / 2) if d > 2 else 0
+            number = np.argmax([contacts["branch"] == part.value for part in self.branches], axis=0)
+            upper, wraps = upper_beads(lower, number, self.naming)
+            apart = numbers_of(upper, there, numbers)[d:] - moved
+            high = low + steps_up(problem)[number].T + apart
         r = float(packing.radius) if packing.radius < LARGEST else math.inf
         with np.errstate(all="ignore"):
             low, high = (np.round(places, 12) * r for places in (low, high))
-        columns = zip([*axes, *(f"upper_{axis}" for axis in axes)], [*low, *high], strict=True)
-        return {**dict(columns), "wraps": turns.any(axis=0).astype(np.int64)}
-
-    def _steps(self, branch: Array) -> Array:
-        """Give the numbers of upper beads less those of lower ones, (2, contacts), or (3, …)."""
-        if self.naming.dimension == 2:
-            steps = {part.value: [part.side, 1] for part in self.branches}
-        else:
-            steps = {part.value: [*(part.number == k for k in (0, 1)), 1] for part in self.branches}
-        parts = [np.outer(step, branch == name) for name, step in steps.items()]
-        return np.asarray(np.sum(parts, axis=0, dtype=np.int64))
+        ends = zip([*axes, *(f"upper_{axis}" for axis in axes)], [*low, *high], strict=True)
+        return {**dict(ends), "wraps": wraps.astype(np.int64)}
 
 
-def centres_of(wanted: Array, there: Array, centres: Array) -> Array:
-    """Give the ``centres``, (d, beads), of ``wanted`` beads, NaN where they are not ``there``.
+def upper_beads(lower: Array, number: Array, naming: Naming) -> tuple[Array, Array]:
+    """Give the upper beads of contacts, and which of them are images beside the lower ones.
+
+    Beads are columns of their numbers, (2, contacts) or (3, contacts); ``number`` is that of the
+    direction.
+    """
+    steps = [[1, 1], [-1, 1]] if naming.dimension == 2 else [[1, 0, 1], [0, 1, 1], [0, 0, 1]]
+    beside = lower + np.array(steps)[number].T
+    upper = beside.copy()
+    if naming.side is not None:
+        upper[:-1] %= naming.side * (2 if naming.dimension == 2 else 1)
+    return upper, (upper != beside).any(axis=0)
+
+
+def steps_up(problem: Problem) -> Array:
+    """Give the ways from lower to upper beads of the ordered packing, (directions, axes), in r."""
+    steps = list(2 * np.eye(problem.dimension))
+    with FLOAT64.active():
+        return np.stack(cartesian(steps, problem, FLOAT64, raised=True), axis=-1)
+
+
+def numbers_of(wanted: Array, there: Array, numbers: Array) -> Array:
+    """Give the ``numbers``, (…, beads), of ``wanted`` beads, NaN where they are not ``there``.
 
     Beads are columns of their numbers.
     """
@@ -99,7 +110,7 @@ def centres_of(wanted: Array, there: Array, centres: Array) -> Array:
     found, asked = keys[: there.shape[1]], keys[there.shape[1] :]
     order = np.argsort(found)
     place = np.searchsorted(found, asked, sorter=order)
-    padded = np.append(centres, np.full((len(centres), 1), np.nan), axis=1)
+    padded = np.append(numbers, np.full((len(numbers), 1), np.nan), axis=1)
     at = np.append(order, -1)[place]
     return np.where(np.append(found, -1)[at] == asked, padded[:, at], np.nan)
 

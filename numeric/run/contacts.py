@@ -7,6 +7,8 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.systems import Array, as_floats
+from ..lattice.layers import Naming
+from ..quantities.contact_forces import upper_beads
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,16 +74,15 @@ class Contacts:
 def lattice_pairs(height: int, width: int, dimension: int) -> tuple[Array, Array, Array]:
     """Number of the lower and the upper bead, (n, 2), direction and wrap of all contacts, (n,)."""
     shape = (height + 1, *[width] * (dimension - 1))
-    j, *columns, branch = np.indices((height, *shape[1:], dimension))
+    j, *columns, number = np.indices((height, *shape[1:], dimension)).reshape(dimension + 1, -1)
     if dimension == 2:
-        steps = [j % 2 - branch]
-    else:
-        steps = [branch == axis for axis in range(dimension - 1)]
-    beyond = [column + step for column, step in zip(columns, steps, strict=True)]
-    upper = [column % width for column in beyond]
-    wraps = np.any([a != b for a, b in zip(beyond, upper, strict=True)], axis=0)
-    pairs = [np.ravel_multi_index(at, shape) for at in ((j, *columns), (j + 1, *upper))]
-    return np.stack(pairs, axis=-1).reshape(-1, 2), branch.reshape(-1), wraps.reshape(-1)
+        columns = [2 * columns[0] + j % 2]
+    lower = np.stack([*columns, j])
+    upper, wraps = upper_beads(lower, number, Naming(dimension, width))
+    if dimension == 2:
+        lower[0], upper[0] = lower[0] // 2, upper[0] // 2
+    pairs = [np.ravel_multi_index((beads[-1], *beads[:-1]), shape) for beads in (lower, upper)]
+    return np.stack(pairs, axis=-1), number, wraps
 
 
 def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:

@@ -30,7 +30,7 @@ from ..mechanics.sweep import swept
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..planning.sources import FARTHEST_UNIT
-from ..quantities.base import cartesian
+from ..quantities.contact_forces import steps_up
 from ..scene.combinations import either
 from ..scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
 from ..tables import Tabled
@@ -136,9 +136,7 @@ class Solution(Tabled):
         lead = self._shape[:-d]
         pairs, number, wraps = lattice_pairs(problem.height, self._shape[-1], d)
         lower, upper = pairs.T
-        steps = list(2 * float(self.scene.packing.radius) * np.eye(d))
-        with FLOAT64.active():
-            straight = np.stack(cartesian(steps, problem, FLOAT64, raised=True), axis=-1)
+        straight = float(self.scene.packing.radius) * steps_up(problem)
         moved = as_floats(self.displacement).reshape(*lead, -1, d)
         first = as_floats(beads.positions)[..., lower, :]
         apart = straight[number] + (moved[..., upper, :] - moved[..., lower, :])
