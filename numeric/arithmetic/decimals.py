@@ -4,7 +4,6 @@ import math
 import re
 from decimal import MAX_EMAX, MIN_EMIN, ROUND_HALF_EVEN, Context, Decimal
 from fractions import Fraction
-from functools import cache
 from numbers import Rational
 from typing import Any, TypeAlias
 
@@ -67,17 +66,10 @@ def decimal_string(value: Fraction) -> str:
     >>> decimal_string(Fraction(-5, 4)), decimal_string(Fraction(1, 8 * 10**6))
     ('-1.25', '1.25e-07')
     """
-    if not value:
-        return "0"
-    sign, figures, exponent = _figures(value, 40)
-    figures = figures.rstrip("0")
-    if not -5 <= exponent < min(len(figures) + 3, 40):
-        return _scientific(sign, figures, exponent)
-    if exponent < 0:
-        return f"{sign}0.{'0' * (-exponent - 1)}{figures}"
-    if len(figures) <= exponent + 1:
-        return sign + figures + "0" * (exponent + 1 - len(figures))
-    return f"{sign}{figures[: exponent + 1]}.{figures[exponent + 1 :]}"
+    number = _rounded(value, 40)
+    if -5 <= number.adjusted() < min(len(number.as_tuple().digits) + 3, 40):
+        return f"{number:f}"
+    return _scientific(number)
 
 
 def short(value: Fraction, digits: int = 6) -> str:
@@ -88,13 +80,7 @@ def short(value: Fraction, digits: int = 6) -> str:
     """
     if not value or Fraction(1, 10**300) < abs(value) < 10**300:
         return f"{float(value):.{digits}g}"
-    sign, figures, exponent = _figures(value, digits)
-    return _scientific(sign, figures.rstrip("0"), exponent)
-
-
-@cache
-def _context(digits: int) -> Context:
-    return Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
+    return _scientific(_rounded(value, digits))
 
 
 def bound_string(value: Fraction) -> str:
@@ -103,17 +89,18 @@ def bound_string(value: Fraction) -> str:
     >>> bound_string(Fraction(12301, 10**404))
     '1.24e-400'
     """
-    exponent = _figures(value, 6)[2]
+    exponent = _rounded(value, 6).adjusted()
     scaled = math.ceil(value * Fraction(10) ** (2 - exponent))
     return short(Fraction(scaled) * Fraction(10) ** (exponent - 2))
 
 
-def _figures(value: Fraction, digits: int) -> tuple[str, str, int]:
-    rounded = _context(digits).divide(Decimal(abs(value.numerator)), Decimal(value.denominator))
-    mantissa, _, exponent = f"{rounded:.{digits - 1}e}".partition("e")
-    return "-" if value < 0 else "", mantissa.replace(".", ""), int(exponent)
+def _rounded(value: Fraction, digits: int) -> Decimal:
+    """Round to so many digits, and drop zeros at the end."""
+    context = Context(prec=digits, rounding=ROUND_HALF_EVEN, Emin=MIN_EMIN, Emax=MAX_EMAX)
+    numerator, denominator = Decimal(value.numerator), Decimal(value.denominator)
+    return context.normalize(context.divide(numerator, denominator))
 
 
-def _scientific(sign: str, figures: str, exponent: int) -> str:
-    mantissa = figures[0] + ("." + figures[1:] if len(figures) > 1 else "")
-    return f"{sign}{mantissa}e{exponent:+03d}"
+def _scientific(number: Decimal) -> str:
+    mantissa, _, exponent = f"{number:e}".partition("e")
+    return f"{mantissa}e{int(exponent):+03d}"

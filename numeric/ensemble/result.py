@@ -292,7 +292,7 @@ class Ensemble(tables.Tabled):
                 "contacts_in_a_group": m.members,
                 "arithmetic": "float64",
             },
-            "skipped": [{"effect": s.effect, "reason": s.reason} for s in m.plan.skipped],
+            "skipped": m.plan.data()["skipped"],
             "results": {self.quantity: written},
             "confidence": {
                 "level": self.confidence,
@@ -337,7 +337,7 @@ class Ensemble(tables.Tabled):
                 f"{self.unbuildable} more, {100 * share:.2g} % of all, can't be built and are left "
                 f"out, the first of them realisation {self.sums.first_left_out}"
             )
-        skipped = [f"{s.effect} ({s.reason})" for s in self.measurement.plan.skipped]
+        skipped = [f"{what} ({why})" for what, why in self.measurement.plan.skipped.items()]
         return "\n".join(lines + [f"skipped: {'; '.join(skipped)}"] * bool(skipped))
 
     __repr__ = __str__

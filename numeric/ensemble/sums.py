@@ -116,7 +116,7 @@ def measurement(scene: CheckedScene, *, reach: float | None = None) -> Measureme
     refuse("ensemble", scene, reach=reach is not None)
     planned = plan(scene.model_copy(update={"ask": ask.model_copy(update={"realisations": 1})}))
     if planned.problem.route == Route.ORDERED:
-        why = planned.skipped[-1].reason
+        why = planned.skipped["disorder"]
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")
     if planned.certified:
         raise SceneError("ask", None, f"an ensemble is solved in float64, but {planned.reason}")

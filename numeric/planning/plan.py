@@ -1,6 +1,6 @@
 """What a plan is: a problem, the numbers that it is solved in, and what is known before it runs."""
 
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -29,20 +29,13 @@ METHODS = {
 }
 
 
-@dataclass(frozen=True)
-class Skipped:
-    """An effect that is left out, and why."""
-
-    effect: str
-    reason: str
-
-
 @dataclass(frozen=True, eq=False, repr=False)
 class Plan:
     """How a scene will be solved, and what is known beforehand.
 
     ``system`` is the arithmetic, ``reason`` why it is no other. ``memory``: bytes at the peak.
     ``error``: expected relative to the largest change; None where only the sweep can tell.
+    ``skipped``: the effects that are left out, and why.
     """
 
     scene: CheckedScene
@@ -53,7 +46,7 @@ class Plan:
     reason: str
     error: Fraction | None
     memory: int
-    skipped: tuple[Skipped, ...]
+    skipped: dict[str, str]
 
     @property
     def quantity(self) -> Quantity:
@@ -143,7 +136,7 @@ class Plan:
                 "memory_bytes": self.memory,
                 "expected_error": None if self.error is None else bound_string(self.error),
             },
-            "skipped": [asdict(skipped) for skipped in self.skipped],
+            "skipped": [{"effect": what, "reason": why} for what, why in self.skipped.items()],
             "sees_images": self.sees_images,
             "tension": expected,
             "notes": self.notes,

@@ -26,7 +26,7 @@ from ..scene.scene import CheckedScene
 from ..scene.sections import SceneError
 from ..theory.expected import critical_height
 from .memory import memory, refuse_beads, refuse_memory
-from .plan import Plan, Skipped
+from .plan import Plan
 from .sources import beyond_floats, load_of, radii_of
 
 # To which packings are enclosed whose contacts open, relative to the largest force.
@@ -58,7 +58,7 @@ def plan(
     quantities = quantities_of(scene)
     problem, skipped = _problem(scene, quantities, limit, text=text)
     error = expected(FLOAT64, quantities, problem)
-    made = Plan(scene, quantities, problem, tolerance, FLOAT64, "", error, 0, tuple(skipped))
+    made = Plan(scene, quantities, problem, tolerance, FLOAT64, "", error, 0, skipped)
     reason = why_balls(made, certified=certified)
     if reason:
         return in_balls(made, reason, limit, text=text)
@@ -81,13 +81,13 @@ def in_balls(made: Plan, reason: str, limit: int | None = None, *, text: bool = 
 
 def _problem(
     scene: CheckedScene, quantities: Sequence[Quantity], limit: int, *, text: bool
-) -> tuple[Problem, list[Skipped]]:
+) -> tuple[Problem, dict[str, str]]:
     """Say which beads are solved, by which theory, and what that leaves out.
 
     Raises ``SceneError`` for a scene that is too large, before a single row of beads is made, and
     ``TableError``.
     """
-    skipped: list[Skipped] = []
+    skipped: dict[str, str] = {}
     effects, realisations = scene.effects, scene.ask.realisations
     ordered, unilateral = _why_ordered(scene), effects.contacts == "unilateral"
     single = quantities[0].single and bool(ordered or effects.geometry == "first-order")
@@ -101,7 +101,7 @@ def _problem(
     load = load_of(scene)
     needs_forces = any(quantity.needs_forces for quantity in quantities)
     if not needs_forces and "load" in scene.model_fields_set:
-        skipped.append(Skipped("load", "positions follow from the radii alone"))
+        skipped["load"] = "positions follow from the radii alone"
     rows, region = Rows(), Region(load.width, Rows())
     if not single:  # of two questions one needs all beads that the other does
         found = [quantity.beads(load) for quantity in quantities]
@@ -118,20 +118,19 @@ def _problem(
     if ordered:
         route, radii = Route.ORDERED, Monodisperse()
         if scene.disorder is not None:
-            skipped.append(Skipped("disorder", ordered))
+            skipped["disorder"] = ordered
         if realisations > 1:
-            why = "without disorder all realisations are the same: one is solved"
-            skipped.append(Skipped("realisations", why))
+            skipped["realisations"] = (
+                "without disorder all realisations are the same: one is solved"
+            )
             realisations = 1
     elif effects.geometry == "first-order":
         route = Route.LINE_SUMS if single else Route.FIRST_ORDER
-        why = 'geometry = "first-order" sums the radii along diagonals'
-        skipped.append(Skipped("nonlinear geometry", why))
+        skipped["nonlinear geometry"] = 'geometry = "first-order" sums the radii along diagonals'
     else:
         route = Route.UNILATERAL if unilateral else Route.EXACT
     if not ordered and not region.is_whole:
-        what = "only those that the answer depends on are solved"
-        skipped.append(Skipped("other beads", what))
+        skipped["other beads"] = "only those that the answer depends on are solved"
     problem = Problem(
         scene.packing.n_x,
         radii,
