@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_206,
     "derivations": 8_147,
-    "numeric": 9_810,
+    "numeric": 9_798,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,

@@ -28,7 +28,6 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "a long spacing": (lambda: fd.solve(R, spacing=LONG), "at most 5000 digits"),
     "a long tolerance": (lambda: fd.solve(R, tolerance=DIGITS), "between 0 and 1"),
     "a class": (lambda: fd.solve(R, load=fd.BulkLoad), r"BulkLoad\(\)"),  # type: ignore[arg-type]
-    "a steep load": (lambda: fd.solve(R, load=fd.SurfaceLoad(angle_deg=120)), "from -90 to 90"),
     "equation 99": (lambda: fd.equation(99), "from 1 to 16, or B1 to B25"),
     "a long equation": (lambda: fd.equation(LONG), "from 1 to 16"),
     "long words": (lambda: fd.equation(DIGITS), "from 1 to 16"),
@@ -47,7 +46,6 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "progress": (lambda: fd.ensemble(SCENE, 4, progress=3), "True, False or a function"),  # type: ignore[arg-type]
     "no folder": (lambda: fd.solve(R).to_vtk("nowhere/a.vtk"), "can't be written"),
     "keys of images": (lambda: fd.Disorder(kind="file", y_down=True), "fd.read_radii"),  # type: ignore[call-arg]
-    "no place": (lambda: fd.variance(f_plus), "f_plus needs a place"),
     "figure 7": (lambda: fd.figure(7), "give 1, 2, 3"),
     "a long figure": (lambda: fd.figure(LONG), "give 1, 2, 3"),
     "a kind": (lambda: fd.figure(3, kinds=("gif",)), "png, svg, pdf"),

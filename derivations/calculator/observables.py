@@ -49,8 +49,7 @@ def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
             f"{observable!r} is text: write it with the symbols of force_diffusion.symbols"
         )
     if isinstance(observable, type):
-        name = getattr(observable, "in_code", observable.__name__)
-        raise ObservableError(f"{name} needs a place, such as (i, j)")
+        raise ObservableError("an observable needs a place, as in f_plus(i, j)")
     try:
         expression = sympy.sympify(observable, strict=True)  # else SymPy evaluates text
     except sympy.SympifyError:

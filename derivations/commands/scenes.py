@@ -164,8 +164,7 @@ def cost(
     with named(scene.name):
         read = fd.read_scene(scene)
         found = fd.cost(read, seconds, say_row)
-    source = sourced(source_of(read), scene, None)
-    data = {"command": command, "source": source, **found.data()}
+    data = {"command": command, "source": sourced(source_of(read), scene, None), **found.data()}
     if folder:
         title = f"Cost of accuracy: {printable(scene.stem)}"
         plots = drawn(lambda: found.plot(title), "cost", title, command)

@@ -54,7 +54,7 @@ OBSERVABLES = [
     ("f_plus(i, j)", "is text: write it with the symbols of force_diffusion.symbols"),
     ([FORCE], "is not a SymPy expression"),
     (sympy.eye(2), "can't be used"),
-    (f_plus, r"ForcePlus needs a place, such as \(i, j\)"),
+    (f_plus, r"needs a place, as in f_plus\(i, j\)"),
 ]
 
 
