@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.run.running import run
-from hypothesis import assume, given
+from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
@@ -126,6 +126,7 @@ def test_discs(delta: Array, spacing: float) -> None:
 
 
 @pytest.mark.long
+@settings(max_examples=settings.default.max_examples // 2)
 @given(spheres, st.sampled_from([2.03, 2.4, 2.9, 3.2]))
 def test_spheres(delta: Array, spacing: float) -> None:
     agree(delta, spacing)

@@ -81,7 +81,10 @@ def loaded(draw: st.DrawFn) -> tuple[set[Bead], int | None, int]:
     return draw(st.sets(beads, min_size=1, max_size=4)), width, height
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=settings.default.max_examples // 2,
+    suppress_health_check=[HealthCheck.function_scoped_fixture],
+)
 @given(loaded())
 def test_contacts_are_those_below_loads(
     tmp_path: Path, drawn: tuple[set[Bead], int | None, int]

@@ -34,16 +34,6 @@ def numbers(outcome: Outcome, small_only: bool = False) -> Iterator[tuple[str, s
                 yield key, value
 
 
-def test_a_wide_packing_is_the_slab() -> None:
-    """Radii depend on i alone, so a contact far from i = 0 can't tell whether there is a width."""
-    for geometry in ("exact", "first-order"):
-        effects = {"effects": {"geometry": geometry}}
-        wide = answer({**basic(5, 40, quantity="contact", at=[30, 2, "+"]), **effects})
-        slab = answer({**basic(5, None, quantity="contact", at=[30, 2, "+"]), **effects})
-        assert wide.decimals() == slab.decimals()
-        assert not wide.plan.sees_images
-
-
 def test_statistics_have_standard_errors_and_no_digits_beyond_them() -> None:
     found = answer(basic(4, 9, quantity="profile", realisations=50))
     for row, printed in zip(found.rows(), found.decimals(), strict=True):
@@ -63,17 +53,6 @@ def test_statistics_have_standard_errors_and_no_digits_beyond_them() -> None:
     alone = answer(basic(4, 9, quantity="profile"))
     assert alone.sampling_error is None
     assert {row["std_error"] for row in alone.decimals()} == {""}
-
-
-@pytest.mark.parametrize("quantity", ["contact_forces", "positions", "profile"])
-def test_rows_are_sorted_as_numbers(quantity: str) -> None:
-    asked = {} if quantity == "profile" else {"realisations": 2}
-    rows = answer(basic(12, 14, quantity=quantity, **asked)).rows()
-    keys = [(r.get("realisation"), r["j"], r.get("i"), r.get("branch")) for r in rows]
-    same = [tuple(k for k in key if k is not None) for key in keys]
-    order = {"+": 0, "-": 1}
-    assert same == sorted(same, key=lambda key: [order.get(k, k) for k in key])
-    assert len(set(same)) == len(same)
 
 
 def test_a_profile_under_a_point_load_keeps_the_digits_of_its_changes() -> None:
@@ -128,10 +107,10 @@ def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene() -> None:
         assert found.physical.smallest_gap == gap
 
 
-@pytest.mark.long(sample=13)
+@pytest.mark.long(sample=8)
 @pytest.mark.parametrize(
     ("dimension", "effects"),
-    [(2, "exact"), (2, "first-order"), (2, "ordered"), (3, "exact"), (3, "ordered")],
+    [(2, "exact"), (2, "first-order"), (3, "exact"), (3, "ordered")],
 )
 @pytest.mark.parametrize("more", [{}, {"realisations": 3}, {"tolerance": "=1e-25"}])
 def test_some_layers_of_a_response_are_those_of_the_whole(

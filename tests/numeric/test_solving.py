@@ -64,13 +64,6 @@ def test_wrong_arguments(arguments: dict[str, Any], says: str) -> None:
     assert refused.value.exit_status == 2
 
 
-def test_a_bead_that_cannot_rest_is_named() -> None:
-    radii = np.ones((3, 6))
-    radii[1, 2] = 5
-    with pytest.raises(fd.ForceDiffusionError, match=r"bead \(\d+, \d\)"):
-        fd.solve(radii, radius=1, spacing=3)
-
-
 @pytest.mark.parametrize(
     ("shape", "remedy"),
     [
@@ -188,7 +181,7 @@ def test_of_a_bead_that_no_supports_hold_it_is_said_why(
         (small, "too far apart to hold it;", "smaller spacing"),
         (large, "too close to hold it up", "larger spacing"),
     ):
-        with pytest.raises(UnbuildableError, match=f"{why}.*{remedy}"):
+        with pytest.raises(UnbuildableError, match=rf"^bead \(.*{why}.*{remedy}"):
             fd.solve(odd, dimension=dimension, radius=1, spacing=3, **how)
 
 

@@ -76,42 +76,33 @@ def test_another_version_on_a_worker_is_refused(
         fd.ensemble(scene(PROFILE), 40, executor=client.get_executor(pure=False))
 
 
-@pytest.fixture
-def path(tmp_path: Path) -> Path:
-    path = tmp_path / "scene.toml"
+def call(folder: Path, *arguments: str) -> int:
+    path = folder / "scene.toml"
     path.write_text(toml(PROFILE))
-    return path
-
-
-def call(path: Path, address: str) -> int:
-    return main(["ensemble", str(path), "--realisations", "40", "--json", "--scheduler", address])
+    return main(["ensemble", str(path), "--realisations", "40", "--json", *arguments])
 
 
 def test_the_command_gives_the_same(
-    local: Any, path: Path, capsys: pytest.CaptureFixture[str]
+    local: Any, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert call(path, local.scheduler_address) == 0
+    assert call(tmp_path, "--scheduler", local.scheduler_address) == 0
     found = capsys.readouterr().out
-    assert main(["ensemble", str(path), "--realisations", "40", "--json"]) == 0
+    assert call(tmp_path) == 0
     assert capsys.readouterr().out == found
 
 
-def test_a_scheduler_that_is_missing(
-    path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(command, "PATIENCE", 1)
-    for address in ("tcp://127.0.0.1:9", "nonsense://x"):
-        assert call(path, address) == 3
-        assert "no Dask scheduler answers" in capsys.readouterr().err
-
-
 @pytest.mark.long
-def test_a_scheduler_without_workers(
-    path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+def test_a_scheduler_that_is_missing_or_has_no_workers(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     import distributed
 
     monkeypatch.setattr(command, "PATIENCE", 1)
     with distributed.LocalCluster(n_workers=0, processes=True, dashboard_address=":0") as empty:
-        assert call(path, empty.scheduler_address) == 3
-    assert "give the cluster workers" in capsys.readouterr().err
+        for address, says in (
+            ("tcp://127.0.0.1:9", "no Dask scheduler answers"),
+            ("nonsense://x", "no Dask scheduler answers"),
+            (empty.scheduler_address, "give the cluster workers"),
+        ):
+            assert call(tmp_path, "--scheduler", address) == 3
+            assert says in capsys.readouterr().err

@@ -3,7 +3,6 @@
 import csv
 import json
 import math
-from collections import defaultdict
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
@@ -35,7 +34,6 @@ from force_diffusion.numeric.figures.packings import (
     Made,
     Medium,
     Options,
-    Table,
 )
 from matplotlib.axes import Axes
 
@@ -49,23 +47,15 @@ def columns(made: Made, name: str) -> dict[str, list[Any]]:
 
 
 def test_figure_1_shows_beads_that_touch() -> None:
-    table = columns(notation.figure(Options(seed=4)), "figure1")
-    rows = [dict(zip(table, row, strict=True)) for row in zip(*table.values(), strict=True)]
-    beads = {(b["i"], b["j"]): b for b in rows}
-    touching = 0
-    for (i, j), bead in beads.items():
-        for step in (-1, 1):
-            other = beads.get((i + step, j + 1))
-            if other is None:
-                continue
-            apart = np.hypot(bead["x"] - other["x"], bead["y"] - other["y"])
-            assert apart == pytest.approx(bead["radius"] + other["radius"], rel=1e-14)
-            ordered = np.hypot(
-                bead["x_ordered"] - other["x_ordered"], bead["y_ordered"] - other["y_ordered"]
-            )
-            assert ordered == pytest.approx(2, rel=1e-14)
-            touching += 1
-    assert touching == 24
+    table = notation.figure(Options(seed=4)).tables["figure1"]
+    i, j, radius = (np.array(table[name]) for name in ("i", "j", "radius"))
+    touching = (np.abs(i[:, None] - i) == 1) & (j[:, None] - j == 1)
+    assert touching.sum() == 24
+    both = (radius[:, None] + radius)[touching]
+    for end, distance in (("", both), ("_ordered", np.full(24, 2.0))):
+        x, y = (np.array(table[f"{axis}{end}"]) for axis in "xy")
+        apart = np.hypot(x[:, None] - x, y[:, None] - y)[touching]
+        assert apart == pytest.approx(distance, rel=1e-14)
 
 
 def test_widths_of_figure_2_are_those_of_line_sums() -> None:
@@ -120,20 +110,13 @@ def test_figure_3_needs_heights(heights: Any) -> None:
         fd.figure(3, heights=heights)
 
 
-@pytest.fixture(scope="module")
-def figure4() -> tuple[Table, Comparison]:
-    return point_load.simulated(Options(realisations=400))
-
-
 def on_layer(values: Any, j: int) -> Any:
     """The beads of a layer, from the left leg of the cone to the right one."""
     return values[j == point_load.LAYER]
 
 
-def test_figure_4_does_not_depend_on_the_horizontal_position(
-    figure4: tuple[Table, Comparison],
-) -> None:
-    table, cuts = figure4
+def test_figure_4_does_not_depend_on_the_horizontal_position() -> None:
+    table, cuts = point_load.simulated(Options(realisations=400))
     for j in range(1, point_load.APEX - 1):
         inside = on_layer(table["variance_exact"], j)[1:-1]
         assert inside == pytest.approx(np.full(inside.shape, inside[0]), rel=1e-12)
@@ -150,26 +133,16 @@ def test_figure_4_does_not_depend_on_the_horizontal_position(
     assert (off < 5 * table["mean_standard_error"][point_load.LEG]).all()
 
 
-def test_chains_balance_as_drawn() -> None:
-    """At every bead the drawn lines, each as strong as its force, leave nothing over."""
+def test_chains_bear_the_load_of_all_beads_in_every_layer() -> None:
     found = chains.figure(Options(seed=2))
-    scale = 1 / (2 * NY)
-    left: dict[tuple[int, int], np.ndarray] = defaultdict(lambda: np.zeros(2))
-    table = columns(found, "chains")
-    for values in zip(*table.values(), strict=True):
-        row = dict(zip(table, values, strict=True))
-        along = np.array([row["x_high"] - row["x_low"], row["y_high"] - row["y_low"]])
-        along *= scale * row["force"] / np.hypot(*along)
-        step = 1 if row["branch"] == "+" else -1
-        left[row["i"], row["j"]] -= along
-        left[(row["i"] + step) % (2 * chains.WIDTH), row["j"] + 1] += along
-    assert len(left) == chains.WIDTH * (chains.HEIGHT + 1)
-    for (_, j), rest in left.items():
-        load = np.array([0.0, 1.0 if j == chains.HEIGHT else 0.0])
-        if j:
-            # ends are rounded to 1e-12 r: each of four contacts is turned by 1e-12 at most, and
-            # the largest force is below four times the load
-            assert rest == pytest.approx(load, abs=1.6e-11)
+    table = {name: np.array(column) for name, column in found.tables["chains"].items()}
+    along = np.stack([table[f"{axis}_high"] - table[f"{axis}_low"] for axis in "xy"])
+    forces = table["force"] / (2 * NY) * along / np.hypot(*along)
+    for j in range(chains.HEIGHT):
+        layer = forces[:, table["j"] == j]
+        assert layer.shape == (2, 2 * chains.WIDTH)
+        # ends are rounded to 1e-12 r, and the largest force is below four times the load
+        assert layer.sum(axis=1) == pytest.approx([0, chains.WIDTH], abs=1e-11 * chains.WIDTH)
     facts = found.facts
     assert 0 < facts["tensile"] < facts["contacts"] / 4
     assert chains.HEIGHT < facts["critical_height"] < 2 * chains.HEIGHT

@@ -65,17 +65,6 @@ def test_a_triangle_is_what_a_bead_stands_on(
 
 @often
 @given(st.data(), widths, heights)
-def test_an_upward_cone_is_what_stands_on_a_bead(
-    data: st.DataObject, width: int | None, top: int
-) -> None:
-    x = data.draw(beads(0, top, width))
-    rows = upward_cone(x, top, width)
-    assert sites(rows, width) == walk([x], 1, top, width)
-    assert len(rows) == top + 1
-
-
-@often
-@given(st.data(), widths, heights)
 def test_loads_reach_all_below_them_and_may_reach_what_lies_between(
     data: st.DataObject, width: int | None, top: int
 ) -> None:

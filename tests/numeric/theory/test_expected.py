@@ -26,10 +26,8 @@ def scene(load: fd.Load, relative_std: float, packing: dict[str, int] = DISCS) -
     ("load", "relative_std", "packing", "room"),
     [
         (fd.SurfaceLoad(), 0.0055, DISCS, 0.3),
-        (fd.SurfaceLoad(), 0.0092, DISCS, 0.1),
         (fd.BulkLoad(), 0.0156, DISCS, 0.2),
         (fd.SurfaceLoad(angle_deg=20), 0.004, DISCS, 0.2),
-        (fd.BulkLoad(angle_deg=-20), 0.008, DISCS, 0.2),
         (fd.SurfaceLoad(angle_deg=50), 0.002, DISCS, 0.02),
         (fd.SurfaceLoad(), 0.02, SPHERES, 0.2),
         (fd.BulkLoad(), 0.03, SPHERES, 0.2),
