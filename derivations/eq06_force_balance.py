@@ -42,7 +42,7 @@ def to_first_order(carried: sympy.Matrix) -> sympy.Matrix:
     forces = system.LUsolve(carried)  # its pivots are 1 and, at ε = 0, 1 − φ²
     at_zero, slope = forces.subs(epsilon, 0), forces.diff(epsilon).subs(epsilon, 0)
     return (at_zero + slope).applyfunc(
-        lambda one: sympy.expand(sympy.cancel(one * (1 - phi**2))) / (1 - phi**2)
+        lambda force: sympy.expand(sympy.cancel(force * (1 - phi**2))) / (1 - phi**2)
     )
 
 

@@ -77,8 +77,8 @@ def steps() -> Steps:
         "Solved by elimination, with the pivots 1 and, at order 0, 1 − φ², and expanded in ν:",
         sympy.Tuple(
             *(
-                equation(force, times(ORDERED, one))
-                for force, one in zip(FORCES, forces, strict=True)
+                equation(force, times(ORDERED, share))
+                for force, share in zip(FORCES, forces, strict=True)
             )
         ),
         solve(rows.theorems, FORCES),

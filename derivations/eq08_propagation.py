@@ -66,7 +66,10 @@ def steps() -> Steps:
     steps.show(
         "Solved as for Eq. 7, and expanded in the three tilts ν:",
         sympy.Tuple(
-            *(equation(force / ENTERING, one) for force, one in zip(FORCES, forces, strict=True))
+            *(
+                equation(force / ENTERING, share)
+                for force, share in zip(FORCES, forces, strict=True)
+            )
         ),
         solve(rows.theorems, FORCES),
     )

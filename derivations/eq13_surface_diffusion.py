@@ -13,8 +13,6 @@ from force_diffusion.derivations.framework.vocabulary import (
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
 # fmt: on
 
-HALF = sympy.S.Half
-
 RELATIVE_VARIANCE = Symbol(
     "relative_variance", r"\frac{\sigma_f^2(z)}{\langle f\rangle^2}", "σ_f²(z)/⟨f⟩²"
 )
@@ -26,7 +24,7 @@ PRINTED = equation(
     times(2 * M**3 / (1 - phi**2) ** 2, (1 - z) ** 2, 2 * z + 1, power(sigma / r, 2)),
 )
 
-KEPT = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
+KEPT_VARIANCE = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
 """The variance of what Eq. 12 keeps."""
 
 WEIGHTS = times(
@@ -49,13 +47,13 @@ def _squares_to(last: sympy.Expr) -> sympy.Expr:
 def steps() -> Steps:
     """Six radii's worth for each Δ, the squared weights summed."""
     steps, groups = Steps(13, eq12.INSIDE, MEANING), eq11.in_radii()
-    kept = steps.show(
+    variance = steps.show(
         "Each Δ holds one radius with the weight 2 and two with the weight −1: its square sum is "
         "6. Those of Eq. 12 lie in different layers and share no radius. With its prefactor, the "
         "variance of its right-hand side is",
-        equation(KEPT, times(layers.UNIT, WEIGHTS)),
+        equation(KEPT_VARIANCE, times(layers.UNIT, WEIGHTS)),
         moment(),
-        definitions={KEPT: Variance(eq12.PRINTED.rhs)},
+        definitions={KEPT_VARIANCE: Variance(eq12.PRINTED.rhs)},
     )
     below, above = sympy.Sum((M - j) ** 2, (m, 1, n)), sympy.Sum((M - m) ** 2, (m, j + 1, n))
     steps.show(
@@ -73,7 +71,7 @@ def steps() -> Steps:
         "What Eq. 12 drops varies less by an order, and the first term has the highest order: with "
         "z = j/M it is the printed form.",
         PRINTED,
-        of_what_is_kept(eq12.DERIVATION.theorem, kept.theorem, added.theorem),
+        of_what_is_kept(eq12.DERIVATION.theorem, variance.theorem, added.theorem),
         IN_THE_LIMIT,
     )
     how = "Eqs. 4 and 5 put into Eq. 11, every radius has one weight; each sum telescopes"
@@ -104,7 +102,10 @@ def steps() -> Steps:
     )
     steps.claim(
         "1 − φ² is more than 3/4, since −½ < φ < ½",
-        equation(terms(1, -(phi**2)), terms(sympy.Rational(3, 4), times(HALF - phi, HALF + phi))),
+        equation(
+            terms(1, -(phi**2)),
+            terms(sympy.Rational(3, 4), times(sympy.S.Half - phi, sympy.S.Half + phi)),
+        ),
         rewrite(),
         Domain(),
     )

@@ -7,6 +7,7 @@ import sympy
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
+from force_diffusion.derivations.eq13_surface_diffusion import KEPT_VARIANCE
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic, at_fixed_height,
@@ -15,8 +16,6 @@ from force_diffusion.derivations.framework.vocabulary import (
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
 # fmt: on
-
-HALF = sympy.S.Half
 
 LOADED = eq11.LAYERS.loaded(axioms.BULK)
 IN_THE_LIMIT = LOADED.in_the_limit(at_fixed_height("∼"))
@@ -35,7 +34,7 @@ RATIO = ForcePlus(i, j) / ((M - j) * m_g / (2 * n_y))
 """The force over its mean, (M − j) m g/2n_y."""
 MEANING = {RELATIVE_VARIANCE: Variance(RATIO)}
 
-AVERAGED = times(HALF, M - j + 1), times(HALF, M - m, M - m + 1, 1 / (M - j))
+AVERAGED = times(sympy.S.Half, M - j + 1), times(sympy.S.Half, M - m, M - m + 1, 1 / (M - j))
 """The weights of Δ for m ≤ j and for m > j: those of Eq. 12 averaged over the heights l."""
 OVER_HEIGHTS = (
     times(1 / (M - j), sympy.Sum(l - j, (l, j + 1, M))),
@@ -58,7 +57,6 @@ REST = times(
     1 / (M - j),
 )
 """Six times the sum of their squares is HIGHEST and this."""
-KEPT = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
 NEXT_ORDER = 3 * M**2 * (1 - z) ** 2 / 8
 """The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
 PROFILE = times((1 - z) ** 2, 4 * z + 1)
@@ -97,7 +95,7 @@ def gained(above: int) -> sympy.Eq:
     the second derivative of Eq. 14 in j at its maximum.
     """
     upper = RATIO.xreplace({i: i + 1, j: j + 1})
-    apart = (j + HALF - (M / 6 - sympy.Rational(5, 24))).xreplace({M: 6 * j + above})
+    apart = (j + sympy.S.Half - (M / 6 - sympy.Rational(5, 24))).xreplace({M: 6 * j + above})
     return equation(
         terms(Variance(upper), -RELATIVE_VARIANCE), times(layers.UNIT, -3, M, sympy.expand(apart))
     )
@@ -131,7 +129,7 @@ def steps() -> Steps:
         rewrite(),
         eq12.INSIDE.also(m >= j + 1, m <= M),
     )
-    kept = steps.show(
+    approximation = steps.show(
         "As in Eq. 12, what is dropped varies less by an order:",
         equation(terms(RATIO, -1), AVERAGE_OF_EQ_12),
         negligible(*groups),
@@ -139,9 +137,9 @@ def steps() -> Steps:
     )
     variance = steps.show(
         "The variance of what is kept, six times the sum of the squares of its weights:",
-        equation(KEPT, times(layers.UNIT, WEIGHTS)),
+        equation(KEPT_VARIANCE, times(layers.UNIT, WEIGHTS)),
         moment(),
-        definitions={KEPT: Variance(AVERAGE_OF_EQ_12)},
+        definitions={KEPT_VARIANCE: Variance(AVERAGE_OF_EQ_12)},
     )
     up_to_n = n * (n + 1) * (n + 2) * (3 * n**2 + 6 * n + 1) / 15
     steps.show(
@@ -155,7 +153,7 @@ def steps() -> Steps:
     steps.show(
         "The first term has the highest order: with z = j/M it is the printed form.",
         PRINTED,
-        of_what_is_kept(kept.theorem, variance.theorem, added.theorem),
+        of_what_is_kept(approximation.theorem, variance.theorem, added.theorem),
         IN_THE_LIMIT,
     )
     how = "every radius has one weight; each sum telescopes"

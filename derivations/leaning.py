@@ -40,7 +40,7 @@ FORCES = (
 )
 BULK = tuple(
     equation(force, sympy.Sum(value.xreplace({M: m}), (m, j + 1, M)))
-    for force, value in (one.args for one in FORCES)
+    for force, value in (statement.args for statement in FORCES)
 )
 """The same under a load on every bead: as surface loads of all heights m above the contact."""
 

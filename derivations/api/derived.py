@@ -100,10 +100,10 @@ def derive(
     :meth:`Equation.prove` is the same for one equation.
 
     >>> import force_diffusion as fd
-    >>> found = fd.derive([3])
-    >>> {number: str(verdict) for number, verdict in found.verdicts.items()}
+    >>> derived = fd.derive([3])
+    >>> {number: str(verdict) for number, verdict in derived.verdicts.items()}
     {2: 'proved', 3: 'proved'}
-    >>> found.proved, found.counts(), sorted(found.latex())
+    >>> derived.proved, derived.counts(), sorted(derived.latex())
     (True, '2 proved', ['eq02.tex', 'eq03.tex', 'equations.tex'])
 
     Args:

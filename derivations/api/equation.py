@@ -177,7 +177,7 @@ class Equation:
         """
         return _expression_or_tuple(line.rhs for line in self._derivation.printed)
 
-    @property
+    @cached_property
     def symbols(self) -> dict[str, Any]:
         """The symbols, and the functions of a bead, by their names in code and messages.
 
@@ -190,10 +190,6 @@ class Equation:
         >>> list(fd.equation(3).symbols)
         ['DeltaX', 'i', 'j', 'DeltaR', 'm', 'b_plus', 'b_minus']
         """
-        return dict(self._vocabulary)
-
-    @cached_property
-    def _vocabulary(self) -> dict[str, Any]:
         named = [symbol for symbol, _ in self._derivation.symbols]
         by_layer = [sy.j] if sy.z in self._derivation.printed[0].free_symbols else []
         exact = [form.expr for form in self._derivation.exact_forms.values()]
@@ -224,8 +220,8 @@ class Equation:
         """Its text and LaTeX as JSON can hold them, with those of its exact formulas.
 
         >>> import force_diffusion as fd
-        >>> found = fd.equation(13).data()["exact"]
-        >>> [piece["domain"] for piece in found["layer"]][:2]
+        >>> exact = fd.equation(13).data()["exact"]
+        >>> [piece["domain"] for piece in exact["layer"]][:2]
         ['2 ≤ j ≤ M − 2', 'j = M − 1, M ≥ 3']
         """
         return statement_data(self._derivation)
@@ -297,19 +293,18 @@ class Equation:
         Raises:
             NoSuchFormError: it has no exact form, or none of that name.
         """
-        if not self._derivation.exact_forms:
+        forms = self._derivation.exact_forms
+        if not forms:
             having = [str(number) for number in modules() if load(number).exact]
             raise NoSuchFormError(
                 f"Eq. {self.number} has no exact form at finite size; these have one: "
                 f"{', '.join(having)}."
             )
-        if form is None:
-            return next(iter(self._derivation.exact_forms.values()))
-        if form not in self._derivation.exact_forms:
+        if form is not None and form not in forms:
             raise NoSuchFormError(
                 f"Eq. {self.number} has no exact form {quoted(form)}. It has {both(self.forms)}."
             )
-        return self._derivation.exact_forms[form]
+        return forms[form or self.forms[0]]
 
     # numbers
 

@@ -100,8 +100,8 @@ def _assert_allowed(values: Arrays) -> None:
     for symbol, array in values.items():
         words, allowed = range_of(symbol)
         good = allowed(array) & (array == np.floor(array)) if symbol.is_integer else allowed(array)
-        for right, said in ((np.isfinite(array), "finite numbers are"), (good, f"{words} is")):
-            _refuse(right, lambda at: f"{symbol.in_code} = {array[at]:g}: {said} allowed")  # noqa: B023
+        for right, kinds in ((np.isfinite(array), "finite numbers are"), (good, f"{words} is")):
+            _refuse(right, lambda at: f"{symbol.in_code} = {array[at]:g}: {kinds} allowed")  # noqa: B023
     for pair, (words, together) in TOGETHER.items():
         if set(pair) <= set(values):
             right = together(*(values[symbol] for symbol in pair))

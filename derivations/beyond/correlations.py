@@ -59,7 +59,7 @@ _LONG = (j + 2 <= N, j >= 2, j + 2 <= M)
 
 def _contacts(number: Number, name: str, load: str) -> Row:
     leading = PAPER[load].PRINTED.rhs.doit()
-    said = f'load="{load}"'
+    argument = f'load="{load}"'
 
     def beside(places: int, share: Rational) -> Decide:
         return goes_as("apart", share * leading, Eq(k, places), *_DEEP, at={j: z * M})
@@ -68,7 +68,7 @@ def _contacts(number: Number, name: str, load: str) -> Row:
         number=number,
         name=name,
         title=f"Mean over N neighbouring contacts of one branch under a {load} load",
-        call=f"variance(mean_over(f_plus(i, j), N), {said})",
+        call=f"variance(mean_over(f_plus(i, j), N), {argument})",
         exact=lambda: {
             "mean": variance(mean_over(ForcePlus(i, j), N), load=load).named(FORCE_MEAN),
             "apart": covariance(ForcePlus(i, j), ForcePlus(i + 2 * k, j), load=load).named(APART),
@@ -118,8 +118,8 @@ def _correlation(name: str, load: str, squared: Rational) -> Decide:
         both = highest(forms[name].on(*_INSIDE).xreplace(AT_HEIGHTS), M)
         lower = PAPER[load].PRINTED.rhs.doit()
         upper = lower.xreplace({z: z_upper})
-        found = sympy.cancel(both**2 / (lower * upper)).subs(z, 0).subs(z_upper, 1)
-        return are_same(found, squared)
+        square = sympy.cancel(both**2 / (lower * upper)).subs(z, 0).subs(z_upper, 1)
+        return are_same(square, squared)
 
     return decide
 

@@ -66,19 +66,19 @@ def derive(
             print(summary_line(outcome), *trouble_lines(outcome), sep="\n", flush=True)
 
     with noticing() as notice:
-        found = fd.derive(wanted, notice=notice, finished=finished)
+        derived = fd.derive(wanted, notice=notice, finished=finished)
         if paper:
             from ..export.article import article_and_figures
 
-            paper.write(article_and_figures(found.outcomes, command_line(), notice))
+            paper.write(article_and_figures(derived.outcomes, command_line(), notice))
     if folder:
         about = {"command": command_line(), "version": version("force-diffusion")}
-        data = {**about, **outcomes_data(found.in_order, timed=False)}
-        folder.write({**found.latex(), MANIFEST: json.dumps(data, indent=2) + "\n"})
+        data = {**about, **outcomes_data(derived.in_order, timed=False)}
+        folder.write({**derived.latex(), MANIFEST: json.dumps(data, indent=2) + "\n"})
     folders = [printable(str(path)) for path in (out, article) if path]
     if as_json:
-        print(json.dumps(found.data(), indent=2), flush=True)
+        print(json.dumps(derived.data(), indent=2), flush=True)
     else:
         written = f" Written to {both(folders)}." if folders else ""
-        print(f"{found.counts()}.{written}", flush=True)
-    raise typer.Exit(0 if found.proved else 1)
+        print(f"{derived.counts()}.{written}", flush=True)
+    raise typer.Exit(0 if derived.proved else 1)

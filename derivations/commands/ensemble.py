@@ -18,10 +18,10 @@ from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
 
-from ..export.answers import Format, files_of, names_of
+from ..export.answers import files_of, names_of
 from .guard import about, in_range, say, tell
 from .output import Output, Overwrite, out_option
-from .shared import Json, Quiet, Written, checked, show, sourced, warn
+from .shared import STATUSES, Json, Quiet, Written, checked, show, sourced, warn  # noqa: F401
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.result import Ensemble
@@ -29,12 +29,6 @@ if TYPE_CHECKING:
 
 # Seconds until a scheduler has to answer, and a worker of it has to be there.
 PATIENCE = 10
-
-
-STATUSES = (
-    "Exit status: 0 answered, 2 wrong usage or input, 3 what was asked for can't be reached, or "
-    "something outside the program failed, such as the disk, 130 interrupted."
-)
 
 
 def ensemble(
@@ -80,7 +74,7 @@ def ensemble(
         typer.Option(metavar="X", help="Outer edge of a histogram's bins, in units of force."),
     ] = None,
     out: Annotated[Path | None, out_option("the result as JSON and a table")] = None,
-    written: Written = Format.CSV,
+    written: Written = "csv",
     as_json: Json = False,
     quiet: Quiet = False,
     overwrite: Overwrite = False,
@@ -93,26 +87,26 @@ def ensemble(
     checked(written, out)
     folder = Output(out, names_of(answered("ensemble")), overwrite) if out else None
     with about(scene.name):
-        found = _solved(
+        result = _solved(
             read, realisations, until, store, quiet, scheduler,
             confidence=confidence, workers=workers, reach=reach,
         )  # fmt: skip
-    warn(scene, found.measurement.plan)
-    data = found.data(rows=False)
+    warn(scene, result.measurement.plan)
+    data = result.data(rows=False)
     data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
     if folder:
-        folder.write(files_of([found], data, written))
-    lines = str(found).splitlines()
-    show([found], data, lines, as_json=as_json, quiet=quiet, written=folder is not None)
-    if found.reached is False:
-        more = found.half_width / (until or 1)
+        folder.write(files_of([result], data, written))
+    lines = str(result).splitlines()
+    show([result], data, lines, as_json=as_json, quiet=quiet, written=folder is not None)
+    if result.reached is False:
+        more = result.half_width / (until or 1)
         remedy = (
-            f"about {more**2 * found.realisations:.2g} realisations may do"
+            f"about {more**2 * result.realisations:.2g} realisations may do"
             if more < 1e6
             else "more realisations are needed than an ensemble may have"
         )
         raise NotReachedError(
-            f"the confidence is not reached: σ_f is known to {found.half_width:.2g}, not {until}; "
+            f"the confidence is not reached: σ_f is known to {result.half_width:.2g}, not {until}; "
             f"{remedy}"
         )
 
@@ -173,8 +167,8 @@ def ensemble_status(
     as_json: Json = False,
 ) -> None:
     """Check the store of an ensemble, and say what it holds."""
-    found = fd.read_store(store)
+    saved = fd.read_store(store)
     if as_json:
-        print(json.dumps(found.data(), indent=2))
+        print(json.dumps(saved.data(), indent=2))
         return
-    say(f"{store}: sound, {found}")
+    say(f"{store}: sound, {saved}")

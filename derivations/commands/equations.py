@@ -2,8 +2,7 @@
 
 import json
 from collections.abc import Iterable
-from enum import StrEnum
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
@@ -15,17 +14,8 @@ if TYPE_CHECKING:
     from ..api.equation import Equation
 
 
-class OutputForm(StrEnum):
-    """How ``show`` prints an equation."""
-
-    TEXT = "text"
-    LATEX = "latex"
-    SYMPY = "sympy"
-    PYTHON = "python"
-    STEPS = "steps"
-    JSON = "json"
-
-
+OutputForm = Literal["text", "latex", "sympy", "python", "steps", "json"]
+"""How ``show`` prints an equation."""
 Columns = Annotated[
     int, typer.Option(min=1, max=2, help="Columns of the page that the LaTeX is for.")
 ]
@@ -46,7 +36,7 @@ def equation_number(word: str) -> Number:
 
 def show(
     numbers: Annotated[list[str], typer.Argument(metavar="N", help="Numbers of equations.")],
-    form: Annotated[OutputForm, typer.Option("--as", help="How to print it.")] = OutputForm.TEXT,
+    form: Annotated[OutputForm, typer.Option("--as", help="How to print it.")] = "text",
     exact: Annotated[
         bool,
         typer.Option("--exact", help="Print the exact forms at finite size, if there are any."),
@@ -54,13 +44,13 @@ def show(
     columns: Columns = 1,
 ) -> None:
     """Print equations without deriving them."""
-    if exact and form is OutputForm.STEPS:
+    if exact and form == "steps":
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
     wanted = [*map(equation_number, numbers)]  # before SymPy is imported
     equations = [*map(fd.equation, wanted)]
-    if form is OutputForm.JSON:
+    if form == "json":
         print(json.dumps({"equations": [equation.data() for equation in equations]}, indent=2))
         return
     written = []
@@ -71,34 +61,29 @@ def show(
 
 def _written(equation: "Equation", form: OutputForm, columns: int) -> str:
     match form:
-        case OutputForm.LATEX:
+        case "latex":
             return _displayed(equation.displays(columns))
-        case OutputForm.SYMPY:
+        case "sympy":
             return equation.sympy_code()
-        case OutputForm.PYTHON:
+        case "python":
             return equation.python_code()
-        case OutputForm.STEPS:
+        case "steps":
             return str(equation.steps())
     return str(equation)
 
 
 def _exact(equation: "Equation", form: OutputForm, columns: int) -> list[str]:
-    """The exact forms, each with its name."""
+    """The exact forms, each with its name. Raises ``NoSuchFormError`` where there are none."""
     from force_diffusion.symbolic.printing.code import sympy_source
 
-    from ..api.equation import NoSuchFormError
-
-    try:
-        equation.exact()
-    except NoSuchFormError as unknown:
-        raise typer.BadParameter(str(unknown), param_hint="--exact") from None
+    equation.exact()
     forms = {name: equation.exact(name) for name in equation.forms}
     match form:
-        case OutputForm.LATEX:
+        case "latex":
             return [_displayed(exact.displays(columns)) for exact in forms.values()]
-        case OutputForm.SYMPY:
+        case "sympy":
             return [sympy_source(exact.expr) for exact in forms.values()]
-        case OutputForm.PYTHON:
+        case "python":
             return [exact.python(f"{equation.name}_{name}") for name, exact in forms.items()]
     texts = {name: "\n".join(exact.lines()) for name, exact in forms.items()}
     return [f"Eq. {equation.number}, {name}: {text}" for name, text in texts.items()]
@@ -109,9 +94,6 @@ def _displayed(bodies: Iterable[str]) -> str:
 
 
 def list_equations() -> None:
-    """List the equations.
-
-    With what Coq said about each when it was last asked.
-    """
+    """List the equations."""
     for equation in map(fd.equation, modules()):
-        print(f"{equation.number!s:>3}  {equation.name:<26}  {equation.coq:<22}  {equation.title}")
+        print(f"{equation.number!s:>3}  {equation.name:<26}  {equation.title}")

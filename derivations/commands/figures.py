@@ -186,9 +186,9 @@ def figures(
                 made = fd.figure(
                     name, seed=seeded, notice=notice, command=data["command"], **chosen
                 )
-        found = {"title": made.title, "files": list(made.files), "says": made.lines, **made.facts}
-        data["figures"][name] = found
-        text = json.dumps({"command": data["command"], **found}, indent=2, allow_nan=False)
+        entry = {"title": made.title, "files": list(made.files), "says": made.lines, **made.facts}
+        data["figures"][name] = entry
+        text = json.dumps({"command": data["command"], **entry}, indent=2, allow_nan=False)
         files |= {**made.files, f"{stem}.json": text + "\n"}
     folder.write(files)
     if as_json:
@@ -210,14 +210,14 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     scene, name = fd.read_scene(path), path.stem
     refuse("figures", scene)
     notice(f"{name}: solving")
-    found = scene.run()
-    warn(path, found.plan)
+    result = scene.run()
+    warn(path, result.plan)
     title = f"{printable(name)}: {scene.ask.quantity}"
     notice(f"{name}: drawing")
     files: dict[str, str | bytes] = {
-        **style.images(found.plot(), name, title, command, KINDS),
-        f"{name}.csv": f"# {title}\n# {command}\n".encode() + csv_bytes(found.text),
+        **style.images(result.plot(), name, title, command, KINDS),
+        f"{name}.csv": f"# {title}\n# {command}\n".encode() + csv_bytes(result.text),
     }
-    about = found.data(rows=False)
+    about = result.data(rows=False)
     about["source"] = sourced(about["source"], path, None)
     return PaperFigure(title, files, {"answer": about}, outcome_lines(about))

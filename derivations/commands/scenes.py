@@ -16,16 +16,11 @@ from .cli import command_line
 from .guard import about as named
 from .guard import in_range, say, tell
 from .output import Output, Overwrite, out_option
-from .shared import Json, Quiet, Written, checked, drawn, images, show, sourced, warn
+from .shared import STATUSES, Json, Quiet, Written, checked, drawn, images, show, sourced, warn  # noqa: F401
 from .sweep import Seed, Settings, name_of, variants
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
-
-STATUSES = (
-    "Exit status: 0 answered, 2 wrong usage or input, 3 what was asked for can't be reached, or "
-    "something outside the program failed, such as the disk, 130 interrupted."
-)
 
 
 def _scene(command: str) -> Any:
@@ -57,12 +52,12 @@ def _planned(
     except fd.SceneError as error:
         raise ForceDiffusionError(f"--{error}") from None
     with named(scene.name):
-        found = fd.read_scene(scene, changes)
-        if certified and asked is None and found.ask.tolerance is None:
+        read = fd.read_scene(scene, changes)
+        if certified and asked is None and read.ask.tolerance is None:
             raise ForceDiffusionError(
                 "--certified needs a tolerance: give --tolerance T, such as 1e-30"
             )
-        return found.explain(asked, certified=certified)
+        return read.explain(asked, certified=certified)
 
 
 def explain(
@@ -83,7 +78,7 @@ def explain(
 def run(
     scene: _Scene,
     out: Annotated[Path | None, out_option("the answer as JSON and a table")] = None,
-    written: Written = Format.CSV,
+    written: Written = "csv",
     as_json: Json = False,
     quiet: Quiet = False,
     tolerance: _Tolerance = None,
@@ -96,9 +91,13 @@ def run(
     checked(written, out)
     asked = variants(settings, seed)
     # all scenes and folders are checked first
-    plans = [_planned(scene, tolerance, certified, one) for one in asked]
+    plans = [_planned(scene, tolerance, certified, changes) for changes in asked]
     varied = [
-        {key: value for key, value in changes.items() if any(one[key] != value for one in asked)}
+        {
+            key: value
+            for key, value in changes.items()
+            if any(other[key] != value for other in asked)
+        }
         for changes in asked
     ]
     names = names_of(answered("run"))
@@ -128,9 +127,9 @@ def _answer(
     with named(scene.name), in_range():
         # of one packing nobody knows how far it is
         many = planned.problem.realisations > 1
-        found = fd.run(planned, many and not quiet and sys.stderr.isatty())
-    answers = list(found.results.values())
-    about = found.data(rows=False)
+        outcome = fd.run(planned, many and not quiet and sys.stderr.isatty())
+    answers = list(outcome.results.values())
+    about = outcome.data(rows=False)
     about["source"] = sourced(about["source"], scene, command_line())
     if folder:
         folder.write(files_of(answers, about, written))
@@ -163,15 +162,15 @@ def cost(
 
     with named(scene.name):
         read = fd.read_scene(scene)
-        found = fd.cost(read, seconds, say_row)
-    data = {"command": command, "source": sourced(source_of(read), scene, None), **found.data()}
+        study = fd.cost(read, seconds, say_row)
+    data = {"command": command, "source": sourced(source_of(read), scene, None), **study.data()}
     if folder:
         title = f"Cost of accuracy: {printable(scene.stem)}"
-        plots = drawn(lambda: found.plot(title), "cost", title, command)
+        plots = drawn(lambda: study.plot(title), "cost", title, command)
         text = json.dumps(data, indent=2) + "\n"
-        columns = {name: [str(row[name]) for row in found.rows()] for name in found.rows()[0]}
+        columns = {name: [str(row[name]) for row in study.rows()] for name in study.rows()[0]}
         folder.write({"cost.json": text, "cost.csv": csv_bytes(columns), **plots})
     if as_json:
         print(json.dumps(data, indent=2))
-    for name, why in found.skipped.items():
+    for name, why in study.skipped.items():
         tell(f"{name}: {why}")

@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
+STATUSES = (
+    "Exit status: 0 answered, 2 wrong usage or input, 3 what was asked for can't be reached, or "
+    "something outside the program failed, such as the disk, 130 interrupted."
+)
 # Rows that are printed beside words.
 FEW = 10
 Json = Annotated[bool, typer.Option("--json", help="Print JSON and nothing else.")]
@@ -36,7 +40,7 @@ Written = Annotated[
 
 def checked(written: Format, out: Path | None) -> None:
     """Refuse a format that can't be written, before anything is solved."""
-    if written != Format.CSV and out is None:
+    if written != "csv" and out is None:
         raise ForceDiffusionError(f"--format {written} writes files: give --out DIR, too")
     answers.check(written)
 
@@ -51,12 +55,12 @@ def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[st
     """Say also which scene file it was, and the command that answered it."""
     from force_diffusion.numeric.scene.scene import sha256
 
-    found = {**source, "file": scene.name, "sha256": {"scene": sha256(scene), **source["sha256"]}}
-    return found if command is None else {"command": command, **found}
+    data = {**source, "file": scene.name, "sha256": {"scene": sha256(scene), **source["sha256"]}}
+    return data if command is None else {"command": command, **data}
 
 
 def show(
-    found: Sequence[answers.Answered],
+    results: Sequence[answers.Answered],
     about: dict[str, Any],
     lines: Iterable[str],
     *,
@@ -66,10 +70,10 @@ def show(
 ) -> None:
     """Print JSON; or the first rows, all if ``quiet``, unless they are ``written``, and words."""
     if as_json:
-        _print(answers.json_bytes(found, about))
+        _print(answers.json_bytes(results, about))
         return
-    for answer in found if not written else ():
-        if len(found) > 1:
+    for answer in results if not written else ():
+        if len(results) > 1:
             print(f"# {answer.quantity}")
         count = answers.rows_of(answer)
         rows = count if quiet else FEW

@@ -9,41 +9,23 @@ schema under ``force-diffusion``.
 import io
 import json
 from collections.abc import Iterable, Sequence
-from enum import StrEnum
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 import numpy as np
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import Array
 from force_diffusion.numeric.tables import csv_bytes, json_rows
 
+if TYPE_CHECKING:
+    from force_diffusion.numeric.ensemble.result import Ensemble
+    from force_diffusion.numeric.run.outcome import Result
 
-class Format(StrEnum):
-    """How the rows of an answer are written."""
-
-    CSV = "csv"
-    NPZ = "npz"
-    PARQUET = "parquet"
+Answered: TypeAlias = "Result | Ensemble"
+"""What has been answered: a run of a scene, or an ensemble."""
 
 
-class Answered(Protocol):
-    """What has been answered: a run of a scene, or an ensemble."""
-
-    @property
-    def quantity(self) -> str:
-        """What was asked."""
-
-    @property
-    def arrays(self) -> dict[str, Array]:
-        """The columns as numbers."""
-
-    @property
-    def text(self) -> dict[str, list[str]]:
-        """The columns as text."""
-
-    @property
-    def whole_numbers(self) -> list[str]:
-        """Which columns are whole numbers."""
+Format = Literal["csv", "npz", "parquet"]
+"""How the rows of an answer are written."""
 
 
 def rows_of(answer: Answered) -> int:
@@ -53,7 +35,7 @@ def rows_of(answer: Answered) -> int:
 
 def check(written: Format) -> None:
     """Raise ``ForceDiffusionError`` where a library is missing, before anything is solved."""
-    if written == Format.PARQUET:
+    if written == "parquet":
         try:
             import pyarrow  # noqa: F401
         except ImportError:
@@ -68,7 +50,7 @@ def files_of(
 ) -> dict[str, bytes]:
     """Give the files of answers by name; ``about`` is all that JSON says of them but their rows."""
     files = {f"{answer.quantity}.{written}": answer for answer in answers}
-    if written == Format.CSV:
+    if written == "csv":
         tables = {name: csv_bytes(answer.text) for name, answer in files.items()}
         return {"result.json": json_bytes(answers, about), **tables}
     about = about | {
@@ -78,16 +60,17 @@ def files_of(
         }
     }
     text = json.dumps(about, indent=2) + "\n"
-    made = {"result.json": text.encode()}
-    for name, answer in files.items():
-        columns = {column: _column(answer, column) for column in answer.arrays}
-        made[name] = _npz(columns, text) if written == Format.NPZ else _parquet(columns, text)
-    return made
+    encode = _npz if written == "npz" else _parquet
+    tables = {name: encode(_columns(answer), text) for name, answer in files.items()}
+    return {"result.json": text.encode(), **tables}
 
 
 def names_of(quantities: Iterable[str]) -> list[str]:
     """Name all files that answers to these questions may have."""
-    return ["result.json", *(f"{name}.{written}" for name in quantities for written in Format)]
+    return [
+        "result.json",
+        *(f"{name}.{written}" for name in quantities for written in get_args(Format)),
+    ]
 
 
 def json_bytes(answers: Sequence[Answered], about: dict[str, Any]) -> bytes:
@@ -103,11 +86,14 @@ def json_bytes(answers: Sequence[Answered], about: dict[str, Any]) -> bytes:
     return whole
 
 
-def _column(answer: Answered, name: str) -> Array:
-    column = answer.arrays[name]
-    if column.dtype == np.float64 or column.dtype.kind in "iU":
-        return column
-    return np.array(answer.text[name], dtype=np.str_)
+def _columns(answer: Answered) -> dict[str, Array]:
+    """The columns; numbers that are neither whole nor float64 as decimals."""
+    return {
+        name: column
+        if column.dtype == np.float64 or column.dtype.kind in "iU"
+        else np.array(answer.text[name], dtype=np.str_)
+        for name, column in answer.arrays.items()
+    }
 
 
 def _npz(columns: dict[str, Array], about: str) -> bytes:
@@ -120,19 +106,8 @@ def _parquet(columns: dict[str, Array], about: str) -> bytes:
     import pyarrow
     from pyarrow import parquet
 
-    table = pyarrow.table({name: _arrow(column) for name, column in columns.items()})
+    table = pyarrow.table(columns)
     table = table.replace_schema_metadata({"force-diffusion": about})
     file = io.BytesIO()
     parquet.write_table(table, file)
     return file.getvalue()
-
-
-def _arrow(column: Array) -> Any:
-    import pyarrow
-
-    if column.dtype.kind != "U":
-        return pyarrow.array(column)
-    words, places = np.unique(column, return_inverse=True)
-    if len(words) < len(column) // 2:  # branches
-        return pyarrow.DictionaryArray.from_arrays(pyarrow.array(places.astype(np.int32)), words)
-    return pyarrow.array(column.tolist())

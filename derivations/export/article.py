@@ -100,8 +100,8 @@ def article_and_figures(
 def _filled(markdown: str) -> str:
     """Put numbers and formulas in."""
 
-    def value(found: re.Match[str]) -> str:
-        words = found[1].strip()
+    def value(match: re.Match[str]) -> str:
+        words = match[1].strip()
         try:
             return quoted(words)
         except LookupError:
@@ -114,7 +114,9 @@ def page(markdown: str) -> str:
     """The article as MyST, for the site; its figures lie in ``../figures``."""
     figures_of(markdown)
     filled = _IMAGE.sub(
-        lambda one: f"![{one[1]}](../figures/{FIGURES[one[2]].file}.png)\n\n**Figure {one[2]}.** ",
+        lambda image: (
+            f"![{image[1]}](../figures/{FIGURES[image[2]].file}.png)\n\n**Figure {image[2]}.** "
+        ),
         _filled(markdown),
     )
     return _TAGGED.sub(r"(\2)\n\n$$\n\1$$", filled)
@@ -184,7 +186,7 @@ class _Writer:
 def _table(caption: str, rows: str) -> str:
     head, dashes, *others = (row.strip("|").split("|") for row in rows.strip().split("\n"))
     whole = sum(map(len, dashes))
-    shares = (len(one) * 1000 // whole / 1000 for one in dashes)
+    shares = (len(column) * 1000 // whole / 1000 for column in dashes)
     columns = "".join(
         f">{{\\raggedright\\arraybackslash}}p{{\\dimexpr {share:.3f}\\textwidth-2\\tabcolsep}}"
         for share in shares
@@ -202,25 +204,27 @@ def _table(caption: str, rows: str) -> str:
 
 def _words(markdown: str) -> str:
     lines = _ESCAPED.sub(r"\1", markdown).split("\n")
-    return "\n".join(re.sub(r"\b(Eqs?|Figs?|Refs?)\. ", r"\1.~", prose_latex(one)) for one in lines)
+    return "\n".join(
+        re.sub(r"\b(Eqs?|Figs?|Refs?)\. ", r"\1.~", prose_latex(line)) for line in lines
+    )
 
 
-def _item(found: re.Match[str]) -> str:
+def _item(match: re.Match[str]) -> str:
     """A reference; its initials are no symbols."""
-    return f"\\bibitem{{{found[1]}}} {_inline(found[2], text_latex)}\n\n"
+    return f"\\bibitem{{{match[1]}}} {_inline(match[2], text_latex)}\n\n"
 
 
 def _inline(markdown: str, plain: Callable[[str], str] = _words) -> str:
     """Words with emphasis, code and mathematics as LaTeX; ``plain`` writes all else."""
     written, last = "", 0
-    for found in _INLINE.finditer(markdown):
-        code, mathematics, strong, emphasis = found.groups()
-        written += plain(markdown[last : found.start()])
+    for match in _INLINE.finditer(markdown):
+        code, mathematics, strong, emphasis = match.groups()
+        written += plain(markdown[last : match.start()])
         if code is not None:
             written += f"\\texttt{{{text_latex(code)}}}"
         elif strong or emphasis:
             written += f"\\{'textbf' if strong else 'emph'}{{{_inline(strong or emphasis, plain)}}}"
         else:
             written += mathematics
-        last = found.end()
+        last = match.end()
     return written + plain(markdown[last:])

@@ -46,11 +46,11 @@ def statement_latex(derivation: Statement) -> str:
     return f"\\begin{{subequations}}{named}\n{''.join(displays)}\\end{{subequations}}\n"
 
 
-def sentence(said: str) -> str:
+def sentence(words: str) -> str:
     """Words with a capital letter, where they start with a word, and a full stop."""
-    first = said.split(" ", 1)[0]
-    capital = first[:1].upper() + said[1:] if first.isalpha() and len(first) > 1 else said
-    return capital + ("" if said.endswith((".", "!", "?", ":")) else ".")
+    first = words.split(" ", 1)[0]
+    capital = first[:1].upper() + words[1:] if first.isalpha() and len(first) > 1 else words
+    return capital + ("" if words.endswith((".", "!", "?", ":")) else ".")
 
 
 def display(formulas: Sequence[Basic], relation: str) -> str:

@@ -16,7 +16,6 @@ _MATHS = {
     "ℓ": r"\ell ", "⊗": r"\otimes ",
 }  # fmt: skip
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻", "0123456789+-", strict=True))
-_WORDS = {"ˡᵒᵃᵈ": r"^{\mathrm{load}}"}
 _LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉₊₋", "0123456789+-", strict=True))
 _TEXT = {
     "\\": r"\textbackslash{}", "{": r"\{", "}": r"\}", "$": r"\$", "&": r"\&", "#": r"\#",
@@ -27,9 +26,7 @@ _TEXT = {
 
 _RUN = re.compile("([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)|([₀₁₂₃₄₅₆₇₈₉₊₋]+)")
 _INDEXED = re.compile(r"_(?:\(([^()]*)\)|([A-Za-z0-9δ]+|±))")
-_VECTOR = re.compile(r"(?<![A-Za-z\\{])n(?=\^\{[-+]|\^?\\pm)")
-_FORCE = re.compile(r"F(?=\^\{\\mathrm\{load)")
-_RECIPROCAL = re.compile(r"(?<![A-Za-z\\{])b(?=\^\{[-+]|\^?\\pm)")
+_VECTOR = re.compile(r"(?<![A-Za-z\\{])([nb])(?=\^\{[-+]|\^?\\pm)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min|exp|erfc)(?![A-Za-z])")
 _ARGUMENT = re.compile(r"(?:√|(?<![A-Za-z])(?:max|min|exp|erfc))\((?:[^()]|\([^()]*\))*\)")
 _SIGNS = frozenset("+−±·×/=≤≥<>")
@@ -37,14 +34,9 @@ _POWER = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\d+))")
 _STAR = re.compile(r"(?<=[A-Za-z])\*")
 _ROOT = re.compile(r"√(?:(\d+|[^\W\d_])|\(([^()]*)\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
-# In LaTeX, where a bracket is in the words beside a formula.
-_CLOSED_LATE = re.compile(r"\$([^$]+)\$\)")
-_OPENED_EARLY = re.compile(r"\(\$([^$]+)\$")
 _COORDINATES = re.compile(r"\(\$([^$]+)\$, \$([^$]+)\$\)")
 _MARKED = re.compile(r"([\\`*_$<\[\]])")  # what Markdown reads as markup
-_SYMBOLIC = re.compile(
-    "[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED, *_WORDS])) + "_^=+*/<>|0-9]"
-)
+_SYMBOLIC = re.compile("[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED])) + "_^=+*/<>|0-9]")
 
 
 def _is_mathematics(word: str) -> bool:
@@ -59,18 +51,22 @@ def _is_mathematics(word: str) -> bool:
     return bool(_SYMBOLIC.search(word)) and all(len(run) <= 2 for run in letters)
 
 
-def _lowered(found: re.Match[str]) -> str:
-    name = found[1] or found[2]
+def _lowered(match: re.Match[str]) -> str:
+    name = match[1] or match[2]
     if name == "load":
         return r"^{\mathrm{load}}"
     upright = name.isalpha() and len(name) > 2  # a word, as in f_load
     return rf"_{{\mathrm{{{name}}}}}" if upright else f"_{{{name}}}"
 
 
-def _run(found: re.Match[str]) -> str:
-    if found[1]:
-        return "^{" + "".join(_RAISED[c] for c in found[1]) + "}"
-    return "_{" + "".join(_LOWERED[c] for c in found[2]) + "}"
+def _run(match: re.Match[str]) -> str:
+    if match[1]:
+        return "^{" + "".join(_RAISED[c] for c in match[1]) + "}"
+    return "_{" + "".join(_LOWERED[c] for c in match[2]) + "}"
+
+
+def _vector(match: re.Match[str]) -> str:
+    return r"\hat{\mathbf{n}}" if match[1] == "n" else r"\mathbf{b}"
 
 
 def _character(character: str) -> str:
@@ -84,15 +80,11 @@ def _set_mathematics(word: str) -> str:
     word = word.replace("\\", r"\backslash ").replace("^^", r"\wedge \wedge ")
     for special in "%#&{}$":
         word = word.replace(special, f"\\{special}")
-    word = _STAR.sub("^{*}", _POWER.sub(lambda found: f"^{{{found[1] or found[2]}}}", word))
-    for raised, source in _WORDS.items():
-        word = word.replace(raised, source)
+    word = _STAR.sub("^{*}", _POWER.sub(lambda match: f"^{{{match[1] or match[2]}}}", word))
     word = _ROOT.sub(
         lambda root: rf"\sqrt{{{root[1] or root[2]}}}", _RUN.sub(_run, _INDEXED.sub(_lowered, word))
     )
-    word = "".join(map(_character, word))
-    word = _FORCE.sub(r"\\mathbf{F}", word)
-    word = _RECIPROCAL.sub(r"\\mathbf{b}", _VECTOR.sub(r"\\hat{\\mathbf{n}}", word))
+    word = _VECTOR.sub(_vector, "".join(map(_character, word)))
     return _NAMES.sub(r"\\operatorname{\1}", word)
 
 
@@ -111,8 +103,8 @@ def text_latex(word: str) -> str:
 
 def _parts(word: str) -> tuple[str, str, str]:
     """Opening punctuation, what it encloses, closing punctuation."""
-    found = _PUNCTUATION.fullmatch(word)
-    opening, core, closing = found.group("open", "core", "close") if found else ("", word, "")
+    match = _PUNCTUATION.fullmatch(word)
+    opening, core, closing = match.group("open", "core", "close") if match else ("", word, "")
     # what the core opens last is closed behind it: f(x), or (a)^(b)
     while closing.startswith(")") and (
         core.count("(") > core.count(")") or core.rfind("(") > core.rfind(")")
@@ -133,7 +125,7 @@ def _pieces(words: str) -> Iterator[tuple[str, list[str], str]]:
     """
     formula: list[str] = []  # mathematics that is still open to the right
     before = ""
-    split = _ARGUMENT.sub(lambda found: found[0].replace(" ", ""), words).split(" ")
+    split = _ARGUMENT.sub(lambda match: match[0].replace(" ", ""), words).split(" ")
     for word, last, following in zip(split, ["", *split], [*split[1:], ""], strict=False):
         opening, core, closing = _parts(word)
         symbol = core == "a" and (  # and not the article
@@ -179,29 +171,8 @@ def _set(words: str, text: Callable[[str], str]) -> str:
     """A sentence with mathematics between dollars, and the ``text`` of all else."""
     done = []
     for before, formula, after in _pieces(words):
-        plain = len(formula) == 1 and formula[0].isdecimal()
-        inner = (
-            formula[0]
-            if plain
-            else f"${' '.join(map(_set_mathematics, formula))}$"
-            if formula
-            else ""
-        )
+        inner = " ".join(formula)
+        if formula and not inner.isdecimal():
+            inner = f"${' '.join(map(_set_mathematics, formula))}$"
         done.append(f"{text(before)}{inner}{text(after)}")
-    return _with_brackets(" ".join(done))
-
-
-def _with_brackets(source: str) -> str:
-    """Take brackets into the formula that they belong to: pairs, and what else has one half."""
-    if r"\$" in source:  # a dollar that begins no formula
-        return source
-    source = _CLOSED_LATE.sub(lambda found: _joined(found, "(", ")"), source)
-    source = _OPENED_EARLY.sub(lambda found: _joined(found, ")", "("), source)
-    return _COORDINATES.sub(r"$(\1, \2)$", source)
-
-
-def _joined(found: re.Match[str], more: str, fewer: str) -> str:
-    formula = found[1]
-    if formula.count(more) != formula.count(fewer) + 1:
-        return found[0]
-    return f"${formula})$" if more == "(" else f"$({formula}$"
+    return _COORDINATES.sub(r"$(\1, \2)$", " ".join(done))

@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import pytest
 import sympy
+from force_diffusion.derivations.beyond.variances import IN_SPACE
 from force_diffusion.derivations.export.article import (
     ArticleError,
     article,
@@ -14,8 +15,9 @@ from force_diffusion.derivations.export.article import (
     page,
     source,
 )
-from force_diffusion.derivations.export.supplement import UNITS, supplement
+from force_diffusion.derivations.export.supplement import supplement
 from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.rows import equals, goes_as
 from force_diffusion.numeric.figures.names import FIGURES
@@ -64,7 +66,7 @@ def read(words: str) -> sympy.Expr:
     for before, token in pairwise(tokens):
         both = (before[-1].isalnum() or before == ")") and (token[0].isalnum() or token == "(")
         spelled += f"*{token}" if both else token
-    return sympy.sympify(spelled, locals=NAMES).subs({u: UNITS[2], v: UNITS[3]})
+    return sympy.sympify(spelled, locals=NAMES).subs({u: UNIT, v: IN_SPACE})
 
 
 def displays() -> dict[str, list[tuple[str, sympy.Expr]]]:
@@ -284,10 +286,10 @@ def test_the_supplement_has_every_form_and_its_domains() -> None:
     assert r"\text{[" not in made
     for label in (one for one in modules() if isinstance(one, str) and one not in ("B11", "B20")):
         for name, form in load(label).exact_forms.items():
-            table = made.partition(f"\\textbf{{Eq.~{label}.")[2]
-            table = table.partition(f"\\texttt{{{name.replace('_', chr(92) + '_')}}}:")[2]
-            rows = table.partition("\\end{longtable}")[0].partition("\\hline")[2]
-            assert rows.count("\\\\[5pt]") == len(form.pieces)
+            section = made.partition(f"\\textbf{{Eq.~{label}.")[2]
+            below = section.partition(f"[\\texttt{{{name.replace('_', chr(92) + '_')}}}]\n")[2]
+            shown = below.partition("\n[")[0].partition("\\medskip")[0]
+            assert shown == "".join(f"\\[ {display} \\]\n" for display in form.displays(columns=2))
 
 
 def test_the_page_has_the_same() -> None:
