@@ -9,7 +9,6 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, equation, inducted, lattice,
     minus, rewrite, same, shown, terms, times)
@@ -136,33 +135,31 @@ def steps() -> Steps:
     return steps
 
 
-DERIVATIONS: dict[Number, Derivation] = {
-    "B1": Derivation(
-        number="B1",
-        name="any_direction",
-        title="Contact forces under a surface load in any direction",
-        symbols=(
-            (L_plus, "component of the load on each surface bead, −(L⁺n⁺ + L⁻n⁻), along n⁺"),
-            (L_minus, "its component along n⁻"),
-            (t, "L⁻/L⁺; 1 for a vertical load"),
-            (ForcePlus(i, j), "force of the contact from (i, j) to (i+1, j+1)"),
-            (ForceMinus(i, j), "force of the contact from (i, j) to (i−1, j+1)"),
-            (M, "height of the packing in layers above the base"),
-            (n, "layers between the contact and the bead at which a force turns into it"),
-        ),
-        assumptions=(
-            "first order in δr",
-            *ON_SURFACE.in_words(),
-            "L⁺ > 0 in the first part, L⁻ > 0 in the second",
-            "no horizontal boundary is met (W > M)",
-        ),
-        printed=PRINTED,
-        domain=ON_SURFACE,
-        steps=steps,
-        remarks=(
-            "Only the changes along the other branch carry t: what turns into f⁺ is what came "
-            "along n⁻. As L⁻ is taken away, f⁺ stays near L⁺ and feels the tilt of its own contact "
-            "alone.",
-        ),
-    )
-}
+DERIVATION = Derivation(
+    number="B1",
+    name="any_direction",
+    title="Contact forces under a surface load in any direction",
+    symbols=(
+        (L_plus, "component of the load on each surface bead, −(L⁺n⁺ + L⁻n⁻), along n⁺"),
+        (L_minus, "its component along n⁻"),
+        (t, "L⁻/L⁺; 1 for a vertical load"),
+        (ForcePlus(i, j), "force of the contact from (i, j) to (i+1, j+1)"),
+        (ForceMinus(i, j), "force of the contact from (i, j) to (i−1, j+1)"),
+        (M, "height of the packing in layers above the base"),
+        (n, "layers between the contact and the bead at which a force turns into it"),
+    ),
+    assumptions=(
+        "first order in δr",
+        *ON_SURFACE.in_words(),
+        "L⁺ > 0 in the first part, L⁻ > 0 in the second",
+        "no horizontal boundary is met (W > M)",
+    ),
+    printed=PRINTED,
+    domain=ON_SURFACE,
+    steps=steps,
+    remarks=(
+        "Only the changes along the other branch carry t: what turns into f⁺ is what came "
+        "along n⁻. As L⁻ is taken away, f⁺ stays near L⁺ and feels the tilt of its own contact "
+        "alone.",
+    ),
+)

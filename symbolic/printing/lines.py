@@ -401,16 +401,15 @@ def latex_cases(
     scale, sign = ("", "") if factor == 1 else (f" {printer.doprint(factor)}", r" \times")
     head = f"{printer.doprint(left)} ="
     alone = width(head + scale + sign) > room / 3
-    margin = sign or r" \quad"
     left_over = room - 16 - (20 if alone else width(head + scale + sign))
     body = " \\\\[3pt]\n".join(" \\\\\n".join(lines) for lines in _laid_out(rows, left_over))
     cases = f"\\begin{{cases}}\n{body}\n\\end{{cases}}"
     if not alone:
         lines = [f"{head[:-1]}&={scale}{sign} {cases}"]
-    elif width(head + scale) <= room:
-        lines = [f"&{head}{scale}", f"&{margin} {cases}"]
     else:
-        lines = [f"&{head}", rf"&\quad{scale}", f"&{margin} {cases}"]
+        fits = width(head + scale) <= room
+        lines = [f"&{head}{scale}"] if fits else [f"&{head}", rf"&\quad{scale}"]
+        lines.append("&" + (sign or r" \quad") + f" {cases}")
     lines += [rf"&\quad {line}" for line in _packed(below, room - 30)]
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
 

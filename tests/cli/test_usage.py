@@ -30,7 +30,6 @@ USAGE = [
     ("show 13 17", "'17' is not an equation"),
     ("show 13 --as pdf", "'--as': 'pdf' is not one of 'text', 'latex', 'sympy'"),
     ("show 13 --case base", "--case"),
-    ("show 13 12 --exact", "13, 14, 15, 16, B2"),
     ("show 13 --exact --as steps", "steps"),
     ("show 13 --columns 3", "'--columns': '3' must be at most 2."),
     ("ensemble s.toml --until 5%", "'--until': '5%' must be a number."),
@@ -48,6 +47,10 @@ USAGE = [
      "cost, ensemble, ensemble-status or figures"),
 ]  # fmt: skip
 WRONG = [
+    (
+        "show 13 12 --exact",
+        "Eq. 12 has no exact form at finite size; these have one: 13, 14, 15, 16, B2",
+    ),
     ("figures 5", "no figure '5'"),
     ("figures 3 --heights 0", "1 to 10000"),
     ("figures 3 --heights 8,8", "different"),

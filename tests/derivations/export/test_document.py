@@ -99,7 +99,7 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
         r"50 \% of \{a\} \& $b_{1}$, $\#2$, \textbackslash{}x \~{}"
     )
     assert prose_latex("a sum of the (i, j)") == "a sum of the $(i, j)$"
-    assert prose_latex("as (i − k)/l grows (W > M)") == "as $(i - k)/l$ grows ($W > M$)"
+    assert prose_latex("as (i − k)/l grows (W > M)") == "as ($i - k)/l$ grows ($W > M$)"
     assert prose_latex("n⁺·δn⁺_ij = 0.") == (
         r"$\hat{\mathbf{n}}^{+}\cdot \delta \hat{\mathbf{n}}^{+}_{ij} = 0$."
     )
