@@ -47,10 +47,7 @@ USAGE = [
      "cost, ensemble, ensemble-status or figures"),
 ]  # fmt: skip
 WRONG = [
-    (
-        "show 13 12 --exact",
-        "Eq. 12 has no exact form at finite size; these have one: 13, 14, 15, 16, B2",
-    ),
+    ("show 13 12 --exact", "Eq. 12 has no exact form at finite size; these have one: 13, 14"),
     ("figures 5", "no figure '5'"),
     ("figures 3 --heights 0", "1 to 10000"),
     ("figures 3 --heights 8,8", "different"),
