@@ -112,7 +112,7 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
         r"$[a_{1}/((2b + c)\kappa ^{2})]^{1/3}$, if $a + b$ is even"
     )
     assert prose_latex("N = ½[l − (k − i)], a √(l + j)/M") == (
-        r"$N = \frac{1}{2}[l -$ $(k - i)]$, a $\sqrt{l+j}/M$"
+        r"$N = \frac{1}{2}[l -$ ($k - i)]$, a $\sqrt{l+j}/M$"
     )
     assert prose_latex("unknown ☃").endswith(r"\text{[snowman]}$")
 
