@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_206,
-    "derivations": 8_147,
+    "derivations": 8_035,
     "numeric": 9_798,
     "force_diffusion": 78,
     "benchmarks": 836,
