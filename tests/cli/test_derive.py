@@ -79,27 +79,14 @@ def test_json_follows_its_schema(made_up, capsys: pytest.CaptureFixture[str]) ->
     assert list(content) == ["equations"]
     assert [entry["number"] for entry in content["equations"]] == [2, 1]  # it has no premises
     for entry in content["equations"]:
-        assert list(entry) == [
-            "number",
-            "name",
-            "title",
-            "premises",
-            "text",
-            "latex",
-            "exact",
-            "verdict",
-            "assuming",
-            "checks",
-            "refuted as expected",
-            "seconds",
-        ]
-        assert entry["verdict"] in ("proved", "proved, assuming", "refuted", "undecided")
-        assert entry["assuming"] == []
+        assert " ".join(entry).startswith("number name title premises text latex exact verdict")
+        assert entry["verdict"] in ("proved", "undecided")
+        assert (entry["assuming"], entry["refuted as expected"]) == ([], 0)
         assert entry["seconds"] >= 0
         for check in entry["checks"]:
             assert list(check) == ["kind", "name", "verdict", "note", "assuming"]
             assert check["kind"] in ("step", "proof")
-            assert check["verdict"] in ("proved", "refuted", "undecided")
+            assert check["verdict"] in ("proved", "undecided")
 
 
 def test_the_output_folder_twice(made_up, tmp_path: Path, capsys) -> None:

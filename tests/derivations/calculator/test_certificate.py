@@ -9,7 +9,7 @@ that two functions of φ with shorter factors are the same if they are there.
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from fractions import Fraction
 from functools import cache, cached_property
-from itertools import chain, combinations_with_replacement
+from itertools import chain, product
 from typing import Any
 
 import numpy as np
@@ -118,13 +118,16 @@ class Places:
         return next(one for one in (sy.M, sy.l, sy.j) if one in self._symbols)
 
     @cached_property
-    def _degree(self) -> int:
-        """Of all formulas in their indices, times their divisors."""
+    def _powers(self) -> Grid:
+        """Those of the indices in the terms of all formulas, times their divisors."""
         places = [self._form.pieces[0].value.domain.position[one] for one in self._symbols]
-        powers = chain.from_iterable(
-            formula.value.numerator.to_dict() for formula in self._form.pieces
-        )
-        return max((sum(int(one[place]) for place in places) for one in powers), default=0)
+        terms = chain.from_iterable(one.value.numerator.to_dict() for one in self._form.pieces)
+        powers = [[int(term[place]) for place in places] for term in terms]
+        return np.array(powers or [[0] * len(places)])
+
+    @cached_property
+    def _degree(self) -> int:
+        return int(self._powers.sum(axis=1).max())
 
     @cache  # noqa: B019
     def _of_height(self, height: int) -> Grid:
@@ -175,7 +178,10 @@ class Places:
         free = [n for n, one in enumerate(self._symbols) if one not in given]
         if sy.k in self._symbols and sy.i in self._symbols:
             free.remove(self._symbols.index(sy.k))
-        basis, last = Basis(len(free), self._degree), HIGHEST
+        highest = self._powers.max(axis=0)[free]
+        if given:  # in its place stand other indices, whose powers add up
+            highest[:] = self._degree
+        basis, last = Basis(highest, self._degree), HIGHEST
         unseen = set(range(len(parts)))
         for height in range(HIGHEST + 1):
             grid = self._of_height(height)
@@ -196,14 +202,15 @@ PRIME = 2**31 - 1
 
 
 class Basis:
-    """Values of all monomials up to a degree at points, as rows that don't depend on each other.
+    """Values of monomials at points, as rows that don't depend on each other.
 
-    They are calculated modulo a prime: rows that don't depend on each other then never do.
+    Of all monomials up to a degree, and up to one in each variable. They are calculated modulo a
+    prime: rows that don't depend on each other then never do.
     """
 
-    def __init__(self, variables: int, degree: int) -> None:
-        several = (combinations_with_replacement(range(variables), n) for n in range(degree + 1))
-        self._monomials = [list(one) for one in chain.from_iterable(several)]
+    def __init__(self, highest: Grid, degree: int) -> None:
+        ranges = (range(int(power) + 1) for power in highest)
+        self._monomials = [one for one in product(*ranges) if sum(one) <= degree]
         self._rows = np.zeros((0, len(self._monomials)), dtype=np.int64)
         self._pivots: list[int] = []
 
@@ -215,8 +222,8 @@ class Basis:
         """Take a point if the values there don't follow from those at the others."""
         row = np.ones(len(self._monomials), dtype=np.int64)
         for place, monomial in enumerate(self._monomials):
-            for variable in monomial:
-                row[place] = row[place] * int(point[variable]) % PRIME
+            for number, power in zip(point, monomial, strict=True):
+                row[place] = row[place] * pow(int(number), power, PRIME) % PRIME
         for own, pivot in zip(self._rows, self._pivots, strict=True):
             row = (row - row[pivot] * own) % PRIME
         if not row.any():

@@ -1,6 +1,6 @@
 """Exact forms of drawn observables against squared weights of exact packings, as fractions.
 
-Values and domains both: for every packing up to M = 7, at every bead where all contacts exist the
+Values and domains both: for every packing up to M = 6, at every bead where all contacts exist the
 form has the value of the packing, and at every other place it has none.
 """
 
@@ -30,8 +30,10 @@ from tests.soundness.witnesses.moments import (
     exact,
 )
 
-HIGHEST = 7
-FEW, SOME = (settings(max_examples=max(2, settings.default.max_examples // n)) for n in (10, 4))
+HIGHEST = 6
+FEW, SOME = (settings(max_examples=max(2, settings.default.max_examples // n)) for n in (20, 10))
+TWO = DIRECTIONS[:2]
+"""With φ of either sign; packings are shared by examples."""
 
 Bead = tuple[int, int]
 
@@ -120,7 +122,7 @@ loads = st.builds(
     st.sampled_from(["surface", "bulk"]),
     st.sampled_from([None, Fraction(2), Fraction(3, 5)]),
     st.booleans(),
-    st.sampled_from(DIRECTIONS),
+    st.sampled_from(TWO),
 )
 
 
@@ -177,7 +179,7 @@ def test_two_layers(one: Terms, other: Terms, drawn: Drawn, apart: int) -> None:
         return covariance(value(one, packing, first), value(other, packing, second))
 
     places = [{"j": a, "l": b, "p": c} for a, b, c in product(LAYERS, LAYERS, (apart, apart + 1))]
-    compare(form, drawn, places, true, heights=(2, 5, HIGHEST))
+    compare(form, drawn, places, true, heights=(2, HIGHEST))
 
 
 def mean(terms: Terms, packing: Packing, bead: Bead, count: int) -> Value:
@@ -201,7 +203,7 @@ def test_any_number_of_neighbours(terms: Terms, drawn: Drawn) -> None:
 
 
 @FEW
-@given(_terms(2), st.sampled_from(DIRECTIONS))
+@given(_terms(2), st.sampled_from(TWO))
 def test_second_order_of_products(terms: Terms, n: tuple[Fraction, Fraction]) -> None:
     """The shift of the mean of the product of all terms."""
     drawn = Drawn("surface", Fraction(3, 5), True, n)
@@ -217,7 +219,7 @@ def test_second_order_of_products(terms: Terms, n: tuple[Fraction, Fraction]) ->
 
 
 @FEW
-@given(_terms(2), st.sampled_from(DIRECTIONS))
+@given(_terms(2), st.sampled_from(TWO))
 def test_below_one_loaded_bead(terms: Terms, n: tuple[Fraction, Fraction]) -> None:
     """Of forces over f_load/2n_y, as the ordered one is zero off the legs."""
     form = fd.variance(observable(terms, i, j), load=fd.point(k, l))
