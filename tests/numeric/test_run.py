@@ -109,8 +109,7 @@ def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene() -> None:
 
 @pytest.mark.long(sample=8)
 @pytest.mark.parametrize(
-    ("dimension", "effects"),
-    [(2, "exact"), (2, "first-order"), (3, "exact"), (3, "ordered")],
+    ("dimension", "effects"), [(2, "exact"), (2, "first-order"), (3, "exact"), (3, "ordered")]
 )
 @pytest.mark.parametrize("more", [{}, {"realisations": 3}, {"tolerance": "=1e-25"}])
 def test_some_layers_of_a_response_are_those_of_the_whole(

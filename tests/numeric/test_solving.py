@@ -2,13 +2,19 @@
 
 import math
 import re
+import sys
 from collections.abc import Callable
 from fractions import Fraction
+from pathlib import Path
+from types import FrameType
 from typing import Any
 
 import numpy as np
 import pytest
 from force_diffusion.numeric.mechanics.sweep import UnbuildableError
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.testing import assert_array_equal
 
 import force_diffusion as fd
 from tests.numeric.scenes import question
@@ -65,11 +71,7 @@ def test_wrong_arguments(arguments: dict[str, Any], says: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("shape", "remedy"),
-    [
-        ((13, 4), "radii.T"),
-        ((2, 13, 4), "radii.swapaxes(-1, -2)"),
-    ],
+    ("shape", "remedy"), [((13, 4), "radii.T"), ((2, 13, 4), "radii.swapaxes(-1, -2)")]
 )
 def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...], remedy: str) -> None:
     with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True") as told:
@@ -229,3 +231,48 @@ def test_units_in_which_errors_would_vanish_are_solved_in_balls(power: int) -> N
 def test_a_radius_beyond_floats_is_refused() -> None:
     with pytest.raises(fd.SceneError, match=r"radius = .*another unit"):
         fd.solve(delta_r=np.ones((3, 5)), radius=10**400)
+
+
+NUMERIC = Path(str(sys.modules[fd.solve.__module__].__file__)).parents[1]
+
+
+def test_few_files_run_code_on_the_way() -> None:
+    pytest.importorskip("numba")
+    radii = 1 + 1e-4 * np.random.default_rng(1).uniform(-1, 1, (2, 9, 16))
+    found = set()
+
+    def seen(frame: FrameType, event: str, _: Any) -> None:
+        path = Path(frame.f_code.co_filename).resolve()
+        if event == "call" and path.is_relative_to(NUMERIC.resolve()):
+            found.add(path.relative_to(NUMERIC.resolve()).as_posix())
+
+    _ = fd.solve(radii[0], spacing=3).force
+    sys.setprofile(seen)
+    try:
+        _ = fd.solve(radii[1], spacing=3).force
+    finally:
+        sys.setprofile(None)
+    assert len(found) <= 12, sorted(found)
+
+
+@pytest.mark.parametrize("shape", [(4, 7), (3, 4, 7), (5, 6), (3, 4, 4), (2, 3, 5, 5)])
+@given(
+    st.sampled_from([fd.SurfaceLoad(), fd.BulkLoad(magnitude=2.5)]), st.integers(0, 2**32),
+    st.sampled_from([1e-9, 1e-4, 3e-2]), st.sampled_from([1, 0.25]),
+)  # fmt: skip
+def test_forces_are_those_of_the_scene(
+    shape: tuple[int, ...], load: fd.Load, seed: int, size: float, radius: float
+) -> None:
+    drawn = np.random.default_rng(seed).uniform(-size, size, shape)
+    dimension = 3 if shape in {(3, 4, 4), (2, 3, 5, 5)} else 2
+    try:
+        solution = fd.solve(delta_r=radius * drawn, radius=radius, dimension=dimension, load=load)
+    except fd.ForceDiffusionError:
+        return
+    assert solution.found is not None
+    outcome = solution.forces
+    for name in ("force", "change"):
+        rows = solution._lattice(name)
+        assert_array_equal(getattr(solution, name), rows)
+    assert solution.error == outcome.accuracy.error_bound
+    assert solution.physical == outcome.physical

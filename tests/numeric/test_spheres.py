@@ -8,10 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.decimals import decimal_string
-from force_diffusion.numeric.arithmetic.systems import (
-    FLOAT64,
-    Array,
-)
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array
 from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 

@@ -132,9 +132,7 @@ def test_printing_takes_half_of_the_stated_error(value: float, ratio: float) -> 
 
 
 @pytest.mark.parametrize("name", ["profile, bulk load", "spheres, profile"])
-def test_a_radius_that_is_not_positive_is_named_alike(
-    name: str,
-) -> None:
+def test_a_radius_that_is_not_positive_is_named_alike(name: str) -> None:
     """Of spheres as (p, q, j), and not by the column in the row of W² beads."""
     made = planned(sections(name, kind="normal", relative_std="=0.45"))
     said = []

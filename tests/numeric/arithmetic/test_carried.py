@@ -13,9 +13,7 @@ from hypothesis import strategies as st
 # Of the numbers here, and of their results: what is left out is of second order in 2^-53.
 NEARLY = Fraction(1, 2**100)
 numbers = st.builds(
-    lambda size, error: Carried(size, error * size * 2.0**-53),
-    st.floats(0.5, 4),
-    st.floats(-1, 1),
+    lambda size, error: Carried(size, error * size * 2.0**-53), st.floats(0.5, 4), st.floats(-1, 1)
 )
 
 

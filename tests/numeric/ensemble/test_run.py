@@ -23,7 +23,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.numeric.ensemble.cases import CASES, PROFILE, bytes_of_first, case
+from tests.numeric.ensemble.cases import PROFILE, bytes_of_first, case
 from tests.numeric.scenes import scene
 
 SCENE = scene(PROFILE)
@@ -168,12 +168,3 @@ def test_a_pool_is_given_few_blocks_at_a_time_and_they_are_withdrawn() -> None:
         next(found)
         found.close()
     assert len(done) <= 2 * module.AHEAD
-
-
-@pytest.mark.parametrize("name", CASES)
-def test_every_quantity_can_be_kept(name: str, tmp_path: Path) -> None:
-    path = tmp_path / "ensemble.fd"
-    fd.ensemble(scene(CASES[name]), 5, store=path)
-    found = fd.ensemble(scene(CASES[name]), 9, store=path)
-    assert bytes_of(found) == bytes_of_first(case(name), 9)
-    assert bytes_of(fd.ensemble(scene(CASES[name]), 9, store=path)) == bytes_of(found)

@@ -8,11 +8,7 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array
 from force_diffusion.numeric.ensemble import sums
-from force_diffusion.numeric.ensemble.sums import (
-    Measurement,
-    measurement,
-    solve_block,
-)
+from force_diffusion.numeric.ensemble.sums import Measurement, measurement, solve_block
 from force_diffusion.numeric.mechanics.engine import solve
 from force_diffusion.numeric.mechanics.work import Work
 from force_diffusion.numeric.run.running import run
@@ -142,10 +138,7 @@ def test_the_smallest_disorder_keeps_all_digits() -> None:
     [
         ({"effects": {"geometry": "ordered"}}, "every realisation would be the same"),
         ({"disorder": {"kind": "normal", "relative_std": "=0.0"}}, "the same"),
-        (
-            {"ask": {"quantity": "histogram"}, "load": {"kind": "point", "at": [0, 4]}},
-            "--reach",
-        ),
+        ({"ask": {"quantity": "histogram"}, "load": {"kind": "point", "at": [0, 4]}}, "--reach"),
     ],
 )
 def test_what_has_no_statistics_is_refused(change: dict[str, Any], says: str) -> None:

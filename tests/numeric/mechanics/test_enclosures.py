@@ -7,9 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.accuracy import ToleranceError
-from force_diffusion.numeric.arithmetic.systems import (
-    FLOAT64,
-)
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.disorder.radii import DrawnRadii
 from force_diffusion.numeric.lattice.layers import Layer, Rows, whole
 from force_diffusion.numeric.mechanics import sweep

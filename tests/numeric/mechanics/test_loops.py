@@ -157,11 +157,7 @@ def test_what_was_compiled_is_taken_from_disk(
     st.none() | st.integers(40, 50),
 )
 def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
-    kind: str,
-    seed: int,
-    realisations: list[int],
-    rows: list[tuple[int, int]],
-    width: int | None,
+    kind: str, seed: int, realisations: list[int], rows: list[tuple[int, int]], width: int | None
 ) -> None:
     source = DrawnRadii(kind, Fraction(1, 10**6), seed, width)
     layers = Rows([2 * i + j % 2 for j, (i, _) in enumerate(rows)], [n for _, n in rows])

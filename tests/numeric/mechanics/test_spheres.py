@@ -8,11 +8,7 @@ import flint
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.errors import UndecidedError
-from force_diffusion.numeric.arithmetic.systems import (
-    FLOAT64,
-    Array,
-    Balls,
-)
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, Balls
 from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics.physicality import Physicality, by_distance
 from force_diffusion.numeric.mechanics.sweep import (

@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 from force_diffusion.numeric.figures.comparison import averages, curves
 from force_diffusion.numeric.statistics import bands
-from force_diffusion.numeric.statistics.bands import (
-    critical_value,
-    log_relative_std,
-    simultaneous,
-)
+from force_diffusion.numeric.statistics.bands import critical_value, log_relative_std, simultaneous
 from scipy.special import ndtri
 
 

@@ -5,6 +5,7 @@ from collections import Counter
 from fractions import Fraction
 from typing import Any
 
+import numpy as np
 import pytest
 
 import force_diffusion as fd
@@ -45,3 +46,62 @@ def test_realisations_that_are_alike_are_counted_too(
     for drawn in ({}, {"drawn": True}):
         assert set(asked("profile", **drawn).arrays["samples"]) == {4 * beads}
         assert asked("histogram", **drawn).arrays["count"].sum() == 4 * 3 * dimension * beads
+
+
+def layered(quantity: str, *, dimension: int = 2, **more: Any) -> fd.Scene:
+    width = 14 if dimension == 2 else 8
+    return question(quantity, 6, width, dimension=dimension, seed=5, **more)
+
+
+@pytest.mark.parametrize("dimension", [2, 3])
+@pytest.mark.parametrize("asked", [[0], [5], [1, 3]])
+def test_it_counts_the_changes_of_these_layers(asked: list[int], dimension: int) -> None:
+    at = {"realisations": 3, "dimension": dimension}
+    found = layered("histogram", bins=7, layers=asked, **at).run().arrays
+    forces = layered("contact_forces", **at).run().arrays
+    change = forces["change"][np.isin(forces["j"], asked)]
+    counts, _ = np.histogram(change, [*found["low"], found["high"][-1]])
+    assert found["count"].tolist() == counts.tolist()
+    assert sum(counts) == len(change)
+    assert counts[0]
+    assert counts[-1]
+
+
+def test_an_ensemble_counts_them_too() -> None:
+    at: dict[str, Any] = {"realisations": 40, "bins": 6}
+    every = fd.ensemble(layered("histogram", **at), reach=0.05)
+    each = [fd.ensemble(layered("histogram", layers=[j], **at), reach=0.05) for j in range(6)]
+    total = np.sum([one.arrays["count"] for one in each], axis=0)
+    assert total.tolist() == every.arrays["count"].tolist()
+    assert sum(each[2].arrays["count"]) == 40 * 2 * 14
+    profile = fd.ensemble(layered("profile", realisations=40))
+    own = profile.std[profile.index["j"] == 2]  # of both branches, about the mean of each
+    assert each[2].std == pytest.approx([np.sqrt(np.mean(own**2))], rel=0.01)
+
+
+def test_its_bins_reach_as_far_as_these_layers_do() -> None:
+    top, base = (fd.ensemble(layered("histogram", layers=[j]), 40).arrays for j in (5, 0))
+    assert top["low"][-1] < base["low"][-1]
+
+
+def test_it_is_drawn_with_the_gaussians_of_these_layers() -> None:
+    pytest.importorskip("matplotlib")
+    (axes,) = layered("histogram", layers=[5], realisations=20).run().plot().axes
+    line = next(one for one in axes.lines if len(one.get_xdata()) == 321)
+    v, gauss = line.get_xdata(), line.get_ydata()
+    assert gauss == pytest.approx(np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi))
+
+
+@pytest.mark.parametrize(
+    ("more", "says"),
+    [
+        ({"layers": [6]}, "must be layers of lower beads below the load, from 0 to 5"),
+        ({"layers": []}, "one layer or several"),
+        ({"layers": [1, 1]}, "each once"),
+        ({"layers": [0], "at": (0, 0, "+")}, "asks for one place"),
+        ({"layers": [4], "load": fd.PointLoad(at=(0, 4))}, "from 0 to 3"),
+    ],
+)
+def test_layers_that_can_not_be_asked_for(more: dict[str, Any], says: str) -> None:
+    with pytest.raises(fd.SceneError, match=says):
+        layered("histogram", **more)

@@ -99,10 +99,7 @@ def test_beads_come_to_rest(scene: fd.Scene) -> None:
 
 
 @pytest.mark.long
-@pytest.mark.parametrize(
-    ("std", "width", "seed"),
-    [(0.03, 16, 3), (0.3, 16, 1), (0.354, 5, 1)],
-)
+@pytest.mark.parametrize(("std", "width", "seed"), [(0.03, 16, 3), (0.3, 16, 1), (0.354, 5, 1)])
 def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(
     std: float, width: int, seed: int
 ) -> None:
