@@ -9,7 +9,7 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height, certificate,
-    differentiate, equation, minus, moment, of_what_is_kept, power, rewrite, terms, times, usual)
+    differentiate, drop_terms, equation, minus, moment, power, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
 # fmt: on
 
@@ -71,7 +71,7 @@ def steps() -> Steps:
         "What Eq. 12 drops varies less by an order, and the first term has the highest order: with "
         "z = j/M it is the printed form.",
         PRINTED,
-        of_what_is_kept(eq12.DERIVATION.theorem, variance.theorem, added.theorem),
+        drop_terms(eq12.DERIVATION.theorem, variance.theorem, added.theorem),
         IN_THE_LIMIT,
     )
     how = "Eqs. 4 and 5 put into Eq. 11, every radius has one weight; each sum telescopes"

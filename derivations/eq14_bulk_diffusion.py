@@ -11,8 +11,8 @@ from force_diffusion.derivations.eq13_surface_diffusion import KEPT_VARIANCE
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic, at_fixed_height,
-    axioms, certificate, differentiate, equation, minus, mirror, moment, negligible,
-    of_what_is_kept, power, rewrite, shown, terms, times, usual)
+    axioms, certificate, differentiate, drop_terms, equation, minus, mirror, moment, negligible,
+    power, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
 # fmt: on
@@ -153,7 +153,7 @@ def steps() -> Steps:
     steps.show(
         "The first term has the highest order: with z = j/M it is the printed form.",
         PRINTED,
-        of_what_is_kept(approximation.theorem, variance.theorem, added.theorem),
+        drop_terms(approximation.theorem, variance.theorem, added.theorem),
         IN_THE_LIMIT,
     )
     how = "every radius has one weight; each sum telescopes"

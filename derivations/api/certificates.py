@@ -86,7 +86,7 @@ def certificate(coq: CoqFolder, number: Number, asked: Sequence[CoqStatement]) -
     axioms: set[str] = set()
     for statement in asked:
         if not trouble:
-            named = axioms_in(coq.said[f"{statement.accepted_in}.v"].printed)
+            named = axioms_in(coq.answers[f"{statement.accepted_in}.v"].printed)
             if named is None:
                 trouble = f"{statement.accepted_in}: Coq does not say what it rests on"
             elif foreign := sorted({*named} - ALLOWED):

@@ -12,14 +12,7 @@ from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
-from ..framework.evaluation import (
-    TOGETHER,
-    at_element,
-    in_order,
-    range_of,
-    shared_shape,
-    unpacked,
-)
+from ..framework.evaluation import TOGETHER, at_element, in_order, range_of, shared_shape, unpacked
 
 Arrays = dict[sympy.Symbol, Any]
 """Float64 arrays of one shape, by symbol."""

@@ -30,7 +30,7 @@ class Proof:
     >>> [(outcome.derivation.number, str(outcome.verdict)) for outcome in proof.outcomes]
     [(2, 'proved'), (3, 'proved')]
     >>> proof.checks[0].name, proof.checks[0].note
-    ('printed equation', 'by the rule: induction')
+    ('printed equation', 'by induction')
 
     Attributes:
         outcomes: all that has been run, premises first; the last is the equation's own.

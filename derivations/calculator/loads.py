@@ -49,44 +49,45 @@ class LoadCase:
     """A load, and the forces in the ordered packing.
 
     Attributes:
-        name: in words.
-        loading: the same for the kernel.
+        loading: what the kernel knows of it.
         top: the layer that bears it, or the highest of those.
         ordered: the ordered forces of a contact of layer j along n⁺ and along n⁻ (in three
             dimensions along n¹, n² and n³), or what forces are compared with where some are zero.
-        unit: what a vertical force on a bead is compared with.
         groups: theorems that give forces in the radii, to be put in one group after the other; of
             spheres none.
         values: numbers for symbols of the load.
-        dimension: of the packing.
     """
 
-    name: str
     loading: Loading
     top: sympy.Symbol
     ordered: tuple[sympy.Expr, ...]
-    unit: sympy.Expr
     groups: Callable[[], tuple[Group, ...]]
     values: tuple[tuple[sympy.Symbol, sympy.Expr], ...] = ()
-    dimension: int = PLANE
+
+    @property
+    def dimension(self) -> int:
+        """Of the packing."""
+        return len(self.ordered)
+
+    @property
+    def unit(self) -> sympy.Expr:
+        """What a vertical force on a bead is compared with."""
+        return sympy.Add(*self.ordered) * (n_y if self.dimension == PLANE else 1)
 
 
-def _vertical(
-    name: str, key: str, loading: Loading, top: sympy.Symbol, unit: sympy.Expr
-) -> LoadCase:
-    return LoadCase(name, loading, top, (unit / (2 * n_y),) * 2, unit, partial(in_radii, key))
+def _vertical(load: str, loading: Loading, top: sympy.Symbol, force: sympy.Expr) -> LoadCase:
+    return LoadCase(loading, top, (force / (2 * n_y),) * 2, partial(in_radii, load))
 
 
 def _leaning(load: str, loading: Loading, layers: sympy.Expr) -> LoadCase:
-    both = layers * L_plus, layers * t * L_plus
-    groups = partial(in_radii, f"leaning {load}")
-    return LoadCase(f"a leaning {load} load", loading, M, both, sum(both) * n_y, groups)
+    ordered = layers * L_plus, layers * t * L_plus
+    return LoadCase(loading, M, ordered, partial(in_radii, f"leaning {load}"))
 
 
-_POINT_LOAD = _vertical("a load on one bead", "point", axioms.POINT, l, f_load)
+_POINT_LOAD = _vertical("point", axioms.POINT, l, f_load)
 _BY_NAME = {
-    "surface": _vertical("a surface load", "surface", axioms.SURFACE, M, f_load),
-    "bulk": _vertical("a bulk load", "bulk", axioms.BULK, M, (M - j) * m_g),
+    "surface": _vertical("surface", axioms.SURFACE, M, f_load),
+    "bulk": _vertical("bulk", axioms.BULK, M, (M - j) * m_g),
 }
 _LEANING = {
     "surface": _leaning("surface", axioms.SURFACE_TILTED, sympy.S.One),
@@ -97,9 +98,7 @@ _LEANING = {
 def _spheres(name: str, factor: sympy.Expr, leaning: bool, top: sympy.Symbol = M) -> LoadCase:
     """A load in three dimensions; forces are in units of what one layer of it gives along n¹."""
     ratios = (sympy.S.One, t_2, t_3) if leaning else (sympy.S.One,) * 3
-    ordered = tuple(factor * ratio for ratio in ratios)
-    load = "a load on one bead" if top == l else f"a {name} load"
-    return LoadCase(load, SPHERES[name], top, ordered, sympy.Add(*ordered), tuple, dimension=3)
+    return LoadCase(SPHERES[name], top, tuple(factor * ratio for ratio in ratios), tuple)
 
 
 _IN_THREE = {
@@ -161,12 +160,10 @@ def load_of(load: str | LoadCase, dimension: int = 2) -> LoadCase:
     if dimension == PLANE and isinstance(load, LoadCase):
         return load
     known = _BY_NAME if dimension == PLANE else _IN_THREE
-    if not isinstance(load, str) or load not in known:
-        if dimension == PLANE:
-            raise ObservableError(
-                f"load={load!r}: 'surface', 'bulk', point(k, l) and leaning(t) are allowed"
-            )
-        shown = load.name if isinstance(load, LoadCase) else repr(load)
-        either = ", ".join(map(repr, known))
-        raise ObservableError(f"load={shown}: {either} are allowed in three dimensions")
-    return known[load]
+    if isinstance(load, str) and load in known:
+        return known[load]
+    allowed = "'surface', 'bulk', point(k, l) and leaning(t) are allowed"
+    if dimension != PLANE:
+        allowed = f"{', '.join(map(repr, known))} are allowed in three dimensions"
+    shown = load.loading.name if isinstance(load, LoadCase) else repr(load)
+    raise ObservableError(f"load={shown}: {allowed}")

@@ -1,6 +1,7 @@
 """Observables of the calculator: what may stand in them, and where all that they name exists."""
 
 from collections.abc import Iterable
+from functools import partial
 from keyword import iskeyword
 from typing import Any
 
@@ -10,6 +11,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.printing.structure import is_vector
 from force_diffusion.symbolic.printing.text import text
 
 from .loads import PLANE, LoadCase, ObservableError
@@ -57,8 +59,8 @@ def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
     if not isinstance(expression, sympy.Expr):
         raise ObservableError(f"{observable!r} is not a SymPy expression")
     _check_symbols(expression)
-    degree, is_vector = _Check(expression, dimension, linear).of(expression)
-    if is_vector:
+    degree = _degree(expression, dimension, linear)
+    if is_vector(expression):
         raise ObservableError(
             f"{text(expression)} is a vector: take a component, such as dot(e_y, …)"
         )
@@ -99,85 +101,69 @@ def _check_symbols(observable: sympy.Expr) -> None:
         own[symbol.name] = symbol
 
 
-class _Check:
-    """Looks at all parts of an observable.
+def _degree(part: sympy.Basic, dimension: int, linear: bool) -> int:
+    """The degree of a part of an observable in what depends on the radii.
 
     Args:
-        whole: the observable, for messages.
+        part: of an observable, or all of it.
         dimension: of the packing.
-        linear: whether it has to be linear.
+        linear: whether the observable has to be linear.
+
+    Raises:
+        ObservableError: it is not read.
     """
+    degree = partial(_degree, dimension=dimension, linear=linear)
+    if isinstance(part, sympy.Symbol) or (isinstance(part, sympy.Rational) and part.is_finite):
+        return 0
+    if isinstance(part, sy.SiteFunction | sy.ForceAlong):
+        _check_quantity(part, dimension)
+        return 1
+    if isinstance(part, sympy.Add):
+        return max(map(degree, part.args))
+    if isinstance(part, sympy.Mul | sy.Dot):
+        return sum(map(degree, part.args))
+    if isinstance(part, sy.MeanOver):
+        return degree(part.args[0])
+    if isinstance(part, sympy.Pow) and isinstance(part.exp, sympy.Integer):
+        of_base = degree(part.base)
+        if is_vector(part.base):
+            raise ObservableError(f"{text(part.base)} is a vector, which has no powers")
+        if of_base and part.exp < 0:
+            raise ObservableError(f"{text(part)} divides by a quantity that depends on the radii")
+        return of_base * int(part.exp)
+    if isinstance(part, sympy.Float):
+        raise ObservableError(f"{part} is a float: write a fraction, such as Rational(1, 2)")
+    if linear and part.has(sy.SiteFunction, sy.ForceAlong):
+        raise ObservableError(f"{text(part)} is not linear in quantities that depend on the radii")
+    raise ObservableError(
+        f"{text(part)} can't be used: {_WRITTEN}; for another constant use a symbol of your own"
+    )
 
-    def __init__(self, whole: sympy.Expr, dimension: int, linear: bool) -> None:
-        self._whole, self._dimension, self._linear = whole, dimension, linear
 
-    def of(self, part: sympy.Basic) -> tuple[int, bool]:
-        """The degree of a part in what depends on the radii, and whether it is a vector.
+def _check_quantity(quantity: sympy.Expr, dimension: int) -> None:
+    """Refuse what does not depend on the radii, and places that are not read.
 
-        Raises:
-            ObservableError: it is not read.
-        """
-        if isinstance(part, sympy.Rational) and part.is_finite:
-            return 0, False
-        if isinstance(part, sympy.Symbol):
-            return 0, part in sy.VECTORS
-        if isinstance(part, sy.SiteFunction | sy.ForceAlong):
-            self._quantity(part)
-            return 1, getattr(part, "is_vector", False)
-        if isinstance(part, sympy.Add):
-            parts = [self.of(term) for term in part.args]
-            return max(degree for degree, _ in parts), any(vector for _, vector in parts)
-        if isinstance(part, sympy.Mul):
-            parts = [self.of(factor) for factor in part.args]
-            return sum(degree for degree, _ in parts), any(vector for _, vector in parts)
-        if isinstance(part, sy.Dot):
-            return sum(self.of(term)[0] for term in part.args), False
-        if isinstance(part, sy.MeanOver):
-            return self.of(part.args[0])
-        if isinstance(part, sympy.Pow) and isinstance(part.exp, sympy.Integer):
-            return self._power(part.base, int(part.exp))
-        if isinstance(part, sympy.Float):
-            raise ObservableError(f"{part} is a float: write a fraction, such as Rational(1, 2)")
-        if self._linear and part.has(sy.SiteFunction, sy.ForceAlong):
-            raise ObservableError(
-                f"{text(part)} is not linear in quantities that depend on the radii"
-            )
-        raise ObservableError(
-            f"{text(part)} can't be used: {_WRITTEN}; for another constant use a symbol of your own"
-        )
-
-    def _power(self, base: sympy.Expr, exponent: int) -> tuple[int, bool]:
-        degree, is_vector = self.of(base)
-        if is_vector:
-            raise ObservableError(f"{text(base)} is a vector, which has no powers")
-        if degree and exponent < 0:
-            raise ObservableError(
-                f"{text(self._whole)} divides by a quantity that depends on the radii"
-            )
-        return degree * exponent, False
-
-    def _quantity(self, quantity: sympy.Expr) -> None:
-        shown = text(quantity)
-        if isinstance(quantity, sy.SiteFunction) and not isinstance(quantity, _PLANAR):
-            raise ObservableError(f"{shown} does not depend on the radii, or is not known")
-        if isinstance(quantity, sy.ForceAlong) != (self._dimension != PLANE):
-            kinds = {True: "a force between spheres: give dimension=3",
-                     False: "a quantity of discs: in three dimensions take f_along"}  # fmt: skip
-            raise ObservableError(f"{shown} is {kinds[isinstance(quantity, sy.ForceAlong)]}")
-        place = quantity.args
-        if isinstance(quantity, sy.ForceAlong):
-            axis, *place = place
-            if axis not in (1, 2, 3):
-                raise ObservableError(
-                    f"{shown} is along base vector {axis}: 1, 2 and 3 are allowed"
-                )
-        for index in place:
-            try:
-                factors, _ = sets.row(index)
-            except NotExactError:
-                factors = {sy.n: 0}
-            if not {*factors} <= {*INDICES, sy.site_r, sy.site_s}:
-                raise ObservableError(f"{shown} is at {text(index)}: {_PLACE}")
+    Raises:
+        ObservableError: with what is allowed.
+    """
+    shown, place = text(quantity), quantity.args
+    if isinstance(quantity, sy.ForceAlong):
+        if dimension == PLANE:
+            raise ObservableError(f"{shown} is a force between spheres: give dimension=3")
+        axis, *place = place
+        if axis not in (1, 2, 3):
+            raise ObservableError(f"{shown} is along base vector {axis}: 1, 2 and 3 are allowed")
+    elif not isinstance(quantity, _PLANAR):
+        raise ObservableError(f"{shown} does not depend on the radii, or is not known")
+    elif dimension != PLANE:
+        raise ObservableError(f"{shown} is a quantity of discs: in three dimensions take f_along")
+    for index in place:
+        try:
+            factors, _ = sets.row(index)
+        except NotExactError:
+            factors = {sy.n: 0}
+        if not {*factors} <= {*INDICES, sy.site_r, sy.site_s}:
+            raise ObservableError(f"{shown} is at {text(index)}: {_PLACE}")
 
 
 def relations_of(where: Any) -> tuple[sympy.Basic, ...]:

@@ -172,11 +172,11 @@ def _closed(
     groups = under.groups
     if under.dimension == PLANE and not on.loading:
         groups = partial(in_radii, "")
-    meant, divisor = _without_divisors(statistic.xreplace(scales))
+    multiple, divisor = _without_divisors(statistic.xreplace(scales))
     divisor = divisor.xreplace(dict(under.values))
     if divisor == 0:
         raise ObservableError(f"{text(statistic)} divides by 0 under this load")
-    form = ClosedForm(statistic, meant, on, groups, divisor=divisor, values=dict(under.values))
+    form = ClosedForm(statistic, multiple, on, groups, divisor=divisor, values=dict(under.values))
     try:
         _ = form.function
     except NotProvedError as reason:

@@ -83,34 +83,35 @@ class CoqStatement:
         return "\n".join((*self.hypotheses, f"  {self.conclusion}"))
 
     @property
+    def parts(self) -> tuple[Companion, ...]:
+        """The statement itself, and the companions."""
+        return (Companion("statement", self.proposition, f"{self.tactic}."), *self.companions)
+
+    @property
     def stated(self) -> str:
         """The file that says it."""
-        says = {"statement": self.proposition} | {c.name: c.proposition for c in self.companions}
-        return "\n".join(
-            (WORDS, *(f"Definition {name} : Prop :=\n{one}.\n" for name, one in says.items()))
-        )
+        definitions = (f"Definition {p.name} : Prop :=\n{p.proposition}.\n" for p in self.parts)
+        return "\n".join((WORDS, *definitions))
 
     @property
     def proof(self) -> str:
         """The file that proves it, and the companions."""
-        proofs = {"statement": f"{self.tactic}."} | {c.name: c.proof for c in self.companions}
         return (
             f"From {LIBRARY} Require Import Certify.\nFrom {LIBRARY} Require {self.statement_in}.\n"
             "Open Scope R_scope.\nLtac Zify.zify_post_hook ::= Z.div_mod_to_equations.\n"
         ) + "".join(
-            f"\nTheorem {name} : {self.statement_in}.{name}.\n"
-            f"Proof. cbv delta [{self.statement_in}.{name}]. {proof} Qed.\n"
-            for name, proof in proofs.items()
+            f"\nTheorem {part.name} : {self.statement_in}.{part.name}.\n"
+            f"Proof. cbv delta [{self.statement_in}.{part.name}]. {part.proof} Qed.\n"
+            for part in self.parts
         )
 
     @property
     def acceptance(self) -> str:
         """The file that compares both; it ends by naming the axioms."""
-        names = ("statement", *(c.name for c in self.companions))
         compared = (
-            f"Definition accepted_{name} : {LIBRARY}.{self.statement_in}.{name} :=\n"
-            f"  {LIBRARY}.{self.module}.{name}.\n"
-            for name in names
+            f"Definition accepted_{part.name} : {LIBRARY}.{self.statement_in}.{part.name} :=\n"
+            f"  {LIBRARY}.{self.module}.{part.name}.\n"
+            for part in self.parts
         )
         return (
             f"From {LIBRARY} Require {self.statement_in} {self.module}.\n{''.join(compared)}"

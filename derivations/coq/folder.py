@@ -18,23 +18,15 @@ WRITTEN_FOR = "Coq 8.16.1"
 INSTALL = "on Debian and Ubuntu: apt-get install coq; elsewhere: https://coq.inria.fr"
 LIMIT = 900.0  # seconds for one file; the slowest takes about ten
 
-ALLOWED = frozenset(
-    {
-        "ClassicalDedekindReals.sig_not_dec",
-        "ClassicalDedekindReals.sig_forall_dec",
-        "FunctionalExtensionality.functional_extensionality_dep",
-    }
+_AXIOMS = (
+    "Coq.Reals.ClassicalDedekindReals.sig_not_dec",
+    "Coq.Reals.ClassicalDedekindReals.sig_forall_dec",
+    "Coq.Logic.FunctionalExtensionality.functional_extensionality_dep",
 )
+ALLOWED = frozenset(".".join(axiom.split(".")[2:]) for axiom in _AXIOMS)
 """Axioms that a theorem may rest on: those of Coq's real numbers, and equality of functions."""
 
-IN_THE_LIBRARY = frozenset(
-    {
-        "Coq.Reals.ClassicalDedekindReals.sig_not_dec",
-        "Coq.Reals.ClassicalDedekindReals.sig_forall_dec",
-        "Coq.Logic.FunctionalExtensionality.functional_extensionality_dep",
-        "Coq.Logic.Classical_Prop.classic",
-    }
-)
+IN_THE_LIBRARY = frozenset({*_AXIOMS, "Coq.Logic.Classical_Prop.classic"})
 """What coqchk may find: the same, and an axiom of Coq's library that no theorem uses."""
 
 Notice = Callable[[str], None]
@@ -48,8 +40,8 @@ class CoqAbsentError(ForceDiffusionError):
 
 
 @dataclass(frozen=True)
-class Said:
-    """What a program of Coq's said; ``failed`` is why it did not do what it was asked to."""
+class Answer:
+    """What a program of Coq's printed; ``failed`` is why it did not do what it was asked to."""
 
     printed: str = ""
     failed: str = ""
@@ -60,7 +52,7 @@ class CoqFolder:
 
     Attributes:
         checker: such as "Coq 8.16.1".
-        said: what Coq said of each file.
+        answers: Coq's answer on each file.
 
     Raises:
         CoqAbsentError: when there is no Coq.
@@ -71,7 +63,7 @@ class CoqFolder:
             if not shutil.which(program):
                 raise CoqAbsentError(f"{program} is not there. Install Coq: {INSTALL}")
         self.folder = folder
-        self.said: dict[str, Said] = {}
+        self.answers: dict[str, Answer] = {}
         self._under_way: set[Popen[str]] = set()
         version = self._run("coqc", "--print-version")
         number = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
@@ -82,7 +74,7 @@ class CoqFolder:
             )
         self.checker = f"Coq {number[1]}"
 
-    def _run(self, program: str, *arguments: str) -> Said:
+    def _run(self, program: str, *arguments: str) -> Answer:
         environment = {name: at for name, at in os.environ.items() if not name.startswith("COQ")}
         with Popen(
             [program, *arguments],
@@ -93,15 +85,15 @@ class CoqFolder:
             try:
                 printed, errors = process.communicate(timeout=LIMIT)
             except TimeoutExpired:
-                return Said(failed=f"no answer within {LIMIT:.0f} s")
+                return Answer(failed=f"no answer within {LIMIT:.0f} s")
             finally:
                 process.kill()
                 self._under_way.discard(process)
         status = process.returncode
-        return Said(printed + errors, (_error(errors) or f"status {status}") if status else "")
+        return Answer(printed + errors, (_error(errors) or f"status {status}") if status else "")
 
     def compile(self, sources: Mapping[str, str], notice: Notice) -> None:
-        """Compile these files, those first that others import; ``said`` tells of each.
+        """Compile these files, those first that others import; ``answers`` has one for each.
 
         What is under way is ended when this is interrupted.
         """
@@ -112,19 +104,19 @@ class CoqFolder:
         )
         order.prepare()
         pool = ThreadPoolExecutor(os.cpu_count())
-        asked: dict[Future[Said], str] = {}
+        asked: dict[Future[Answer], str] = {}
         try:
             while order.is_active():
                 for name in order.get_ready():
                     notice(name)
                     asked[pool.submit(self._run, "coqc", "-q", "-R", ".", LIBRARY, name)] = name
-                for answer in wait(asked, return_when=FIRST_COMPLETED).done:
-                    name = asked.pop(answer)
-                    self.said[name] = answer.result()
+                for done in wait(asked, return_when=FIRST_COMPLETED).done:
+                    name = asked.pop(done)
+                    self.answers[name] = done.result()
                     order.done(name)
         finally:
             pool.shutdown(wait=False, cancel_futures=True)
-            while not all(answer.done() for answer in asked):  # it was interrupted
+            while not all(future.done() for future in asked):  # it was interrupted
                 for process in [*self._under_way]:
                     process.kill()
                 wait(asked, timeout=0.1)
@@ -132,17 +124,17 @@ class CoqFolder:
     def trouble(self, names: Iterable[str]) -> str:
         """The file among these that failed first, and why; or nothing."""
         wanted = set(names)
-        for name, said in self.said.items():
-            if name in wanted and said.failed:
+        for name, answer in self.answers.items():
+            if name in wanted and answer.failed:
                 other = "" if self.checker == WRITTEN_FOR else f" (written for {WRITTEN_FOR})"
-                return f"{name}: {said.failed}{other}"
+                return f"{name}: {answer.failed}{other}"
         return ""
 
     def check(self, names: Iterable[str]) -> str:
         """Let coqchk check compiled modules and all they rest on; what went wrong, or nothing."""
         modules = [f"{LIBRARY}.{name}" for name in names]
-        said = self._run("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *modules)
-        return f"coqchk: {said.failed}" if said.failed else unexpected(said.printed)
+        answer = self._run("coqchk", "-silent", "-o", "-R", ".", LIBRARY, *modules)
+        return f"coqchk: {answer.failed}" if answer.failed else unexpected(answer.printed)
 
 
 def _error(message: str) -> str:
@@ -176,17 +168,17 @@ _NONE = {
 
 def unexpected(summary: str) -> str:
     """What coqchk's summary holds that must not be there, or nothing."""
-    sections = [(name, said.strip()) for name, said in _SECTION.findall(summary)]
-    theories = {said for name, said in sections if name == "Theory"}
+    sections = [(name, content.strip()) for name, content in _SECTION.findall(summary)]
+    theories = {content for name, content in sections if name == "Theory"}
     if not {name for name, _ in sections} >= {"Theory", "Axioms", *_NONE}:
         return "coqchk: its summary is not as expected"
     if _THEORY[0] not in theories or not theories <= {*_THEORY}:
         return f"coqchk: {', '.join(sorted(theories - {*_THEORY})) or 'its summary is cut'}"
-    for name, said in sections:
+    for name, content in sections:
         if name == "Axioms":
-            for axiom in said.removesuffix("<none>").split():
+            for axiom in content.removesuffix("<none>").split():
                 if axiom.replace("Stdlib.", "Coq.", 1) not in IN_THE_LIBRARY:
                     return f"coqchk: the axiom {axiom}"
-        elif name != "Theory" and said != "<none>":
-            return f"coqchk: {name}: {said}"
+        elif name != "Theory" and content != "<none>":
+            return f"coqchk: {name}: {content}"
     return ""

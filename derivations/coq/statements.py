@@ -8,6 +8,7 @@ which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactic
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from types import MappingProxyType
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -121,8 +122,8 @@ def _exactly(equation: sympy.Eq) -> str:
     """At ε = 0, or near it where something depends on ε."""
     left, right = ("zero" if side == 0 else words(side) for side in equation.args)
     kinds = {type(site) for site in equation.atoms(sy.SiteFunction)}
-    said = f"{left} = {right}"
-    return said if kinds <= FIXED.keys() else f"near (fun e => {said})"
+    equality = f"{left} = {right}"
+    return equality if kinds <= FIXED.keys() else f"near (fun e => {equality})"
 
 
 def _up_to_variance(size: str) -> Callable[[sympy.Eq], str]:
@@ -152,6 +153,9 @@ def _near(quantity: str, size: str) -> Callable[[sympy.Eq], str]:
     return conclude
 
 
+_AT = MappingProxyType({sy.M: 7, sy.i: 1, sy.j: 3})
+
+
 @dataclass(frozen=True)
 class Setting:
     """What an equation is about, besides what its derivation says: ranges, sites and the load.
@@ -163,7 +167,7 @@ class Setting:
         random: whether the packing is one of a family, with a law of the radii.
     """
 
-    example: Mapping[sympy.Symbol, int]
+    example: Mapping[sympy.Symbol, int] = _AT
     conclude: Callable[[sympy.Eq], str] = _to_first_order
     conditions: tuple[str, ...] = ()
     random: bool = False
@@ -176,21 +180,15 @@ def _variance(size: str) -> Setting:
 
 
 _BELOW = {sy.M: 7, sy.k: 6, sy.l: 6}
-_AT = {sy.M: 7, sy.i: 1, sy.j: 3}
 _BELOW_AT_A_DISTANCE = {sy.M: 7, sy.k: 2, sy.l: 6, sy.i: 1, sy.j: 1, sy.p: 3, sy.q: 2}
 
-SETTINGS: dict[Number, Setting] = {
-    1: Setting(_AT, _exactly),
-    2: Setting(_AT),
-    3: Setting(_AT),
-    4: Setting(_AT),
-    5: Setting(_AT),
+SETTINGS: dict[Number, Setting] = {  # those of Eqs. 2 to 5 and 11 are the default
+    1: Setting(conclude=_exactly),
     6: Setting(_BELOW, _exactly),
     7: Setting(_BELOW),
     8: Setting({sy.M: 7, sy.site_r: 1, sy.site_s: 5}),
     9: Setting({**_BELOW, sy.i: 4, sy.j: 4}),
     10: Setting({**_BELOW, sy.i: 5, sy.j: 1, sy.n: 2}),
-    11: Setting(_AT),
     12: Setting(_AT, _up_to_variance("29 * IZR M ^ 2"), random=True),
     13: _variance("(2 * IZR M ^ 2 + IZR M)"),
     14: _variance("(3 / 8 * IZR M ^ 2 + 5 / 4 * IZR M)"),
@@ -229,11 +227,8 @@ def _spoken_of(side: sympy.Expr) -> Iterator[str]:
 
 def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> CoqStatement:
     """State a printed equation of a derivation, or its mirror image."""
-    number, setting, printed = (
-        derivation.number,
-        SETTINGS[derivation.number],
-        derivation.printed[part],
-    )
+    number, printed = derivation.number, derivation.printed[part]
+    setting = SETTINGS.get(number, Setting())
     name = f"equation_{number}" + (f"_part_{part + 1}" if len(derivation.printed) > 1 else "")
     load = LOADS[derivation.loads[0]] if derivation.loads else None
     example = dict(setting.example)

@@ -36,13 +36,13 @@ _BEYOND = {
 def modules() -> dict[Number, str]:
     """Equation numbers and the modules that derive them: the paper's, then those beyond it."""
     stems = sorted(path.stem for path in _FOLDER.glob("eq*.py"))
-    printed: dict[Number, str] = {
-        int(found[1]): stem for stem in stems if (found := _MODULE.fullmatch(stem))
+    by_number: dict[Number, str] = {
+        int(match[1]): stem for stem in stems if (match := _MODULE.fullmatch(stem))
     }
-    beyond: dict[Number, str] = {
-        label: module for module, labels in _BEYOND.items() for label in labels
-    }
-    return {**printed, **dict(sorted(beyond.items(), key=lambda one: int(str(one[0])[1:])))}
+    beyond = {label: module for module, labels in _BEYOND.items() for label in labels}
+    for label in sorted(beyond, key=lambda label: int(label[1:])):
+        by_number[label] = beyond[label]
+    return by_number
 
 
 def in_order(numbers: Iterable[Number]) -> tuple[Number, ...]:

@@ -161,6 +161,9 @@ class ClosedForm:
         values = (piece.expr for piece in self.pieces)
         return sympy.Piecewise(*zip(values, parts, strict=True), evaluate=False)
 
+    def _sympy_(self) -> sympy.Expr:
+        return self.expr
+
     @property
     def equation(self) -> sympy.Eq:
         """The equation: quantity = expression."""
@@ -188,16 +191,14 @@ class ClosedForm:
     @cached_property
     def even(self) -> list[sympy.Expr]:
         """Sums of indices that are even at every bead, no two solved for the same symbol."""
-        back = self.kernel_domain.straight.back
-        odd = {
-            symbol: {index for index, n in (2 * half).as_coefficients_dict().items() if n % 2}
-            for symbol, half in back.items()
-        }
-        for symbol in back:
-            for other in back:
-                if other != symbol and symbol in odd[other]:
-                    odd[other] = odd[other] ^ odd[symbol]
-        return [sympy.Add(*odd[symbol]) for symbol in sorted(back, key=sy.INDICES.index)]
+        image = self.kernel_domain.straight.image
+        return [
+            sympy.Add(
+                symbol,
+                *(index for index, n in image[symbol].as_coefficients_dict().items() if n % 2),
+            )
+            for symbol in sorted(image, key=sy.INDICES.index)
+        ]
 
     @property
     def _for_domain(self) -> str:
@@ -434,10 +435,11 @@ class ClosedForm:
         >>> from force_diffusion.symbols import f_plus, i, j, M
         >>> form = fd.mean(f_plus(i, j))
         >>> print(form.decide(M / M))
-        proved: by the rule: moment
+        proved: by taking moments of the radii
 
         Args:
-            candidate: an expression, a ``Piecewise``, or an ``Eq`` with the quantity on the left.
+            candidate: an expression, a ``Piecewise``, a closed form, or an ``Eq`` with the quantity
+                on the left.
             at: whole numbers for indices, such as M=12, if it need hold only there.
 
         Raises:
@@ -507,12 +509,12 @@ class ClosedForm:
         """An equation about the quantity as one about what that stands for."""
         if formula.lhs in (self.quantity, self.statistic):
             return equation(self.statistic, self.divisor * formula.rhs)
-        meant = sympy.Mul(self.statistic, 1 / self.divisor, evaluate=False)
+        quotient = sympy.Mul(self.statistic, 1 / self.divisor, evaluate=False)
         shown = by_name(self.quantity.free_symbols - self.statistic.free_symbols)
         if not shown:
-            return in_place(formula, {self.quantity: meant})
+            return in_place(formula, {self.quantity: quotient})
         (symbol,) = shown  # the quantity may be this symbol less 1
-        return in_place(formula, {symbol: sympy.Add(meant, symbol - self.quantity)})
+        return in_place(formula, {symbol: sympy.Add(quotient, symbol - self.quantity)})
 
 
 def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:

@@ -45,10 +45,10 @@ def candidate_for(
             words = f"it holds in a limit ({domain.limit.words}), not in one packing"
             return not_a_statement(words)
         domain = domain.also(*(sympy.Eq(s, n, evaluate=False) for s, n in at.items()))
-    meant = in_place(candidate, step.definitions[place])
-    attempts = [step.rules[place], *_further(statement, meant, domain)]
-    ruling = decide(meant, domain, attempts)
-    if not ruling.verdict.is_proved and (squares := _squares(meant, domain)) is not None:
+    formula = in_place(candidate, step.definitions[place])
+    attempts = [step.rules[place], *_further(statement, formula, domain)]
+    ruling = decide(formula, domain, attempts)
+    if not ruling.verdict.is_proved and (squares := _squares(formula, domain)) is not None:
         return decide(squares, domain, attempts)
     return ruling
 

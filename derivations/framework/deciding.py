@@ -31,8 +31,8 @@ def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
     """Rule on a candidate for printed lines.
 
     Args:
-        candidate: a SymPy ``Eq``, an expression for a right-hand side, or as many of these as there
-            are lines, in a ``Tuple``, tuple or list.
+        candidate: a SymPy ``Eq``, an expression or a closed form for a right-hand side, or as many
+            of these as there are lines, in a ``Tuple``, tuple or list.
         lines: what is printed.
         rule_on: rules on an equation in the place of one of them.
     """
@@ -45,6 +45,8 @@ def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
 
 
 def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
+    if hasattr(candidate, "_sympy_"):  # a closed form
+        candidate = sympy.sympify(candidate)
     if isinstance(candidate, sympy.Basic) and (reason := too_large(candidate)):
         return undecided(reason)
     if isinstance(candidate, sympy.Basic) and candidate.has(sympy.Lambda, sympy.MatrixExpr):
@@ -98,20 +100,14 @@ def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: Rul
     if len(candidates) != len(lines):
         few = "1 line is" if len(lines) == 1 else f"{len(lines)} lines are"
         return not_a_statement(f"{few} printed, and there are {len(candidates)} here")
-    places: dict[int, Any] = {}
-    others = []
-    for candidate in candidates:
-        side = getattr(candidate, "lhs", None)
-        free = (n for n, line in enumerate(lines) if n not in places and side == line.lhs)
-        if (part := next(free, None)) is None:
-            others.append(candidate)
-        else:
-            places[part] = candidate
+    sides = [line.lhs for line in lines]
+    named = {each.lhs: each for each in candidates if getattr(each, "lhs", None) in sides}
+    others = [each for each in candidates if getattr(each, "lhs", None) not in sides]
     rulings = []
     for part, line in enumerate(lines):
-        candidate = places[part] if part in places else others.pop(0)
-        if getattr(candidate, "lhs", None) in {other.lhs for other in lines} - {line.lhs}:
+        if line.lhs not in named and not others:
             return undecided(f"nothing is said of {text(line.lhs)}")
+        candidate = named[line.lhs] if line.lhs in named else others.pop(0)
         ruling = _on_one(candidate, [line], lambda _, of, part=part: rule_on(part, of))  # type: ignore[misc]
         rulings.append(_about(line, ruling) if len(lines) > 1 else ruling)
     return all_of(*rulings)

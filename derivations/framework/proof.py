@@ -102,15 +102,6 @@ class Step:
         equations = (f"Eq. {number}" for number in self.equations_used)
         return (*equations, *(f"step {number}" for number in self.steps_used))
 
-    def prove(self, place: int, candidate: sympy.Eq) -> Theorem:
-        """What the rule of one of its equations makes of a candidate for that equation.
-
-        Raises:
-            NotProvedError: it proves nothing.
-        """
-        meant = in_place(candidate, self.definitions[place])
-        return proved_by(self.rules[place], meant, self.domains[place])
-
 
 Place = tuple[Number, int]
 """An equation and one of its steps; 0 for none of them."""
@@ -193,14 +184,40 @@ class Steps(list[Step]):
         domain: Domain | Sequence[Domain] | None = None,
         definitions: Definitions | Sequence[Definitions] = (),
         cases: Sequence[Relations] = (),
+        *,
+        is_claim: bool = False,
     ) -> Step:
-        """Prove a step and add it.
+        """Prove a step, or a claim, and add it.
 
         Raises:
             NotProvedError: the rule does not prove it.
         """
-        step = self._proved(reason, formula, rule, domain, definitions, len(self) + 1, cases)
-        self.append(step)
+        number = 0 if is_claim else len(self) + 1
+        equations = tuple(formula) if isinstance(formula, sympy.Tuple) else (formula,)
+        count = len(equations)
+        rules: tuple[Rule, ...] = _for_each(rule, count)
+        domains: tuple[Domain, ...] = _for_each(self._domain if domain is None else domain, count)
+        own: tuple[Definitions, ...] = _for_each(definitions, count)
+        defined = tuple({**self._definitions, **further} for further in own)
+        for symbol in (symbol for each in defined for symbol in each):
+            if not _may_be_defined(symbol):
+                raise NotProvedError(f"{symbol} has a meaning of its own")
+        try:
+            theorems = tuple(
+                proved_by(by, in_place(line, symbols), where)
+                for line, by, where, symbols in zip(equations, rules, domains, defined, strict=True)
+            )
+        except NotProvedError as error:
+            name = "the claim" if is_claim else f"step {number},"
+            raise NotProvedError(f"{name} '{reason}': {error}") from error
+        if any(theorem.supposed for theorem in theorems):
+            raise NotProvedError(f"it rests on what is only supposed: {reason}")
+        proof = rules, domains, defined, theorems
+        step = Step(self._equation, reason, formula, *proof, number, tuple(cases))
+        for theorem in shown(self._equation, *theorems):
+            if _PLACE_OF[theorem] == (self._equation, 0):
+                _PLACE_OF[theorem] = self._equation, number
+        (self.claims if is_claim else self).append(step)
         return step
 
     def claim(
@@ -212,9 +229,7 @@ class Steps(list[Step]):
         definitions: Definitions | Sequence[Definitions] = (),
     ) -> Step:
         """Prove a further statement; it is not one of the steps."""
-        claim = self._proved(name, formula, rule, domain, definitions)
-        self.claims.append(claim)
-        return claim
+        return self.show(name, formula, rule, domain, definitions, is_claim=True)
 
     def refute(
         self,
@@ -235,44 +250,6 @@ class Steps(list[Step]):
             self.refuted.append(Refuted(reading, formula, domain, str(reason)))
             return
         raise NotProvedError(f"this is proved, and was to be refuted: {reading}")
-
-    def _proved(
-        self,
-        reason: str,
-        formula: sympy.Basic,
-        rule: Rule | Sequence[Rule],
-        domain: Domain | Sequence[Domain] | None,
-        definitions: Definitions | Sequence[Definitions],
-        number: int = 0,
-        cases: Sequence[Relations] = (),
-    ) -> Step:
-        equations = tuple(formula) if isinstance(formula, sympy.Tuple) else (formula,)
-        count = len(equations)
-        where = self._domain if domain is None else domain
-        rules: tuple[Rule, ...] = _for_each(rule, count)
-        domains: tuple[Domain, ...] = _for_each(where, count)
-        own = _for_each(definitions, count)
-        defined = tuple({**self._definitions, **meanings} for meanings in own)
-        for symbol in (symbol for meanings in defined for symbol in meanings):
-            if not _may_be_defined(symbol):
-                raise NotProvedError(f"{symbol} has a meaning of its own")
-        try:
-            theorems = tuple(
-                proved_by(by, in_place(line, meant), there)
-                for line, by, there, meant in zip(equations, rules, domains, defined, strict=True)
-            )
-        except NotProvedError as why:
-            name = f"step {number}," if number else "the claim"
-            raise NotProvedError(f"{name} '{reason}': {why}") from why
-        for theorem in theorems:
-            if type(theorem) is not Theorem or theorem.supposed:
-                raise NotProvedError(f"it rests on what is only supposed: {reason}")
-        proved = rules, domains, defined, theorems
-        step = Step(self._equation, reason, formula, *proved, number, tuple(cases))
-        for theorem in shown(self._equation, *theorems):
-            if _PLACE_OF[theorem] == (self._equation, 0):
-                _PLACE_OF[theorem] = self._equation, number
-        return step
 
 
 def _may_be_defined(what: Any) -> bool:

@@ -4,12 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from time import perf_counter
-from typing import TYPE_CHECKING, ClassVar
+from typing import TYPE_CHECKING
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotProvedError
-from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.theorem import Theorem
@@ -34,6 +34,10 @@ _MEANINGS = {
     sy.t_2: "L²/L¹ of the load −Σ_a L^a n^a",
     sy.t_3: "L³/L¹",
 }
+
+
+_SECONDS: list[float] = []
+"""How long each proof took, without those that ran within it."""
 
 
 def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
@@ -74,9 +78,11 @@ class Statement:
         Raises:
             NotProvedError: one of them is not.
         """
-        with _Stopwatch() as watch:
-            steps = self.steps()
-        self.__dict__["seconds"] = watch.seconds
+        start, others = perf_counter(), sum(_SECONDS)
+        steps = self.steps()
+        seconds = perf_counter() - start - (sum(_SECONDS) - others)
+        _SECONDS.append(seconds)
+        self.__dict__["seconds"] = seconds
         return steps
 
     @property
@@ -184,38 +190,17 @@ class Derivation(Statement):
     deciders: Callable[[], Sequence[Rule]] = tuple
 
 
-class _Stopwatch:
-    """Measures a proof, without those that run within it."""
+@dataclass(frozen=True, kw_only=True)
+class Check(Ruling):
+    """The ruling on a step, a claim or a printed statement.
 
-    _running: ClassVar[list["_Stopwatch"]] = []
+    Attributes:
+        kind: "step", "proof", or "refutation" of a printed statement.
+        name: what is checked.
+    """
 
-    def __enter__(self) -> "_Stopwatch":
-        self._start, self._within = perf_counter(), 0.0
-        self._running.append(self)
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        whole = perf_counter() - self._start
-        self.seconds = whole - self._within
-        self._running.pop()
-        if self._running:
-            self._running[-1]._within += whole
-
-
-@dataclass(frozen=True)
-class Check:
-    """A step, a claim or a printed statement that has been decided."""
-
-    kind: str  # "step", "proof", or "refutation" of a printed statement
+    kind: str
     name: str
-    verdict: Verdict
-    note: str = ""
-    assuming: tuple[str, ...] = ()
-
-    @property
-    def words(self) -> str:
-        """Its verdict, and what it assumes."""
-        return in_words(self.verdict, self.assuming)
 
     @property
     def is_expected(self) -> bool:
@@ -225,26 +210,33 @@ class Check:
 
 @dataclass(frozen=True)
 class ProofOutcome:
-    """All that proving one equation found."""
+    """What proving one equation showed: each check, and how long it took."""
 
     derivation: Statement
-    verdict: Verdict
     checks: tuple[Check, ...]
     seconds: float = 0.0
+
+    @cached_property
+    def ruling(self) -> Ruling:
+        """That on the equation: the worst of all, except for printed statements refuted."""
+        return all_of(*(check for check in self.checks if check.kind != "refutation"))
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the equation."""
+        return self.ruling.verdict
+
+    @property
+    def assuming(self) -> tuple[str, ...]:
+        """What its proofs assume and no rule discharges, where it is proved."""
+        return self.ruling.assuming
+
+    @property
+    def words(self) -> str:
+        """Its verdict, and what it assumes."""
+        return self.ruling.words
 
     @property
     def refuted(self) -> tuple[Check, ...]:
         """The printed statements that were refuted as expected; the verdict is on the others."""
         return tuple(check for check in self.checks if check.is_expected)
-
-    @property
-    def assuming(self) -> tuple[str, ...]:
-        """What its proofs assume and no rule discharges, where it is proved."""
-        if not self.verdict.is_proved:
-            return ()
-        return tuple(dict.fromkeys(words for check in self.checks for words in check.assuming))
-
-    @property
-    def words(self) -> str:
-        """Its verdict, and what it assumes."""
-        return in_words(self.verdict, self.assuming)

@@ -1,15 +1,14 @@
-"""Proves derivations, premises first, and says what was found."""
+"""Proves derivations, premises first, and rules on each."""
 
 import gc
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 
 from force_diffusion.symbolic.algebra.exact import NotProvedError
-from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.kernel.decisions import Ruling, proved_by_rules, refuted, undecided
 
 from .catalogue import Number
 from .loading import with_premises
-from .proof import Step
 from .record import Check, ProofOutcome, Statement
 from .rows import Row
 
@@ -28,12 +27,8 @@ def _rarely_collected() -> Iterator[None]:
         gc.set_threshold(*before)
 
 
-def _check(kind: str, name: str, step: Step, place: int | None = None) -> Check:
-    theorems = step.theorems if place is None else step.theorems[place : place + 1]
-    assuming = tuple(sorted(set[str]().union(*(theorem.assuming for theorem in theorems))))
-    rules = dict.fromkeys(theorem.rule for theorem in theorems)
-    verdict = Verdict.ASSUMING if assuming else Verdict.PROVED
-    return Check(kind, name, verdict, f"by the rule: {', '.join(rules)}", assuming)
+def _check(kind: str, name: str, ruling: Ruling) -> Check:
+    return Check(ruling.verdict, ruling.note, ruling.assuming, kind=kind, name=name)
 
 
 def checks(statement: Statement) -> Iterator[Check]:
@@ -44,39 +39,28 @@ def checks(statement: Statement) -> Iterator[Check]:
     """
     steps = statement.proof
     if not isinstance(statement, Row):
-        several = len(statement.printed) > 1
-        for part in range(len(statement.printed)):
-            name = f"printed equation, part {part + 1}" if several else "printed equation"
-            yield _check("proof", name, *statement.step_of(part))
+        theorems = statement.theorems
+        for part, theorem in enumerate(theorems, start=1):
+            place = f", part {part}" if len(theorems) > 1 else ""
+            yield _check("proof", f"printed equation{place}", proved_by_rules([theorem]))
     for step in steps:
-        yield _check("step", f"step {step.number}", step)
+        yield _check("step", f"step {step.number}", proved_by_rules(step.theorems))
     for claim in steps.claims:
-        yield _check("proof", claim.reason, claim)
+        yield _check("proof", claim.reason, proved_by_rules(claim.theorems))
     if isinstance(statement, Row):
         for name, ruling in statement.claims:
-            yield Check("proof", name, ruling.verdict, ruling.note, ruling.assuming)
+            yield _check("proof", name, ruling)
     for reading in steps.refuted:
-        yield Check("refutation", reading.reading, Verdict.REFUTED, reading.reason)
+        yield _check("refutation", reading.reading, refuted(reading.reason))
 
 
 def run(statement: Statement) -> ProofOutcome:
     """Prove all of one equation; what is not proved makes it undecided."""
     try:
-        found = tuple(checks(statement))
-        seconds = statement.seconds
+        return ProofOutcome(statement, tuple(checks(statement)), statement.seconds)
     except (NotProvedError, LookupError) as reason:
-        found = (Check("proof", "its derivation", Verdict.UNDECIDED, str(reason)),)
-        seconds = 0.0
-    return ProofOutcome(statement, _overall(found), found, seconds)
-
-
-def _overall(found: Iterable[Check]) -> Verdict:
-    """The verdict on an equation from all that was found about it."""
-    verdicts = {check.verdict for check in found if check.kind != "refutation"}
-    for verdict in (Verdict.REFUTED, Verdict.NOT_A_STATEMENT, Verdict.UNDECIDED, Verdict.ASSUMING):
-        if verdict in verdicts:
-            return verdict
-    return Verdict.PROVED
+        failure = _check("proof", "its derivation", undecided(str(reason)))
+        return ProofOutcome(statement, (failure,))
 
 
 def run_all(numbers: Iterable[Number], watch: Watch = lambda _: None) -> Iterator[ProofOutcome]:

@@ -10,7 +10,7 @@ from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_height
 from force_diffusion.symbolic.kernel.limits import (
-    asymptotic, leading_order_of, negligible, of_what_is_kept)
+    asymptotic, drop_terms, leading_order_of, negligible)
 from force_diffusion.symbolic.kernel.rules import (
     Rule, along, below, differentiate, follows, induct, inducted, instance, mirror, mirror_of,
     order, reach, rewrite, same, solve)
@@ -25,12 +25,3 @@ from .record import FIRST_ORDER, Derivation, usual
 
 Groups = tuple[Group, ...]
 """Theorems to be put in one after the other; those of a group at once."""
-
-__all__ = [
-    "FIRST_ORDER", "Derivation", "Domain", "Groups", "Limit", "Rule", "Step", "Steps", "Symbol",
-    "Theorem", "along", "asymptotic", "at_fixed_height", "axioms", "below", "certificate",
-    "differentiate", "equation", "follows", "induct", "inducted", "instance",
-    "lattice", "leading_order_of", "minus", "mirror", "mirror_of", "moment", "negligible",
-    "of_what_is_kept", "order", "power", "power_law", "reach", "rewrite", "same", "shown",
-    "solve", "tensile", "terms", "times", "usual",
-]  # fmt: skip

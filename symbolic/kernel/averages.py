@@ -19,15 +19,7 @@ from .domain import AT_FIXED_RATIO, Domain, at_fixed_height, at_large_height
 from .limits import in_the_limit, leading, limit_of, order
 from .refuted import shown
 from .rules import Rule
-from .theorem import (
-    FalseStatementError,
-    Group,
-    Groups,
-    Theorem,
-    flat,
-    made,
-    with_indices,
-)
+from .theorem import FalseStatementError, Group, Groups, Theorem, flat, made, with_indices
 
 
 def power_law(*groups: Group) -> Rule:
@@ -51,7 +43,7 @@ def power_law(*groups: Group) -> Rule:
         held = [s for s in FIELD.generators if ratio.holds(s) and s not in (sy.phi, sy.n_x, sy.n_y)]
         if held:
             raise FalseStatementError(f"a power of left over right goes as {shown(ratio)}")
-        return made(formula, domain, "power law", flat(groups))
+        return made(formula, domain, "comparing powers", flat(groups))
 
     return rule
 
@@ -128,7 +120,7 @@ def tensile(variance: Theorem, mean: Theorem, *groups: Group) -> Rule:
         if not (_whole_power([*twice, (v, sympy.S.One)]) - FIELD.one).is_zero():
             raise NotProvedError("the argument of erfc is not 1/√(2v)")
         premises = (variance, mean, *flat(groups))
-        return made(formula, domain, "tensile", premises, assuming=(GAUSSIAN_FORCES,))
+        return made(formula, domain, "a Gaussian integral", premises, assuming=(GAUSSIAN_FORCES,))
 
     return rule
 

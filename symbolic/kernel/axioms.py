@@ -21,7 +21,7 @@ _ANY_BEAD = Domain.of(j >= 0)
 
 
 def _axiom(left: sympy.Expr, right: sympy.Expr | int, domain: Domain) -> Theorem:
-    return made(equation(left, sympy.sympify(right)), domain, "axiom")
+    return made(equation(left, sympy.sympify(right)), domain, "an axiom")
 
 
 @cache
@@ -96,9 +96,9 @@ def loads(loading: Loading) -> tuple[Theorem, ...]:
     if not any(loading.is_like(kind) for kind in LOADINGS):
         raise NotProvedError(f"{loading.name} is not a known loading")
     at_place = Domain.of(sympy.Ge(loading.place[-1], 0), loading=loading)
-    given = [made(item, at_place, "loading") for item in loading.given]
+    given = [made(item, at_place, "the load") for item in loading.given]
     beads = Domain.of(site_s >= 0, indices=(site_r,), loading=loading)
-    everywhere = [made(one, beads.also(*when), "loading") for one, when in loading.everywhere]
+    everywhere = [made(one, beads.also(*when), "the load") for one, when in loading.everywhere]
     return (*given, *everywhere)
 
 

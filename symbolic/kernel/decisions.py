@@ -16,7 +16,7 @@ from ..algebra.exact import NotAStatementError, NotProvedError
 from ..printing.text import text
 from .domain import Domain
 from .rules import Rule, proved_by
-from .theorem import FalseStatementError, names_for
+from .theorem import FalseStatementError, Theorem, names_for
 
 
 class Verdict(StrEnum):
@@ -72,8 +72,15 @@ class Ruling:
 
 def proved(note: str = "", assuming: Iterable[str] = ()) -> Ruling:
     """Return the ruling of a proof, and of what it assumes."""
-    kept = tuple(dict.fromkeys(assuming))
-    return Ruling(Verdict.ASSUMING if kept else Verdict.PROVED, note, kept)
+    assumptions = tuple(dict.fromkeys(assuming))
+    return Ruling(Verdict.ASSUMING if assumptions else Verdict.PROVED, note, assumptions)
+
+
+def proved_by_rules(theorems: Sequence[Theorem]) -> Ruling:
+    """Return the ruling on theorems: the rules that proved them, and what they assume."""
+    rules = dict.fromkeys(theorem.rule for theorem in theorems)
+    assuming = set[str]().union(*(theorem.assuming for theorem in theorems))
+    return proved(f"by {', '.join(rules)}", sorted(assuming))
 
 
 def refuted(note: str) -> Ruling:
@@ -124,7 +131,7 @@ def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Rulin
         else:
             if theorem.supposed:
                 return undecided("it rests on what is only supposed")
-            return proved(f"by the rule: {theorem.rule}", sorted(theorem.assuming))
+            return proved_by_rules([theorem])
     return undecided(reasons[-1] if reasons else "no rule decides it")
 
 

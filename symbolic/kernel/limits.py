@@ -12,13 +12,7 @@ import sympy
 
 from .. import sets
 from .. import symbols as sy
-from ..algebra.exact import (
-    FIELD,
-    SITE,
-    NotProvedError,
-    Polynomial,
-    RationalFunction,
-)
+from ..algebra.exact import FIELD, SITE, NotProvedError, Polynomial, RationalFunction
 from ..forms import FORCES, NUMBER, RADII, Form
 from ..notation import by_name
 from ..printing.text import text
@@ -64,7 +58,7 @@ def asymptotic(*groups: Group) -> Rule:
             raise other_order(leading(apart, limit), first, top, limit)
         if not _vanishes_nowhere(top, limit, domain.dimension):
             raise NotProvedError("what the right-hand side goes as may vanish")
-        return made(formula, domain, "leading order", flat(groups))
+        return made(formula, domain, "comparing leading orders", flat(groups))
 
     return rule
 
@@ -91,7 +85,7 @@ def negligible(*groups: Group) -> Rule:
         if not order(dropped, limit) < order(kept, limit):
             powers = f"{order(dropped, limit)}, and that of the force {order(kept, limit)}"
             raise FalseStatementError(f"the variance of what is dropped has the power {powers}")
-        return made(formula, domain, "dropped orders", flat(groups))
+        return made(formula, domain, "bounding dropped terms", flat(groups))
 
     return rule
 
@@ -108,7 +102,7 @@ def _only_force(formula: sympy.Eq) -> sympy.Expr:
     return forces[0]
 
 
-def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
+def drop_terms(dropping: Theorem, *exact: Theorem) -> Rule:
     """The leading order of a variance, by that of what a statement about the force keeps.
 
     ``dropping`` says L ≈ R: var(L − R) is of a lower order than var(L). Since √var is a norm,
@@ -132,7 +126,7 @@ def of_what_is_kept(dropping: Theorem, *exact: Theorem) -> Rule:
         if not all(sympy.expand(expression).is_number for expression in beside):
             raise NotProvedError("it is not the variance of what something was dropped from")
         _check_leading_order(sy.Variance(right), formula.rhs, domain, exact, dropping)
-        return made(formula, domain, "leading order of what is kept", (dropping, *exact))
+        return made(formula, domain, "dropping terms", (dropping, *exact))
 
     return rule
 
@@ -143,7 +137,7 @@ def leading_order_of(*exact: Theorem) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit_of(formula, domain, "∼")
         _check_leading_order(formula.lhs, formula.rhs, domain, exact)
-        return made(formula, domain, "leading order", exact)
+        return made(formula, domain, "comparing leading orders", exact)
 
     return rule
 
@@ -198,7 +192,7 @@ def bounded(*groups: Group) -> Rule:
         ]
         if any(2 * height > order(whole, limit) for height in orders):
             raise NotProvedError("a radius has more, or that is not excluded")
-        return made(formula, domain, "largest share", flat(groups))
+        return made(formula, domain, "bounding the largest share", flat(groups))
 
     return rule
 

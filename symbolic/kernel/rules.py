@@ -10,11 +10,7 @@ from collections.abc import Callable, Sequence
 import sympy
 
 from .. import symbols as sy
-from ..algebra.exact import (
-    FIELD,
-    NotProvedError,
-    RationalFunction,
-)
+from ..algebra.exact import FIELD, NotProvedError, RationalFunction
 from ..elimination import eliminated
 from ..forms import NUMBER, Form, Image
 from ..mechanics import lattice
@@ -79,7 +75,7 @@ def rewrite(*groups: Group) -> Rule:
         apart = difference(read(formula, domain, groups), domain)
         if any(form.parts for form in apart):
             raise refuse(apart, domain, groups, formula)
-        return made(formula, domain, "rewrite", flat(groups))
+        return made(formula, domain, "comparing both sides", flat(groups))
 
     return rule
 
@@ -99,7 +95,7 @@ def follows(theorem: Theorem, *groups: Group) -> Rule:
             raise NotProvedError("it is not a multiple of what it should follow from")
         if not never_zero(factor, domain.points, domain.dimension):
             raise NotProvedError("it is a multiple of it by a factor that may be zero")
-        return made(formula, domain, "follows", (theorem, *flat(groups)))
+        return made(formula, domain, "scaling a theorem", (theorem, *flat(groups)))
 
     return rule
 
@@ -120,7 +116,7 @@ def along(theorem: Theorem, vector: sympy.Expr) -> Theorem:
     if vector not in (*sy.VECTORS, sy.e_x):
         raise NotProvedError(f"{text(vector)} is not a base vector")
     formula = equation(*(sy.Dot(vector, side) for side in theorem.formula.args))
-    return made(formula, theorem.domain, "component", (theorem,))
+    return made(formula, theorem.domain, "taking a component", (theorem,))
 
 
 def order(theorem: Theorem, power: int) -> Rule:
@@ -139,7 +135,7 @@ def order(theorem: Theorem, power: int) -> Rule:
             (a - b).is_zero() for a, b in zip(new, wanted, strict=True)
         ):
             raise NotProvedError(f"it is not the order {power} in ε")
-        return made(formula, domain, f"order {power} in ε", (theorem,))
+        return made(formula, domain, f"comparing order {power} in ε", (theorem,))
 
     return rule
 
@@ -181,7 +177,7 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
                 apart = apart - factor.times(row)
             if not apart.on(domain.points).is_zero():
                 raise NotProvedError(f"{text(about)} is not the solution")
-        return made(formula, domain, "solve", (*rows, *flat(groups)))
+        return made(formula, domain, "solving linear equations", (*rows, *flat(groups)))
 
     return rule
 
@@ -207,7 +203,7 @@ def below(*groups: Group) -> Rule:
         unknowns = [force(*place) for force, place in zip(BRANCHES, at, strict=True)]
         row = moved(axioms.balance(), {sy.site_r: across, sy.site_s: layer}, domain)
         proved = solve([row], unknowns, *groups)(equation(*isolated(formula, domain)), domain)
-        return made(formula, domain, "balance of the bead above", proved.premises)
+        return made(formula, domain, "balancing the bead above", proved.premises)
 
     return rule
 
@@ -232,7 +228,7 @@ def mirror(theorem: Theorem) -> Theorem:
     if any(map(_across_by_itself, theorem.formula.args)):
         raise NotProvedError("it has a horizontal index outside the places of its quantities")
     formula = lattice.mirror(theorem.formula)
-    return made(formula, theorem.domain.mirrored(), "mirror", (theorem,))
+    return made(formula, theorem.domain.mirrored(), "taking the mirror image", (theorem,))
 
 
 def _across_by_itself(node: sympy.Basic) -> bool:
@@ -376,7 +372,7 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
             apart = difference(read(said(here.formula), where), where)
             if any(form.parts for form in apart):
                 raise refuse(apart, where)
-        return made(formula, domain, "reach", (origin, *up))
+        return made(formula, domain, "adding up steps from bead (0, 0)", (origin, *up))
 
     return rule
 
@@ -400,7 +396,7 @@ def differentiate(formula: sympy.Eq, domain: Domain) -> Theorem:
     apart = difference(read(done, domain), domain)
     if any(form.parts for form in apart):
         raise refuse(apart, domain)
-    return made(formula, domain, "differentiate")
+    return made(formula, domain, "differentiating")
 
 
 def _done(node: sympy.Basic) -> sympy.Basic:

@@ -144,6 +144,6 @@ def moment(*groups: Group, on: Domain | None = None) -> Rule:
         apart = difference(((forms[0],), (forms[1],)), domain)
         if any(form.parts for form in apart):
             raise refuse(apart, domain, groups, formula)
-        return made(formula, domain, "moment", flat(groups))
+        return made(formula, domain, "taking moments of the radii", flat(groups))
 
     return rule

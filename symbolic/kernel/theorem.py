@@ -274,7 +274,7 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
         raise NotProvedError(f"{text(theorem.formula.lhs)} is not known there")
     formula = with_indices(theorem.formula, image)
     check_domain(formula, domain)
-    return made(formula, domain, "instance", (theorem,))
+    return made(formula, domain, "putting in other indices", (theorem,))
 
 
 def with_indices(formula: sympy.Eq, image: Image) -> sympy.Eq:

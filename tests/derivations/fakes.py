@@ -23,7 +23,7 @@ GUESS = "a lucky guess"
 
 def guessed(formula: sympy.Eq, domain: Domain) -> Theorem:
     """Prove anything, on an assumption."""
-    return made(formula, domain, "guess", assuming=(GUESS,))
+    return made(formula, domain, "a guess", assuming=(GUESS,))
 
 
 def baffled(formula: sympy.Eq, domain: Domain) -> Theorem:

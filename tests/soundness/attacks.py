@@ -609,7 +609,7 @@ table(
     ("two forces", (LEFT, RIGHT + sy.ForcePlus(i + 2, j)), "not about one contact force", DROPPED),
     ("nothing about a force", (LEFT - LEFT + FORCE, FORCE), "not shown to vary", (LEFT, RIGHT)),
 )
-KEPT = limits.of_what_is_kept(
+KEPT = limits.drop_terms(
     eq12.DERIVATION.theorem,
     *(one.theorem for one in (eq13.DERIVATION.proof[0], eq13.DERIVATION.proof[2])),
 )
