@@ -16,8 +16,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_206,
-    "derivations": 8_035,
+    "symbolic": 4_192,
+    "derivations": 7_940,
     "numeric": 9_798,
     "force_diffusion": 78,
     "benchmarks": 836,
