@@ -114,7 +114,7 @@ DERIVATION = Derivation(
     assumptions=(
         "first order in δr",
         "the centres of the base beads are fixed: δx_(i,0) = 0",
-        "no horizontal boundary is met",
+        "no diagonal meets a side wall",
         *ABOVE.in_words(),
     ),
     printed=(PRINTED,),

@@ -108,7 +108,7 @@ def steps() -> Steps:
         one_load.also(sympy.Eq(2 * n, (l - j) - (i - k)), sympy.Eq(l, M), indices=(k, l)),
     )
     steps.show(
-        "one for each n = 1, …, M−j−1. It brings, of the force along n⁻ below its bead,",
+        "one for each n = 1, …, M−j−1. Of the force along n⁻ below its bead it contributes",
         lattice.mirror(eq10.PRINTED),
         mirror_of(eq10.DERIVATION.theorem),
         eq10.BRANCHED.mirrored(),
@@ -167,7 +167,7 @@ DERIVATION = Derivation(
         (M, "height of the packing in layers above the base"),
         (n, "layers between the contact and the bead at which a force turns into it"),
     ),
-    assumptions=("first order in δr", *LOADED.in_words(), "no horizontal boundary is met (W > M)"),
+    assumptions=("first order in δr", *LOADED.in_words(), "no path meets a side wall (W > M)"),
     printed=(PRINTED,),
     domain=LOADED,
     steps=steps,

@@ -48,17 +48,17 @@ def steps() -> Steps:
     """Six radii's worth for each Δ, the squared weights summed."""
     steps, groups = Steps(13, eq12.INSIDE, MEANING), eq11.in_radii()
     variance = steps.show(
-        "Each Δ holds one radius with the weight 2 and two with the weight −1: its square sum is "
-        "6. Those of Eq. 12 lie in different layers and share no radius. With its prefactor, the "
-        "variance of its right-hand side is",
+        "Each Δ holds one radius with the weight 2 and two with the weight −1: their squares add "
+        "up to 6. Those of Eq. 12 lie in different layers and share no radius. With its prefactor, "
+        "the variance of its right-hand side is",
         equation(KEPT_VARIANCE, times(layers.UNIT, WEIGHTS)),
         moment(),
         definitions={KEPT_VARIANCE: Variance(eq12.PRINTED.rhs)},
     )
     below, above = sympy.Sum((M - j) ** 2, (m, 1, n)), sympy.Sum((M - m) ** 2, (m, j + 1, n))
     steps.show(
-        "Each of the two sums has a certificate: what it is up to n gains the term at n, and is "
-        "zero before the first term, at n = 0 (first) and at n = j (second).",
+        "Each sum up to n is checked: it grows by the term at n, and is zero before the first "
+        "term, at n = 0 (first) and at n = j (second).",
         sympy.Tuple(
             *certificate(below, n * (M - j) ** 2),
             *certificate(above, terms(_squares_to(M - j), minus(_squares_to(M - n)))),

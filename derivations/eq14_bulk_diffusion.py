@@ -143,8 +143,8 @@ def steps() -> Steps:
     )
     up_to_n = n * (n + 1) * (n + 2) * (3 * n**2 + 6 * n + 1) / 15
     steps.show(
-        "The squares are summed with a certificate: with M − m for m the second sum is, but for "
-        "its factor, this one up to n = M − j − 1. It is zero at n = 0.",
+        "This sum of squares is checked in the same way; it is zero at n = 0. With M − m for m, "
+        "the second sum is, but for its factor, this one at n = M − j − 1.",
         sympy.Tuple(*certificate(sympy.Sum(m**2 * (m + 1) ** 2, (m, 1, n)), up_to_n)),
         rewrite(),
         Domain.of(n >= 0),

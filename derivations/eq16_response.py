@@ -1,4 +1,4 @@
-"""Eq. 16: variance of the response to a point load, inside of its cone and on it."""
+"""Eq. 16: variance of the response to a point load, inside its cone and on it."""
 
 # fmt: off
 from functools import cache
@@ -50,7 +50,7 @@ MEANING = {
     ON_LEG: Variance(VerticalPlus(i, j) / f_load),
     LEG_MAGNITUDE: Variance(ForcePlus(i, j) / ORDERED),
 }
-"""What the symbols stand for; f⁺_ij inside of the cone has no part of order 0 to be tilted."""
+"""What the symbols stand for; f⁺_ij inside the cone has no part of order 0 to be tilted."""
 
 PRINTED = equation(RESPONSE, times(3 / (2 * (1 - phi**2) ** 2), terms(l, j), power(sigma / r, 2)))
 
@@ -62,7 +62,7 @@ LEFT_LEG = REACHED.also(p >= 1, Eq(q, 0))
 CONE = INSIDE.in_the_limit(inside_cone("∼"))
 
 UPPER_RIGHT = eq10.branched_plus(i, j, p)
-"""The force f⁺_ij on a bead inside of the cone, over f_load/2n_y, to first order.
+"""The force f⁺_ij on a bead inside the cone, over f_load/2n_y, to first order.
 
 It has one path with one branch from the loaded bead: q steps along n⁻ and p along n⁺. The branch is
 of first order; what enters it counts at order 0, f_load/2n_y.
@@ -79,7 +79,7 @@ FAMILY = (
     (equation(ForcePlus(i, j), sympy.S.Zero), ALL_BELOW.also(k - i >= l - j + 1)),
     (equation(ForcePlus(i, j), sympy.S.Zero), ALL_BELOW.also(i - k >= l - j)),
 )
-"""All forces along n⁺ below the load: on the left leg, inside of the cone, and none beside it."""
+"""All forces along n⁺ below the load: on the left leg, inside the cone, and none beside it."""
 
 EXACT = {
     RESPONSE: times(terms(6 * (l + j), -6, phi**2), UNIT / 4),
@@ -91,7 +91,7 @@ EXACT = {
 }
 """The usual formulas, away from base, load and legs."""
 DEEP = INSIDE.also(j >= 3, p + q >= 3)
-"""Beads inside of the cone, from the third layer on, but that straight below the load."""
+"""Beads inside the cone, from the third layer on, but that straight below the load."""
 
 
 @cache
@@ -123,9 +123,9 @@ def steps() -> Steps:
     by = moment(*groups)
     steps.show(
         "Let (i, j) lie p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): inside "
-        "of the cone for p, q ≥ 1. The forces along n⁺, by balancing bead after bead from the load "
+        "the cone for p, q ≥ 1. The forces along n⁺, by balancing bead after bead from the load "
         "down: on the left leg the split of the load (as in Eq. 7), carried down (as in Eq. 9); "
-        "inside of the cone what branches off the other leg, along n⁻ and then n⁺ (as in Eq. 10), "
+        "inside the cone what branches off the other leg, along n⁻ and then n⁺ (as in Eq. 10), "
         "which is of first order; and none elsewhere. Those along n⁻ are the mirror image.",
         sympy.Tuple(*(statement for statement, _ in FAMILY)),
         [same(theorem) for theorem in forces()[: len(FAMILY)]],
@@ -248,8 +248,8 @@ def claims(steps: Steps) -> None:
 DERIVATION = Derivation(
     number=16,
     name="response",
-    title="Variance of the response to a point load: refuted for one contact, proved for a "
-    "bead's two",
+    title="Variance of the response to a point load: refuted for one contact, proved for "
+    "both of a bead",
     symbols=(
         (
             RESPONSE,
@@ -259,7 +259,7 @@ DERIVATION = Derivation(
         (ON_LEG, "the same for the one contact on a leg of the cone"),
         (LEG_MAGNITUDE, "variance of its magnitude over the squared mean"),
         (f_load, "the load on bead (k, l), downwards"),
-        (l, "layer of the loaded bead, j that of the one looked at"),
+        (l, "layer of the loaded bead, j that of bead (i, j)"),
         (p, "steps along n⁺ from (k, l) down to (i, j) (p is no force there)"),
         (q, "steps along n⁻"),
         *usual(sigma, r, phi),
@@ -267,7 +267,7 @@ DERIVATION = Derivation(
     assumptions=(
         *FIRST_ORDER,
         "p is the vertical force that bead (i, j) gets from both upper contacts together",
-        "(i, j) is inside of the cone: p, q ≥ 1",
+        "(i, j) is inside the cone: p, q ≥ 1",
         "printed form: l → ∞ at fixed j/l and (i − k)/l; exact forms: every site",
     ),
     printed=(PRINTED,),

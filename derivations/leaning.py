@@ -152,7 +152,7 @@ DERIVATION = Derivation(
         "first order in δr",
         *ON_SURFACE.in_words(),
         "L⁺ > 0 in the first part, L⁻ > 0 in the second",
-        "no horizontal boundary is met (W > M)",
+        "no path meets a side wall (W > M)",
     ),
     printed=PRINTED,
     domain=ON_SURFACE,

@@ -148,7 +148,7 @@ DERIVATIONS: dict[Number, Row] = {
             (FACE_BEAD, "the same of both contacts of the face above a bead together"),
             (LEG, "the same of the contact on a leg of the cone"),
             (LEG_FORCE, "variance of its magnitude over its squared mean f₀²"),
-            (INSIDE, "variance of a contact's magnitude inside of the cone, over f₀²"),
+            (INSIDE, "variance of a contact's magnitude inside the cone, over f₀²"),
             (l, "layer of the loaded bead (0, 0, l)"),
             (q, "steps along that contact's own vector, from the leg where its path turns"),
             (p, "steps down that leg"),
@@ -161,7 +161,7 @@ DERIVATIONS: dict[Number, Row] = {
             "on a leg it goes as [2(3 + 6φ + 5φ²)l + 4j]/9, at p = zl":
                 goes_as("leg", (2 * (3 + 6 * phi + 5 * phi**2) + 4 * (1 - z)) * l / 9 * IN_SPACE,
                         p >= 2, p <= l - 2, growing=l, at={p: z * l}),
-            "inside of the cone no force changes": equals("inside", sympy.S.Zero),
+            "inside the cone no force changes": equals("inside", sympy.S.Zero),
         },
     ),
     "B22": Row(
@@ -177,7 +177,7 @@ DERIVATIONS: dict[Number, Row] = {
             (OVER_LOADS, "variance of p of one bead, averaged over N neighbouring loads"),
             (OVER_BEADS, "the same below one load, averaged over N neighbouring beads"),
             (OVER_BOTH, "the same averaged over N loads and N beads, N² pairs"),
-            (N, "number of neighbouring loads, or beads, or both, all beads inside of all cones"),
+            (N, "number of neighbouring loads, or beads, or both, all beads inside all cones"),
             (l, "layer of the loaded beads, j that of the beads whose p is averaged"),
         ),
         claimed={
@@ -210,7 +210,7 @@ DERIVATIONS: dict[Number, Row] = {
         "larger than the packing is high.",
         quantities=(
             (OVER_PAIRS, "variance of the mean of p over N neighbouring loads and a bead below "
-             "each, inside of its cone"),
+             "each, inside its cone"),
             (N, "number of neighbouring loads, and of beads"),
             (l, "layer of the loaded beads, j that of the beads"),
         ),

@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from .closed_form import ClosedForm
 
 _MEANINGS = {
-    sy.sigma: "standard deviation σ_δr of the radii",
+    sy.sigma: "standard deviation of the radii",
     sy.r: "mean radius",
     sy.M: "height of the packing",
     sy.z: "relative height j/M",
-    sy.phi: "n⁺·n⁻",
+    sy.phi: "n⁺·n⁻, the cosine of the angle between the two contact directions",
     sy.N: "number of neighbours",
     sy.t: "L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻)",
     sy.t_2: "L²/L¹ of the load −Σ_a L^a n^a",

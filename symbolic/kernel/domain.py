@@ -133,11 +133,11 @@ class Limit:
 
 
 def inside_cone(relation: str) -> Limit:
-    """The limit l → ∞ at a fixed place inside of the cone below a point load.
+    """The limit l → ∞ at a fixed place inside the cone below a point load.
 
     The indices j, p and q grow: what l and k are stands in the domain.
     """
-    words = "l → ∞ at fixed j/l and (i − k)/l, inside of the cone"
+    words = "l → ∞ at fixed j/l and (i − k)/l, inside the cone"
     return Limit(relation, words, (sy.j, sy.p, sy.q), (sy.j, sy.p, sy.q))
 
 
@@ -148,7 +148,7 @@ def on_leg(relation: str) -> Limit:
 
 def along_base(relation: str) -> Limit:
     """The limit l → ∞ at the base, inside of that cone."""
-    words = "l → ∞ at j = 0 and fixed (i − k)/l, inside of the cone"
+    words = "l → ∞ at j = 0 and fixed (i − k)/l, inside the cone"
     return Limit(relation, words, (sy.p, sy.q), (sy.p, sy.q))
 
 

@@ -108,7 +108,7 @@ def _responses(geometry: Geometry) -> Newton:
 
 
 def deep_response(geometry: Geometry, level: int, layer: int) -> Number:
-    """The same inside of the cone, three layers or more from the load and the base.
+    """The same inside the cone, three layers or more from the load and the base.
 
     It is linear in l and j: single radii along four lines, with weights that are the same for all.
     """
