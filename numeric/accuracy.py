@@ -31,8 +31,8 @@ from .mechanics.sweep import NotStandingError
 from .mechanics.work import Work
 from .planning.plan import Plan
 from .planning.planner import gathering, initial_bits
-from .quantities.answer import Answer, Bins, answer
-from .quantities.base import RATIO, SCATTER_OF, Quantity, Table
+from .quantities.answer import Answer, answer
+from .quantities.base import RATIO, SCATTER_OF, Bins, Quantity, Table
 from .tables import significant
 
 CARRIED = "estimated, as the sweep carried it, not certified"
@@ -192,12 +192,11 @@ def shortfall(plan: Plan, found: Answer, judged: Sequence[Accuracy]) -> str:
     """Say why estimated answers do not meet the tolerance; an empty string where they do."""
     if plan.tolerance is None:
         return ""
-    for quantity, table, accuracy in zip(plan.quantities, found.tables, judged, strict=True):
+    for table, accuracy in zip(found.tables, judged, strict=True):
         if not accuracy.within(plan.tolerance):
             finite = math.isfinite(accuracy.error_bound)
             return accuracy.still if finite else accuracy.note
-        bins = found.bins if quantity.name == "histogram" else None
-        if bins and edge_in_doubt(table, bins, accuracy):
+        if table.bins and edge_in_doubt(table, table.bins, accuracy):
             return "a change lies within its error of the edge of a bin"
     return ""
 

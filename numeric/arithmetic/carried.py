@@ -9,7 +9,7 @@ plain float64, to the bit.
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -181,8 +181,7 @@ class Carrying(NumberSystem):
 CARRYING = Carrying()
 
 
-@dataclass(frozen=True)
-class Sizes:
+class Sizes(NamedTuple):
     """The largest errors that a sweep carried: of c, of δn and of changes; the largest force.
 
     Of a force in units of the load; of all beads, since errors may cancel on the way.
@@ -195,12 +194,7 @@ class Sizes:
 
     def __or__(self, other: "Sizes") -> "Sizes":
         """Give the larger ones."""
-        return Sizes(
-            max(self.moved, other.moved),
-            max(self.turned, other.turned),
-            max(self.changed, other.changed),
-            max(self.force, other.force),
-        )
+        return Sizes(*map(max, self, other))
 
     def unseen(self, height: int) -> tuple[float, float]:
         """Allow for what the carried errors leave out: of forces, and of displacements.

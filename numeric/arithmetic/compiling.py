@@ -28,13 +28,6 @@ CODES = user_cache() or Path(__file__).parent / "__pycache__"
 
 # LLVM takes several beads at a time only where it may check that what is written is not read.
 _CHECKS = ("--runtime-memory-check-threshold=2000", "--vectorize-memory-check-threshold=2000")
-_KINDS = {
-    "number": ctypes.c_int64,
-    "offset": ctypes.c_int64,
-    "whole": ctypes.c_void_p,
-    "word": ctypes.c_void_p,
-    "float": ctypes.c_void_p,
-}
 Function = Callable[..., Any]
 
 
@@ -91,7 +84,11 @@ def compiled(
 
 def _callable(engine: Any, name: str, kinds: Sequence[str]) -> Callable[..., int]:
     """Call machine code as C does."""
-    types = [_KINDS[kind] for kind in kinds if kind != "none"]
+    types = [
+        ctypes.c_int64 if kind in {"number", "offset"} else ctypes.c_void_p
+        for kind in kinds
+        if kind != "none"
+    ]
     function = ctypes.CFUNCTYPE(ctypes.c_int64, *types)(engine.get_function_address(name))
     function.engine = engine  # type: ignore[attr-defined]  # it owns the code
     return function

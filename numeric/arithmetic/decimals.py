@@ -7,6 +7,8 @@ from fractions import Fraction
 from numbers import Rational
 from typing import Any, TypeAlias
 
+from .errors import quoted
+
 Exact: TypeAlias = float | Fraction | Decimal | str
 """What is read as the exact number that it is, or that it is written as."""
 LARGEST_EXPONENT = 5000
@@ -55,8 +57,7 @@ def parse(text: str) -> Fraction:
     """
     stripped = text.strip()
     if not _DECIMAL.fullmatch(stripped) or len(stripped) > MOST_DIGITS:
-        shown = stripped if len(stripped) <= 40 else stripped[:40] + "…"
-        raise ValueError(f"{shown!r} is not a finite decimal number")
+        raise ValueError(f"{quoted(stripped)} is not a finite decimal number")
     return exact(Decimal(stripped))
 
 

@@ -1,8 +1,7 @@
 """An answer: packings solved, looked at, and gathered as a quantity asks."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,12 +21,11 @@ from .histogram import Histogram
 
 # What the sweeps raise for a packing that can't be built.
 UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
-Bins = list[tuple[Fraction, Fraction, int]]
 
 
 @dataclass(frozen=True)
 class Answer:
-    """Tables of numbers, one a question, and (low, high, count) of a histogram's bins.
+    """Tables of numbers, one a question.
 
     ``physical``: None where nothing exact was solved, or the same packings a second time.
     ``network``: where beads came to rest under unilateral contacts. ``sizes``: those of the errors
@@ -35,7 +33,6 @@ class Answer:
     """
 
     tables: tuple[Table, ...]
-    bins: Bins | None
     physical: Physicality | None
     network: Network | None = None
     sizes: Sizes = NONE
@@ -60,7 +57,7 @@ def answer(
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     work = Work() if work is None else work
-    physical, network, sizes, bins = None, None, NONE, None
+    physical, network, sizes = None, None, NONE
     if problem.route == Route.EXACT:
         physical = Physicality(looks_at=realisations)
     gatherers = [quantity.gatherer(problem, system) for quantity in quantities]
@@ -78,14 +75,15 @@ def answer(
             table = in_units(quantity, gatherer.table().sorted(), system)
             if "samples" in table.index:
                 table.index["samples"] *= alike
-            tables.append(table)
             if isinstance(quantity, Histogram):
                 found = histogram(table.numbers["change"], quantity.bins, system)
                 bins = [(low, high, count * alike) for low, high, count in found]
+                table = replace(table, bins=bins)
+            tables.append(table)
     if physical is not None and isinstance(physical.first_tensile, Contact):
         home = quantities[0].naming.home(physical.first_tensile.i)  # as rows name it
         physical.first_tensile = physical.first_tensile._replace(i=home)
-    return Answer(tuple(tables), bins, physical, network, sizes)
+    return Answer(tuple(tables), physical, network, sizes)
 
 
 def _solved(

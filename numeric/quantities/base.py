@@ -38,6 +38,8 @@ SCATTER_OF = {
 
 
 Columns = dict[str, Array]
+Bins = list[tuple[Fraction, Fraction, int]]
+"""Of a histogram: low, high and count."""
 
 
 @dataclass(frozen=True)
@@ -47,13 +49,14 @@ class Table:
     ``index`` names the rows (sites, branches, realisations), ``numbers`` are in the arithmetic of
     the run. ``small`` columns are the deviations from the ordered packing: accuracy is judged by
     their error, relative to the largest of them. ``errors`` are standard errors of the columns that
-    are statistics over packings.
+    are statistics over packings. ``bins`` are those of a histogram, whose rows are changes.
     """
 
     index: Columns
     numbers: Columns
     small: tuple[str, ...]
     errors: Columns = field(default_factory=dict)
+    bins: Bins | None = None
 
     @property
     def rows(self) -> int:
@@ -243,13 +246,11 @@ class ContactQuantity(Listed):
         asked = self.scene.ask.layers
         return None if asked is None else frozenset(asked)
 
-    def is_asked(self, j: int) -> bool:
-        """Whether contacts below the beads of layer j are asked for."""
-        return self.layers is None or j - 1 in self.layers
-
     def blocks(self, problem: Problem) -> list[Block]:
         """Give the contacts that are asked for and that loads reach, in the order of the groups."""
-        rows = (row for row in problem.reached if row.j and row.count and self.is_asked(row.j))
+        rows = [row for row in problem.reached if row.j and row.count]
+        if self.layers is not None:
+            rows = [row for row in rows if row.j - 1 in self.layers]
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:

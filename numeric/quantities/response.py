@@ -67,18 +67,18 @@ class Response(Merged):
         contacts = self.naming.contacts(self.blocks(problem))
         half = len(found.mean) // 2
         force, vertical = slice(half), slice(half, None)
+        means = found.ordered + found.mean
         if problem.realisations == 1:
-            numbers = {}
-            for name, change, part in (
-                ("force", "change", force),
-                ("vertical", "vertical_change", vertical),
-            ):
-                numbers[name] = found.ordered[part] + found.mean[part]
-                numbers[change] = found.mean[part]
+            numbers = {
+                "force": means[force],
+                "change": found.mean[force],
+                "vertical": means[vertical],
+                "vertical_change": found.mean[vertical],
+            }
             return Table(contacts, numbers, ("change", "vertical_change"))
         numbers, errors = {}, {}
         for name, part in (("force", force), ("vertical", vertical)):
-            numbers[f"{name}_mean"] = found.ordered[part] + found.mean[part]
+            numbers[f"{name}_mean"] = means[part]
             numbers[f"{name}_mean_change"] = found.mean[part]
             numbers[f"{name}_std"] = found.std[part]
             errors[f"{name}_mean_change"] = found.mean_error[part]

@@ -13,7 +13,7 @@ from ..arithmetic.decimals import bound_string, short
 from ..arithmetic.systems import Array
 from ..mechanics.physicality import Physicality
 from ..planning.plan import Plan
-from ..quantities.answer import Answer, Bins
+from ..quantities.answer import Answer
 from ..quantities.base import Table
 from ..scene.scene import source_of
 from ..statistics import bins
@@ -28,14 +28,13 @@ if TYPE_CHECKING:
 class Result(Tabled):
     """The answer to one question, of a ``plan`` that asks it first.
 
-    ``table`` holds the numbers in the arithmetic of the run, ``bins`` those of a histogram.
+    ``table`` holds the numbers in the arithmetic of the run.
     ``accuracy`` says how large the error is, relative to the largest change, and how it is known.
     ``network``: where beads came to rest under unilateral contacts.
     """
 
     plan: Plan
     table: Table
-    bins: Bins | None
     accuracy: Accuracy
     network: Network | None
 
@@ -52,8 +51,8 @@ class Result(Tabled):
         where that was longer. Lengths are in the scene's unit, forces in that in which the load's
         magnitude is written. The guide to scenes says what each column means.
         """
-        if self.bins is not None:
-            low, high, count = zip(*self.bins, strict=True) if self.bins else ((), (), ())
+        if self.table.bins is not None:
+            low, high, count = zip(*self.table.bins, strict=True)
             return {
                 "low": np.array([_near(edge) for edge in low]),
                 "high": np.array([_near(edge) for edge in high]),
@@ -82,8 +81,8 @@ class Result(Tabled):
     @cached_property
     def text(self) -> dict[str, list[str]]:
         """The columns of the answer as text, see ``numeric.tables``: decimals with known digits."""
-        if self.bins is not None:
-            rows = bins.printed(self.bins)
+        if self.table.bins is not None:
+            rows = bins.printed(self.table.bins)
             return {name: [str(row[name]) for row in rows] for name in ("low", "high", "count")}
         system, table = self.plan.system, self.table
         with system.active():
@@ -210,8 +209,7 @@ def outcome_of(
     results = {}
     for quantity, table, accuracy in zip(plan.quantities, answer.tables, judged, strict=True):
         asked = replace(plan, scene=quantity.scene, quantities=(quantity,))
-        counted = answer.bins if quantity.name == "histogram" else None
-        results[quantity.name] = Result(asked, table, counted, accuracy, answer.network)
+        results[quantity.name] = Result(asked, table, accuracy, answer.network)
     first = results[plan.quantity.name]
     own = {**vars(first), "plan": plan}
     return Outcome(**own, results=results, answer=answer, seconds=seconds, files=files)

@@ -109,7 +109,7 @@ class Solution(Tabled):
     @cached_property
     def beads(self) -> Beads:
         """All beads as arrays side by side: positions, radii and layers."""
-        d, given, shape = self._dimension, self._given, self._shape
+        d, given, shape = self._dimension, self.sections["disorder"], self._shape
         radii = given.values
         if given.delta_r is not None:
             radii = radii + float(self.scene.packing.radius)
@@ -305,15 +305,10 @@ class Solution(Tabled):
         return self.scene.packing.dimension
 
     @property
-    def _given(self) -> GivenRadii:
-        given = self.scene.disorder
-        assert isinstance(given, GivenRadii)
-        return given
-
-    @property
     def _shape(self) -> tuple[int, ...]:
         """(…, M + 1, W), or of spheres (…, M + 1, W, W)."""
-        return self._given.values.shape
+        shape: tuple[int, ...] = self.sections["disorder"].values.shape
+        return shape
 
     def _lattice(self, name: str) -> Array:
         d = self._dimension

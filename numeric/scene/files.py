@@ -5,11 +5,12 @@ import math
 import re
 from collections.abc import Callable, Iterator
 from fractions import Fraction
+from functools import partial
 from io import TextIOWrapper
 from pathlib import Path
 
 from ..arithmetic.decimals import parse, short
-from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.errors import ForceDiffusionError, quoted
 from ..arithmetic.foreign import ForeignFileError, opened, read_numbers
 from ..arithmetic.systems import Array
 from ..lattice.branch import Site, axis_names, bead_names
@@ -74,9 +75,7 @@ def rows_of_table(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
 
 def _lines(name: str, file: TextIOWrapper) -> Iterator[str]:
     """Read line by line: one that never ends is not held in memory."""
-    number = 0
-    while line := file.readline(LONGEST_LINE + 1):
-        number += 1
+    for number, line in enumerate(iter(partial(file.readline, LONGEST_LINE + 1), ""), 1):
         if len(line) > LONGEST_LINE:
             most = f"a line has at most {LONGEST_LINE} characters, and this one has more"
             raise TableError(f"{name}, line {number}: {most}: is it a table with one bead a line?")
@@ -88,9 +87,8 @@ def _parsed(where: str, header: list[str], row: list[str]) -> tuple[Bead, list[F
     count = header.index("j") + 1
     for name, text in zip(header[:count], row, strict=False):
         if not _WHOLE.fullmatch(text.strip()):
-            shown = text if len(text) <= 40 else text[:40] + "…"
             allowed = "must be a whole number of at most 18 digits"
-            raise TableError(f"{where}: {name} = {shown!r} {allowed}")
+            raise TableError(f"{where}: {name} = {quoted(text)} {allowed}")
     bead = tuple(map(int, row[:count]))
     return bead, numbers_of(f"{where}: bead {bead}", header[count:], row[count:])
 

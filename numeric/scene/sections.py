@@ -73,15 +73,13 @@ def _questions(value: object) -> object:
     return asked[0] if len(asked) == 1 else tuple(asked)
 
 
+Questions = Annotated[Any, BeforeValidator(_questions)]
+Number = Annotated[Any, BeforeValidator(exact)]
 if TYPE_CHECKING:  # what may be given; held is the type below
-    Questions = Any
-    Number = Any
     Bead = Any
     Place = Any
     Layers = Any
 else:
-    Questions = Annotated[str | tuple[str, ...], BeforeValidator(_questions)]
-    Number = Annotated[Fraction, BeforeValidator(exact)]
     _listed = BeforeValidator(lambda at: list(at) if isinstance(at, tuple) else at)
     Bead = Annotated[list[int], _listed]
     Place = Annotated[list[int | str], _listed]

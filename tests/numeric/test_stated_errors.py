@@ -97,7 +97,7 @@ def beyond(outcome: Outcome) -> float:
         }
         largest = largest_of(abs(value) for name in exact.small for value in true[name])
         stated = as_ball(outcome.accuracy.error_bound) * largest
-        for name in true if outcome.answer.bins is None else ():
+        for name in true if outcome.table.bins is None else ():
             for text, value, mean in zip(
                 outcome.text[name], true[name], true.get("mean", true[name]), strict=True
             ):
