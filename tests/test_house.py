@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_192,
     "derivations": 7_940,
-    "numeric": 9_798,
+    "numeric": 9_778,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
