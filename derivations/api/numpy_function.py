@@ -17,6 +17,7 @@ from ..framework.evaluation import TOGETHER, at_element, in_order, range_of, sha
 Arrays = dict[sympy.Symbol, Any]
 """Float64 arrays of one shape, by symbol."""
 
+REAL = numbers.Real | Decimal
 _MEANINGS = {sy.M: "height of the packing", sy.j: "layer, 0 at the base"}
 
 
@@ -73,20 +74,15 @@ class NumpyFunction:
 
 def _floats(name: str, value: Any) -> Any:
     try:
-        if isinstance(value, np.ma.MaskedArray):
-            raise TypeError
         array = np.asarray(value)
-        return (array if array.dtype.kind in "iuf" else _from_objects(array)).astype(float)
+        exact = array.dtype == object and all(isinstance(x, REAL) for x in array.flat)
+        if isinstance(value, np.ma.MaskedArray) or not (exact or array.dtype.kind in "iuf"):
+            raise TypeError
+        return array.astype(float)
     except (TypeError, ValueError, OverflowError):
         raise ArgumentError(
             f"{name} = {quoted(value)}: numbers are allowed, and arrays of them without a mask"
         ) from None
-
-
-def _from_objects(array: Any) -> Any:
-    if array.dtype != object or not all(isinstance(x, numbers.Real | Decimal) for x in array.flat):
-        raise TypeError
-    return np.vectorize(float, otypes=[float])(array)
 
 
 def _assert_allowed(values: Arrays) -> None:

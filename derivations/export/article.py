@@ -32,6 +32,7 @@ _HEADINGS = "title", "section"
 _QUOTE = re.compile(r"\{\{(.*?)\}\}", re.DOTALL)
 _IMAGE = re.compile(r"^!\[([^]]*)\]\((\w+)\)\n\n", re.MULTILINE)
 _TAGGED = re.compile(r"^\$\$\n((?:(?!\$\$).*\n)*?)\\tag\{(.*)\}\n\$\$", re.MULTILINE)
+_AFTER_ABSTRACT = re.compile(r"(\\begin\{abstract\}.*?)(\\section|\\begin\{thebib)", re.DOTALL)
 _BEFORE_DISPLAY = re.compile(r"\n\n(?=\\begin\{equation\*?\})")
 _BLOCK = re.compile(
     r"^```\{table\} (?P<table>.*)\n(?P<rows>(?:.*\n)*?)```$"
@@ -128,59 +129,50 @@ def article(markdown: str, wide: Mapping[str, bool]) -> str:
     ``wide``: whether a figure is as wide as the page.
     """
     figures_of(markdown)
-    body = _BEFORE_DISPLAY.sub("\n", _Writer(wide).written(_filled(markdown)))
+    blocks = (_block(block, wide) for block in _BLOCK.finditer(_filled(markdown)))
+    body = _BEFORE_DISPLAY.sub("\n", "".join(blocks))
+    body = _AFTER_ABSTRACT.sub(r"\1\\end{abstract}\n\\maketitle\n\2", body)
     return f"{_HEAD}{body}\n\\end{{document}}\n"
 
 
-class _Writer:
-    """Markdown as LaTeX."""
+def _block(block: re.Match[str], wide: Mapping[str, bool]) -> str:
+    if block["table"]:
+        return _table(_inline(block["table"]), block["rows"])
+    if block["display"]:
+        kind = "equation" if "\\tag" in block["display"] else "equation*"
+        return f"\\begin{{{kind}}}\n{block['display'].strip()}\n\\end{{{kind}}}\n"
+    if block["figure"]:
+        return _figure(block["figure"], block["caption"].strip(), wide)
+    if block["heading"]:
+        return _heading(len(block["level"]), _inline(block["heading"]))
+    if block["items"]:
+        items = re.sub(r"^(\d+)\. (.*)\n", _item, block["items"], flags=re.M)
+        return f"\\begin{{thebibliography}}{{99}}\n{items}\\end{{thebibliography}}\n"
+    return f"{_inline(block['paragraph'].strip())}\n\n"
 
-    def __init__(self, wide: Mapping[str, bool]) -> None:
-        self.wide = wide
-        self.section = ""
 
-    def written(self, markdown: str) -> str:
-        """All blocks, each by the method of its kind."""
-        return "".join(map(self._block, _BLOCK.finditer(markdown)))
+def _heading(level: int, title: str) -> str:
+    if level > len(_HEADINGS):
+        raise ArticleError(f"the heading '{title}' of the article is of level {level}, below 2")
+    if level == 1:
+        return f"\\title{{{title}}}\n\\author{{The force-diffusion developers}}\n"
+    if title == "Abstract":
+        return "\\begin{abstract}\n"
+    if title == "References":
+        return ""
+    return f"\\section{{{title}}}\n"
 
-    def _block(self, block: re.Match[str]) -> str:
-        if block["table"]:
-            return _table(_inline(block["table"]), block["rows"])
-        if block["display"]:
-            kind = "equation" if "\\tag" in block["display"] else "equation*"
-            return f"\\begin{{{kind}}}\n{block['display'].strip()}\n\\end{{{kind}}}\n"
-        if block["figure"]:
-            return self._figure(block["figure"], block["caption"].strip())
-        if block["heading"]:
-            return self._heading(len(block["level"]), _inline(block["heading"]))
-        if block["items"]:
-            items = re.sub(r"^(\d+)\. (.*)\n", _item, block["items"], flags=re.M)
-            return f"\\begin{{thebibliography}}{{99}}\n{items}\\end{{thebibliography}}\n"
-        return f"{_inline(block['paragraph'].strip())}\n\n"
 
-    def _heading(self, level: int, title: str) -> str:
-        if level > len(_HEADINGS):
-            raise ArticleError(f"the heading '{title}' of the article is of level {level}, below 2")
-        before = "\\end{abstract}\n\\maketitle\n" if self.section == "Abstract" else ""
-        if level == 1:
-            return f"\\title{{{title}}}\n\\author{{The force-diffusion developers}}\n"
-        self.section = title
-        if title == "Abstract":
-            return "\\begin{abstract}\n"
-        if title == "References":
-            return before
-        return f"{before}\\section{{{title}}}\n"
-
-    def _figure(self, name: str, below: str) -> str:
-        caption = _INLINE.fullmatch(below)
-        if not caption or not caption[4]:
-            raise ArticleError(f"figure {name} has no caption below it, in italics")
-        kind = "figure*" if self.wide[name] else "figure"
-        return (
-            f"\\begin{{{kind}}}\n\\renewcommand{{\\thefigure}}{{{name}}}\n\\centering\n"
-            f"\\includegraphics{{{FIGURES[name].file}.pdf}}\n"
-            f"\\caption{{{_inline(caption[4])}}}\n\\end{{{kind}}}\n"
-        )
+def _figure(name: str, below: str, wide: Mapping[str, bool]) -> str:
+    caption = _INLINE.fullmatch(below)
+    if not caption or not caption[4]:
+        raise ArticleError(f"figure {name} has no caption below it, in italics")
+    kind = "figure*" if wide[name] else "figure"
+    return (
+        f"\\begin{{{kind}}}\n\\renewcommand{{\\thefigure}}{{{name}}}\n\\centering\n"
+        f"\\includegraphics{{{FIGURES[name].file}.pdf}}\n"
+        f"\\caption{{{_inline(caption[4])}}}\n\\end{{{kind}}}\n"
+    )
 
 
 def _table(caption: str, rows: str) -> str:

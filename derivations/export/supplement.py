@@ -29,13 +29,11 @@ _INTRODUCTION = (
     "and q count steps, and the force on a bead is written out. Eqs. B11 and B20 put Eqs. 13 and "
     "B13, and Eqs. 14 and B14, side by side."
 )
-_TWICE = "B11", "B20"
-"""Rows whose forms are those of others."""
 
 
 def supplement(outcomes: Sequence[ProofOutcome]) -> str:
     """The supplement as LaTeX; it says what the run that writes it has derived."""
-    rows = (load(label) for label in modules() if label not in _TWICE)
+    rows = map(load, modules())
     sections = "".join(_section(row) for row in rows if isinstance(row, Row))
     about = prose_latex(f"{_INTRODUCTION} {verdicts(outcomes)}")
     return f"{_HEAD}{about}\n{sections}\\end{{document}}\n"

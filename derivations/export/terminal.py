@@ -32,11 +32,6 @@ def _paragraph(words: str, first: str = "  ", later: str | None = None) -> str:
     return filled.replace("\N{NO-BREAK SPACE}", " ")
 
 
-def printed_text(derivation: Statement, indent: str = "  ") -> str:
-    """The printed equation or equations."""
-    return "\n".join(indent + line for line in derivation.lines(TEXT_WIDTH - len(indent)))
-
-
 def refuted_text(derivation: Statement) -> list[str]:
     """The printed statements that do not hold, each with how the paper's words are read in it."""
     lines = []
@@ -66,7 +61,8 @@ def heading(derivation: Statement) -> str:
 
 def statement_text(derivation: Statement) -> str:
     """What the equation says, in what symbols, under which assumptions."""
-    parts = [heading(derivation), "", printed_text(derivation)]
+    lines = (f"  {line}" for line in derivation.lines(TEXT_WIDTH - 2))
+    parts = [heading(derivation), "", *lines]
     parts += ["", "Symbols"]
     for symbol, meaning in derivation.symbols:
         parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
