@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_192,
-    "derivations": 7_940,
+    "derivations": 7_931,
     "numeric": 9_778,
     "force_diffusion": 78,
     "benchmarks": 836,
