@@ -6,9 +6,8 @@ which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactic
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
-from types import MappingProxyType
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -153,7 +152,7 @@ def _near(quantity: str, size: str) -> Callable[[sympy.Eq], str]:
     return conclude
 
 
-_AT = MappingProxyType({sy.M: 7, sy.i: 1, sy.j: 3})
+_AT = {sy.M: 7, sy.i: 1, sy.j: 3}
 
 
 @dataclass(frozen=True)
@@ -167,7 +166,7 @@ class Setting:
         random: whether the packing is one of a family, with a law of the radii.
     """
 
-    example: Mapping[sympy.Symbol, int] = _AT
+    example: Mapping[sympy.Symbol, int] = field(default_factory=lambda: _AT)
     conclude: Callable[[sympy.Eq], str] = _to_first_order
     conditions: tuple[str, ...] = ()
     random: bool = False
@@ -207,16 +206,6 @@ SETTINGS: dict[Number, Setting] = {  # those of Eqs. 2 to 5 and 11 are the defau
 }
 
 
-def _ranges(derivation: Derivation, *, mirrored: bool) -> tuple[sympy.Basic, ...]:
-    """What the domain of the printed equation says of the indices.
-
-    Of an asymptotic one nothing: it is stated of every contact, with a bound.
-    """
-    domain = derivation.domain
-    relations = domain.relations if domain.limit is None else ()
-    return tuple(map(mirrored_relation, relations)) if mirrored else relations
-
-
 def _spoken_of(side: sympy.Expr) -> Iterator[str]:
     """Beads and contacts of the left-hand side: those of the packing."""
     for site in sorted(side.atoms(sy.SiteFunction), key=str):
@@ -236,7 +225,9 @@ def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> C
         name, printed = f"{name}_mirrored", mirror(printed)
         load = LOADS["any, mirrored"] if load is LOADS["any"] else load
         example |= {symbol: -example[symbol] for symbol in _HORIZONTAL if symbol in example}
-    ranges = map(_relation, _ranges(derivation, mirrored=mirrored))
+    # an asymptotic equation is stated of every contact, with a bound
+    relations = () if derivation.domain.limit else derivation.domain.relations
+    ranges = map(_relation, map(mirrored_relation, relations) if mirrored else relations)
     sites = dict.fromkeys((*_spoken_of(printed.lhs), *ranges, *setting.conditions))
     free = "(Z.abs i + M + 2 <= W)%Z"  # no horizontal boundary is met within a height
     symbols, values = [symbol.in_code for symbol in example], [*example.values()]

@@ -63,7 +63,7 @@ class Statement:
     assumptions: tuple[str, ...]
     printed: tuple[sympy.Eq, ...]
     remarks: tuple[str, ...]
-    relation: str
+    relation: str = "="
     domain: Domain
     steps: Callable[[], Steps]
     exact: Callable[[], Mapping[str, "ClosedForm"]] | None

@@ -59,8 +59,6 @@ class Row(Statement):
     meaning: str
     quantities: tuple[tuple[sympy.Basic, str], ...]
     claimed: Mapping[str, Decide]
-    relation = "="
-    loads = ()
 
     @property
     def remarks(self) -> tuple[str, ...]:  # type: ignore[override]

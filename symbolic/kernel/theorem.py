@@ -404,14 +404,8 @@ def names_for(*expressions: sympy.Basic) -> dict[sympy.Symbol, sympy.Symbol]:
     ours = {*FIELD.position, *sy.VECTORS}
     foreign = set().union(*(expression.free_symbols for expression in expressions)) - ours
     found: dict[sympy.Symbol, sympy.Symbol] = {}
-    for symbols, names in zip(
-        (
-            [symbol for symbol in by_name(foreign) if symbol.is_positive],
-            [symbol for symbol in by_name(foreign) if not symbol.is_positive],
-        ),
-        CONSTANTS,
-        strict=True,
-    ):
+    for positive, names in zip((True, False), CONSTANTS, strict=True):
+        symbols = [symbol for symbol in by_name(foreign) if bool(symbol.is_positive) == positive]
         if len(symbols) > len(names):
             raise NotProvedError(f"it has more than {len(names)} symbols of your own")
         found |= dict(zip(symbols, names, strict=False))
