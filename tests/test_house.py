@@ -16,8 +16,8 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_192,
-    "derivations": 7_931,
+    "symbolic": 4_186,
+    "derivations": 7_925,
     "numeric": 9_778,
     "force_diffusion": 78,
     "benchmarks": 836,
