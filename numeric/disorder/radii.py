@@ -49,23 +49,6 @@ class Radii(Protocol):
         """σ_δr/r: of the distribution, or as measured."""
 
 
-@dataclass(frozen=True)
-class Monodisperse:
-    """No disorder: δr = 0 everywhere."""
-
-    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
-        """Zeros."""
-        return system.zeros(len(realisations), rows.beads)
-
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
-        """Zeros."""
-        return system.zeros(len(sites))
-
-    def relative_std(self) -> Fraction:
-        """Zero."""
-        return Fraction(0)
-
-
 @lru_cache(maxsize=4)
 def counters(rows: Rows, width: int | None) -> tuple[Array, Array]:
     """Give the counters of beads that lie row after row."""

@@ -17,18 +17,18 @@ import numpy as np
 
 from ..arithmetic.errors import ArgumentError, quoted
 from ..arithmetic.systems import FLOAT64, Array
-from ..disorder.radii import RadiusError
 from ..lattice.branch import PerBranch
 from ..mechanics import engine
 from ..mechanics.problem import Problem, Route
-from ..mechanics.sweep import NotStandingError, Solved, UnbuildableError
+from ..mechanics.sweep import Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
+from ..quantities.answer import UNBUILDABLE
 from ..quantities.base import ContactQuantity, first_order_std
 from ..scene.scene import CheckedScene, refuse
 from ..scene.sections import SceneError
 from ..statistics.confidence import looks
-from ..statistics.moments import unit_near
+from ..statistics.moments import products, unit_near
 
 DEFAULT_BINS = 60
 # Outer edges of a histogram, in units of the largest theoretical σ_f.
@@ -37,8 +37,6 @@ REACH = 6
 BEADS, PACKINGS = 8_000_000, 4096
 # Means over groups that are kept of single packings, until they are summed up.
 MEANS = 1_000_000
-# What is raised for a packing that is left out.
-TROUBLE = (UnbuildableError, NotStandingError, RadiusError)
 
 Block = tuple[int, int]
 """Realisations first … stop − 1."""
@@ -193,7 +191,7 @@ class Sums:
             self.tensile + other.tensile,
             self.bins + other.bins,
             self.means + step * share,
-            self.products + other.products + _products(step) * (self.packings * share),
+            self.products + other.products + products(step) * (self.packings * share),
         )
 
     def to_bytes(self) -> bytes:
@@ -212,11 +210,6 @@ def from_bytes(content: bytes, m: Measurement) -> Sums:
     packings, left_out, first = head.tolist()
     means, products = np.split(real.view("<f8").astype(np.float64).reshape(5, G), [2])
     return Sums(packings, left_out, first, tensile, bins.reshape(2, B), means, products)
-
-
-def _products(values: Array) -> Array:
-    """Give aa, ab and bb from (…, 2, G)."""
-    return values[..., [0, 0, 1], :] * values[..., [0, 1, 1], :]
 
 
 def solve_block(m: Measurement, first: int, stop: int) -> Sums:
@@ -246,7 +239,7 @@ def _summed(m: Measurement, numbers: Sequence[int]) -> Sums:
         tensile.sum(axis=0),
         np.stack([counts.sum(axis=0), (counts**2).sum(axis=0)]),
         mean,
-        _products(means - mean).sum(axis=0),
+        products(means - mean).sum(axis=0),
     )
 
 
@@ -256,7 +249,7 @@ def _solved(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
     try:
         packings = engine.packings(problem, numbers, FLOAT64)
         yield from [_measured(m, solved, some) for solved, some in packings]
-    except TROUBLE:
+    except UNBUILDABLE:
         if len(numbers) > 1:
             half = len(numbers) // 2
             yield from _solved(m, numbers[:half])
@@ -286,6 +279,6 @@ def why_left_out(m: Measurement, number: int) -> Exception | None:
     try:
         with FLOAT64.active():
             list(engine.packings(m.problem, [number], FLOAT64))
-    except TROUBLE as error:
+    except UNBUILDABLE as error:
         return error
     return None

@@ -88,22 +88,6 @@ def axis_names(dimension: int) -> str:
     return "xyz"[:dimension]
 
 
-class AxisContact(NamedTuple):
-    """A contact in three dimensions: its lower bead (p, q, j), and its axis."""
-
-    bead: tuple[int, ...]
-    axis: Axis
-
-    @property
-    def j(self) -> int:
-        """The layer of the lower bead."""
-        return self.bead[-1]
-
-    def named(self) -> dict[str, int | str]:
-        """Give its numbers and its axis by their names."""
-        return {**dict(zip(bead_names(len(self.bead)), self.bead, strict=True)), "axis": self.axis}
-
-
 class Contact(NamedTuple):
     """The contact f^±_ij, named by its lower bead (i, j) and its branch, as in the paper."""
 
@@ -115,10 +99,6 @@ class Contact(NamedTuple):
     def upper(self) -> Site:
         """The bead that the contact supports."""
         return self.i + self.branch.side, self.j + 1
-
-    def named(self) -> dict[str, int | str]:
-        """Give its numbers and its branch by their names."""
-        return {"i": self.i, "j": self.j, "branch": self.branch}
 
 
 @dataclass(frozen=True)

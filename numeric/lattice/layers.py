@@ -18,17 +18,7 @@ from typing import Any, NamedTuple, TypeVar, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .branch import (
-    Axis,
-    AxisContact,
-    Branch,
-    Contact,
-    Direction,
-    Site,
-    bead_names,
-    direction,
-    directions,
-)
+from .branch import Direction, Site, bead_names, direction, directions
 
 T = TypeVar("T")
 Array = NDArray[Any]
@@ -73,12 +63,6 @@ def site_of(bead: Sequence[int], side: int) -> Site:
     """
     p, q, j = bead
     return 2 * (p % side * side + q % side) + j % 2, j
-
-
-def lower_bead(upper: Bead, axis: Direction, side: int) -> Bead:
-    """Give the bead below a contact."""
-    p, q, j = upper
-    return (p - (axis.number == 0)) % side, (q - (axis.number == 1)) % side, j - 1
 
 
 @dataclass(frozen=True)
@@ -235,15 +219,12 @@ class Region:
 
     def bead(self, layer: Layer, column: int) -> tuple[int, ...]:
         """Name a bead of a row: (i, j), or (p, q, j)."""
-        site = layer.first + 2 * column, layer.j
-        return site if self.dimension == 2 else bead_of(site, self.side)
+        return self.naming.bead((layer.first + 2 * column, layer.j))
 
-    def contact_below(self, layer: Layer, branch: Direction, column: int) -> Contact | AxisContact:
-        """Name the contact below a bead of a row."""
-        if self.dimension == 2:
-            return Contact(layer.first + 2 * column - branch.side, layer.j - 1, Branch(branch))
-        upper = self.bead(layer, column)
-        return AxisContact(lower_bead(upper, branch, self.side), Axis(branch))
+    @property
+    def naming(self) -> "Naming":
+        """How its beads and contacts are named."""
+        return Naming(self.dimension, self.width if self.dimension == 2 else self.side)
 
     def step(self, axis: int, count: int) -> tuple[int, ...]:
         """Give so many steps along one base vector."""

@@ -136,13 +136,9 @@ def beads_read(contact: Contact, load: LoadSpec) -> int:
     The three parallel diagonals reach as high as force crosses them; the two cross diagonals matter
     where the contact itself carries an ordered force.
     """
-    j = contact[1]
-    above, below = crossing_layers(contact, load)
-    outer = max(above) + 2 if above else 0
-    main = max([*above, *below]) + 1 if above or below else 0
-    inner = max(below) if below else 0
-    if not load.carries(*contact):
-        return outer + main + inner
-    # x and the contact's lower bead lie on the main diagonal, two more beads on the inner one.
-    shared = (2 if main else 0) + (min(j + 1, 2) if inner else 0)
-    return outer + main + inner + 2 * j + 3 - shared
+    lines = lines_read(contact, load)
+    beads = sum(line.top + 1 for line in lines.values())
+    if "lower" in lines:
+        # x and the contact's lower bead lie on the main diagonal, two more beads on the inner one.
+        beads -= 2 * ("main" in lines) + min(contact[1] + 1, 2) * ("inner" in lines)
+    return beads

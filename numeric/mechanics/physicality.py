@@ -21,8 +21,8 @@ import numpy as np
 
 from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import AxisContact, Contact, directions
-from ..lattice.layers import Layer, Region
+from ..lattice.branch import directions
+from ..lattice.layers import Block, Layer, Region
 from . import local
 from .local import RESOLUTION
 from .loops import loops
@@ -39,6 +39,7 @@ class Physicality:
 
     ``smallest_gap`` is that of two beads that do not touch, or of a bead and its own image. In an
     answer's ``physical`` it is in the unit that radii are given in, here in units of r.
+    ``first_tensile`` has the numbers of a contact's lower bead and the branch, as rows name them.
     """
 
     smallest_gap: float | None = None
@@ -49,7 +50,7 @@ class Physicality:
     undecided_signs: int = 0
     contacts: int = 0
     forces_known: bool = False
-    first_tensile: Contact | AxisContact | None = None
+    first_tensile: dict[str, int | str] | None = None
     smallest_in: int = 0
     first_tensile_in: int = 0
     """Realisations, or packings of a batch, that the two were found in."""
@@ -128,9 +129,11 @@ class Physicality:
             row = pulls[:, :, starts[j] : starts[j + 1]]
             a = int(np.argmax(row.any(axis=(0, 2))))
             packing, q = map(int, np.argwhere(row[:, a])[0])
-            branch = directions(forces.region.dimension)[a]
+            upper = Layer(j, forces.rows[j].first + 2 * q, 1)
+            contact = Block(directions(forces.region.dimension)[a], upper)
+            names = forces.region.naming.contacts([contact])
             self.first_tensile_in = self.looks_at[packing]
-            self.first_tensile = forces.region.contact_below(forces.rows[j], branch, q)
+            self.first_tensile = {name: column.tolist()[0] for name, column in names.items()}
 
 
 # A float64 force has no sign within so much of its layer's largest change.
@@ -241,7 +244,5 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
 
 def named(region: Region, row: Layer, column: int) -> tuple[int, ...]:
     """Name a bead of a row as users know it, within the period."""
-    site = region.bead(row, column)
-    if region.dimension == 2 and region.width is not None:
-        return site[0] % (2 * region.width), site[1]
-    return site
+    *columns, j = region.bead(row, column)
+    return (region.naming.home(columns[0]), j) if region.dimension == 2 else (*columns, j)

@@ -12,12 +12,7 @@ from ..mechanics.images import sees_images
 from ..mechanics.problem import Problem, Route
 from ..quantities.base import Quantity, has_theory
 from ..scene.scene import CheckedScene
-from ..theory.expected import (
-    ExpectedTension,
-    critical_height,
-    expected_tension,
-    expected_tension_of_spheres,
-)
+from ..theory.expected import ExpectedTension, critical_height, expected_tension
 from .memory import size
 
 METHODS = {
@@ -83,10 +78,8 @@ class Plan:
         if not known or problem.width is None or not has_theory(problem):
             return None
         phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
-        if problem.dimension > 2:
-            return expected_tension_of_spheres(problem.height, problem.width, phi, std, load.kind)
-        plus, minus = map(float, problem.load.strength(problem.n_x, FLOAT64).unit)
-        return expected_tension(problem.height, problem.width, phi, std, load.kind, (plus, minus))
+        unit = tuple(map(float, problem.load.strength(problem.n_x, FLOAT64).unit))
+        return expected_tension(problem.height, problem.width, phi, std, load.kind, unit)
 
     @cached_property
     def critical_height(self) -> float:

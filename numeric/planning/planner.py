@@ -17,7 +17,7 @@ from ..arithmetic.carried import PRINTED, UNIT
 from ..arithmetic.decimals import short
 from ..arithmetic.machine import memory_limit as free_memory
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
-from ..disorder.radii import Monodisperse, Radii
+from ..disorder.radii import DrawnRadii, Radii
 from ..lattice.layers import Region, Rows
 from ..mechanics.problem import Problem, Route
 from ..quantities import quantities_of
@@ -107,7 +107,8 @@ def _problem(
         found = [quantity.beads(load) for quantity in quantities]
         rows = max((rows for rows, _ in found), key=len)
         region = max((region for _, region in found), key=lambda region: region.beads)
-    radii: Radii = Monodisperse()
+    alike = DrawnRadii("uniform", Fraction(0), 0, load.width)
+    radii: Radii = alike
     if not ordered:
         radii = radii_of(scene, region.rows)
         if not single and not unilateral:
@@ -116,7 +117,7 @@ def _problem(
             elif not region.rows or (needs_forces and load.loaded == []):
                 ordered = "no load reaches what is asked for: the forces are exactly zero"
     if ordered:
-        route, radii = Route.ORDERED, Monodisperse()
+        route, radii = Route.ORDERED, alike
         if scene.disorder is not None:
             skipped["disorder"] = ordered
         if realisations > 1:

@@ -8,7 +8,6 @@ import numpy as np
 from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, RadiusError
-from ..lattice.branch import Contact
 from ..mechanics.engine import chunk_size, packings
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
@@ -80,9 +79,6 @@ def answer(
                 bins = [(low, high, count * alike) for low, high, count in found]
                 table = replace(table, bins=bins)
             tables.append(table)
-    if physical is not None and isinstance(physical.first_tensile, Contact):
-        home = quantities[0].naming.home(physical.first_tensile.i)  # as rows name it
-        physical.first_tensile = physical.first_tensile._replace(i=home)
     return Answer(tuple(tables), physical, network, sizes)
 
 

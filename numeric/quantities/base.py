@@ -25,7 +25,7 @@ from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
 from ..mechanics.work import Work
 from ..scene.scene import CheckedScene
-from ..theory.expected import std_of_spheres, stds_of_discs
+from ..theory.expected import stds_of_contacts
 
 # σ_f/⟨f⟩, and the columns that scatter from sample to sample as others do, whose errors are known.
 RATIO = "std_over_mean"
@@ -331,7 +331,7 @@ def has_theory(problem: Problem) -> bool:
     first-order forces see no images.
     """
     load, drawn = problem.load, isinstance(problem.radii, DrawnRadii)
-    if not drawn or load.loaded is not None:
+    if not drawn or load.loaded is not None or problem.route == Route.ORDERED:
         return False
     if problem.dimension > 2:
         spheres = problem.dimension == 3 and not load.angle_deg
@@ -367,20 +367,16 @@ def first_order_std(problem: Problem) -> Callable[[int], PerBranch[Fraction]] | 
 
     None where they don't apply. Each is a float64 times the exact σ/r, in units of the load.
     """
-    load, radii, height, d = problem.load, problem.radii, problem.height, problem.dimension
-    if problem.route == Route.ORDERED or not has_theory(problem):
+    load, radii, height = problem.load, problem.radii, problem.height
+    if not has_theory(problem):
         return None
     assert isinstance(radii, DrawnRadii)
     std, phi = radii.std, float(1 - 2 * problem.n_x**2)
-    unit = [float(of) for of in load.strength(problem.n_x, FLOAT64).unit]
+    unit = tuple(map(float, load.strength(problem.n_x, FLOAT64).unit))
 
     def layer(j: int) -> PerBranch[Fraction]:
         over = height - j if load.kind == "bulk" else 1
-        stds: Sequence[float]
-        if d == 2:
-            stds = stds_of_discs(load.kind, height, j, phi, (unit[0], unit[1]))
-        else:
-            stds = [std_of_spheres(load.kind, height, j, phi) * unit[0]] * d
+        stds = stds_of_contacts(load.kind, height, j, phi, unit)
         return PerBranch(tuple(Fraction(of * over) * std for of in stds))
 
     return layer

@@ -10,7 +10,7 @@ import numpy as np
 from ..arithmetic.systems import Array, NumberSystem, as_floats
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
-from ..statistics.moments import Moments, Scatter, unit_near
+from ..statistics.moments import Moments, standard_errors, unit_near
 from .base import ContactQuantity, Gatherer, Table
 
 
@@ -49,14 +49,14 @@ class _Moments:
         self.quantity, self.problem, self.system = quantity, problem, system
         self.unit = unit_near(problem.radii.relative_std())
         self.ordered: Any = None
-        self.moments, self.scatter = Moments(self.unit), Scatter()
+        self.moments, self.scatter = Moments(self.unit), list[Array]()
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Merge the changes of the contacts; ordered forces only enter the mean."""
         F, g = self.quantity.changes(self.problem, solved, len(realisations))
         with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
             scaled = as_floats(g / self.unit)
-            self.scatter.add(scaled.mean(axis=2).T, (scaled**2).mean(axis=2).T)
+            self.scatter.append(np.stack([scaled.mean(axis=2).T, (scaled**2).mean(axis=2).T], 1))
         if self.ordered is None:
             # under a surface or bulk load F is one number, which a sum would round
             alike = self.problem.load.loaded is None or F.shape[1] == 1
@@ -65,7 +65,9 @@ class _Moments:
 
     def table(self) -> Table:
         """Give what was found, in the columns of the question."""
-        mean_error, std_error = (error * self.unit for error in self.scatter.errors())
+        mean_error, std_error = (
+            error * self.unit for error in standard_errors(np.concatenate(self.scatter))
+        )
         mean, std = self.moments.average(), self.moments.std(self.system)
         count = self.moments.count
         found = Statistics(self.ordered, mean, std, mean_error, std_error, count)

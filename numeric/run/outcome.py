@@ -246,7 +246,7 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
             "other loads press these contacts more"
         )
     if found.first_tensile is not None:
-        data["first_tensile"] = found.first_tensile.named()
+        data["first_tensile"] = dict(found.first_tensile)
         if problem.realisations > 1:
             data["first_tensile"]["realisation"] = found.first_tensile_in
     return data
@@ -323,7 +323,7 @@ def _physical_words(p: dict[str, Any]) -> str:
         words = "not physical by itself, as under any load on single beads"
     found = [f"{p['overlaps']} overlaps"] if p["overlaps"] else []
     if p["tensile_contacts"]:
-        opens = "" if "axis" in p["first_tensile"] else ', which contacts = "unilateral" lets open'
+        opens = ', which contacts = "unilateral" lets open' if "i" in p["first_tensile"] else ""
         found.append(f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile{opens}")
     if p["undecided"]:
         found.append(f"{p['undecided']} signs open")

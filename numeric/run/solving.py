@@ -21,7 +21,7 @@ from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, checked, qu
 from ..arithmetic.machine import write_whole
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import ArrayRadii
-from ..lattice.branch import Contact, axis_names, bead_names, directions
+from ..lattice.branch import axis_names, bead_names, directions
 from ..lattice.layers import whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.physicality import Physicality
@@ -425,9 +425,6 @@ def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
     bound = stated_error(roundings, Fraction(unseen) / Fraction(largest))
     if physical.smallest_gap is not None:
         physical.smallest_gap = float(Fraction(physical.smallest_gap) * r)
-    if isinstance(physical.first_tensile, Contact):
-        home = physical.first_tensile.i % (2 * width)
-        physical.first_tensile = physical.first_tensile._replace(i=home)
     below = (*shape[:-d], layers - 1, *shape[1 - d :])
     return _Found(
         _by_lower_bead(force, d, below),

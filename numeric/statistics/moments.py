@@ -60,35 +60,23 @@ class Moments:
         return np.asarray(root(np.asarray(self.square / self.count), system) * self.unit)
 
 
-class Scatter:
-    """How means over packings scatter from packing to packing: their standard errors.
+def standard_errors(values: Array) -> tuple[Array, Array]:
+    """Give the standard errors of the mean and of the standard deviation, shape (groups,) each.
 
-    The unit is the packing: the contacts of one are correlated, packings are independent.
+    ``values``: of each packing the means of x and of x², (packings, 2, groups). The unit is the
+    packing: the contacts of one are correlated, packings are independent. NaN for a single packing,
+    and for the deviation of what does not vary.
     """
+    with np.errstate(all="ignore"):  # of numbers beyond floats nothing is known
+        means = values.mean(axis=0)
+        sums = products(values - means).sum(axis=0)
+    _, std, mean_error, log_error = with_errors(len(values), means, sums)
+    return mean_error, error_of_std(std, log_error)
 
-    def __init__(self) -> None:
-        self._mean: list[Array] = []
-        self._square: list[Array] = []
 
-    def add(self, mean: Array, square: Array) -> None:
-        """Take in packings: the means of x and of x², shapes (packings, groups)."""
-        self._mean.append(np.asarray(mean, dtype=np.float64))
-        self._square.append(np.asarray(square, dtype=np.float64))
-
-    def errors(self) -> tuple[Array, Array]:
-        """Give the standard errors of the mean and of the standard deviation, shape (groups,) each.
-
-        NaN for a single packing, and for the deviation of what does not vary.
-        """
-        a, b = np.concatenate(self._mean), np.concatenate(self._square)
-        values = np.stack([a, b])
-        with np.errstate(all="ignore"):  # of numbers beyond floats nothing is known
-            means = values.mean(axis=1)
-            values -= means[:, None]
-            pairs = ((0, 0), (0, 1), (1, 1))
-            products = np.stack([(values[i] * values[k]).sum(axis=0) for i, k in pairs])
-        _, std, mean_error, log_error = with_errors(len(a), means, products)
-        return mean_error, error_of_std(std, log_error)
+def products(values: Array) -> Array:
+    """Give aa, ab and bb, (…, 3, groups), of a and b, (…, 2, groups)."""
+    return values[..., [0, 0, 1], :] * values[..., [0, 1, 1], :]
 
 
 def error_of_std(std: Array, log_error: Array) -> Array:

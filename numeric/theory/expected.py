@@ -6,7 +6,6 @@ pull far below it.
 """
 
 import math
-from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
@@ -39,15 +38,21 @@ def _log10(n: int) -> float:
 
 
 @lru_cache(maxsize=4096)
-def stds_of_discs(
-    load: str, M: int, j: int, phi: float, components: tuple[float, float]
-) -> tuple[float, float]:
-    """Give σ of f⁺ and f⁻ of layer j (Eqs. 13, 14, B2 and B3 at finite M).
+def stds_of_contacts(
+    load: str, M: int, j: int, phi: float, components: tuple[float, ...]
+) -> tuple[float, ...]:
+    """Give σ of f^a of layer j, along each direction (Eqs. 13, 14, B2, B3, B13 and B14).
 
-    ``load``: "surface" or "bulk"; ``phi``: n⁺·n⁻; ``components``: (L⁺, L⁻) of the load, the unit of
-    the result. Under a bulk load it is per layer above the contact.
+    ``load``: "surface" or "bulk"; ``phi``: the dot product of two base vectors; ``components``:
+    (L⁺, L⁻) of the load, the unit of the result; of spheres (L^a), all alike. Under a bulk load it
+    is per layer above the contact.
     """
     bulk = load == "bulk"
+    if len(components) > 2:
+        form = closed_forms.surface_variance_of_spheres
+        if bulk:
+            form = closed_forms.bulk_variance_of_spheres
+        return tuple(math.sqrt(float(form(M, j, phi, 1, 1))) * own for own in components)
     plus, minus = components
     tilted = closed_forms.bulk_variance_at_angle if bulk else closed_forms.surface_variance_at_angle
     # own² times a polynomial of degree 2 in t = other/own, where own may vanish
@@ -58,16 +63,6 @@ def stds_of_discs(
         return math.sqrt(max(0.0, none * own**2 + mixed * own * other + last * other**2))
 
     return std_of(plus, minus), std_of(minus, plus)
-
-
-@lru_cache(maxsize=4096)
-def std_of_spheres(load: str, M: int, j: int, phi: float) -> float:
-    """Give σ_f/⟨f⟩ of layer j in three dimensions, alike along all axes (Eqs. B13 and B14)."""
-    bulk = load == "bulk"
-    form = (
-        closed_forms.bulk_variance_of_spheres if bulk else closed_forms.surface_variance_of_spheres
-    )
-    return math.sqrt(float(form(M, j, phi, 1, 1)))
 
 
 @dataclass(frozen=True)
@@ -90,16 +85,17 @@ class ExpectedTension:
 @lru_cache(maxsize=16)
 def expected_tension(
     height: int,
-    width: int,
+    beads: int,
     phi: float,
     relative_std: float,
     load: str,
-    components: tuple[float, float] = (1.0, 1.0),
+    components: tuple[float, ...] = (1.0, 1.0),
 ) -> ExpectedTension:
-    """Estimate how many of the 2 W M contacts of a packing of discs pull.
+    """Estimate how many of a packing's contacts pull: two a bead of discs, three of spheres.
 
-    ``height``: M; ``width``: W; ``phi``: n⁺·n⁻; ``relative_std``: σ/r; ``load``: "surface" or
-    "bulk"; ``components``: (L⁺, L⁻) of the load, in any unit; straight down by default.
+    ``height``: M; ``beads``: of a layer; ``phi``: the dot product of two base vectors;
+    ``relative_std``: σ/r; ``load``: "surface" or "bulk"; ``components``: (L⁺, L⁻) of the load, in
+    any unit, straight down by default; of spheres (L^a), all alike.
 
     >>> found = expected_tension(16, 32, -1 / 8, 0.0055, "surface")
     >>> round(found.contacts, 1), found.height_of_one
@@ -107,30 +103,11 @@ def expected_tension(
     """
 
     def pulling(M: int, j: int) -> float:
-        stds = stds_of_discs(load, M, j, phi, components)
+        """Of a bead's contacts."""
+        stds = stds_of_contacts(load, M, j, phi, components)
         return sum(
             _negative(mean, relative_std * std) for mean, std in zip(components, stds, strict=True)
         )
-
-    return _counted(height, width, pulling)
-
-
-def expected_tension_of_spheres(
-    height: int, beads: int, phi: float, relative_std: float, load: str
-) -> ExpectedTension:
-    """Estimate how many of a packing's contacts pull, three a bead, of spheres.
-
-    ``beads``: of a layer; the load is straight down. Otherwise as ``expected_tension``.
-    """
-
-    def pulling(M: int, j: int) -> float:
-        return 3 * _negative(1.0, relative_std * std_of_spheres(load, M, j, phi))
-
-    return _counted(height, beads, pulling)
-
-
-def _counted(height: int, beads: int, pulling: Callable[[int, int], float]) -> ExpectedTension:
-    """Count contacts that pull: ``pulling`` says how many of a bead's contacts do, of M and j."""
 
     def contacts(M: int) -> float:
         layers = min(M, LAYERS)

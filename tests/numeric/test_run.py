@@ -152,7 +152,7 @@ def test_contacts_that_pull_are_counted_and_the_first_is_named(
     assert found.physical is not None
     assert found.physical.tensile == len(pulling) > 0
     assert found.physical.first_tensile is not None
-    assert tuple(found.physical.first_tensile.named().values()) in pulling
+    assert tuple(found.physical.first_tensile.values()) in pulling
 
 
 def test_a_sign_that_no_precision_settles_stays_open(tmp_path: Path) -> None:

@@ -5,7 +5,7 @@ import math
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
-from force_diffusion.numeric.statistics.moments import Moments, Scatter
+from force_diffusion.numeric.statistics.moments import Moments, standard_errors
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -19,9 +19,7 @@ PACKINGS = st.integers(1, 5).flatmap(
 
 def errors(x: np.ndarray) -> tuple[float, float]:
     """Give the errors of the mean and of ln σ of packings (packings, contacts)."""
-    scatter = Scatter()
-    scatter.add(x.mean(axis=1, keepdims=True), (x * x).mean(axis=1, keepdims=True))
-    of_mean, of_std = scatter.errors()
+    of_mean, of_std = standard_errors(np.stack([x, x * x], axis=1).mean(axis=2, keepdims=True))
     # σ (e^2ε − 1)/2 is what is stated of σ
     return float(of_mean[0]), float(np.log1p(2 * of_std[0] / x.std())) / 2 if x.std() else math.nan
 
