@@ -98,10 +98,10 @@ Directions = list[tuple[Array, Array, Array, Array]]
 
 def directions(solved: SolvedPacking, n: tuple[Any, Any]) -> Directions:
     """Cartesian (N⁺_x, N⁺_y, N⁻_x, N⁻_y) of the contacts below each layer from 1 up."""
-    nx, ny = n
+    (nx, ny), top = n, solved.region.top
     return [
         ((1 + a - b) * nx, (1 + a + b) * ny, (c - d - 1) * nx, (c + d + 1) * ny)
-        for (a, b), (c, d) in zip(solved.dn.plus[1:], solved.dn.minus[1:], strict=True)
+        for (a, b), (c, d) in ([solved.dn(k, j)[:, 0] for k in (0, 1)] for j in range(1, top + 1))
     ]
 
 
@@ -134,4 +134,4 @@ def changes(unknowns: Array, ordered: Any, width: int) -> Array:
 
 def stacked(forces: Forces) -> Array:
     """Give the changes of ``forces`` in the same shape."""
-    return np.stack([np.stack(forces.change.plus[1:]), np.stack(forces.change.minus[1:])], axis=-1)
+    return np.moveaxis(forces.g[0].reshape(2, len(forces.rows) - 1, -1), 0, -1)

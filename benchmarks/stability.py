@@ -80,7 +80,7 @@ def deviations(delta: Any) -> Callable[[NumberSystem], Any]:
         with system.active():
             forces = engine.solve(problem, [0], system, Work()).forces
             assert forces is not None
-            return np.array([forces.change.plus[1:], forces.change.minus[1:]]).swapaxes(0, 1)
+            return forces.g[0].reshape(2, height, width).swapaxes(0, 1)
 
     return solve
 

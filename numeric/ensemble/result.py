@@ -187,7 +187,7 @@ class Ensemble(tables.Tabled):
         if theory is None or "j" not in self.index or "component" in self.index:
             return None
         contacts = zip(self.index["branch"], self.index["j"], strict=True)
-        return np.array([float(theory(j)[direction(b)]) for b, j in contacts]) * self._unit
+        return np.array([float(theory(j)[direction(b).number]) for b, j in contacts]) * self._unit
 
     @property
     def tensile(self) -> Array:

@@ -17,7 +17,6 @@ import numpy as np
 
 from ..arithmetic.errors import ArgumentError, quoted
 from ..arithmetic.systems import FLOAT64, Array
-from ..lattice.branch import PerBranch
 from ..mechanics import engine
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
@@ -89,7 +88,7 @@ class Measurement:
         """Give the ordered force of each group (of a group whose forces differ, their mean)."""
         return np.array([float(force) for force in self.quantity.ordered(self.problem)])
 
-    def theory(self) -> Callable[[int], PerBranch[Fraction]] | None:
+    def theory(self) -> Callable[[int], tuple[Fraction, ...]] | None:
         """Give σ_f of layer j = 0 … M − 1, exact to first order; None where it does not apply."""
         return first_order_std(self.problem)
 
@@ -149,8 +148,8 @@ def _usual_reach(made: Measurement) -> float:
     contact = made.problem.contact
     if contact is None:
         layers = made.plan.scene.ask.layers or range(made.problem.height)
-        return float(REACH * max(std for j in layers for _, std in theory(j)))
-    return float(REACH * theory(contact.j)[contact.branch])
+        return float(REACH * max(std for j in layers for std in theory(j)))
+    return float(REACH * theory(contact.j)[contact.branch.number])
 
 
 @dataclass(frozen=True, eq=False)

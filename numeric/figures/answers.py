@@ -17,7 +17,7 @@ from matplotlib.figure import Figure
 
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
-from ..lattice.branch import Branch, PerBranch
+from ..lattice.branch import Branch
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.scene import refuse
@@ -119,14 +119,13 @@ def ordered(plan: Plan, i: Any, j: Any) -> Array:
     return np.stack([2 * nx * np.asarray(i), 2 * sqrt(1 - nx * nx) * np.asarray(j)], axis=-1)
 
 
-def theory(plan: Plan) -> PerBranch[Array] | None:
-    """Give σ_f of layers 0 … M − 1 to first order; None where no closed form applies."""
+def theory(plan: Plan) -> Array | None:
+    """Give σ_f to first order, (directions, M); None where no closed form applies."""
     found = first_order_std(plan.problem)
     if found is None:
         return None
     unit, layers = plan.scene.load.magnitude, map(found, range(plan.problem.height))
-    stds = np.array([[float(std * unit) for _, std in layer] for layer in layers])
-    return PerBranch(tuple(stds.T))
+    return np.array([[float(std * unit) for std in layer] for layer in layers]).T
 
 
 def contact_forces(
@@ -251,13 +250,13 @@ def profile(plan: Plan, columns: Columns, errors: Columns, network: Network | No
     M, exact, load = plan.problem.height, theory(plan), plan.problem.load
     z = np.arange(M) / M
     if exact is not None and load.angle_deg:
-        for dashes, (own, std) in zip("-:", exact, strict=True):
+        for dashes, own, std in zip("-:", plan.quantity.branches, exact, strict=True):
             axes.plot(z, std, dashes, color=style.GREY, label=f"exact at finite $M$, $f^{own}$")
     elif exact is not None:
-        axes.plot(z, exact.plus, color=style.GREY, label="exact at finite $M$")
+        axes.plot(z, exact[0], color=style.GREY, label="exact at finite $M$")
         if plan.problem.dimension == 2:
             name = f"Eq. ({14 if load.kind == 'bulk' else 13}), printed"
-            axes.plot(z, exact.plus * printed_over_exact(plan), "k--", label=name)
+            axes.plot(z, exact[0] * printed_over_exact(plan), "k--", label=name)
     for c, own in enumerate(plan.quantity.branches):
         rows = columns["branch"] == own
         error = errors["std"][rows] if "std" in errors else None
@@ -272,7 +271,7 @@ def profile(plan: Plan, columns: Columns, errors: Columns, network: Network | No
 
 def printed_over_exact(plan: Plan) -> Array:
     """Give σ_f of the printed Eq. 13 or 14 over the exact one, by layer 0 … M − 1."""
-    M, phi = plan.problem.height, float(1 - 2 * plan.problem.n_x**2)
+    M, phi = plan.problem.height, float(plan.problem.phi)
     bulk = plan.problem.load.kind == "bulk"
     printed = closed_forms.bulk_diffusion if bulk else closed_forms.surface_diffusion
     exact = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
@@ -287,10 +286,10 @@ def histogram(plan: Plan, columns: Columns, errors: Columns, network: Network | 
     """
     known, contact, stds = theory(plan), plan.problem.contact, None
     if known is not None and contact is not None:
-        stds = known[contact.branch][[contact.j]]
+        stds = known[contact.branch.number, [contact.j]]
     elif known is not None:
         asked = slice(None) if plan.scene.ask.layers is None else list(plan.scene.ask.layers)
-        stds = np.concatenate([rows[asked] for _, rows in known])
+        stds = known[:, asked].ravel()
     unit = 1.0
     if stds is not None:
         largest = float(stds.max())  # squares of small ones are below what a float holds

@@ -39,9 +39,8 @@ def theory(spacing: Fraction) -> Array:
 def beside(answer: Solved, number: int) -> Array:
     """Changes of f⁺ inside the cone, averaged with their mirror images; (number, l − j − 1)."""
     assert answer.forces is not None
-    change = answer.forces.change
     # row m holds what lies below the beads of layer m: l − m + 1 of them, from the left
-    plus, minus = (side[LAYER + 1].reshape(number, -1) for side in (change.plus, change.minus))
+    plus, minus = (answer.forces.change(a, LAYER + 1) for a in range(2))
     return np.asarray((plus[:, 1:] + minus[:, ::-1][:, 1:]) / 2)
 
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
-from ..lattice.branch import Branch
 from ..mechanics.sweep import Solved
 from . import packings
 from .packings import PAPER, PAPER_STD, PHI, Comparison, Made, Options
@@ -38,12 +37,11 @@ def window_means(answer: Solved, number: int) -> Array:
     assert forces is not None
     assert packing is not None
     relative, vertical = [], []
-    for branch in Branch:
-        change, ordered = forces.change[branch][upper], forces.ordered[branch][upper]
-        a, b = (part[upper] for part in zip(*packing.dn[branch], strict=True))
-        relative.append((change / ordered).reshape(number, -1))
-        push = (ordered + change) * PAPER.n_y * (1 + a + b) - ordered * PAPER.n_y
-        vertical.append(push.reshape(number, -1))
+    for a in range(2):
+        change, ordered = forces.change(a, upper), forces.ordered(a, upper)
+        tilt = packing.dn(a, upper).sum(axis=0)
+        relative.append(change / ordered)
+        vertical.append((ordered + change) * PAPER.n_y * (1 + tilt) - ordered * PAPER.n_y)
     # contacts are named by their upper bead: bead q of an even layer has f⁺ at q, f⁻ at q − 1
     bead = vertical[0] + np.roll(vertical[1], 1, axis=1)
     each = [

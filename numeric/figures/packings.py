@@ -187,8 +187,7 @@ def gathered(
 ) -> Array:
     """Solve all realisations from ``start`` on; join what ``each`` gives, (realisations, …).
 
-    ``each`` takes what was solved, and of how many realisations; arrays of one have no axis of
-    them.
+    ``each`` takes what was solved, and of how many realisations.
     """
     count, found = ensemble.scene.ask.realisations, []
     with FLOAT64.active():

@@ -1,11 +1,8 @@
 """Along which base vector contacts lead up: two branches, or three axes; what there is of each."""
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from enum import StrEnum
-from typing import Generic, NamedTuple, TypeVar
+from typing import NamedTuple
 
-T = TypeVar("T")
 Site = tuple[int, int]
 
 
@@ -99,31 +96,3 @@ class Contact(NamedTuple):
     def upper(self) -> Site:
         """The bead that the contact supports."""
         return self.i + self.branch.side, self.j + 1
-
-
-@dataclass(frozen=True)
-class PerBranch(Generic[T]):
-    """Something for each branch, or axis, of which ``plus`` and ``minus`` are the first two.
-
-    >>> found = PerBranch((1, 2))
-    >>> [(str(branch), value) for branch, value in found], found[Branch.MINUS]
-    ([('+', 1), ('-', 2)], 2)
-    """
-
-    values: tuple[T, ...]
-
-    def __getitem__(self, branch: Direction) -> T:
-        return self.values[branch.number]
-
-    def __iter__(self) -> Iterator[tuple[Direction, T]]:
-        return zip(directions(len(self.values)), self.values, strict=True)
-
-    @property
-    def plus(self) -> T:
-        """That of f⁺."""
-        return self.values[0]
-
-    @property
-    def minus(self) -> T:
-        """That of f⁻."""
-        return self.values[1]

@@ -125,6 +125,10 @@ class Rows(Sequence[Layer]):
         """The number of each row's first bead of those above the base, and of all; (rows + 1,)."""
         return np.concatenate(([0], np.cumsum(np.where(np.arange(len(self)), self.counts, 0))))
 
+    def above(self, j: int) -> slice:
+        """Say which of the beads above the base are those of row j."""
+        return slice(self.starts_above[j], self.starts_above[j + 1])
+
     @property
     def sites(self) -> tuple[Array, Array]:
         """The columns i and j of all beads, row after row."""
@@ -249,6 +253,10 @@ class Region:
         """The number of each row's first bead, and that of all beads; shape (rows + 1,)."""
         return np.concatenate(([0], np.cumsum(self.rows.counts)))
 
+    def row(self, j: int) -> slice:
+        """Say which of the beads are those of row j."""
+        return slice(self.starts[j], self.starts[j + 1])
+
     @cached_property
     def widest(self) -> int:
         """The beads of the longest row."""
@@ -294,28 +302,6 @@ def closed_below(j: Array, first: Array, last: Array, width: int | None) -> Rows
     left, right = np.where(empty, far, first - j), np.where(empty, -far, last + j)
     left, right = np.minimum.accumulate(left[::-1]), np.maximum.accumulate(right[::-1])
     return Rows.between(left[::-1] + j, right[::-1] - j, width)
-
-
-class RowView(Sequence[Any]):
-    """Numbers of beads that lie row after row, (…, beads), by row.
-
-    >>> rows = RowView(np.arange(5), np.array([0, 2, 5]))
-    >>> len(rows), rows[-1].tolist(), [row.tolist() for row in rows]
-    (2, [2, 3, 4], [[0, 1], [2, 3, 4]])
-    """
-
-    def __init__(self, values: Any, starts: Array) -> None:
-        """``starts``: the number of each row's first bead, and that of all beads."""
-        self.values, self.starts = values, starts.tolist()
-
-    def __len__(self) -> int:
-        return len(self.starts) - 1
-
-    def __getitem__(self, j: Any) -> Any:
-        if isinstance(j, slice):
-            return [self[k] for k in range(len(self))[j]]
-        j = range(len(self))[j]
-        return self.values[..., self.starts[j] : self.starts[j + 1]]
 
 
 def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: Any = None) -> Array:

@@ -47,7 +47,7 @@ def _of_spheres(problem: Problem) -> bool:
     Above a bead of layer 1 its loads span M − 1 columns, and below these there are M more. To first
     order one contact depends on lines down from its own, M − 1 columns, and beside these.
     """
-    width, loaded = problem.side, problem.load.loaded
+    width, loaded = problem.region.side, problem.load.loaded
     height = problem.region.top
     if not problem.needs_forces:
         return height >= width

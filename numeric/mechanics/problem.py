@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from functools import cached_property
-from math import isqrt
 from typing import Any
 
 from ..arithmetic.systems import NumberSystem
@@ -60,11 +59,6 @@ class Problem:
     def dimension(self) -> int:
         """2 for discs, 3 for spheres."""
         return self.region.dimension
-
-    @property
-    def side(self) -> int:
-        """W, in three dimensions."""
-        return isqrt(self.width or 0)
 
     @property
     def phi(self) -> Fraction:

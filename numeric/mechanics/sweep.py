@@ -6,11 +6,10 @@ magnitude. A contact is indexed by its upper bead x, and has the lower bead x �
 dimensions ``plus`` below (i, j) is the paper's f⁺_(i−1, j−1), ``minus`` is f⁻_(i+1, j−1).
 """
 
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property, lru_cache, partial
+from functools import lru_cache, partial
 from typing import Any
 
 import numpy as np
@@ -19,8 +18,7 @@ from ..arithmetic.carried import CARRYING, NONE, Carried, Carrying, Sizes
 from ..arithmetic.errors import ForceDiffusionError, UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import Radii, RadiusError
-from ..lattice.branch import Direction, PerBranch
-from ..lattice.layers import Layer, Region, Rows, RowView, bead_of, pick
+from ..lattice.layers import Layer, Region, Rows, pick
 from .loads import LoadSpec
 from .local import balance, balance_linear, cosine, metric, nested, rest, rest_linear
 from .loops import Loops, loops
@@ -47,26 +45,13 @@ class NotStandingError(ForceDiffusionError, ValueError):
         self.site = site
 
 
-@contextmanager
-def radii_named(region: Region) -> Iterator[None]:
-    """Let a ``RadiusError`` about a site of a row name the bead."""
-    try:
-        yield
-    except RadiusError as error:
-        if region.dimension == 2:
-            raise
-        i, j = error.site
-        raise RadiusError(bead_of((i, j), region.side), error.reason) from None
-
-
 @dataclass(frozen=True)
 class SolvedPacking:
     """Beads of some packings at rest, row after row as ``region`` has them, in units of r.
 
     ``rho``: δr/r, shape (packings, beads). ``block``, (packings, d + d², beads): c_a = n^a·δx/r of
     each direction, then of the contact below along each the components of δn = Σ_b dn_b n^b, those
-    of the base 0. Row by row these are ``c[branch][j]`` and ``dn[branch][j]``, where a single
-    packing lacks the first axis.
+    of the base 0. Directions are numbered from 0: + and −, or 1, 2 and 3.
     """
 
     phi: Fraction
@@ -75,30 +60,21 @@ class SolvedPacking:
     rho: Any
     block: Any
 
-    @cached_property
-    def c(self) -> PerBranch[Sequence[Any]]:
-        """n^a·δx/r of each row, (count,) or (packings, count)."""
-        d, starts = self.region.dimension, self.region.starts
-        return PerBranch(tuple(RowView(_of_one(self.block[:, a]), starts) for a in range(d)))
+    def c(self, a: int, j: int) -> Any:
+        """Give c_a of row j, (packings, count)."""
+        return self.block[:, a, self.region.row(j)]
 
-    @cached_property
-    def dn(self) -> PerBranch[Sequence[Any]]:
-        """The components of δn of the contacts below each row, (d, …, count)."""
-        d, starts = self.region.dimension, self.region.starts
-
-        def of(a: int) -> RowView:
-            parts = self.block[:, d + a * d : 2 * d + a * d]
-            return RowView(parts[0] if len(parts) == 1 else parts.swapaxes(0, 1), starts)
-
-        return PerBranch(tuple(of(a) for a in range(d)))
+    def dn(self, a: int, j: int) -> Any:
+        """Give the components of δn of the contacts along n^a below row j, (d, packings, count)."""
+        d = self.region.dimension
+        return self.block[:, d + a * d : 2 * d + a * d, self.region.row(j)].swapaxes(0, 1)
 
 
 @dataclass(frozen=True)
 class Forces:
     """Contact forces below beads, by the upper bead, row after row of ``rows`` above the base.
 
-    ``F``, (d, beads): of the ordered packing; ``g``, (packings, d, beads): f^a − F^a. Row by row
-    these are ``ordered[branch][j]`` and ``change[branch][j]``, none at j = 0.
+    ``F``, (d, beads): of the ordered packing; ``g``, (packings, d, beads): f^a − F^a.
     """
 
     system: NumberSystem
@@ -107,24 +83,13 @@ class Forces:
     F: Any
     g: Any
 
-    @cached_property
-    def ordered(self) -> PerBranch[Sequence[Any]]:
-        """F^a of each row, (count,)."""
-        starts = self.rows.starts_above
-        return PerBranch(tuple(RowView(self.F[a], starts) for a in range(len(self.F))))
+    def ordered(self, a: int, j: int) -> Any:
+        """Give F^a below row j > 0, (count,)."""
+        return self.F[a, self.rows.above(j)]
 
-    @cached_property
-    def change(self) -> PerBranch[Sequence[Any]]:
-        """g^a of each row, (count,) or (packings, count)."""
-        starts = self.rows.starts_above
-        return PerBranch(
-            tuple([RowView(_of_one(self.g[:, a]), starts) for a in range(len(self.F))])
-        )
-
-    def below(self, j: int) -> Iterator[tuple[Direction, Array, Array]]:
-        """Give (branch, F, g) of the contacts below row j."""
-        for branch, F in self.ordered:
-            yield branch, F[j], self.change[branch][j]
+    def change(self, a: int, j: int) -> Any:
+        """Give g^a below row j > 0, (packings, count)."""
+        return self.g[:, a, self.rows.above(j)]
 
 
 @dataclass(frozen=True)
@@ -180,11 +145,6 @@ def _most(values: Array) -> float:
     return float(max(values.max(initial=0), -values.min(initial=0)))
 
 
-def _of_one(values: Any) -> Any:
-    """Leave out the axis of packings where there is one."""
-    return values[0] if len(values) == 1 else values
-
-
 def swept(
     n_x: Fraction,
     radii: Radii,
@@ -203,8 +163,11 @@ def swept(
     what ``deposit`` and ``sweep_down`` raise.
     """
     own: Any = CARRYING if carried else system
-    with radii_named(region):
+    try:
         rho = radii.of(region.rows, realisations, own)
+    except RadiusError as error:
+        i, j = error.site  # in its row
+        raise RadiusError(region.naming.bead((i, j)), error.reason) from None
     packing, forces = deposit(cosine(n_x), region, rho, own, linear=linear), None
     if load is not None:
         F = load.ordered(rows, load.strength(n_x, own), own)

@@ -77,7 +77,7 @@ class Plan:
         known = self.scene.effects.contacts == "bilateral" and problem.needs_forces
         if not known or problem.width is None or not has_theory(problem):
             return None
-        phi, std = float(1 - 2 * problem.n_x**2), float(problem.radii.relative_std())
+        phi, std = float(problem.phi), float(problem.radii.relative_std())
         unit = tuple(map(float, problem.load.strength(problem.n_x, FLOAT64).unit))
         return expected_tension(problem.height, problem.width, phi, std, load.kind, unit)
 

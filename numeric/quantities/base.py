@@ -16,7 +16,7 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import ORDER, PerBranch
+from ..lattice.branch import ORDER
 from ..lattice.layers import Block, Naming, Region, Rows, pick, standing_on_base, whole
 from ..mechanics.engine import solve
 from ..mechanics.loads import LoadSpec
@@ -305,9 +305,9 @@ def contact_forces(
             F.append(system.zeros(row.count))
             g.append(system.zeros(realisations, row.count))
             continue
-        own, change = forces.rows[row.j], forces.change[branch][row.j].reshape(realisations, -1)
-        F.append(pick(forces.ordered[branch][row.j], own, row, row.count, zero))
-        g.append(pick(change, own, row, row.count, zero))
+        own, a = forces.rows[row.j], branch.number
+        F.append(pick(forces.ordered(a, row.j), own, row, row.count, zero))
+        g.append(pick(forces.change(a, row.j), own, row, row.count, zero))
     return np.concatenate(F), np.concatenate(g, axis=1)
 
 
@@ -335,7 +335,7 @@ def has_theory(problem: Problem) -> bool:
         return False
     if problem.dimension > 2:
         spheres = problem.dimension == 3 and not load.angle_deg
-        return spheres and problem.side > problem.height + 1
+        return spheres and problem.region.side > problem.height + 1
     return problem.width is None or problem.width > problem.height
 
 
@@ -362,21 +362,22 @@ def cartesian(
     return (*found, rise * up if raised else rise / (len(components) * up))
 
 
-def first_order_std(problem: Problem) -> Callable[[int], PerBranch[Fraction]] | None:
+def first_order_std(problem: Problem) -> Callable[[int], tuple[Fraction, ...]] | None:
     """Give σ_f of layer j = 0 … M − 1, exact to first order (Eqs. 13, 14, B2, B3 at finite M).
 
-    None where they don't apply. Each is a float64 times the exact σ/r, in units of the load.
+    None where they don't apply. There is one along each direction: a float64 times the exact σ/r,
+    in units of the load.
     """
     load, radii, height = problem.load, problem.radii, problem.height
     if not has_theory(problem):
         return None
     assert isinstance(radii, DrawnRadii)
-    std, phi = radii.std, float(1 - 2 * problem.n_x**2)
+    std, phi = radii.std, float(problem.phi)
     unit = tuple(map(float, load.strength(problem.n_x, FLOAT64).unit))
 
-    def layer(j: int) -> PerBranch[Fraction]:
+    def layer(j: int) -> tuple[Fraction, ...]:
         over = height - j if load.kind == "bulk" else 1
         stds = stds_of_contacts(load.kind, height, j, phi, unit)
-        return PerBranch(tuple(Fraction(of * over) * std for of in stds))
+        return tuple(Fraction(of * over) * std for of in stds)
 
     return layer

@@ -81,10 +81,11 @@ class Positions(Listed):
         if packing is None:
             return [system.zeros(sum(row.count for row in rows))] * len(self.branches)
         region = packing.region
-        return [
-            joined(system, [pick(c[row.j], region.rows[row.j], row, self.width) for row in rows])
-            for _, c in packing.c
+        moved = [
+            [pick(packing.c(a, row.j)[0], region.rows[row.j], row, self.width) for row in rows]
+            for a in range(region.dimension)
         ]
+        return [joined(system, parts) for parts in moved]
 
     def _ordered(self, problem: Problem, index: Columns, system: NumberSystem) -> tuple[Array, ...]:
         """Give the positions of beads in the ordered packing, in units of r."""

@@ -62,7 +62,7 @@ class Profile(Merged):
         if theory is not None:
             unit = self.scene.load.magnitude
             contacts = zip(index["branch"], index["j"].tolist(), strict=True)
-            stds = [short(theory(j)[direction(b)] * unit, 12) for b, j in contacts]
+            stds = [short(theory(j)[direction(b).number] * unit, 12) for b, j in contacts]
             index["first_order_std"] = np.array(stds, dtype="U")
         numbers = {
             "mean": found.ordered + found.mean,

@@ -57,9 +57,9 @@ class Response(Merged):
         assert solved.packing is not None
         region, found = solved.packing.region, [solved.system.zeros(realisations, 0)]
         for branch, row in blocks:
-            normal = solved.packing.dn[branch][row.j]
+            normal = solved.packing.dn(branch.number, row.j)
             parts = [pick(v, region.rows[row.j], row, region.width) for v in normal]
-            found.append(sum(parts[1:], parts[0]).reshape(realisations, -1))
+            found.append(sum(parts[1:], parts[0]))
         return np.concatenate(found, axis=1)
 
     def table(self, problem: Problem, system: NumberSystem, found: Statistics) -> Table:

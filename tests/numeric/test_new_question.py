@@ -39,8 +39,8 @@ class Means(Gatherer):
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         assert solved.forces is not None
         for j in range(1, len(solved.forces.rows)):
-            (_, F, g), (_, E, h), *_ = solved.forces.below(j)
-            product = (F + g) * (E + h)
+            plus, minus = (solved.forces.ordered(a, j) + solved.forces.change(a, j) for a in (0, 1))
+            product = plus * minus
             self.sums[j] = self.sums.get(j, 0) + product.sum()
             self.counts[j] = self.counts.get(j, 0) + product.size
 

@@ -52,9 +52,9 @@ def test_images_are_seen_where_a_wider_packing_differs(quantity: str, geometry: 
             flat = np.concatenate(rows).reshape(1, -1)
             placed = deposit(phi, region, flat, FLOAT64, linear=linear)
             if quantity == "positions":
-                return np.asarray([sum(abs(c[M][0]) for _, c in placed.c)])
+                return np.asarray([sum(abs(placed.c(a, M)[0, 0]) for a in range(3))])
             forces = sweep_down(placed, region.rows, np.ones((3, M * wide**2)), linear=linear)
-            return np.asarray([g[1][0] for _, g in forces.change])
+            return np.asarray([forces.change(a, 1)[0, 0] for a in range(3)])
 
     before = asked(rho)
     matter: list[set[tuple[int, int, int]]] = [set() for _ in before]

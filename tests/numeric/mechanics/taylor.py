@@ -107,7 +107,8 @@ class TaylorPacking:
     def line_sums(self, i: int, j: int) -> tuple[Coefficients, Coefficients]:
         """(c⁺, c⁻) with c^± = n^±·δx of bead (i, j) (Eqs. 2 and 3)."""
         q = column(i, j, self.width)
-        return self._list(self.packing.c.plus[j][q]), self._list(self.packing.c.minus[j][q])
+        plus, minus = (self.packing.c(a, j)[0, q] for a in range(2))
+        return self._list(plus), self._list(minus)
 
     def displacement(self, i: int, j: int) -> tuple[Coefficients, Coefficients]:
         """Cartesian (δx, δy) of bead (i, j), from δx = c⁺ b⁺ + c⁻ b⁻ (Eqs. 2 and 3)."""
@@ -120,8 +121,8 @@ class TaylorPacking:
     def direction(self, i: int, j: int, branch: str) -> tuple[Coefficients, Coefficients]:
         """Cartesian δn of the contact from (i, j) to (i ± 1, j + 1) (Eqs. 4 and 5)."""
         upper, q = self._upper(i, j, branch)
-        a, b = self.packing.dn[Branch(branch)][upper]
-        along, across = self._list(a[q]), self._list(b[q])
+        a, b = self.packing.dn(Branch(branch).number, upper)
+        along, across = self._list(a[0, q]), self._list(b[0, q])
         return (
             [(p - m) * self.n_x for p, m in zip(along, across, strict=True)],
             [(p + m) * self.n_y for p, m in zip(along, across, strict=True)],
@@ -131,8 +132,8 @@ class TaylorPacking:
         """Contact force f^±_ij; order 0 is the ordered force (Eqs. 6–11)."""
         upper, q = self._upper(i, j, branch)
         f = self.contact_forces
-        own = Branch(branch)
-        return self._list(f.ordered[own][upper][q] + f.change[own][upper][q])
+        a = Branch(branch).number
+        return self._list(f.ordered(a, upper)[q] + f.change(a, upper)[0, q])
 
     def _upper(self, i: int, j: int, branch: str) -> tuple[int, int]:
         return j + 1, column(i + 1 if branch == "+" else i - 1, j + 1, self.width)

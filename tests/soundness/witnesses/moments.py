@@ -368,10 +368,9 @@ def spheres(
             rho[0, source * width**2] = system.series([Fraction(0), Fraction(1)])
             packing = deposit(phi, region, rho, system)
             forces = sweep_down(packing, region.rows, F)
-            both = zip(forces.ordered, forces.change, strict=True)
-            for axis, ((_, ordered), (_, change)) in enumerate(both):
-                for upper, place in product(range(1, height + 1), range(width**2)):
-                    force = ordered[upper][place] + change[upper][place]
+            for axis, upper in product(range(3), range(1, height + 1)):
+                found = forces.ordered(axis, upper) + forces.change(axis, upper)[0]
+                for place, force in enumerate(found):
                     x, y = divmod(place, width)  # of the upper one; the enlarged one is at (0, 0)
                     lower = [x, y, upper - x - y]
                     lower[axis] -= 1
