@@ -75,7 +75,7 @@ def test_of_a_single_std_99_percent_are_held() -> None:
     m = measurement(question("profile", 4, 6, std=1e-4, seed=7))
     theory = m.theory()
     assert theory is not None
-    true = float(theory(0).plus) * 2.0**-m.unit
+    true = float(theory(0)[0]) * 2.0**-m.unit
     numbers = range(REPEATS * PACKINGS)
     parts = [means[:, :, 0] for _, means, _, _ in sums._solved(m, numbers)]
     each = np.concatenate(parts).reshape(REPEATS, PACKINGS, 2)
