@@ -77,8 +77,9 @@ def test_the_leading_order_is_as_fitted_at_another_cosine(bulk: bool) -> None:
         if bulk
         else [(a, b) for a in range(5) for b in range(5 - a)]
     )
-    sites = [(height, j) for height in range(7, 14) for j in range(4, height - 2)]
-    assert len(sites) == 28
+    heights = range(7, 14 if bulk else 13)
+    sites = [(height, j) for height in heights for j in range(4, height - 2)]
+    assert len(sites) >= len(powers) + 6
     values = np.array([variances(height, ANOTHER, bulk)[j][1] for height, j in sites])
     if bulk:
         values *= [(height - j) ** 2 for height, j in sites]
@@ -88,7 +89,7 @@ def test_the_leading_order_is_as_fitted_at_another_cosine(bulk: bool) -> None:
     columns = np.abs(table / scale).max(axis=0)
     found, *_ = np.linalg.lstsq(table / scale / columns, values / scale[:, 0], rcond=None)
     left = table / columns @ found / values - 1
-    assert np.abs(left).max() < 1e-11  # 28 values, 15 coefficients
+    assert np.abs(left).max() < 1e-11  # more values than coefficients
     degree = 6 if bulk else 4
     of = {power: one / unit for power, one, unit in zip(powers, found, columns, strict=True)}
     highest = [of[a, b] for a, b in sorted(powers, reverse=True) if a + b == degree]

@@ -174,8 +174,9 @@ beside("a rule that is no rule", THE_BASE,
 
 # domains, loads and limits
 
-attack("dimension 4", lambda: Domain.of(j >= 0, dimension=4),
-       "2 and 3", lambda: Domain.of(j >= 0, dimension=3))
+for number in (1, 4):
+    attack(f"dimension {number}", partial(Domain.of, j >= 0, dimension=number),
+           "2 and 3", partial(Domain.of, j >= 0, dimension=3))
 attack("a domain of sites", lambda: Domain.of(j >= 0, i >= 0, Eq(SITE[0], -9, evaluate=False)),
        "paper's indices", lambda: Domain.of(j >= 0, i >= 0, Eq(i, j)))
 attack("relations of what a domain does not name", lambda: Domain((i,), (j >= 0,)),

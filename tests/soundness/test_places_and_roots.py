@@ -10,32 +10,7 @@ from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.symbols import (
-    DeltaR,
-    Dot,
-    ForceMinus,
-    ForcePlus,
-    LoadForce,
-    M,
-    Mean,
-    MeanOver,
-    Position,
-    e_y,
-    f_load,
-    i,
-    j,
-    k,
-    l,
-    m,  # fmt: skip
-    n,
-    n_plus,
-    phi,
-    r,
-    sigma,
-    site_r,
-    site_s,
-    z,
-)
+from force_diffusion.symbolic.symbols import M, e_y, f_load, i, j, k, l, m, n, phi, r, sigma, z
 from sympy import Abs, Rational, sqrt
 
 import force_diffusion as fd
@@ -47,17 +22,17 @@ def equal(left: sympy.Expr, right: sympy.Expr) -> sympy.Eq:
 
 def test_z_is_the_height_of_one_layer() -> None:
     domain = Domain.of(j >= 1, j <= M - 1, l >= 0)
-    theorem = rules.rewrite()(equal(z * M * DeltaR(k, l), j * DeltaR(k, l)), domain)
+    theorem = rules.rewrite()(equal(z * M * sy.DeltaR(k, l), j * sy.DeltaR(k, l)), domain)
     with pytest.raises(NotProvedError, match="height of one layer"):
         rules.instance(theorem, {M: M + 1}, Domain.of(j >= 1, j <= M, l >= 0))
 
 
 def test_a_theorem_with_z_is_not_put_in_elsewhere() -> None:
     surface, positions = axioms.SURFACE, load(1).theorem
-    value = positions.formula.rhs + (z * M - j) * r * n_plus
+    value = positions.formula.rhs + (z * M - j) * r * sy.n_plus
     domain = Domain.of(j >= 0, loading=surface)
-    theorem = rules.rewrite(positions)(equal(Position(i, j), value), domain)
-    apart = equal(Position(i, j) - Position(i - 1, j - 1), r * n_plus)
+    theorem = rules.rewrite(positions)(equal(sy.Position(i, j), value), domain)
+    apart = equal(sy.Position(i, j) - sy.Position(i - 1, j - 1), r * sy.n_plus)
     with pytest.raises(NotProvedError, match="height of one layer"):
         rules.rewrite(theorem)(apart, Domain.of(j >= 1, loading=surface))
 
@@ -65,14 +40,14 @@ def test_a_theorem_with_z_is_not_put_in_elsewhere() -> None:
 @pytest.mark.parametrize("height", [m, l])
 def test_no_sum_is_over_the_place_of_a_load(height: sympy.Symbol) -> None:
     surface = axioms.SURFACE.put_in({M: height})
-    total = equal(sympy.Sum(LoadForce(i, j), (height, 1, 3)), -f_load * e_y)
+    total = equal(sympy.Sum(sy.LoadForce(i, j), (height, 1, 3)), -f_load * e_y)
     with pytest.raises(NotAStatementError, match="place of the load"):
         rules.rewrite(axioms.loads(surface))(total, Domain.of(sympy.Eq(j, 1), loading=surface))
 
 
 def test_no_mean_is_over_the_place_of_a_load() -> None:
     surface = axioms.SURFACE.put_in({M: n})
-    mean = equal(Mean(MeanOver(Dot(e_y, LoadForce(i, j)), 2, k)), -f_load / 2)
+    mean = equal(sy.Mean(sy.MeanOver(sy.Dot(e_y, sy.LoadForce(i, j)), 2, k)), -f_load / 2)
     domain = Domain.of(sympy.Eq(j, 0), loading=surface, indices=(k,))
     with pytest.raises(NotAStatementError, match="place of the load"):
         moment(axioms.loads(surface))(mean, domain)
@@ -105,10 +80,10 @@ def test_the_root_of_a_variance_is_decided() -> None:
 @pytest.mark.parametrize(
     ("number", "force"),
     [
-        (7, ForcePlus(k, l)),
-        (8, ForceMinus(site_r, site_s)),
-        (9, ForceMinus(k + 1, l - 1)),
-        (10, ForcePlus(k - 3, l - 1)),
+        (7, sy.ForcePlus(k, l)),
+        (8, sy.ForceMinus(sy.site_r, sy.site_s)),
+        (9, sy.ForceMinus(k + 1, l - 1)),
+        (10, sy.ForcePlus(k - 3, l - 1)),
     ],
 )
 def test_forces_that_a_load_makes_zero_are_zero(number: int, force: sympy.Expr) -> None:
@@ -117,7 +92,7 @@ def test_forces_that_a_load_makes_zero_are_zero(number: int, force: sympy.Expr) 
 
 def test_nothing_lies_above_the_surface() -> None:
     at = {M: sympy.Integer(3), j: sympy.Integer(2)}
-    statement = equal(ForcePlus(i + 1, j + 1), sympy.S.Zero)
+    statement = equal(sy.ForcePlus(i + 1, j + 1), sympy.S.Zero)
     assert candidate_for(load(11), 0, statement, at).verdict is Verdict.PROVED
 
 

@@ -11,24 +11,9 @@ import pytest
 import sympy
 from force_diffusion.derivations.framework.decide import candidate_for
 from force_diffusion.derivations.framework.loading import load
+from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
-from force_diffusion.symbolic.symbols import (
-    DeltaR,
-    ForceMinus,
-    ForcePlus,
-    M,
-    b_plus,
-    i,
-    j,
-    m,
-    n_minus,
-    n_x,
-    n_y,
-    phi,
-    r,
-    spacing,
-    z,
-)  # fmt: skip
+from force_diffusion.symbolic.symbols import M, i, j, m, n_x, n_y, phi, r, z
 from force_diffusion.symbolic.trees import equation
 from hypothesis import given
 from hypothesis import strategies as st
@@ -40,7 +25,7 @@ DISGUISES = (
     n_x**2 + n_y**2,
     Mul(4 * n_x**2 * n_y**2, Pow(1 - phi**2, -1, evaluate=False), evaluate=False),
     phi + 2 * n_x**2,
-    spacing / (4 * r * n_x),
+    sy.spacing / (4 * r * n_x),
 )
 """Of the number 1."""
 SUMS = (
@@ -66,7 +51,7 @@ def check(ruling: Ruling, *, true: bool, about: object) -> None:
     assert not true or ruling.verdict is not Verdict.REFUTED, (about, str(ruling))
 
 
-PLUS, MINUS = ForcePlus(i, j), ForceMinus(i, j)
+PLUS, MINUS = sy.ForcePlus(i, j), sy.ForceMinus(i, j)
 FORMS: dict[str, Callable[[], fd.ClosedForm]] = {
     "surface": lambda: fd.variance(PLUS),
     "both": lambda: fd.covariance(PLUS, MINUS),
@@ -139,7 +124,9 @@ def test_multiples_of_leading_orders(
 @given(
     one=st.sampled_from(DISGUISES),
     weights=st.dictionaries(
-        st.tuples(st.sampled_from([(i, j), (i + 1, j + 1)]), st.sampled_from([b_plus, n_minus])),
+        st.tuples(
+            st.sampled_from([(i, j), (i + 1, j + 1)]), st.sampled_from([sy.b_plus, sy.n_minus])
+        ),
         st.tuples(numbers, st.sampled_from([*COSINES, j])),
         max_size=3,
     ),
@@ -157,9 +144,9 @@ def test_radii_that_are_added(
     added, highest = [], 0
     for (place, vector), (factor, function) in weights.items():
         if number in (3, 4, 5):
-            added.append(factor * function * vector * DeltaR(*place))
-        elif vector == b_plus:
-            added.append(factor * function * M**order * DeltaR(*place))
+            added.append(factor * function * vector * sy.DeltaR(*place))
+        elif vector == sy.b_plus:
+            added.append(factor * function * M**order * sy.DeltaR(*place))
             highest = max(highest, order + int(function == j) if factor else 0)
     candidate = equation(left, Add(Mul(one, right, evaluate=False), *added, evaluate=False))
     true = not any(added) or (number == 12 and highest < 2)

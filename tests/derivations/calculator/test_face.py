@@ -38,12 +38,10 @@ _CALLS = """
 import sys
 import force_diffusion as fd
 assert not {"sympy", "numpy", "flint", "islpy"} & {*sys.modules}, sorted(sys.modules)
-from force_diffusion.symbols import M, N, f_minus, f_plus, i, j, k, l, p, t
+from force_diffusion.symbols import N, f_minus, f_plus, i, j, t
 found = [
     fd.variance(f_plus(i, j) - f_minus(i, j), load="surface"),
     fd.variance(fd.mean_over(f_plus(i, j), N), load="bulk"),
-    fd.covariance(f_plus(i, j), f_plus(i + p, l), load="surface"),
-    fd.variance(fd.response(i, j), load=fd.point(k, l)),
     fd.mean(f_plus(i, j), order=2, load=fd.leaning(t)),
 ]
 print(*(isinstance(one, fd.ClosedForm) and len(one.pieces) for one in found))
@@ -57,7 +55,7 @@ def test_calls_of_a_fresh_process() -> None:
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     counts = [int(one) for one in done.stdout.split()]
-    assert len(counts) == 5
+    assert len(counts) == 3
     assert min(counts) > 1
 
 

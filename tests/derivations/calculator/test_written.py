@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from itertools import product
+from random import Random
 from typing import Any
 
 import pytest
@@ -98,8 +99,8 @@ def test_each_place_of_the_domain_is_in_one_piece(form: fd.ClosedForm) -> None:
 def test_python_gives_the_same_and_refuses_the_same(form: fd.ClosedForm) -> None:
     names: dict[str, Any] = {}
     exec(form.python("function"), names)
-    numbers = others(form)
-    for at in points(form):
+    numbers, places = others(form), list(points(form))
+    for at in Random(1).sample(places, min(len(places), 500)):
         try:
             expected = form.at(**at, **numbers)
         except ArgumentError:

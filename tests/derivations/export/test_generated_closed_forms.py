@@ -54,14 +54,17 @@ def test_the_file_is_what_the_derivations_generate() -> None:
 
 def places(name: str) -> Iterator[dict[str, Any]]:
     """All contacts of small packings, or those below a loaded bead."""
-    top = range(1, 8)
+    top = range(1, 7)
     if name in BELOW_LOAD:
         for l, j in product(top, top):  # noqa: E741
             lefts = [j - l] if name == "leg_variance" else range(j - l, l - j + 1, 2)
             yield from ({"i": i + l % 2, "j": j, "k": l % 2, "l": l} for i in lefts if j < l)
         return
-    for M, j, N in product(top, top, top if name.endswith("mean_variance") else [1]):
-        yield from ({"M": M, "j": j - 1, "N": N, "t": t} for t in (ONE / 3, ONE * 2) if j <= M)
+    counts = top if name.endswith("mean_variance") else [1]
+    ratios = [ONE / 3, ONE * 2] if name.endswith("at_angle") else [ONE]
+    for M, j, N, t in product(top, top, counts, ratios):
+        if j <= M:
+            yield {"M": M, "j": j - 1, "N": N, "t": t}
 
 
 @pytest.mark.parametrize("name", OF_CONTACTS | BELOW_LOAD)

@@ -22,20 +22,7 @@ from force_diffusion.symbolic.printing.lines import (
 )
 from force_diffusion.symbolic.printing.structure import in_order
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.symbols import (
-    DeltaNPlus,
-    DeltaR,
-    Dot,
-    ForcePlus,
-    M,
-    i,
-    j,
-    m,
-    phi,
-    r,
-    sigma,
-    z,
-)
+from force_diffusion.symbolic.symbols import M, i, j, m, phi, r, sigma, z
 from force_diffusion.symbolic.trees import equation
 from hypothesis import given
 from hypothesis import strategies as st
@@ -48,27 +35,27 @@ HALF = sympy.Rational(1, 2)
 @pytest.mark.parametrize(
     ("expression", "source", "plain"),
     [
-        (DeltaR(i, j), r"\delta r_{ij}", "δr_ij"),
-        (DeltaR(i - 1, j), r"\delta r_{i-1,j}", "δr_(i−1,j)"),
-        (DeltaR(-j + i, 0), r"\delta r_{i-j,0}", "δr_(i−j,0)"),
-        (DeltaR(2 + i + j - m, m), r"\delta r_{i+j-m+2,m}", "δr_(i+j−m+2,m)"),
+        (sy.DeltaR(i, j), r"\delta r_{ij}", "δr_ij"),
+        (sy.DeltaR(i - 1, j), r"\delta r_{i-1,j}", "δr_(i−1,j)"),
+        (sy.DeltaR(-j + i, 0), r"\delta r_{i-j,0}", "δr_(i−j,0)"),
+        (sy.DeltaR(2 + i + j - m, m), r"\delta r_{i+j-m+2,m}", "δr_(i+j−m+2,m)"),
         (sy.n_plus, r"\hat{\mathbf{n}}^{+}", "n⁺"),
-        (DeltaNPlus(i, j), r"\delta\hat{\mathbf{n}}^{+}_{ij}", "δn⁺_ij"),
+        (sy.DeltaNPlus(i, j), r"\delta\hat{\mathbf{n}}^{+}_{ij}", "δn⁺_ij"),
         (1 - phi**2, r"1 - \phi^{2}", "1 − φ²"),
         (terms(times(2, z), 1), "2 z + 1", "2 z + 1"),
         (minus(HALF * M), r"-\frac{M}{2}", "−M/2"),
         (M / (2 * r), r"\frac{M}{2 r}", "M/(2 r)"),
         (power(times(sigma, 1 / r), 2), r"\left( \frac{\sigma_{\delta r}}{r} \right)^{2}", None),
-        (ForcePlus(i, j) ** 2, r"(f^{+}_{ij})^{2}", None),
-        (terms(1, Dot(sy.n_plus, DeltaNPlus(i, j))), None, "1 + n⁺·δn⁺_ij"),
+        (sy.ForcePlus(i, j) ** 2, r"(f^{+}_{ij})^{2}", None),
+        (terms(1, sy.Dot(sy.n_plus, sy.DeltaNPlus(i, j))), None, "1 + n⁺·δn⁺_ij"),
         (
-            Dot(sy.n_minus, terms(DeltaNPlus(i, j), minus(DeltaNPlus(j, i)))),
+            sy.Dot(sy.n_minus, terms(sy.DeltaNPlus(i, j), minus(sy.DeltaNPlus(j, i)))),
             r"\hat{\mathbf{n}}^{-} \cdot "
             r"(\delta\hat{\mathbf{n}}^{+}_{ij} - \delta\hat{\mathbf{n}}^{+}_{ji})",
             "n⁻·(δn⁺_ij − δn⁺_ji)",
         ),
         (
-            times(2, sympy.Sum(DeltaR(i, m), (m, 1, j - 1))),
+            times(2, sympy.Sum(sy.DeltaR(i, m), (m, 1, j - 1))),
             r"2 \sum_{m=1}^{j-1} \delta r_{im}",
             "2 Σ(m=1…j−1) δr_im",
         ),
@@ -94,7 +81,7 @@ def test_notation(expression: sympy.Expr, source: str | None, plain: str | None)
 
 
 def test_the_order_in_which_it_was_built_is_kept() -> None:
-    built = terms(DeltaR(j, i), minus(DeltaR(i, j)), times(r, terms(j, i)))
+    built = terms(sy.DeltaR(j, i), minus(sy.DeltaR(i, j)), times(r, terms(j, i)))
     assert text(built) == "δr_ji − δr_ij + r (j + i)"
 
 
@@ -113,7 +100,7 @@ def test_asymptotic_signs() -> None:
 
 
 def long_sum(count: int) -> sympy.Expr:
-    return terms(*(times(number + 2, DeltaR(i + number, j)) for number in range(count)))
+    return terms(*(times(number + 2, sy.DeltaR(i + number, j)) for number in range(count)))
 
 
 @given(st.integers(1, 60))
@@ -191,13 +178,13 @@ def sympy_digits(raised: str) -> str:
 
 def test_python_source_takes_any_number_type() -> None:
     scope: dict[str, object] = {}
-    exec(python_source("f", "Doc.", M**2 / (2 * r) + sympy.Sum(DeltaR(m, j), (m, 1, M))), scope)
+    exec(python_source("f", "Doc.", M**2 / (2 * r) + sympy.Sum(sy.DeltaR(m, j), (m, 1, M))), scope)
     function = scope["f"]
     assert function(M=3, j=0, r=9.0, dr=lambda a, b: a + b) == 6.5  # type: ignore[operator]
 
 
 def test_a_broken_product_keeps_all_its_brackets() -> None:
-    long_sum = terms(*(DeltaR(i + k, j) for k in range(9)))
+    long_sum = terms(*(sy.DeltaR(i + k, j) for k in range(9)))
     product = times(terms(1, phi), long_sum)
     for lines in (text_lines(product, room=40), latex_lines(product, room=120.0)):
         assert len(lines) > 1
@@ -223,7 +210,7 @@ def test_no_line_is_a_lone_factor() -> None:
 
 
 def test_a_broken_fraction_shows_no_stand_in() -> None:
-    product = times(sigma**2 / (2 * r), terms(*(DeltaR(i + k, j) for k in range(9))))
+    product = times(sigma**2 / (2 * r), terms(*(sy.DeltaR(i + k, j) for k in range(9))))
     for lines in (text_lines(product, room=40), latex_lines(product, room=120.0)):
         assert len(lines) > 1
         assert "GAP" not in " ".join(lines)
