@@ -41,7 +41,7 @@ def derive(
 ) -> None:
     """Prove equations and all that they rest on.
 
-    For a single equation it prints all steps and claims, for several a line each.
+    For one equation it prints all steps and claims, for several a line for each.
     """
     wanted = [equation_number(word) for word in numbers or ()] or list(modules())
     from ..export.document import DOCUMENT, MANIFEST, fragment_name

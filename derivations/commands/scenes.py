@@ -27,7 +27,7 @@ def _scene(command: str) -> Any:
     """Name the argument of a command, and what it answers."""
     words = f"A scene file, in TOML, that asks for {either(answered(command))}"
     kinds = [name for name, own in KINDS.items() if not answered(command, **own)]
-    none = f"; not of {' or '.join(kinds).replace('`', '')}" if kinds else ""
+    none = f"; not for {' or '.join(kinds).replace('`', '')}" if kinds else ""
     return typer.Argument(metavar="SCENE", help=f"{words}{none}.")
 
 

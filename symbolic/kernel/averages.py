@@ -42,7 +42,7 @@ def power_law(*groups: Group) -> Rule:
             raise FalseStatementError(f"a power of left over right goes to {shown(ratio)}, not 1")
         held = [s for s in FIELD.generators if ratio.holds(s) and s not in (sy.phi, sy.n_x, sy.n_y)]
         if held:
-            raise FalseStatementError(f"a power of left over right goes as {shown(ratio)}")
+            raise FalseStatementError(f"a power of left over right varies as {shown(ratio)}")
         return made(formula, domain, "comparing powers", flat(groups))
 
     return rule

@@ -174,7 +174,7 @@ def test_the_help_says_what_the_table_does(
     for quantity in QUANTITIES:
         assert (f'"{quantity}"' in shown) == (quantity in answered(command))
     limit = {
-        "cost": "not of contacts that open",
+        "cost": "not for contacts that open",
         "figures": 'of spheres for "profile" or "histogram"',
     }
     assert limit.get(command, "") in shown
