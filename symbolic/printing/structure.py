@@ -58,9 +58,9 @@ def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
     """A sum of monomials, each with the terms of its factor: as a product, or one by one."""
     if len(part) > 1 and sum(map(len, part.values())) < _TOO_MANY:
         whole = Add(*(Add(*terms) * monomial for monomial, terms in part.items()))
-        number, factors = sympy.factor_list(whole)
+        number, factors = sympy.Poly(whole).factor_list()
         if sum(power for _, power in factors) > 1:
-            return [_product(number, factors)]
+            return [_product(number, [(factor.as_expr(), power) for factor, power in factors])]
     found = []
     for monomial, terms in part.items():
         if len(terms) == 1 or monomial == 1:
