@@ -12,20 +12,25 @@ import force_diffusion as fd
 from tests.numeric.scenes import question
 
 
-def scene(quantity: str, **ask: Any) -> fd.Scene:
-    return question(quantity, 2, 64, seed=3, realisations=3, **ask)
-
-
-@pytest.mark.parametrize("bins", [1, 2, 7, 100])
-@pytest.mark.parametrize("tolerance", [None, "1e-30"])
-def test_counts_are_those_of_the_changes(bins: int, tolerance: str | None) -> None:
-    """A change belongs to the bin of low ≤ change < high."""
-    rows = scene("histogram", bins=bins).run(tolerance).decimals()
-    listed = scene("contact_forces").run(tolerance).decimals()
+@pytest.mark.parametrize(("dimension", "width"), [(2, 64), (3, 7)])
+@pytest.mark.parametrize("layers", [None, [0], [2], [0, 2]])
+@pytest.mark.parametrize(("bins", "tolerance"), [(1, None), (7, None), (100, None), (7, "1e-30")])
+def test_counts_are_those_of_the_changes(
+    dimension: int, width: int, layers: list[int] | None, bins: int, tolerance: str | None
+) -> None:
+    """A change belongs to the bin of low ≤ change < high; bins reach from the first to the last."""
+    of = {"dimension": dimension, "realisations": 3, "seed": 3}
+    rows = question("histogram", 3, width, bins=bins, layers=layers, **of).run(tolerance).decimals()
+    listed = question("contact_forces", 3, width, **of).run(tolerance).decimals()
+    counted = range(3) if layers is None else layers
     edges = [Fraction(row["low"]) for row in rows]
-    expected = Counter(bisect_right(edges, Fraction(row["change"])) for row in listed)
+    expected = Counter(
+        bisect_right(edges, Fraction(row["change"])) for row in listed if row["j"] in counted
+    )
     assert [row["count"] for row in rows] == [expected[place] for place in range(1, bins + 1)]
-    assert expected.total() == 3 * 2 * 2 * 64
+    assert expected.total() == 3 * dimension * len(counted) * width ** (dimension - 1)
+    assert expected[1]
+    assert expected[bins]
 
 
 @pytest.mark.parametrize("effects", [{"geometry": "ordered"}, {}])
@@ -48,23 +53,8 @@ def test_realisations_that_are_alike_are_counted_too(
         assert asked("histogram", **drawn).arrays["count"].sum() == 4 * 3 * dimension * beads
 
 
-def layered(quantity: str, *, dimension: int = 2, **more: Any) -> fd.Scene:
-    width = 14 if dimension == 2 else 8
-    return question(quantity, 6, width, dimension=dimension, seed=5, **more)
-
-
-@pytest.mark.parametrize("dimension", [2, 3])
-@pytest.mark.parametrize("asked", [[0], [5], [1, 3]])
-def test_it_counts_the_changes_of_these_layers(asked: list[int], dimension: int) -> None:
-    at = {"realisations": 3, "dimension": dimension}
-    found = layered("histogram", bins=7, layers=asked, **at).run().arrays
-    forces = layered("contact_forces", **at).run().arrays
-    change = forces["change"][np.isin(forces["j"], asked)]
-    counts, _ = np.histogram(change, [*found["low"], found["high"][-1]])
-    assert found["count"].tolist() == counts.tolist()
-    assert sum(counts) == len(change)
-    assert counts[0]
-    assert counts[-1]
+def layered(quantity: str, **more: Any) -> fd.Scene:
+    return question(quantity, 6, 14, seed=5, **more)
 
 
 def test_an_ensemble_counts_them_too() -> None:
