@@ -31,7 +31,6 @@ def write_whole(path: Path, content: bytes) -> None:
     if place.exists() and not place.is_file():
         place.write_bytes(content)
         return
-    place.parent.stat()  # names the folder if it doesn't exist
     beside = place.with_name(f".{place.name}.{secrets.token_hex(4)}")
     try:
         with beside.open("xb") as file:
