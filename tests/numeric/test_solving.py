@@ -60,7 +60,7 @@ def test_equal_radii_are_the_ordered_packing() -> None:
         ({"radii": np.ones((3, 4)), "load": "surface"}, "must be SurfaceLoad()"),
         ({"radii": np.ones((3, 4)), "load": fd.PointLoad(at=(1, 2))}, "i + j must be even"),
         ({"radii": np.ones((3, 4)), "tolerance": "x"}, "not a finite decimal number"),
-        ({"radii": np.ones((3, 4)), "tolerance": 2}, "between 0 and 1"),
+        ({"radii": np.ones((3, 4)), "tolerance": 1}, "between 0 and 1"),
         ({"radii": np.ones((3, 4)), "certified": True}, "needs a tolerance"),
     ],
 )
