@@ -135,17 +135,20 @@ def variances(height: int, phi: float, bulk: bool) -> tuple[tuple[float, float],
     def one(layer: int) -> Array:
         return np.broadcast_to(each[layer * width], each.shape)
 
-    middle, squares = width // 2, np.zeros(height)
+    middle, squares, thirds = width // 2, np.zeros(height), np.zeros(height)
+    weights = [of_layer.terms[1][:, middle] for of_layer in forces(each, 0 * each, phi, bulk)]
     for layer in range(height + 1):  # by translation, of one bead of a layer on all contacts
         mixed = forces(each, one(layer), phi, bulk)
         squares += [(of_layer.terms[3] ** 2).sum() / 4 for of_layer in mixed]
-    weights = [of_layer.terms[1][:, middle] for of_layer in forces(each, 0 * each, phi, bulk)]
-    found = []
-    for layer, weight in enumerate(weights):
-        all_weights = np.broadcast_to(weight.reshape(height + 1, width), each.shape)
-        third = forces(all_weights, each, phi, bulk)[layer].terms[5][:, middle].sum()
-        found.append((float((weight**2).sum()), float(2 * squares[layer] + 2 * third)))
-    return tuple(found)
+        for of, (of_layer, weight) in enumerate(zip(mixed, weights, strict=True)):
+            rows = weight.reshape(height + 1, width)
+            for column in range(width):
+                own = np.roll(rows, column - middle, axis=1).ravel()
+                thirds[of] += own @ of_layer.terms[5][:, column]
+    return tuple(
+        (float((weight**2).sum()), float(2 * square + 2 * third))
+        for weight, square, third in zip(weights, squares, thirds, strict=True)
+    )
 
 
 @cache

@@ -61,7 +61,7 @@ def form(request: pytest.FixtureRequest) -> fd.ClosedForm:
 def points(form: fd.ClosedForm) -> Iterator[dict[str, int]]:
     """All indices of a box around the origin, more of them where there are fewer indices."""
     names = [name for name, symbol in form.symbols.items() if symbol.is_integer]
-    far = {1: 12, 2: 9, 3: 7, 4: 5}[len(names)]
+    far = {1: 12, 2: 9, 3: 6, 4: 4}[len(names)]
     ranges = (range(-far if name in "ikp" else -1, far + 1) for name in names)
     return (dict(zip(names, values, strict=True)) for values in product(*ranges))
 
