@@ -165,8 +165,8 @@ def drawn(rows: list[Any], enclosed: list[Any]) -> Figure:
     for axis in (errors.xaxis, errors.yaxis):  # along which lie logarithms
         axis.set_major_locator(MaxNLocator(8, integer=True, steps=(1, 2, 5, 10)))
         axis.set_major_formatter(lambda power, _: f"$10^{{{power:g}}}$")
-    lost.set(xscale="log", yscale="log", xlim=(3.4, 4100), ylabel="bits", ylim=(4, None))
-    lost.set(xlabel="layers $M$ (strips of 16 beads a layer)", title="balls: bits lost in total")
+    lost.set(xscale="log", yscale="log", xlim=(3.4, 4100), ylabel="bits lost", ylim=(4, None))
+    lost.set(xlabel="layers $M$ (strips of 16 beads a layer)", title="balls: precision lost")
     errors.legend()
     lost.legend()
     return figure
