@@ -52,11 +52,11 @@ class Result(Tabled):
         magnitude is written. The guide to scenes says what each column means.
         """
         if self.table.bins is not None:
-            low, high, count = zip(*self.table.bins, strict=True)
+            bins = self.table.bins  # none where no load reaches a contact
             return {
-                "low": np.array([_near(edge) for edge in low]),
-                "high": np.array([_near(edge) for edge in high]),
-                "count": np.array(count, dtype=np.int64),
+                "low": np.array([_near(low) for low, _, _ in bins]),
+                "high": np.array([_near(high) for _, high, _ in bins]),
+                "count": np.array([count for _, _, count in bins], dtype=np.int64),
             }
         table = self.table
         found = {
