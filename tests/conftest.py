@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, settings
 
 # Each run draws anew; a failure is replayed from .hypothesis, or with what is printed beside it.
 # .ci/run says which seed it has drawn: with it, and the same profile, all examples are the same.
-EXAMPLES = {"quick": 20, "ci": 100, "thorough": 10_000}
+EXAMPLES = {"quick": 20, "ci": 50, "thorough": 10_000}
 for profile, examples in EXAMPLES.items():
     settings.register_profile(
         profile,

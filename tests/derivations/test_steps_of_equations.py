@@ -160,7 +160,7 @@ def proves(step: Step, part: int, candidate: sympy.Eq) -> bool:
     return decide(formula, step.domains[part], [step.rules[part]]).verdict.is_proved
 
 
-@pytest.mark.long(share=3)
+@pytest.mark.long(share=6)
 @every_equation
 def test_a_changed_step_is_not_proved(number: Number) -> None:
     statement = load(number)
@@ -201,7 +201,7 @@ def test_a_wrong_step_fails_the_run(
     wanted = derivation.proof[place - (place > 0)].number
 
     def wrong(steps: Steps, reason: str, formula: sympy.Basic, *args: Any, **kwargs: Any) -> Step:
-        if len(steps) + 1 == wanted:
+        if len(steps) + 1 == wanted and not kwargs.get("is_claim"):
             assert change(formula) != formula
             formula = change(formula)
         return show(steps, reason, formula, *args, **kwargs)

@@ -198,7 +198,7 @@ QUICK = {1, 4, 9, 13}
 @pytest.mark.parametrize(
     "number",
     [
-        pytest.param(number, marks=() if number in QUICK else pytest.mark.long(share=2))
+        pytest.param(number, marks=() if number in QUICK else pytest.mark.long(share=6))
         for number in (*CHECKS, 13, 14, 16)
     ],
 )

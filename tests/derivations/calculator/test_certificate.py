@@ -26,6 +26,8 @@ from tests.soundness.witnesses.moments import Packing, Spheres, exact
 
 PARTS = 3
 """In which the formulas of a form are compared: CI looks at one, which its seed draws."""
+TALL, TALL_PARTS = ("B22", "both"), 15
+"""The form whose packings take minutes: CI compares one of its formulas."""
 HIGHEST = 29
 """Of packings that are looked at."""
 FARTHER = 3
@@ -58,8 +60,17 @@ NUMBERS = {
 def test_exact_forms(number: int | str, part: int) -> None:
     equation = fd.equation(number)
     for name in equation.forms:
+        if (number, name) == TALL:
+            continue
         form = equation.exact(name)
         certify(name, form, form.pieces[part::PARTS] or form.pieces)
+
+
+@pytest.mark.long(share=TALL_PARTS)
+@pytest.mark.parametrize("part", range(TALL_PARTS))
+def test_the_form_that_needs_the_tallest_packings(part: int) -> None:
+    form = fd.equation(TALL[0]).exact(TALL[1])
+    certify(TALL[1], form, form.pieces[part::TALL_PARTS])
 
 
 def certify(name: str, form: fd.ClosedForm, formulas: Sequence[Piece]) -> int:

@@ -168,7 +168,7 @@ def test_variances(terms: Terms, drawn: Drawn) -> None:
 
 
 @FEW
-@given(_terms(2), _terms(1), loads, st.integers(-9, 8))
+@given(_terms(1), _terms(1), loads, st.integers(-9, 8))
 def test_two_layers(one: Terms, other: Terms, drawn: Drawn, apart: int) -> None:
     """At any distance; where the distance is of the wrong parity there is no bead."""
     form = fd.covariance(observable(one, i, j), observable(other, i + p, l), load=drawn.load)

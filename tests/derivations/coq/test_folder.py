@@ -130,7 +130,7 @@ def test_a_program_that_checks_nothing_accepts_nothing(
     programs: Path, script: str, trouble: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     if "sleep" in script:
-        monkeypatch.setattr(folder, "LIMIT", 5)  # a busy machine says its version within them
+        monkeypatch.setattr(folder, "LIMIT", 2)  # a busy machine says its version within them
     put(programs, "coqc", VERSION + script)
     found = fd.certify([1])
     assert not found.passed
