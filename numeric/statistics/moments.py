@@ -69,7 +69,9 @@ def standard_errors(values: Array) -> tuple[Array, Array]:
     """
     with np.errstate(all="ignore"):  # of numbers beyond floats nothing is known
         means = values.mean(axis=0)
-        sums = products(values - means).sum(axis=0)
+        x, square = (values - means).swapaxes(0, 1)
+        pairs = ((x, x), (x, square), (square, square))  # one after the other, to save memory
+        sums = np.stack([(a * b).sum(axis=0) for a, b in pairs])
     _, std, mean_error, log_error = with_errors(len(values), means, sums)
     return mean_error, error_of_std(std, log_error)
 
