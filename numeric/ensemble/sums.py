@@ -27,7 +27,7 @@ from ..quantities.base import ContactQuantity, first_order_std
 from ..scene.scene import CheckedScene, refuse
 from ..scene.sections import SceneError
 from ..statistics.confidence import looks
-from ..statistics.moments import products, unit_near
+from ..statistics.moments import sums_of_products, unit_near
 
 DEFAULT_BINS = 60
 # Outer edges of a histogram, in units of the largest theoretical σ_f.
@@ -190,7 +190,7 @@ class Sums:
             self.tensile + other.tensile,
             self.bins + other.bins,
             self.means + step * share,
-            self.products + other.products + products(step) * (self.packings * share),
+            self.products + other.products + sums_of_products(step[None]) * (self.packings * share),
         )
 
     def to_bytes(self) -> bytes:
@@ -238,7 +238,7 @@ def _summed(m: Measurement, numbers: Sequence[int]) -> Sums:
         tensile.sum(axis=0),
         np.stack([counts.sum(axis=0), (counts**2).sum(axis=0)]),
         mean,
-        products(means - mean).sum(axis=0),
+        sums_of_products(means - mean),
     )
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..theory.expected import critical_height
 from .beads import alike, bare, draw_base, draw_chains, draw_surface_load
-from .packings import Made, Medium, Options, Table, one_packing, planned
+from .packings import Made, Medium, Options, Table, planned, solve_first
 from .style import PAGE, panels
 
 HEIGHT, WIDTH = 24, 64
@@ -24,7 +24,7 @@ def contacts(o: Options, medium: Medium) -> Table:
         "contact_forces", height=HEIGHT, width=WIDTH, seed=o.seed, std=medium.std,
         spacing=medium.spacing,
     )  # fmt: skip
-    found = one_packing(plan)
+    found = solve_first(plan)
     names = {"x_low": "x", "y_low": "y", "x_high": "upper_x", "y_high": "upper_y"}
     return {
         **{name: found[name] for name in ("i", "j", "branch")},

@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
 from .beads import arrow, bare, draw_beads
-from .packings import N_X, SPACING, Made, Options, Table, one_packing, planned
+from .packings import N_X, SPACING, Made, Options, Table, planned, solve_first
 from .style import COLUMN, panels
 
 HEIGHT, WIDTH, STD = 3, 16, 0.06
@@ -26,7 +26,7 @@ def beads(o: Options) -> Table:
     """Solve a packing and cut the detail out of it: i, j, ordered and displaced centre, radius."""
     o.notice("figure 1")
     plan = planned("positions", height=HEIGHT, width=WIDTH, seed=o.seed, std=STD)
-    found = one_packing(plan)
+    found = solve_first(plan)
     found = {name: column[found["i"] < SHOWN] for name, column in found.items()}
     sites = list(zip(found["i"].tolist(), found["j"].tolist(), strict=True))
     return {

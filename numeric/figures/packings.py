@@ -172,7 +172,7 @@ def planned(
     return plan(scene)
 
 
-def one_packing(ensemble: Plan) -> Table:
+def solve_first(ensemble: Plan) -> Table:
     """Solve the first realisation; give the columns of its answer."""
     table = answer(ensemble.quantities, ensemble.problem, [0], FLOAT64).table
     return table.index | table.numbers

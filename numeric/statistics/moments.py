@@ -69,16 +69,16 @@ def standard_errors(values: Array) -> tuple[Array, Array]:
     """
     with np.errstate(all="ignore"):  # of numbers beyond floats nothing is known
         means = values.mean(axis=0)
-        x, square = (values - means).swapaxes(0, 1)
-        pairs = ((x, x), (x, square), (square, square))  # one after the other, to save memory
-        sums = np.stack([(a * b).sum(axis=0) for a, b in pairs])
+        sums = sums_of_products(values - means)
     _, std, mean_error, log_error = with_errors(len(values), means, sums)
     return mean_error, error_of_std(std, log_error)
 
 
-def products(values: Array) -> Array:
-    """Give aa, ab and bb, (…, 3, groups), of a and b, (…, 2, groups)."""
-    return values[..., [0, 0, 1], :] * values[..., [0, 1, 1], :]
+def sums_of_products(values: Array) -> Array:
+    """Give Σ aa, Σ ab and Σ bb over packings, (3, groups), of a and b, (packings, 2, groups)."""
+    a, b = values.swapaxes(0, 1)
+    # one after the other: there may be as many groups as contacts
+    return np.stack([(left * right).sum(axis=0) for left, right in ((a, a), (a, b), (b, b))])
 
 
 def error_of_std(std: Array, log_error: Array) -> Array:
