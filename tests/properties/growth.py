@@ -28,7 +28,7 @@ from force_diffusion.symbolic.symbols import (
 )
 
 from tests.properties.drawn import Geometry
-from tests.properties.moments import CHANGES, Slab, moment
+from tests.properties.moments import Slab, moment
 from tests.properties.packing import Number
 
 VERTICAL = Fraction(1), Fraction(1)
@@ -62,7 +62,7 @@ class Newton:
 def variance(geometry: Geometry, load: str, height: int, layer: int) -> Number:
     """σ_f²/⟨f⟩² of a layer for σ = 1, from nonlinear packings of this height."""
     slab = Slab(geometry, height, load, VERTICAL)
-    return moment(slab, Variance(RATIO[load]), {i: layer, j: layer, sigma: 1}, CHANGES[1])
+    return moment(slab, Variance(RATIO[load]), {i: layer, j: layer, sigma: 1})
 
 
 @lru_cache(maxsize=64)
@@ -86,11 +86,20 @@ def tall_variance(geometry: Geometry, load: str, height: int, layer: int) -> Num
     return _small(geometry, load)(u, v) / (height - layer)
 
 
+@lru_cache(maxsize=64)
+def _rounded(geometry: Geometry, load: str) -> Newton:
+    """In floats, which are ten times as fast."""
+    small = _small(geometry, load)
+    return Newton({place: float(small(*place)) for place in small.differences})
+
+
 @lru_cache(maxsize=1024)
-def mean_variance(geometry: Geometry, load: str, height: int) -> Number:
-    """The mean over the layers 2 ≤ j ≤ M − 2; the three others are a share 3/M of all."""
-    inner = range(2, height - 1)
-    return sum(tall_variance(geometry, load, height, layer) for layer in inner) / len(inner)
+def mean_variance(geometry: Geometry, load: str, height: int) -> float:
+    """The mean over the layers 2 ≤ j ≤ M − 2, in floats; the three others are a share 3/M of it."""
+    small, inner = _rounded(geometry, load), range(2, height - 1)
+    return sum(small(height - layer - 2, layer - 2) / (height - layer) for layer in inner) / len(
+        inner
+    )
 
 
 def response(geometry: Geometry, level: int, layer: int, across: int) -> Number:
@@ -98,7 +107,7 @@ def response(geometry: Geometry, level: int, layer: int, across: int) -> Number:
     slab = Slab(geometry, level, "point", VERTICAL)
     first = level % 2
     at = {i: first + across, j: layer, k: first, l: level, sigma: 1}
-    return moment(slab, Variance(RESPONSE), at, CHANGES[1])
+    return moment(slab, Variance(RESPONSE), at)
 
 
 @lru_cache(maxsize=64)

@@ -16,18 +16,17 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 
 from tests.properties.drawn import Geometry, exactly
-from tests.properties.orders import ROUNDING
-from tests.properties.packing import Number, Packing, Site, mp, plus
+from tests.properties.packing import Number, Packing, Site, minus, mp, plus
 from tests.properties.reading import Plane, Value, steps_to
 
 At = Mapping[sympy.Symbol, Value]
 
-CHANGES = mp.mpf("1e-10"), mp.mpf("1e-12")
-"""δr/r of one bead. The fourth derivative, which second differences leave out, is 10²⁰ times as
-small as the second."""
+CHANGE = mp.mpf("1e-18")
+"""δr/r of one bead. Differences leave out its square, 10⁻³⁶, times a higher derivative."""
 
-DIFFERENCE_ROUNDING = ROUNDING / min(CHANGES) ** 2
-"""Of a second difference over the square of the change: 10⁻⁵⁶."""
+ACCURATE = mp.mpf("1e-20")
+"""Of a moment, which here is at most some 10⁶. A second difference over the square of the change is
+rounded to 10⁻⁴⁴."""
 
 
 @dataclass(frozen=True)
@@ -98,28 +97,39 @@ def read(
     slab: Slab, quantity: sympy.Expr, at: At, layer: int, change: Number, origin: Site
 ) -> Number:
     """A quantity so many places to the right of the bead that is changed."""
-    loaded, steps = None, (*origin, -sum(origin))
-    if slab.load == "point":
-        bead = steps_to(at[sy.k], at[sy.l]) if len(steps) == 2 else (0, 0, at[sy.l])
-        loaded = plus(bead, steps)
+    steps = (*origin, -sum(origin))
+    loaded = plus(loaded_bead(steps, at), steps) if slab.load == "point" else None
     return plane(slab, layer, change, loaded).read(quantity, at, steps)
 
 
-def moment(slab: Slab, statistic: sympy.Expr, at: At, change: Number) -> Number:
-    """A variance, a covariance, or the shift of a mean at second order, from differences.
+def loaded_bead(steps: Site, at: At) -> Site:
+    return steps_to(at[sy.k], at[sy.l]) if len(steps) == 2 else (0, 0, at[sy.l])
 
-    ``change`` is that of one radius, over r.
-    """
-    step = change * exactly(slab.geometry[1])
+
+def carries(slab: Slab, at: At, layer: int, origin: Site) -> bool:
+    """Whether the bead that is changed lies in the cone below the load, which holds all forces."""
+    if slab.load != "point":
+        return True
+    steps = (*origin, -sum(origin))
+    first = (*(0,) * len(origin), layer)
+    *across, _ = minus(plus(loaded_bead(steps, at), steps), first)
+    return sum(a % slab.width for a in across) <= slab.height - layer
+
+
+def moment(slab: Slab, statistic: sympy.Expr, at: At) -> Number:
+    """A variance, a covariance, or the shift of a mean at second order, from differences."""
+    step = CHANGE * exactly(slab.geometry[1])
+    ordered = [read(slab, one, at, 0, 0, (0,) * (len(slab.shares) - 1)) for one in statistic.args]
     total = mp.mpf(0)
     for layer, origin in product(range(slab.height + 1), slab.origins):
+        if not carries(slab, at, layer, origin):
+            continue
         larger, smaller = (
             [read(slab, one, at, layer, by, origin) for one in statistic.args]
             for by in (step, -step)
         )
         if isinstance(statistic, sy.Shift):
-            (ordered,) = (read(slab, one, at, layer, 0, origin) for one in statistic.args)
-            total += (larger[0] + smaller[0] - 2 * ordered) / step**2 / 2
+            total += (larger[0] + smaller[0] - 2 * ordered[0]) / step**2 / 2
         else:
             slopes = [(a - b) / (2 * step) for a, b in zip(larger, smaller, strict=True)]
             total += slopes[0] * slopes[-1]

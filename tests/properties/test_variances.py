@@ -17,15 +17,12 @@ from tests.properties.growth import (
     tall_variance,
     variance,
 )
+from tests.properties.moments import ACCURATE
 from tests.properties.orders import falls, printed
 from tests.properties.packing import Number, Packing, mp
 from tests.properties.reading import Plane
 
 LOADS = {13: "surface", 14: "bulk"}
-ACCURATE = mp.mpf("1e-20")
-"""Of a variance from differences, as a share of it: what they leave out is 10⁻²⁴, and extrapolation
-by a layer or two enlarges it."""
-
 HEIGHTS = 10**8, 10**10
 """Where 1/M is as small as need be, and the digits that extrapolation leaves are enough."""
 
