@@ -130,22 +130,3 @@ def test_discs(delta: Array, spacing: float) -> None:
 @given(spheres, st.sampled_from([2.03, 2.4, 2.9, 3.2]))
 def test_spheres(delta: Array, spacing: float) -> None:
     agree(delta, spacing)
-
-
-@pytest.mark.parametrize(
-    ("delta", "spacing", "overlap"),
-    [
-        ([[0.0], [0.1], [0.0]], 2.05, 0.15),  # discs that are their own neighbours
-        ([[[0.0]], [[0.1]], [[0.0]]], 2.05, 0.15),
-        ([[0.0, 0.0], [1.3, 0.0]], 2.1, 0.4),  # two beads a layer: one reaches over the other
-    ],
-)
-def test_a_bead_that_overlaps_its_own_image(
-    delta: list[Any], spacing: float, overlap: float
-) -> None:
-    found = run(plan(scene(np.array(delta), spacing))).physical
-    assert found is not None
-    assert not found.sound
-    assert found.overlaps
-    assert found.smallest_gap is not None
-    assert found.smallest_gap <= -overlap + 1e-12

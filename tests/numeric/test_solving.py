@@ -2,11 +2,8 @@
 
 import math
 import re
-import sys
 from collections.abc import Callable
 from fractions import Fraction
-from pathlib import Path
-from types import FrameType
 from typing import Any
 
 import numpy as np
@@ -231,28 +228,6 @@ def test_units_in_which_errors_would_vanish_are_solved_in_balls(power: int) -> N
 def test_a_radius_beyond_floats_is_refused() -> None:
     with pytest.raises(fd.SceneError, match=r"radius = .*another unit"):
         fd.solve(delta_r=np.ones((3, 5)), radius=10**400)
-
-
-NUMERIC = Path(str(sys.modules[fd.solve.__module__].__file__)).parents[1]
-
-
-def test_few_files_run_code_on_the_way() -> None:
-    pytest.importorskip("numba")
-    radii = 1 + 1e-4 * np.random.default_rng(1).uniform(-1, 1, (2, 9, 16))
-    found = set()
-
-    def seen(frame: FrameType, event: str, _: Any) -> None:
-        path = Path(frame.f_code.co_filename).resolve()
-        if event == "call" and path.is_relative_to(NUMERIC.resolve()):
-            found.add(path.relative_to(NUMERIC.resolve()).as_posix())
-
-    _ = fd.solve(radii[0], spacing=3).force
-    sys.setprofile(seen)
-    try:
-        _ = fd.solve(radii[1], spacing=3).force
-    finally:
-        sys.setprofile(None)
-    assert len(found) <= 12, sorted(found)
 
 
 @given(

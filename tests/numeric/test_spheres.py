@@ -132,22 +132,6 @@ def test_an_ensemble_has_the_width_of_theory(load: fd.Load) -> None:
     assert fd.ensemble(scene("profile", height=4, width=5, load=load), 4).first_order_std is None
 
 
-@pytest.mark.parametrize("quantity", ["contact_forces", "response"])
-def test_rows_of_an_ensemble_stand_by_bead_then_axis(quantity: str) -> None:
-    asked = scene(quantity, height=3, width=5, load=fd.PointLoad(at=(0, 0, 3)), realisations=4)
-    found, names = fd.ensemble(asked, 4), ("j", "p", "q", "branch")
-    rows = list(zip(*(found.index[name].tolist() for name in names), strict=True))
-    assert rows == sorted(rows)
-    forces: dict[tuple[Any, ...], list[float]] = {}
-    mean = "force_mean" if quantity == "response" else "force"
-    for *contact, force in columns(asked.run(), *names, mean):
-        forces.setdefault(tuple(contact), []).append(force)
-    whole = found.mean[::2] if quantity == "response" else found.mean  # "force" before "vertical"
-    before = [np.mean(forces[contact]) for contact in dict.fromkeys(rows)]
-    # forces of the load's order, rounded at every one of three layers
-    assert np.abs(whole - before).max() < 1e-14
-
-
 def test_an_array_of_another_shape_is_refused(tmp_path: Path) -> None:
     asked = {
         "packing": fd.Packing(height=3, width=5, dimension=3),

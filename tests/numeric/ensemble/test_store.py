@@ -189,17 +189,6 @@ def test_stopped_before_a_statement_it_goes_on(
     assert found.sums.to_bytes() == bytes_of_first(M, SIZE)
 
 
-def test_a_running_store_can_be_looked_at(tmp_path: Path) -> None:
-    path, seen = tmp_path / "ensemble.fd", []
-
-    def look(done: int, width: float | None) -> None:
-        if done:
-            seen.append((done, read_store(path).realisations))
-
-    fd.ensemble(scene(PROFILE), 100, store=path, progress=look)
-    assert seen == [(32, 32), (48, 48), (64, 64), (96, 96), (100, 100)]
-
-
 def test_a_store_in_memory_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     # names that SQLite could obey

@@ -250,11 +250,6 @@ def test_the_bound_holds_whatever_the_factorisation(monkeypatch: pytest.MonkeyPa
         bound(matrix(40, 1) * 0.1)
 
 
-def test_a_matrix_known_by_hand() -> None:
-    """[[1, 1], [0, 1]]: the golden ratio and its inverse."""
-    assert 0.4 < bound(np.array([[1.0, 1.0], [0.0, 1.0]])) <= (np.sqrt(5) - 1) / 2
-
-
 @pytest.mark.parametrize("smallest", [0.0, 1e-12, 1e-9])
 def test_nothing_is_bounded_where_rounding_is_larger(smallest: float) -> None:
     """Its square is below 1e-16, the rounding of the others'."""
