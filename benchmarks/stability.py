@@ -174,7 +174,7 @@ def drawn(rows: list[Any], enclosed: list[Any]) -> Figure:
 
 def main(folder: Path) -> None:
     """Write tables and figure."""
-    folder.mkdir()
+    folder.mkdir(parents=True, exist_ok=True)
     rows, enclosed = list(floats()), list(balls())
     (folder / "stability.csv").write_text(csv_text(rows))
     (folder / "stability_balls.csv").write_text(csv_text(enclosed))
