@@ -54,16 +54,16 @@ Image = Mapping[sympy.Symbol, sympy.Expr]
 
 
 @lru_cache(maxsize=4096)
-def _product(one: Key, other: Key) -> Key | None:
+def _product(first: Key, second: Key) -> Key | None:
     """The key of a product; None where it is of second order.
 
     Raises:
         NotExactError: two quantities of order 0 are multiplied.
     """
-    powers = dict(one)
-    for factor, power in other:
+    powers = dict(first)
+    for factor, power in second:
         powers[factor] = powers.get(factor, 0) + power
-    located = [name for key in (one, other) for name, _ in key if isinstance(name, str)]
+    located = [name for key in (first, second) for name, _ in key if isinstance(name, str)]
     if len(located) > 1:
         if any(name.startswith(_OF_ORDER_0) for name in located):
             raise NotExactError("a product of two positions, or loads")
@@ -132,10 +132,10 @@ class Form:
         return cls({} if value.is_zero() else {NUMBER: Weights(((sets.EVERYTHING, value),))})
 
     def __add__(self, other: "Form") -> Self:
-        found = dict(self.parts)
+        parts = dict(self.parts)
         for key, weights in other.parts.items():
-            found[key] = found[key] + weights if key in found else weights
-        return type(self)(found)
+            parts[key] = parts[key] + weights if key in parts else weights
+        return type(self)(parts)
 
     def __sub__(self, other: "Form") -> Self:
         return self + other.scaled(FIELD.constant(-1))
@@ -146,14 +146,14 @@ class Form:
 
     def times(self, other: "Form") -> Self:
         """The product to first order."""
-        found: dict[Key, Weights] = {}
-        for one, weights in self.parts.items():
-            for two, others in other.parts.items():
-                key = _product(one, two)
+        parts: dict[Key, Weights] = {}
+        for left, weights in self.parts.items():
+            for right, others in other.parts.items():
+                key = _product(left, right)
                 if key is not None:
                     product = weights.times(others)
-                    found[key] = found[key] + product if key in found else product
-        return type(self)(found)
+                    parts[key] = parts[key] + product if key in parts else product
+        return type(self)(parts)
 
     def mapped(self, change: Callable[[Weights], Weights]) -> Self:
         """The same with its weights changed."""
@@ -171,7 +171,7 @@ class Form:
         """The same with other indices in the places of its forces."""
         total = type(self)()
         for key, weights in self.parts.items():
-            moved = _in_order((_moved(one, image), power) for one, power in key)
+            moved = _in_order((_moved(factor, image), power) for factor, power in key)
             total = total + type(self)({moved: weights})
         return total
 
@@ -323,8 +323,8 @@ class Reader:
     @cached_property
     def _fixed(self) -> Image:
         """Indices that equations of the domain fix."""
-        found = sets.fixed(self.points).items()
-        return {symbol: one.to_sympy() for symbol, one in found if symbol not in self.summed}
+        values = sets.fixed(self.points).items()
+        return {symbol: value.to_sympy() for symbol, value in values if symbol not in self.summed}
 
     def _quantity(self, quantity: sy.SiteFunction) -> Value:
         kind, site = type(quantity), self.site(*quantity.args)
@@ -332,20 +332,20 @@ class Reader:
             raise NotExactError(f"{text(quantity)} is not a quantity of a packing")
         if kind in VERTICAL:
             return self._vertical(kind, quantity)
-        left, found = self.points, None
+        left, total = self.points, None
         for known in self.known.get(kind, ()):
             points, value = known.at(site)
             inside = left & points
             if not inside.is_empty():
                 there = tuple(part.on(inside).renamed(self._fixed) for part in value)
-                found = there if found is None else tuple(map(Form.__add__, found, there))
+                total = there if total is None else tuple(map(Form.__add__, total, there))
                 left = left - points
-        if found is None:
-            found = self._unknown(quantity, site)
+        if total is None:
+            total = self._unknown(quantity, site)
         elif not left.is_empty():
             rest = (part.on(left) for part in self._unknown(quantity, site))
-            found = tuple(map(Form.__add__, found, rest))
-        return (found[0], found[1]) if quantity.is_vector else found[0]
+            total = tuple(map(Form.__add__, total, rest))
+        return (total[0], total[1]) if quantity.is_vector else total[0]
 
     def _unknown(
         self, quantity: sy.SiteFunction, site: tuple[sympy.Expr, sympy.Expr]
@@ -364,7 +364,7 @@ class Reader:
                 raise NotExactError(f"{text(quantity)} in a sum is not known")
             one = Weights(((sets.EVERYTHING, FIELD.one),))
             return (self.kind({((place, 1),): one}),)
-        here = (sympy.Eq(one, at, evaluate=False) for one, at in zip(SITE, site, strict=False))
+        here = (sympy.Eq(axis, at, evaluate=False) for axis, at in zip(SITE, site, strict=False))
         weights = Weights.of(*here)
 
         def named(axis: str) -> Form:
@@ -417,18 +417,18 @@ class Reader:
             self._refuse_squares(component, product)
         return vector[0].times(product), vector[1].times(product)
 
-    def _refuse_squares(self, one: Form, other: Form) -> None:
-        if self.linear and all({*form.parts} - {NUMBER} for form in (one, other)):
+    def _refuse_squares(self, first: Form, second: Form) -> None:
+        if self.linear and all({*form.parts} - {NUMBER} for form in (first, second)):
             raise NotExactError(
                 "a product of two quantities that depend on the radii is not linear"
             )
 
     def _dot(self, left: Vector, right: Vector) -> Form:
         total = self.kind()
-        for a, one in enumerate(left):
+        for a, form in enumerate(left):
             for b, other in enumerate(right):
-                self._refuse_squares(one, other)
-                total = total + one.times(other).scaled(LINE_SUM.metric[0 if a == b else 1])
+                self._refuse_squares(form, other)
+                total = total + form.times(other).scaled(LINE_SUM.metric[0 if a == b else 1])
         return total
 
     def _matrix_times(self, *arguments: sympy.Expr) -> Vector:

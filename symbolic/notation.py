@@ -24,9 +24,9 @@ def raised(written: str) -> str:
 _written = cache(str)  # SymPy takes longer to write an expression than to read it
 
 
-def by_name(found: Iterable[T]) -> list[T]:
+def by_name(expressions: Iterable[T]) -> list[T]:
     """Expressions in the order of their text, so that the order of a set decides nothing."""
-    return sorted(found, key=_written)
+    return sorted(expressions, key=_written)
 
 
 class Symbol(sympy.Symbol):  # type: ignore[misc]

@@ -107,14 +107,14 @@ class PiecewiseFunction:
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
         """Its formulas, on parts of the domain that cover it and share no point."""
-        found = []
+        pieces = []
         left = self.points
         for whole, value in self.weights.formulas():
             left = left - whole
-            found.append(Piece(self.relations(whole), self._formula(whole, value)))
+            pieces.append(Piece(self.relations(whole), self._formula(whole, value)))
         if not left.is_empty():
-            found.append(Piece(self.relations(left), FIELD.zero))
-        return tuple(found)
+            pieces.append(Piece(self.relations(left), FIELD.zero))
+        return tuple(pieces)
 
     def part(self, *relations: sympy.Basic) -> "PiecewiseFunction":
         """The same on a part of its domain."""
@@ -123,8 +123,8 @@ class PiecewiseFunction:
 
     def put_in(self, image: Mapping[sympy.Symbol, sympy.Expr]) -> "PiecewiseFunction":
         """The same with other numbers for symbols that are no indices."""
-        values = {symbol: FIELD.from_sympy(one) for symbol, one in image.items()}
-        return replace(self, weights=self.weights.mapped(lambda one: one.substitute(values)))
+        values = {symbol: FIELD.from_sympy(value) for symbol, value in image.items()}
+        return replace(self, weights=self.weights.mapped(lambda value: value.substitute(values)))
 
     def on(self, *relations: sympy.Basic) -> RationalFunction:
         """Its formula on a part of its domain where a single formula holds.

@@ -37,9 +37,9 @@ _ABOVE = sets.where(n >= 1)
 _BEADS = sets.where(sympy.Add(*_BEAD) >= 0)
 
 
-def covariance(one: Form, other: Form, dimension: int = 2) -> Weights:
+def covariance(first: Form, second: Form, dimension: int = 2) -> Weights:
     """Σ w w′ over all sites, for radii of variance 1."""
-    left, right = (form.parts.get(RADII, Weights()) for form in (one, other))
+    left, right = (form.parts.get(RADII, Weights()) for form in (first, second))
     return left.times(right).summed(*SITE[:dimension])
 
 
@@ -120,12 +120,12 @@ class Means:
     @cached_property
     def beside(self) -> tuple[Weights, Weights]:
         """⟨n⁻·u₂⟩ of a contact along n⁺, and the mirror image."""
-        found = []
+        turns = []
         for branch, tilt in enumerate(self._tilts):
             radii = _radius() + _radius().at({_BEAD[branch]: _BEAD[branch] + 1})
             with_radii = covariance(tilt, radii).scaled(-FIELD.one / (_TWO * _R))
-            found.append((self.along[branch] + with_radii).merged())
-        return found[PLUS], found[MINUS]
+            turns.append((self.along[branch] + with_radii).merged())
+        return turns[PLUS], turns[MINUS]
 
     def _turned(self, branch: int, side: int) -> Weights:
         """⟨force times unit vector⟩ along b⁺ or b⁻ at second order, less ⟨force⟩ along it."""
@@ -142,8 +142,8 @@ class Means:
         """⟨f⟩ at second order: what every bead further up the contact's line turns into it."""
         turned = [self._turned(side, branch) for side in (PLUS, MINUS)]
         gained = Weights()
-        for one, axis in zip(turned, _BEAD, strict=True):
-            gained = gained + one - one.at({axis: axis - 1})
+        for weights, axis in zip(turned, _BEAD, strict=True):
+            gained = gained + weights - weights.at({axis: axis - 1})
         upwards = {_BEAD[branch]: _BEAD[branch] + n}
         return gained.merged().at(upwards).on(_ABOVE).summed(n).merged()
 
@@ -156,5 +156,5 @@ class Means:
 
 def _radius() -> Form:
     """δr of the bead itself."""
-    here = (sympy.Eq(one, at, evaluate=False) for one, at in zip(SITE, _BEAD, strict=False))
+    here = (sympy.Eq(symbol, at, evaluate=False) for symbol, at in zip(SITE, _BEAD, strict=False))
     return Form({RADII: Weights.of(*here)})

@@ -47,7 +47,7 @@ def conditions(whole: Set, context: Set) -> list[Conditions]:
     Raises:
         OpenSumError: the part holds a condition on remainders.
     """
-    found: list[Conditions] = []
+    choices: list[Conditions] = []
     left = whole & context
     for part in parts(whole & context):
         if part.is_disjoint(left):
@@ -59,15 +59,15 @@ def conditions(whole: Set, context: Set) -> list[Conditions]:
             if _inside(context, fewer, held).is_subset(whole):
                 forms = fewer
         left = left - _inside(context, forms, held)
-        found.append(
+        choices.append(
             (
                 [form for form in held if form in forms],
                 [form for form in reversed(forms) if form not in held],
             )
         )
-    if not left.is_empty() or not all(_both(context, one).is_subset(whole) for one in found):
+    if not left.is_empty() or not all(_both(context, part).is_subset(whole) for part in choices):
         raise OpenSumError(f"{whole} is not written by forms")
-    return found
+    return choices
 
 
 def _inside(points: Set, forms: Iterable[Row], equations: Iterable[Row]) -> Set:
@@ -83,13 +83,13 @@ def _both(points: Set, told: Conditions) -> Set:
 
 def _needed(equations: Iterable[Row], context: Set) -> list[Row]:
     """Equations that the context and those before them do not imply."""
-    found = []
+    needed = []
     for equation in equations:
         more = context.add_constraint(constraint(equation, True))
         if not context.is_subset(more):
-            found.append(equation)
+            needed.append(equation)
             context = more
-    return found
+    return needed
 
 
 def _length(form: Row) -> tuple[int, int]:

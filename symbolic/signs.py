@@ -59,10 +59,10 @@ def sign(
 def _of_factor(factor: Polynomial, points: sets.Set, positive: Symbols, dimension: int) -> int:
     expression = RationalFunction(FIELD, factor, FIELD.one.numerator).to_sympy()
     held = expression.free_symbols
-    if held <= _WHOLE and (found := _of_whole_numbers(expression, points)):
-        return found
-    if held <= _COSINES and dimension == 2 and (found := _of_cosines(expression)):
-        return found
+    if held <= _WHOLE and (result := _of_whole_numbers(expression, points)):
+        return result
+    if held <= _COSINES and dimension == 2 and (result := _of_cosines(expression)):
+        return result
     least = {symbol: _least(symbol, points) for symbol in held & _WHOLE}
     return _of_terms(expression, least, positive, sympy.Rational(-1, dimension))
 

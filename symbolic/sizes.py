@@ -15,9 +15,9 @@ def written_out(tree: sympy.Basic) -> int:
 
 def bits(tree: sympy.Basic) -> int:
     """A bound on the length of its numbers when all of it is carried out; symbols count eight."""
-    found: dict[int, int] = {}
+    lengths: dict[int, int] = {}
     for node in nodes(tree):
-        parts = [found[id(arg)] for arg in node.args]
+        parts = [lengths[id(arg)] for arg in node.args]
         if isinstance(node, sympy.Rational):
             length = sum(int(part).bit_length() for part in (node.p, node.q))
         elif isinstance(node, sympy.Pow) and isinstance(node.exp, sympy.Rational):
@@ -26,8 +26,8 @@ def bits(tree: sympy.Basic) -> int:
             length = max(parts, default=0)
         else:
             length = 8 + sum(parts)
-        found[id(node)] = length
-    return found[id(tree)]
+        lengths[id(node)] = length
+    return lengths[id(tree)]
 
 
 _MOST_NODES = 100_000

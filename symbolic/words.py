@@ -28,14 +28,14 @@ def alone(form: sympy.Expr) -> tuple[sympy.Symbol, sympy.Expr, int]:
 def equations(relations: Iterable[sympy.Basic]) -> list[sympy.Eq]:
     """Equations form = 0, each solved for one symbol, which the others do not hold."""
     left = [relation.lhs for relation in relations if isinstance(relation, sympy.Eq)]
-    found: dict[sympy.Symbol, sympy.Expr] = {}
+    solved: dict[sympy.Symbol, sympy.Expr] = {}
     while left:
-        symbol, value, _ = min(map(alone, left), key=lambda one: len(one[1].free_symbols))
+        symbol, value, _ = min(map(alone, left), key=lambda row: len(row[1].free_symbols))
         left = [sympy.expand(form.xreplace({symbol: value})) for form in left]
         left = [form for form in left if form != 0]
-        found = {one: sympy.expand(at.xreplace({symbol: value})) for one, at in found.items()}
-        found[symbol] = value
-    return [sympy.Eq(symbol, found[symbol], evaluate=False) for symbol in _ALONE if symbol in found]
+        solved = {key: sympy.expand(at.xreplace({symbol: value})) for key, at in solved.items()}
+        solved[symbol] = value
+    return [sympy.Eq(key, solved[key], evaluate=False) for key in _ALONE if key in solved]
 
 
 Bounds = tuple[list[sympy.Expr], sympy.Symbol, list[sympy.Expr]]
@@ -48,7 +48,7 @@ def bounds(relations: Iterable[sympy.Basic], given: Iterable[sympy.Eq] = ()) -> 
     ``given`` symbols do not stand in them.
     """
     values = {item.lhs: item.rhs for item in given}
-    found: dict[sympy.Symbol, tuple[list[sympy.Expr], list[sympy.Expr]]] = {}
+    limits: dict[sympy.Symbol, tuple[list[sympy.Expr], list[sympy.Expr]]] = {}
     for relation in relations:
         if isinstance(relation, sympy.Eq):
             continue
@@ -60,8 +60,8 @@ def bounds(relations: Iterable[sympy.Basic], given: Iterable[sympy.Eq] = ()) -> 
         if not form.free_symbols:
             continue
         symbol, bound, sign = alone(form)
-        found.setdefault(symbol, ([], []))[0 if sign > 0 else 1].append(bound)
-    return [(low, symbol, high) for symbol, (low, high) in found.items()]
+        limits.setdefault(symbol, ([], []))[0 if sign > 0 else 1].append(bound)
+    return [(low, symbol, high) for symbol, (low, high) in limits.items()]
 
 
 def _without_divisor(form: sympy.Expr) -> sympy.Expr:
@@ -91,7 +91,7 @@ class Style:
     at_least: str
 
 
-TEXT = Style(lambda one: text(one).replace("-", "−"), " = ", " ≤ ", " ≥ ")
+TEXT = Style(lambda expr: text(expr).replace("-", "−"), " = ", " ≤ ", " ≥ ")
 LATEX = Style(latex, " = ", r" \leq ", r" \geq ")
 PYTHON = Style(python_expression, " == ", " <= ", " >= ")
 
@@ -100,15 +100,15 @@ def parts(relations: Iterable[sympy.Basic], style: Style = TEXT) -> list[str]:
     """The same, one by one."""
     relations, shown = tuple(relations), style.shown
     solved = equations(relations)
-    found = [f"{shown(index.lhs)}{style.equal}{shown(index.rhs)}" for index in solved]
+    phrases = [f"{shown(index.lhs)}{style.equal}{shown(index.rhs)}" for index in solved]
     for low, symbol, high in bounds(relations, solved):
         if len(low) == 1 and high:
-            found.append(style.at_most.join(map(shown, (low[0], symbol, high[0]))))
+            phrases.append(style.at_most.join(map(shown, (low[0], symbol, high[0]))))
         else:
-            found += [f"{shown(symbol)}{style.at_least}{shown(bound)}" for bound in low]
+            phrases += [f"{shown(symbol)}{style.at_least}{shown(bound)}" for bound in low]
         rest = high[1:] if len(low) == 1 else high
-        found += [f"{shown(symbol)}{style.at_most}{shown(bound)}" for bound in rest]
-    return found
+        phrases += [f"{shown(symbol)}{style.at_most}{shown(bound)}" for bound in rest]
+    return phrases
 
 
 _SIGNS = {sympy.Eq: "=", sympy.Le: "≤", sympy.Lt: "<", sympy.Ge: "≥", sympy.Gt: ">"}
@@ -126,8 +126,8 @@ def chains(relations: Sequence[sympy.Basic]) -> tuple[str, ...]:
 def _chains(relations: Sequence[sympy.Basic]) -> Iterator[list[sympy.Basic | type]]:
     """Relations that go on where the one before ends, as sides and kinds in turn."""
     chain: list[sympy.Basic | type] = []
-    for one, following in zip(relations, (*relations[1:], None), strict=False):
-        left, right, kind = one.lhs, one.rhs, one.func
+    for relation, following in zip(relations, (*relations[1:], None), strict=False):
+        left, right, kind = relation.lhs, relation.rhs, relation.func
         goes_on = following is not None and following.lhs == left
         if goes_on and kind in _TURNED and following.func not in _TURNED:
             left, right, kind = right, left, _TURNED[kind]

@@ -98,7 +98,7 @@ def loads(loading: Loading) -> tuple[Theorem, ...]:
     at_place = Domain.of(sympy.Ge(loading.place[-1], 0), loading=loading)
     given = [made(item, at_place, "the load") for item in loading.given]
     beads = Domain.of(site_s >= 0, indices=(site_r,), loading=loading)
-    everywhere = [made(one, beads.also(*when), "the load") for one, when in loading.everywhere]
+    everywhere = [made(law, beads.also(*when), "the load") for law, when in loading.everywhere]
     return (*given, *everywhere)
 
 

@@ -69,7 +69,7 @@ class Loading:
         Raises:
             NotExactError: the place would hold r or s, which stand for any bead.
         """
-        image = {symbol: one for symbol, one in image.items() if symbol in self.fixed}
+        image = {symbol: value for symbol, value in image.items() if symbol in self.fixed}
         if self.everywhere and any(value.has(sy.site_r, sy.site_s) for value in image.values()):
             raise NotExactError("the indices r and s stand for any bead of this loading")
         return replace(
@@ -77,8 +77,8 @@ class Loading:
             place=tuple(coordinate.xreplace(image) for coordinate in self.place),
             given=tuple(_at(item, image) for item in self.given),
             everywhere=tuple(
-                (_at(one, image), tuple(_at(relation, image) for relation in when))
-                for one, when in self.everywhere
+                (_at(law, image), tuple(_at(relation, image) for relation in when))
+                for law, when in self.everywhere
             ),
         )
 
@@ -86,8 +86,8 @@ class Loading:
         """The mirror image; one that is its own stays the same."""
         given = tuple(map(lattice.mirror, self.given))
         everywhere = tuple(
-            (lattice.mirror(one), tuple(map(lattice.mirrored_relation, when)))
-            for one, when in self.everywhere
+            (lattice.mirror(law), tuple(map(lattice.mirrored_relation, when)))
+            for law, when in self.everywhere
         )
         if set(given) == set(self.given) and set(everywhere) == set(self.everywhere):
             return self
@@ -127,8 +127,8 @@ class Limit:
     def __post_init__(self) -> None:
         if self.orders < 1:
             raise ValueError("a limit compares at least one order")
-        image = {s: 2 * s - one for s, one in zip(self.growing, self.positive, strict=True)}
-        if any(one.xreplace(image) != s for s, one in zip(image, self.positive, strict=True)):
+        image = {s: 2 * s - unit for s, unit in zip(self.growing, self.positive, strict=True)}
+        if any(unit.xreplace(image) != s for s, unit in zip(image, self.positive, strict=True)):
             raise ValueError("each sum is what grows, less others that are such sums themselves")
 
 

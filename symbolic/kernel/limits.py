@@ -348,7 +348,7 @@ def _vanishes_nowhere(value: RationalFunction, limit: Limit, dimension: int = 2)
     if value.holds(sy.H_M) or value.is_zero():
         return False
     grown = zip(limit.growing, limit.positive, strict=True)
-    there = value.substitute({s: FIELD.from_sympy(2 * s - one) for s, one in grown})
+    there = value.substitute({s: FIELD.from_sympy(2 * s - unit) for s, unit in grown})
     return sign(there, EVERYTHING, limit.growing, dimension) != 0
 
 

@@ -28,7 +28,7 @@ def refuse(
             for key, weights in form.parts.items():
                 for points, value in weights.pieces:
                     if where := _witness(points, value, domain):
-                        own = {there: one for one, there in names_for(formula).items()}
+                        own = {there: symbol for symbol, there in names_for(formula).items()}
                         return FalseStatementError(_at_odds(key, where, own))
     return NotProvedError("the normal forms of both sides differ")
 
@@ -66,7 +66,7 @@ def _witness(
         for at in _samples(
             part, [generator for generator in FIELD.generators if value.holds(generator)]
         ):
-            numbers = {one: sympy.Integer(number) for one, number in at.items()}
+            numbers = {symbol: sympy.Integer(number) for symbol, number in at.items()}
             held = {s: FIELD.constant(number) for s, number in numbers.items() if value.holds(s)}
             straight = domain.straight.image
             if value.holds(sy.H_M):

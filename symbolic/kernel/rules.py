@@ -102,10 +102,10 @@ def follows(theorem: Theorem, *groups: Group) -> Rule:
 
 def _factor(new: Sequence[Form], old: Sequence[Form]) -> RationalFunction:
     """What one form may be of the other, by the weight of any place: found, and then checked."""
-    for one, other in zip(new, old, strict=True):
+    for form, other in zip(new, old, strict=True):
         for key, weights in other.parts.items():
             for points, value in weights.pieces:
-                for there, own in one.parts.get(key, Weights()).pieces:
+                for there, own in form.parts.get(key, Weights()).pieces:
                     if not points.is_disjoint(there):
                         return own / value
     return FIELD.one
@@ -123,13 +123,13 @@ def order(theorem: Theorem, power: int) -> Rule:
     """The coefficient of ε to a power, of an equation that holds for every strength ε."""
 
     def coefficient(value: RationalFunction) -> RationalFunction:
-        found = value.coefficients(sy.epsilon)
-        return found[power] if power < len(found) else FIELD.zero
+        terms = value.coefficients(sy.epsilon)
+        return terms[power] if power < len(terms) else FIELD.zero
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         if theorem.domain != domain or power < 0:
             raise NotProvedError("the domains differ, or there is no such power")
-        new, old = (difference(read(one, domain), domain) for one in (formula, theorem.formula))
+        new, old = (difference(read(line, domain), domain) for line in (formula, theorem.formula))
         wanted = [form.mapped(lambda weights: weights.mapped(coefficient)) for form in old]
         if len(new) != len(wanted) or not all(
             (a - b).is_zero() for a, b in zip(new, wanted, strict=True)
@@ -155,8 +155,8 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
             raise NotProvedError(f"{text(about)} is not what is solved for")
         reader = knowing(domain.reader(), domain, groups)
 
-        def forms(one: sympy.Eq) -> tuple[Form, ...]:
-            return difference(both_sides(one, domain, reader), domain)
+        def forms(line: sympy.Eq) -> tuple[Form, ...]:
+            return difference(both_sides(line, domain, reader), domain)
 
         moved_rows = [moved(row, {}, domain).formula for row in rows]
         determinant, factors = eliminated(moved_rows, about, unknowns, forms)
@@ -214,9 +214,9 @@ def instance(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
     Raises:
         NotProvedError: it does not hold on all of the domain there.
     """
-    found = moved(theorem, image, domain)
-    read(found.formula, domain)
-    return found
+    instance = moved(theorem, image, domain)
+    read(instance.formula, domain)
+    return instance
 
 
 def mirror(theorem: Theorem) -> Theorem:
@@ -351,12 +351,12 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
             raise NotProvedError("the domain is not that of beads (i, j)")
         read(formula, domain)
 
-        def said(one: sympy.Eq) -> sympy.Eq:
+        def with_value(line: sympy.Eq) -> sympy.Eq:
             def at(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
                 there = with_indices(equation(about, value), {sy.i: across, sy.j: layer})
                 return there.rhs
 
-            return equation(*(side.replace(about.func, at) for side in one.args))
+            return equation(*(side.replace(about.func, at) for side in line.args))
 
         beads = Domain.of(sy.j >= 0)
         gained = {about.func(sy.i + side, sy.j + 1) - about for side in (1, -1)}
@@ -367,9 +367,9 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
             raise NotProvedError("the steps do not reach every bead")
         if any(theorem.formula.rhs.has(about.func) for theorem in (origin, *up)):
             raise NotProvedError("the change is given in terms of other beads")
-        for one, where in ((origin, Domain()), *((theorem, beads) for theorem in up)):
-            here = moved(one, {}, where)
-            apart = difference(read(said(here.formula), where), where)
+        for fact, where in ((origin, Domain()), *((theorem, beads) for theorem in up)):
+            here = moved(fact, {}, where)
+            apart = difference(read(with_value(here.formula), where), where)
             if any(form.parts for form in apart):
                 raise refuse(apart, where)
         return made(formula, domain, "adding up steps from bead (0, 0)", (origin, *up))

@@ -225,11 +225,11 @@ def known_quantities(
             known_quantities(groups, loading), loading.place[-1] if loading else None
         ).jets()
     later = known_quantities(groups[1:], loading)
-    found: dict[type, tuple[Known, ...]] = {}
+    first: dict[type, tuple[Known, ...]] = {}
     for theorem in flat(groups[:1]):
         about, what = _what_it_says(_under(theorem, loading), later)
-        found[about] = (*found.get(about, ()), what)
-    return {one: found.get(one, ()) + later.get(one, ()) for one in {**found, **later}}
+        first[about] = (*first.get(about, ()), what)
+    return {key: first.get(key, ()) + later.get(key, ()) for key in {**first, **later}}
 
 
 def _under(theorem: Theorem, loading: Loading | None) -> Theorem:
@@ -403,13 +403,13 @@ def names_for(*expressions: sympy.Basic) -> dict[sympy.Symbol, sympy.Symbol]:
     """
     ours = {*FIELD.position, *sy.VECTORS}
     foreign = set().union(*(expression.free_symbols for expression in expressions)) - ours
-    found: dict[sympy.Symbol, sympy.Symbol] = {}
+    image: dict[sympy.Symbol, sympy.Symbol] = {}
     for positive, names in zip((True, False), CONSTANTS, strict=True):
         symbols = [symbol for symbol in by_name(foreign) if bool(symbol.is_positive) == positive]
         if len(symbols) > len(names):
             raise NotProvedError(f"it has more than {len(names)} symbols of your own")
-        found |= dict(zip(symbols, names, strict=False))
-    return found
+        image |= dict(zip(symbols, names, strict=False))
+    return image
 
 
 def difference(sides: Sides, domain: Domain) -> tuple[Form, ...]:

@@ -91,11 +91,11 @@ def pack(pieces: Iterable[tuple[str, float]], room: float, first_room: float) ->
     >>> pack([(piece, 2) for piece in "abcdefg"], 12, 12)
     ['a b c d', 'e f g']
     """
-    found = list(pieces)
-    lines = _filled(found, room, first_room)
+    listed = list(pieces)
+    lines = _filled(listed, room, first_room)
     for share in range(1, 20):
         less = share * room / 20
-        shorter = _filled(found, room - less, first_room - less)
+        shorter = _filled(listed, room - less, first_room - less)
         if len(shorter) > len(lines):
             break
         lines = shorter
@@ -160,15 +160,15 @@ def _folded(source: str, room: float) -> list[str]:
     lines = []
     start, lead = 0, ""
     while width(lead + source[start:]) > room:
-        found = [(d, at) for d, at in places if at > start]
-        found = [(d, at) for d, at in found if width(lead + source[start:at]) <= room]
-        if not found:  # nowhere
+        breaks = [(d, at) for d, at in places if at > start]
+        breaks = [(d, at) for d, at in breaks if width(lead + source[start:at]) <= room]
+        if not breaks:  # nowhere
             break
-        best = partial(_best, sizes={at: width(lead + source[start:at]) for _, at in found})
-        at = best(found, room)
+        best = partial(_best, sizes={at: width(lead + source[start:at]) for _, at in breaks})
+        at = best(breaks, room)
         if source.startswith(product, at) and width(source[at:]) < _LONE * room:
-            company = [(d, at) for d, at in found if width(source[at:]) >= _LONE * room]
-            at = best(company or found, room)
+            company = [(d, at) for d, at in breaks if width(source[at:]) >= _LONE * room]
+            at = best(company or breaks, room)
         lines.append(lead + source[start:at].rstrip())
         start, lead = at, r"\times " if source.startswith(product, at) else ""
         room -= 0 if len(lines) > 1 else 10  # of \quad
@@ -188,24 +188,24 @@ def split_fraction(source: str, room: float) -> str:
     >>> print(split_fraction(r"x = \frac{a + b}{c}", 10), split_fraction(r"\frac{a b}{c}", 10))
     x = \frac{1}{c} \left( a + b \right) \frac{1}{c} a b
     """
-    for found in re.finditer(r"\\frac(?=\{)", source):
-        middle = _after_braces(source, found.end())
+    for match in re.finditer(r"\\frac(?=\{)", source):
+        middle = _after_braces(source, match.end())
         end = _after_braces(source, middle)
-        over, under = source[found.end() + 1 : middle - 1], source[middle:end]
-        if width(source[found.start() : end]) > room:
+        over, under = source[match.end() + 1 : middle - 1], source[middle:end]
+        if width(source[match.start() : end]) > room:
             if any(depth == 0 for depth, _ in _breaks(over)):
                 over = rf"\left( {over} \right)"
-            return rf"{source[: found.start()]}\frac{{1}}{under} {over}{source[end:]}"
+            return rf"{source[: match.start()]}\frac{{1}}{under} {over}{source[end:]}"
     return source
 
 
 def _after_braces(source: str, at: int) -> int:
     """Place after the group in braces that begins at a place."""
     depth = 0
-    for found in re.finditer(r"[{}]", source[at:].replace(r"\{", "  ").replace(r"\}", "  ")):
-        depth += 1 if found[0] == "{" else -1
+    for match in re.finditer(r"[{}]", source[at:].replace(r"\{", "  ").replace(r"\}", "  ")):
+        depth += 1 if match[0] == "{" else -1
         if not depth:
-            return at + found.end()
+            return at + match.end()
     raise ValueError(f"a brace is not closed: {source[at:]}")
 
 
@@ -213,13 +213,13 @@ def _breaks(source: str) -> Iterator[tuple[float, int]]:
     """Places where a line may end, and how many brackets are open; at a product, a half more."""
     braces = depth = 0
     before, summed = "", [False]
-    for found in _TOKEN.finditer(source):
-        token, at = found[0], found.start()
+    for match in _TOKEN.finditer(source):
+        token, at = match[0], match.start()
         braces -= token in {"}", r"\end"}
         if not braces:
             spaced = source[at - 1 : at] == " " and at
             sign = token in _BINARY - {r"\cdot"} or token == r"\propto"
-            if spaced and sign and source[found.end() : found.end() + 1] == " ":
+            if spaced and sign and source[match.end() : match.end() + 1] == " ":
                 if before not in _NO_FACTOR:
                     yield depth, at
                 summed[-1] = False
@@ -244,16 +244,16 @@ def _sized(line: str) -> str:
     """Give brackets a fixed size where the other one of a pair is in another line."""
     opened: list[int] = []
     alone = {}
-    for found in re.finditer(r"\\(left|right)(?![a-z])", line):
-        if found[1] == "left":
-            opened.append(found.start())
+    for match in re.finditer(r"\\(left|right)(?![a-z])", line):
+        if match[1] == "left":
+            opened.append(match.start())
         elif opened:
             opened.pop()
         else:
-            alone[found.start()] = r"\biggr"
+            alone[match.start()] = r"\biggr"
     alone |= dict.fromkeys(opened, r"\biggl")
     return re.sub(
-        r"\\(left|right)(?![a-z])", lambda found: alone.get(found.start(), found[0]), line
+        r"\\(left|right)(?![a-z])", lambda match: alone.get(match.start(), match[0]), line
     )
 
 
@@ -365,16 +365,16 @@ def latex_body(
 
     ``below``: pieces of LaTeX that stand in lines of their own, such as where the equations hold.
     """
-    found = [latex_lines(formula, relation, room) for formula in _single(equations)]
+    displays = [latex_lines(formula, relation, room) for formula in _single(equations)]
     if any(
-        display[0].startswith("&") for display in found
+        display[0].startswith("&") for display in displays
     ):  # one too wide to stand below another's sign
-        found = [[f"&{display[0].replace('&', '', 1)}", *display[1:]] for display in found]
-    lines = [line for display in found for line in display]
+        displays = [[f"&{display[0].replace('&', '', 1)}", *display[1:]] for display in displays]
+    lines = [line for display in displays for line in display]
     left_over = room - max(float(width(line.split("&")[0])) for line in lines) - 22
     lines += [rf"&\quad {line}" for line in _packed(below, left_over)]
     if len(lines) == 1:
-        return re.sub(r"^&| &(?==|\\[a-z]+ )", lambda found: found[0][:-1], lines[0], count=1)
+        return re.sub(r"^&| &(?==|\\[a-z]+ )", lambda match: match[0][:-1], lines[0], count=1)
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
 
 
@@ -419,14 +419,14 @@ def _laid_out(rows: Sequence[Case], room: float) -> list[list[str]]:
     places = [_packed(where, 0.4 * room) for _, where in rows]
     rest = room - 20 - max(width(line) for place in places for line in place)
     below = [
-        [*_lines(one, room), *(rf"\quad {line}" for line in _packed(where, room - 10))]
-        for one, where in rows
+        [*_lines(expr, room), *(rf"\quad {line}" for line in _packed(where, room - 10))]
+        for expr, where in rows
     ]
     if rest < 0.4 * room:
         return below
     beside = [
-        [f"{line} & {at}" for line, at in zip_longest(_lines(one, rest), place, fillvalue="")]
-        for (one, _), place in zip(rows, places, strict=True)
+        [f"{line} & {at}" for line, at in zip_longest(_lines(expr, rest), place, fillvalue="")]
+        for (expr, _), place in zip(rows, places, strict=True)
     ]
     return min((beside, below), key=lambda layout: sum(map(len, layout)))
 
