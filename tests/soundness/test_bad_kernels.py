@@ -48,7 +48,7 @@ FAULTS = {
     "some component is rewritten": ("kernel.rules", "rewrite", "any(form.parts", "all(form.parts"),
     "multiples that may be zero": ("kernel.rules", "follows", "not never_zero(", "False and not never_zero("),
     "no multiples": ("kernel.rules", "follows", "not all(form.is_zero() for form in rest)", "False"),
-    "another order in ε": ("kernel.rules", "order", "found[power] if", "found[0] if"),
+    "another order in ε": ("kernel.rules", "order", "terms[power] if", "terms[0] if"),
     "no solution": ("kernel.rules", "solve", "not apart.on(domain.points).is_zero()", "False"),
     "determinants with forces": ("kernel.rules", "solve", "key != NUMBER and not located", "False"),
     "places across are mirrored": ("kernel.rules", "mirror", "any(map(_across_by_itself, theorem.formula.args))", "False"),
