@@ -99,13 +99,15 @@ def question(
 @st.composite
 def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     """Scenes of every quantity, load and disorder that can be solved in a moment."""
-    height = draw(st.integers(1, 6))
+    dimension = draw(st.sampled_from([2, 2, 3]))
+    height = draw(st.integers(1, 6 if dimension == 2 else 3))
     width = draw(st.integers(height + 1, 2 * height + 2))
     sections: dict[str, dict[str, Any]] = {
         "packing": {
             "height": height,
             "width": width,
-            "spacing": draw(st.sampled_from(["=2.2", "=3.0", "=3.4"])),
+            "dimension": dimension,
+            "spacing": draw(st.sampled_from(["=2.2", "=3.0", "=3.4"][: 5 - dimension])),
         }
     }
     kind = draw(st.sampled_from(["uniform", "normal", "two-point", None]))
@@ -116,7 +118,9 @@ def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     load = draw(st.sampled_from(["surface", "bulk", "point"]))
     sections["load"] = {"kind": load}
     if load == "point":
-        sections["load"]["at"] = draw(site(width, 1, height))
+        sections["load"]["at"] = draw(site(dimension, width, 1, height))
+    if draw(st.booleans()):
+        sections["load"]["magnitude"] = draw(st.sampled_from(["=3.7", "=4336.69"]))
     if draw(st.booleans()):
         sections["load"]["angle_deg"] = draw(st.integers(-20, 20))
     geometry = draw(st.sampled_from(["ordered", "first-order", "exact"]))
@@ -127,17 +131,19 @@ def scenes(draw: st.DrawFn) -> dict[str, dict[str, Any]]:
     quantity = draw(st.sampled_from(quantities))
     sections["ask"] = {"quantity": quantity}
     if quantity == "contact":
-        branch = draw(st.sampled_from("+-"))
-        sections["ask"]["at"] = [*draw(site(width, 0, height - 1)), branch]
+        branch = draw(st.sampled_from("+-" if dimension == 2 else "123"))
+        sections["ask"]["at"] = [*draw(site(dimension, width, 0, height - 1)), branch]
     if kind and draw(st.booleans()):
         sections["ask"]["realisations"] = draw(st.integers(1, 3))
     return sections
 
 
 @st.composite
-def site(draw: st.DrawFn, width: int, low: int, high: int) -> list[int]:
-    j = draw(st.integers(low, high))
-    return [2 * draw(st.integers(0, width - 1)) + j % 2, j]
+def site(draw: st.DrawFn, dimension: int, width: int, low: int, high: int) -> list[int]:
+    j, columns = draw(st.integers(low, high)), st.integers(0, width - 1)
+    if dimension == 3:
+        return [draw(columns), draw(columns), j]
+    return [2 * draw(columns) + j % 2, j]
 
 
 @dataclass(frozen=True)

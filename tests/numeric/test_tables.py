@@ -4,10 +4,12 @@ import csv
 import io
 import json
 import math
+from fractions import Fraction
 
 import numpy as np
 from force_diffusion.numeric import tables
-from hypothesis import given
+from force_diffusion.numeric.accuracy import known_digits
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 
@@ -15,6 +17,15 @@ from hypothesis import strategies as st
 def test_numbers_are_those_of_python(value: float, digits: int) -> None:
     (text,) = tables.significant(np.array([value]), np.array([digits]))
     assert text == ("" if math.isnan(value) else f"{value:.{digits}g}")
+
+
+@given(st.floats(-1e200, 1e200), st.floats(2.0**-52, 1e3))
+def test_printing_takes_half_of_the_stated_error(value: float, ratio: float) -> None:
+    """Of a change: the other half is what the number itself may be off."""
+    error = abs(value) * ratio
+    assume(error > 1e-290)
+    (text,) = known_digits(np.array([value]), error)
+    assert abs(Fraction(text) - Fraction(value)) <= Fraction(error) / 2 * (1 + Fraction(1, 10**15))
 
 
 @given(st.lists(st.tuples(st.integers(-(10**12), 10**12), st.sampled_from("+-"), st.floats())))

@@ -1,6 +1,7 @@
 """The compiled loops against the same source on NumPy, and their machine code on disk."""
 
 import sys
+from contextlib import nullcontext
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -24,7 +25,7 @@ from force_diffusion.numeric.mechanics.sweep import (
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from tests.numeric.scenes import by_numpy
+from tests.numeric.scenes import by_numpy, question
 
 pytest.importorskip("numba")
 from force_diffusion.numeric.arithmetic import compiling
@@ -174,10 +175,15 @@ def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
         assert source.of(around, realisations, FLOAT64).tobytes() == found.tobytes()
 
 
-def test_a_drawn_radius_that_is_not_positive_is_named() -> None:
-    source = DrawnRadii("normal", Fraction(1, 3), 5, 40)
-    with pytest.raises(RadiusError, match="the drawn radius is -"):
-        source.of(whole(40, 9).rows, [3, 4], FLOAT64)
+@pytest.mark.parametrize("dimension", [2, 3])
+def test_a_drawn_radius_that_is_not_positive_is_named_alike(dimension: int) -> None:
+    """Of spheres as (p, q, j), and not by the column in the row of W² beads."""
+    asked = question("profile", 6, 13, dimension=dimension, spacing=2.9, kind="normal", std=0.45)
+    for way in (nullcontext, by_numpy):
+        with way(), pytest.raises(RadiusError, match="the drawn radius is -") as found:
+            asked.run()
+        bead = str(found.value).split(":")[0]
+        assert bead.count(",") == dimension - 1
 
 
 def test_logarithms_and_cosines_are_right_to_a_few_units_in_the_last_place() -> None:

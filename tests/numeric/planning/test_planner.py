@@ -11,7 +11,7 @@ from force_diffusion.numeric.run.running import run
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.numeric.scenes import answer, basic, planned, radii_read
+from tests.numeric.scenes import basic, planned, radii_read
 
 contacts = st.integers(1, 12).flatmap(
     lambda M: st.tuples(
@@ -69,21 +69,6 @@ def test_a_point_load_stays_in_its_cone() -> None:
         assert all(abs(i - 5) <= 7 - row.j for i in row.sites())
     assert solved.forces.g.shape[-1] == sum(7 - j + 1 for j in range(1, 8))
     assert solved.packing.block.shape[-1] == regions.triangle_beads(7)
-
-
-def test_cost_grows_with_the_region_not_with_the_packing() -> None:
-    scenes = [basic(12, width, quantity="contact", at=[30, 10, "+"]) for width in (30, 3000)]
-    for sections in scenes:
-        assert planned(sections).beads == regions.contact_beads(10, 12)
-    small, large = map(answer, scenes)
-    assert small.decimals() == large.decimals()
-
-
-def test_disorder_of_zero_width_is_no_disorder() -> None:
-    sections = basic()
-    none = {k: v for k, v in sections.items() if k != "disorder"}
-    sections["disorder"]["relative_std"] = "=0.0"
-    assert answer(sections).decimals() == answer(none).decimals()
 
 
 def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[str, Any]]:

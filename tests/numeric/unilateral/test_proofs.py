@@ -118,16 +118,6 @@ def test_what_is_no_equilibrium_is_not_proved(packing: Packing) -> None:
     assert refused(packing)
 
 
-def test_a_bead_that_overlaps_its_own_image_is_not_proved() -> None:
-    """The pile, five times smaller: a period of 2.4, and a bead in the air of radius 1.3."""
-    packing = more("0.6", "20", radius="1.3", period="2.4")
-    packing.radii[:3] = ["0.5"] * 3
-    packing.centres[:3] = [["0", "0"], ["1.2", "0"], ["0.6", "0.8"]]
-    assert refused(packing)
-    packing.radii[3] = "0.59"
-    assert refused(packing) == ""
-
-
 @cache
 def found(kind: str) -> Packing:
     """Packings that ``run`` certified, with and without rattlers."""
