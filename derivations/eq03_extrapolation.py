@@ -14,25 +14,15 @@ from force_diffusion.symbolic.symbols import (
 
 ABOVE = Domain.of(j >= 1)
 
+LEFT_DIAGONAL = sympy.Sum(DeltaR(i - (j - m), m), (m, 1, j - 1))
+RIGHT_DIAGONAL = sympy.Sum(DeltaR(i + (j - m), m), (m, 1, j - 1))
+"""The radii between the bead and the base, along n⁺ to the left and along n⁻ to the right."""
+
 PRINTED = equation(
     DeltaX(i, j),
     terms(
-        times(
-            terms(
-                DeltaR(i - j, 0),
-                DeltaR(i, j),
-                times(2, sympy.Sum(DeltaR(i - (j - m), m), (m, 1, j - 1))),
-            ),
-            b_plus,
-        ),
-        times(
-            terms(
-                DeltaR(i + j, 0),
-                DeltaR(i, j),
-                times(2, sympy.Sum(DeltaR(i + (j - m), m), (m, 1, j - 1))),
-            ),
-            b_minus,
-        ),
+        times(terms(DeltaR(i - j, 0), DeltaR(i, j), times(2, LEFT_DIAGONAL)), b_plus),
+        times(terms(DeltaR(i + j, 0), DeltaR(i, j), times(2, RIGHT_DIAGONAL)), b_minus),
     ),
 )
 

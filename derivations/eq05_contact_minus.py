@@ -14,23 +14,15 @@ from force_diffusion.symbolic.symbols import (
 
 BEADS = Domain.of(j >= 0)
 
+NEXT_TO_EACH_OTHER = terms(DeltaR(i - (j - m) - 2, m), minus(DeltaR(i - (j - m), m)))
+"""Two beads of layer m, on neighbouring diagonals along n⁺."""
+BASE = terms(DeltaR(i - j - 2, 0), minus(DeltaR(i - j, 0)))
+
 PRINTED = equation(
     times(2, r, DeltaNMinus(i, j)),
     terms(
         times(terms(DeltaR(i, j), DeltaR(i - 1, j + 1)), terms(b_plus, b_minus, minus(n_minus))),
-        times(
-            b_plus,
-            terms(
-                DeltaR(i - j - 2, 0),
-                minus(DeltaR(i - j, 0)),
-                times(
-                    2,
-                    sympy.Sum(
-                        terms(DeltaR(i - (j - m) - 2, m), minus(DeltaR(i - (j - m), m))), (m, 1, j)
-                    ),
-                ),
-            ),
-        ),
+        times(b_plus, terms(*BASE.args, times(2, sympy.Sum(NEXT_TO_EACH_OTHER, (m, 1, j))))),
     ),
 )
 

@@ -1,18 +1,18 @@
 """Eq. 7: how a vertical load splits between the two supports."""
 
 # fmt: off
-from collections.abc import Callable
-from functools import cache
+from collections.abc import Sequence
+from functools import cache, partial
 
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Rule, Steps, Theorem, along, axioms, below, equation, follows, lattice,
-    minus, mirror_of, solve, terms, times)
+    Derivation, Domain, Rule, Steps, Theorem, along, axioms, below, equation, follows, inducted,
+    lattice, minus, mirror_of, solve, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, k, l, n_minus, n_plus,
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, j, k, l, n_minus, n_plus,
     n_y, phi)
 # fmt: on
 
@@ -22,27 +22,20 @@ TILT_PLUS = Dot(n_minus, DeltaNPlus(k - 1, l - 1))
 TILT_MINUS = Dot(n_plus, DeltaNMinus(k + 1, l - 1))
 ORDERED = f_load / (2 * n_y)
 
-PRINTED = (
-    equation(
-        FORCES[0],
-        times(
-            ORDERED,
-            terms(1, times(1 / (1 - phi**2), terms(times(phi, TILT_PLUS), minus(TILT_MINUS)))),
-        ),
-    ),
-    equation(
-        FORCES[1],
-        times(
-            ORDERED,
-            terms(1, times(1 / (1 - phi**2), terms(times(phi, TILT_MINUS), minus(TILT_PLUS)))),
-        ),
-    ),
+SHARES = tuple(
+    terms(1, times(1 / (1 - phi**2), terms(times(phi, own), minus(other))))
+    for own, other in ((TILT_PLUS, TILT_MINUS), (TILT_MINUS, TILT_PLUS))
+)
+"""The forces over f_load/2n_y."""
+
+PRINTED = tuple(
+    equation(force, times(ORDERED, share)) for force, share in zip(FORCES, SHARES, strict=True)
 )
 
 
 def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     """f⁺ below a loaded bead over f_load/2n_y, to first order."""
-    return PRINTED[0].rhs.args[1].xreplace({k: across, l: layer})
+    return SHARES[0].xreplace({k: across, l: layer})
 
 
 @cache
@@ -51,9 +44,30 @@ def right_angles() -> tuple[Theorem, ...]:
     return eq04.steps()[-1].theorem, eq05.steps()[-1].theorem
 
 
-def balancing(loads: tuple[Theorem, ...]) -> Callable[[tuple[Theorem, ...]], Rule]:
-    """The rule for the contacts below beads, given the forces above these; () in the top layer."""
-    return lambda above: below((*above, *loads), right_angles())
+def balancing(loads: tuple[Theorem, ...], above: tuple[Theorem, ...] = ()) -> Rule:
+    """The rule for the contacts below beads, given the forces above, if any."""
+    return below((*above, *loads), right_angles())
+
+
+def carried_down(
+    top: sympy.Expr,
+    loads: tuple[Theorem, ...],
+    statements: Sequence[tuple[sympy.Eq, Domain]],
+    in_top_layer: Rule | None = None,
+    *,
+    mirrored: bool = False,
+) -> tuple[Theorem, ...]:
+    """Forces of contacts by induction on j from ``top`` down, balancing bead after bead.
+
+    Args:
+        top: the highest layer with such contacts.
+        loads: on the beads.
+        statements: about the forces, with their domains; proved together.
+        in_top_layer: proves them there, by default by balancing as well.
+        mirrored: whether the mirror images are put in, too.
+    """
+    first, next_layer = in_top_layer or balancing(loads), partial(balancing, loads)
+    return inducted(j, top, first, next_layer, statements, down=True, mirrored=mirrored)
 
 
 @cache

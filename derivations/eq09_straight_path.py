@@ -7,7 +7,7 @@ import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, equation, induct, minus, rewrite, terms, times)
+    Derivation, Domain, Rule, Steps, Theorem, axioms, equation, minus, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, i, j, k, l, n_minus, phi, site_r, site_s)
 from sympy import Eq
@@ -39,6 +39,17 @@ def first_order_product(left: sympy.Expr, right: sympy.Expr) -> sympy.Expr:
 
 
 FIRST, SECOND = sympy.symbols("A B")
+
+
+def from_the_entry_down(*others: tuple[sympy.Eq, Domain]) -> Rule:
+    """The rule for a force below the entry, proved together with what is said of ``others``."""
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        loads = axioms.loads(axioms.ENTERING)
+        statements = [(formula, domain), *others]
+        return eq07.carried_down(l - 1, loads, statements, rewrite(loads))[0]
+
+    return rule
 
 
 @cache
@@ -73,19 +84,11 @@ def steps() -> Steps:
         rewrite(),
         Domain.of(Eq(k - i, l - j), l - j >= 2, j >= 0),
     )
-    loads = axioms.loads(axioms.ENTERING)
     steps.show(
         "At the entry itself the printed ratio is 1: no bead has been passed. So from layer to "
         "layer the ends are left.",
         PRINTED,
-        induct(
-            j,
-            l - 1,
-            rewrite(loads),
-            eq07.balancing(loads),
-            down=True,
-            family=NOTHING_TO_THE_LEFT,
-        ),
+        from_the_entry_down(*NOTHING_TO_THE_LEFT),
     )
     return steps
 

@@ -4,12 +4,10 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, equation, induct, lattice, minus, rewrite, terms,
-    times)
+    Derivation, Domain, Steps, axioms, equation, lattice, minus, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus, Dot, ForceMinus, ForcePlus, i, j, k, l, n, n_minus, p, phi, q, site_r, site_s)
 from sympy import Eq
@@ -82,19 +80,11 @@ def steps() -> Steps:
             loading=axioms.PASSING.put_in(dict(zip((site_r, site_s), bead, strict=True))),
         ),
     )
-    loads = axioms.loads(axioms.ENTERING)
     steps.show(
         "The straight pieces count at order 0, where they are 1 (Eq. 9). From layer to layer down, "
         "every bead is balanced by these forces, and by no others:",
         PRINTED,
-        induct(
-            j,
-            l - 1,
-            rewrite(loads),
-            eq07.balancing(loads),
-            down=True,
-            family=((eq09.PRINTED, eq09.STRAIGHT), *NOTHING_BESIDE),
-        ),
+        eq09.from_the_entry_down((eq09.PRINTED, eq09.STRAIGHT), *NOTHING_BESIDE),
     )
     return steps
 

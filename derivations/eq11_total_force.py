@@ -9,7 +9,7 @@ from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, Theorem, axioms, equation, induct, lattice, minus, mirror,
+    Derivation, Domain, Groups, Steps, Theorem, axioms, equation, lattice, minus, mirror,
     mirror_of, moment, rewrite, shown, terms, times)
 from force_diffusion.symbolic.symbols import (
     M, DeltaNMinus, DeltaNPlus, Dot, ForcePlus, Variance, f_load, i, j, k, l, n, n_minus, n_plus,
@@ -60,9 +60,8 @@ def branched_load(count: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
 @cache
 def from_the_surface_down(formula: sympy.Eq, domain: Domain) -> Theorem:
     """Prove a force by induction, balancing bead after bead."""
-    balancing = eq07.balancing(axioms.loads(domain.loading))
-    top = balancing(())
-    return induct(j, M - 1, top, balancing, down=True, mirrored=True)(formula, domain)
+    loads = axioms.loads(domain.loading)
+    return eq07.carried_down(M - 1, loads, [(formula, domain)], mirrored=True)[0]
 
 
 @cache

@@ -1,6 +1,7 @@
 """Eq. 15: σ_f/⟨f⟩ averaged over the system, and the height M* at which forces turn tensile."""
 
 # fmt: off
+from collections.abc import Callable
 from functools import cache
 
 import sympy
@@ -10,8 +11,8 @@ from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, axioms, equation, moment,
-    power, power_law, rewrite, tensile, terms, times, usual)
+    FIRST_ORDER, Derivation, Domain, Limit, Rule, Steps, Symbol, asymptotic, axioms, equation,
+    moment, power, power_law, rewrite, tensile, terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, M, Mean, Tensile, UnitHeight, Variance, i, j, m, n_minus, n_plus, phi, r, sigma, z)
@@ -78,23 +79,23 @@ def meaning(load: str) -> dict[sympy.Symbol, sympy.Expr]:
     }
 
 
-def critical_height(load: str) -> sympy.Expr:
+def two_orders(load: str) -> sympy.Eq:
+    """The mean of σ_f²/⟨f⟩² to its two leading orders."""
+    return equation(MEAN_SQUARE, times(terms(LEADING[load] * M**3, NEXT[load] * M**2), layers.UNIT))
+
+
+def critical_height(load: str) -> sympy.Eq:
     """M*: where the leading order of the mean of σ_f²/⟨f⟩² is 1."""
     root = power(times(terms(1, -(phi**2)), r, 1 / sigma), Rational(2, 3))
-    number = LEADING[load] ** Rational(-1, 3)
-    return root if number == 1 else times(number, root)
+    return equation(HEIGHT, times(LEADING[load] ** Rational(-1, 3), root))
 
 
 def tensile_fraction(load: str) -> sympy.Expr:
     """Expected fraction of tensile contacts at M ≫ 1 as a function of M/M*."""
     ratio = power(times(HEIGHT, 1 / M), Rational(3, 2))
     number, square, rest = PROFILES[load].args
-    inner = times(
-        ratio,
-        power(2 * number, Rational(-1, 2)),
-        power(square.base, -1),
-        power(rest, Rational(-1, 2)),
-    )
+    over_roots = power(2 * number, Rational(-1, 2)), power(rest, Rational(-1, 2))
+    inner = times(ratio, over_roots[0], power(square.base, -1), over_roots[1])
     half = times(sympy.S.Half, sympy.erfc(inner, evaluate=False))
     return sympy.Integral(half, (z, 0, 1))
 
@@ -122,42 +123,30 @@ def steps() -> Steps:
             heights(load),
             IN_RADII[load](),
         )
-    for load in LOADS:
-        steps.show(
-            f"Its two leading orders, {load} load:",
-            equation(
-                MEAN_SQUARE, times(terms(LEADING[load] * M**3, NEXT[load] * M**2), layers.UNIT)
-            ),
-            asymptotic(*IN_RADII[load]()),
-            heights(load).in_the_limit(at_large_height("∼", 2)),
-            meaning(load),
-        )
-    in_proportion = {load: heights(load).in_the_limit(at_large_height("∝")) for load in LOADS}
-    for load in LOADS:
-        steps.show(
-            f"So its root goes as printed, {load} load.",
-            PRINTED,
-            power_law(*IN_RADII[load]()),
-            in_proportion[load],
-            meaning(load),
-        )
-    for load in LOADS:
-        steps.show(
-            "M* is defined here as the height at which the leading order of the mean of σ_f²/⟨f⟩² "
-            f"is one. It goes as the paper says, {load} load.",
-            PRINTED_HEIGHT,
-            power_law(*IN_RADII[load]()),
-            in_proportion[load],
-            meaning(load),
-        )
-    for load in LOADS:
-        steps.show(
-            f"With its prefactor, {load} load:",
-            equation(HEIGHT, critical_height(load)),
-            power_law(*IN_RADII[load]()),
-            heights(load).in_the_limit(at_large_height("=")),
-            meaning(load),
-        )
+
+    def show(
+        reason: str, formula: Callable[[str], sympy.Eq], rule: Callable[..., Rule], limit: Limit
+    ) -> None:
+        for load in LOADS:
+            steps.show(
+                reason.format(load),
+                formula(load),
+                rule(*IN_RADII[load]()),
+                heights(load).in_the_limit(limit),
+                meaning(load),
+            )
+
+    in_proportion = at_large_height("∝")
+    show("Its two leading orders, {} load:", two_orders, asymptotic, at_large_height("∼", 2))
+    show("So its root goes as printed, {} load.", lambda _: PRINTED, power_law, in_proportion)
+    show(
+        "M* is defined here as the height at which the leading order of the mean of σ_f²/⟨f⟩² is "
+        "one. It goes as the paper says, {} load.",
+        lambda _: PRINTED_HEIGHT,
+        power_law,
+        in_proportion,
+    )
+    show("With its prefactor, {} load:", critical_height, power_law, at_large_height("="))
     for load in LOADS:
         ones = steps.claim(
             f"in every layer the mean of a force over its mean is one, {load} load",

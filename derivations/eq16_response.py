@@ -12,7 +12,7 @@ from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, equation,
-    inducted, lattice, leading_order_of, minus, mirror, moment, power, rewrite, same, shown,
+    lattice, leading_order_of, minus, mirror, moment, power, rewrite, same, shown,
     terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
 from force_diffusion.symbolic.symbols import (
@@ -97,16 +97,7 @@ DEEP = INSIDE.also(j >= 3, p + q >= 3)
 @cache
 def forces() -> tuple[Theorem, ...]:
     """The force of every contact below the load."""
-    balancing = eq07.balancing(axioms.loads(axioms.POINT))
-    plus = inducted(
-        j,
-        l - 1,
-        balancing(()),
-        balancing,
-        FAMILY,
-        down=True,
-        mirrored=True,
-    )
+    plus = eq07.carried_down(l - 1, axioms.loads(axioms.POINT), FAMILY, mirrored=True)
     return (*shown(16, *plus), *map(mirror, plus))
 
 

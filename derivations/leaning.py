@@ -10,8 +10,8 @@ from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, equation, inducted, lattice,
-    minus, rewrite, same, shown, terms, times)
+    Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, equation, lattice, minus,
+    rewrite, same, shown, terms, times)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, L_minus, L_plus, M, e_x, e_y, f_load, i, j,
     m, n, n_minus, n_plus, n_x, n_y, phi, t)
@@ -50,24 +50,12 @@ PRINTED = (
 SINE, COSINE = (Symbol(name, rf"\{name}\theta", f"{name} θ", real=True) for name in ("sin", "cos"))
 
 
-def _from_the_surface_down(statements: tuple[sympy.Eq, ...], domain: Domain) -> tuple[Theorem, ...]:
-    """Both statements, by induction, balancing bead after bead."""
-    balancing = eq07.balancing(axioms.loads(domain.loading))
-    return inducted(
-        j,
-        M - 1,
-        balancing(()),
-        balancing,
-        [(statement, domain) for statement in statements],
-        down=True,
-    )
-
-
 @cache
 def forces(load: str) -> tuple[Theorem, ...]:
     """Both forces under a leaning load on the "surface" or in the "bulk"."""
     statements, domain = (FORCES, ON_SURFACE) if load == "surface" else (BULK, IN_BULK)
-    return shown("B1", *_from_the_surface_down(statements, domain))
+    both = [(statement, domain) for statement in statements]
+    return shown("B1", *eq07.carried_down(M - 1, axioms.loads(domain.loading), both))
 
 
 @cache
@@ -91,7 +79,7 @@ def steps() -> Steps:
                 times(ForceMinus(*above), eq10.branched_plus(i, j, 1)),
             ),
         ),
-        eq07.balancing(axioms.loads(axioms.SURFACE_TILTED))(()),
+        eq07.balancing(axioms.loads(axioms.SURFACE_TILTED)),
         ON_SURFACE.also(j <= M - 2),
     )
     steps.show(
