@@ -127,15 +127,15 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
     ]
     while True:
         try:
-            found = answer(plan.quantities, problem, range(problem.realisations), system, work)
+            solved = answer(plan.quantities, problem, range(problem.realisations), system, work)
             with system.active():
                 judged = [
                     of_balls(table, system, floor)
-                    for table, floor in zip(found.tables, floors, strict=True)
+                    for table, floor in zip(solved.tables, floors, strict=True)
                 ]
             missed = [accuracy for accuracy in judged if not accuracy.within(plan.tolerance)]
             if not missed:
-                return replace(plan, system=system), found, judged
+                return replace(plan, system=system), solved, judged
             why = f"at {system.bits} bits {missed[0].still}"
         except (UndecidedError, NotStandingError) as error:
             why = f"at {system.bits} bits: {error}"
@@ -155,11 +155,11 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
 def estimated(plan: Plan, work: Work) -> tuple[Answer, list[Accuracy]]:
     """Answer in float64, and say how large the errors are, as sweeps carried them."""
     problem = plan.problem
-    found = answer(
+    solved = answer(
         plan.quantities, problem, range(problem.realisations), FLOAT64, work, carried=True
     )
-    tables = zip(plan.quantities, found.tables, strict=True)
-    return found, [of_carried(quantity, table, found.sizes, plan) for quantity, table in tables]
+    tables = zip(plan.quantities, solved.tables, strict=True)
+    return solved, [of_carried(quantity, table, solved.sizes, plan) for quantity, table in tables]
 
 
 def of_carried(quantity: Quantity, table: Table, sizes: Sizes, plan: Plan) -> Accuracy:
@@ -188,11 +188,11 @@ def of_carried(quantity: Quantity, table: Table, sizes: Sizes, plan: Plan) -> Ac
     return Accuracy(bound, False, FLOAT64.name, CARRIED)
 
 
-def shortfall(plan: Plan, found: Answer, judged: Sequence[Accuracy]) -> str:
+def shortfall(plan: Plan, solved: Answer, judged: Sequence[Accuracy]) -> str:
     """Say why estimated answers do not meet the tolerance; an empty string where they do."""
     if plan.tolerance is None:
         return ""
-    for table, accuracy in zip(found.tables, judged, strict=True):
+    for table, accuracy in zip(solved.tables, judged, strict=True):
         if not accuracy.within(plan.tolerance):
             finite = math.isfinite(accuracy.error_bound)
             return accuracy.still if finite else accuracy.note

@@ -72,8 +72,8 @@ class Carried:
     @property
     def shape(self) -> tuple[int, ...]:
         """That of the values."""
-        found: tuple[int, ...] = np.shape(self.value)
-        return found
+        shape: tuple[int, ...] = np.shape(self.value)
+        return shape
 
     @property
     def nearest(self) -> Any:
@@ -98,40 +98,40 @@ def residual(a: Any, b: Any, product: Any) -> Any:
 
 def added(x: Any, y: Any) -> Carried:
     """Give x + y."""
-    found = x.value + y.value
-    part = found - x.value
-    own = (x.value - (found - part)) + (y.value - part)
-    return Carried(found, own + (x.error + y.error))
+    value = x.value + y.value
+    part = value - x.value
+    own = (x.value - (value - part)) + (y.value - part)
+    return Carried(value, own + (x.error + y.error))
 
 
 def subtracted(x: Any, y: Any) -> Carried:
     """Give x − y."""
-    found = x.value - y.value
-    part = found - x.value
-    own = (x.value - (found - part)) - (y.value + part)
-    return Carried(found, own + (x.error - y.error))
+    value = x.value - y.value
+    part = value - x.value
+    own = (x.value - (value - part)) - (y.value + part)
+    return Carried(value, own + (x.error - y.error))
 
 
 def multiplied(x: Any, y: Any) -> Carried:
     """Give x y."""
-    found = x.value * y.value
+    value = x.value * y.value
     along = x.error * y.value + y.error * x.value
-    return Carried(found, residual(x.value, y.value, found) + along)
+    return Carried(value, residual(x.value, y.value, value) + along)
 
 
 def divided(x: Any, y: Any) -> Carried:
     """Give x/y."""
-    found = x.value / y.value
-    off = x.error - residual(found, y.value, x.value)
-    return Carried(found, (off - y.error * found) / y.value)
+    value = x.value / y.value
+    off = x.error - residual(value, y.value, x.value)
+    return Carried(value, (off - y.error * value) / y.value)
 
 
 def sqrt(x: Any) -> Any:
     """Give a square root, of numbers of any system or of arrays of them."""
     if not isinstance(x, Carried):
         return np.sqrt(x)
-    found = np.sqrt(x.value)
-    return Carried(found, (x.error - residual(found, found, x.value)) / (found + found))
+    value = np.sqrt(x.value)
+    return Carried(value, (x.error - residual(value, value, x.value)) / (value + value))
 
 
 @dataclass(frozen=True)

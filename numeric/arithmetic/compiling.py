@@ -188,9 +188,9 @@ def _register_carried() -> None:
             return lambda x: root(x)  # noqa: PLW0108 - numba takes functions of Python
 
         def with_error(x: Any) -> Any:
-            found = root(x.value)
-            off = x.error - fma(found, found, -x.value)
-            return carried.Carried(found, off / (found + found))
+            value = root(x.value)
+            off = x.error - fma(value, value, -x.value)
+            return carried.Carried(value, off / (value + value))
 
         return with_error
 

@@ -42,11 +42,11 @@ def exact(value: object) -> Fraction:
     if isinstance(value, bool) or not rational:
         kinds = ": whole, a Fraction, a Decimal or a float of 64 bits"
         raise ValueError(f"must be a number{kinds if hasattr(value, '__float__') else ''}")
-    found = Fraction(int(number.numerator), int(number.denominator))
-    long = max(found.numerator.bit_length(), found.denominator.bit_length()) > MOST_DIGITS
-    if long and (abs(found) >= _MOST or found.denominator >= _MOST**2):
+    fraction = Fraction(int(number.numerator), int(number.denominator))
+    long = max(fraction.numerator.bit_length(), fraction.denominator.bit_length()) > MOST_DIGITS
+    if long and (abs(fraction) >= _MOST or fraction.denominator >= _MOST**2):
         raise ValueError(f"must have at most {MOST_DIGITS} digits")
-    return found
+    return fraction
 
 
 def parse(text: str) -> Fraction:

@@ -48,13 +48,13 @@ def read_numbers(path: Path) -> Array:
             raise ForeignFileError(archive)
     try:
         with np.errstate(all="raise"):  # of sizes beyond all memory
-            found = np.asarray(np.load(path, "r", allow_pickle=False))
+            array = np.asarray(np.load(path, "r", allow_pickle=False))
     except (ValueError, TypeError, ArithmeticError, SyntaxError, EOFError, OSError, TokenError):
         raise ForeignFileError(
             "is not a NumPy file of numbers, as np.save writes one, or is cut off"
         ) from None
-    if not found.size:
-        raise ForeignFileError(f"is empty: its shape is {found.shape}")
-    if found.dtype.kind not in "iuf":
-        raise ForeignFileError(f"real numbers are needed, and it holds '{found.dtype}'")
-    return found
+    if not array.size:
+        raise ForeignFileError(f"is empty: its shape is {array.shape}")
+    if array.dtype.kind not in "iuf":
+        raise ForeignFileError(f"real numbers are needed, and it holds '{array.dtype}'")
+    return array

@@ -57,10 +57,10 @@ class NumberSystem(ABC):
 
     def filled(self, numbers: list[Any]) -> Array:
         """Put numbers of this system into an array."""
-        found = np.empty(len(numbers), dtype=self.dtype)
+        array = np.empty(len(numbers), dtype=self.dtype)
         for q, number in enumerate(numbers):  # NumPy takes a power series for a sequence
-            found[q] = number
-        return found
+            array[q] = number
+        return array
 
     def zeros(self, *shape: int) -> Any:
         """Give an array of exact zeros."""
@@ -122,9 +122,9 @@ FLOAT64 = Float64()
 @cache
 def flint() -> Any:
     """Load python-flint, and let its balls be pickled."""
-    found = import_module("flint")
-    copyreg.pickle(found.arb, _pickled)
-    return found
+    flint = import_module("flint")
+    copyreg.pickle(flint.arb, _pickled)
+    return flint
 
 
 def _pickled(ball: Any) -> tuple[Any, tuple[Any, ...]]:

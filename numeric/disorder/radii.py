@@ -77,27 +77,27 @@ class DrawnRadii:
 
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Scale deviates; a radius that is not positive raises ``RadiusError``."""
-        found = np.empty((len(realisations), rows.beads))
+        drawn = np.empty((len(realisations), rows.beads))
         at = 0
         for part in rows.parts(TOGETHER):
             low, high = counters(part, self.width)
             end = at + part.beads
-            found[:, at:end] = deviates(self.kind, self.seed, realisations, low, high)
+            drawn[:, at:end] = deviates(self.kind, self.seed, realisations, low, high)
             at = end
-        self._check(found, lambda q: _site(rows, q))
-        return system.from_floats(found) * system.number(self.std)
+        self._check(drawn, lambda q: _site(rows, q))
+        return system.from_floats(drawn) * system.number(self.std)
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Scale deviates of single beads."""
         i, j = np.array(sites, dtype=np.int64).reshape(-1, 2).T
-        found = deviates(self.kind, self.seed, [realisation], *_counters_of(i, j, self.width))
-        self._check(found, sites.__getitem__)
-        return system.from_floats(found[0]) * system.number(self.std)
+        drawn = deviates(self.kind, self.seed, [realisation], *_counters_of(i, j, self.width))
+        self._check(drawn, sites.__getitem__)
+        return system.from_floats(drawn[0]) * system.number(self.std)
 
-    def _check(self, found: Array, site: Callable[[int], tuple[int, int]]) -> None:
-        least = Fraction(float(found.min(initial=0)))
+    def _check(self, drawn: Array, site: Callable[[int], tuple[int, int]]) -> None:
+        least = Fraction(float(drawn.min(initial=0)))
         if self.std * least <= -1:
-            bead = int(np.argwhere(found == float(least))[0][1])
+            bead = int(np.argwhere(drawn == float(least))[0][1])
             shown = short(1 + self.std * least)
             raise RadiusError(site(bead), f"the drawn radius is {shown} r, not positive")
 

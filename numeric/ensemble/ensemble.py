@@ -167,7 +167,7 @@ def _joined(
     """Sum up realisations 0 … size − 1, or up to a look at which all is known well enough."""
     blocks, held = list(m.blocks(size)), set() if store is None else store.held.copy()
     at_looks = set() if until is None else {*looks(size), size}
-    found, width = Ensemble(m, Sums.nothing(m), confidence, until), None
+    statistics, width = Ensemble(m, Sums.nothing(m), confidence, until), None
     missing = (block for block in blocks if block not in held)
     with closing(solved_blocks(m, missing, executor)) as arriving:
         for first, stop in blocks:
@@ -177,22 +177,22 @@ def _joined(
                 own = next(arriving)
                 if store is not None and own.packings:  # of a wrong scene nothing is kept
                     store.put((first, stop), own)
-                found = replace(found, solved=found.solved + stop - first)
+                statistics = replace(statistics, solved=statistics.solved + stop - first)
                 progress(stop, width)
-            found = replace(found, sums=found.sums + own)
+            statistics = replace(statistics, sums=statistics.sums + own)
             if stop in at_looks:
-                found = replace(found, looks=found.looks + 1)
-                width = found.half_width
+                statistics = replace(statistics, looks=statistics.looks + 1)
+                width = statistics.half_width
                 progress(stop, width)
-                if found.reached:
+                if statistics.reached:
                     break
-    if found.realisations < 2:
-        number = found.sums.first_left_out
+    if statistics.realisations < 2:
+        number = statistics.sums.first_left_out
         raise RealisationError(
-            f"{found.unbuildable} of {size} packings are left out, and statistics need two: "
+            f"{statistics.unbuildable} of {size} packings are left out, and statistics need two: "
             f"realisation {number}: {why_left_out(m, number)}"
         )
-    return found
+    return statistics
 
 
 def solved_blocks(

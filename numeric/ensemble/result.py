@@ -105,13 +105,13 @@ class Ensemble(tables.Tabled):
     def _squares(self, roots: Array) -> Array:
         """Raises ``ForceDiffusionError`` if squares of forces are out of range in this unit."""
         with np.errstate(all="ignore"):
-            found = np.asarray(roots**2)
-        if ((roots != 0) & ~((found > LEAST) & np.isfinite(found))).any():
+            squares = np.asarray(roots**2)
+        if ((roots != 0) & ~((squares > LEAST) & np.isfinite(squares))).any():
             raise ForceDiffusionError(
                 f"squares of forces are beyond what floats hold where load.magnitude is "
                 f"{self._unit:g}: choose another unit"
             )
-        return found
+        return squares
 
     @cached_property
     def mean(self) -> Array:
@@ -247,21 +247,21 @@ class Ensemble(tables.Tabled):
         return self._text_of(self.arrays)
 
     def _text_of(self, columns: dict[str, Array]) -> dict[str, list[str]]:
-        found: dict[str, list[str]] = {}
+        texts: dict[str, list[str]] = {}
         for name, column in columns.items():
             if column.dtype.kind != "f":
-                found[name] = tables.text_of(column)
+                texts[name] = tables.text_of(column)
             elif name.endswith("_error"):
-                found[name] = of_errors(column)
+                texts[name] = of_errors(column)
             elif name == "first_order_std":
-                found[name] = tables.significant(column, np.full(len(column), 12))
+                texts[name] = tables.significant(column, np.full(len(column), 12))
             else:
                 names = (f"{name}_error", f"{SCATTER_OF.get(name, name)}_error")
                 known = next((columns[n] for n in names if n in columns), np.zeros(len(column)))
                 with np.errstate(all="ignore"):  # beside a mean of 0 no digit is known
                     sampling = np.nan_to_num(known) / (self.mean if name == RATIO else 1)
-                found[name] = known_digits(column, 0.0, sampling)
-        return found
+                texts[name] = known_digits(column, 0.0, sampling)
+        return texts
 
     @property
     def whole_numbers(self) -> list[str]:
@@ -271,9 +271,9 @@ class Ensemble(tables.Tabled):
     @cached_property
     def source(self) -> dict[str, Any]:
         """Where it came from: program, version, scene, seed, and the SHA-256 of files read."""
-        found = source_of(self.measurement.plan.scene)
-        del found["scene"]["ask"]["realisations"]  # of the plan of one packing
-        return found
+        source = source_of(self.measurement.plan.scene)
+        del source["scene"]["ask"]["realisations"]  # of the plan of one packing
+        return source
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
         """The same as JSON can hold it; numbers have all known digits.

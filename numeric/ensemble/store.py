@@ -56,10 +56,10 @@ def description(m: Measurement) -> dict[str, Any]:
         forces = sorted((list(site), list(map(str, force))) for site, force in loads)
         digest = hashlib.sha256(json.dumps(forces).encode()).hexdigest()
         sections["load"]["file"] = f"sha256 {digest}"
-    found: dict[str, Any] = json.loads(json.dumps(sections, default=str))  # of fractions
-    found["measured"] = {"edges": [edge.hex() for edge in m.edges]}
-    found["version"] = {PROGRAM: program_version()}
-    return found
+    content: dict[str, Any] = json.loads(json.dumps(sections, default=str))  # of fractions
+    content["measured"] = {"edges": [edge.hex() for edge in m.edges]}
+    content["version"] = {PROGRAM: program_version()}
+    return content
 
 
 class Store:
@@ -197,13 +197,13 @@ def together(blocks: Iterable[Block]) -> list[Block]:
     >>> together([(32, 40), (0, 32), (32, 48), (64, 96)])
     [(0, 48), (64, 96)]
     """
-    found: list[Block] = []
+    joined: list[Block] = []
     for first, stop in sorted(blocks):
-        if found and first <= found[-1][1]:
-            found[-1] = found[-1][0], max(stop, found[-1][1])
+        if joined and first <= joined[-1][1]:
+            joined[-1] = joined[-1][0], max(stop, joined[-1][1])
         else:
-            found.append((first, stop))
-    return found
+            joined.append((first, stop))
+    return joined
 
 
 def _not_ours(path: Path) -> StoreError:
@@ -243,15 +243,15 @@ def _text(ensemble: dict[str, Any]) -> str:
 
 def _difference(old: dict[str, Any], new: dict[str, Any]) -> str:
     """Name the first few keys in which two ensembles differ."""
-    found = []
+    differences = []
     for section in {**old, **new}:
         a, b = old.get(section) or {}, new.get(section) or {}
-        found += [
+        differences += [
             f"there {section}.{key} is {_shown(a.get(key))}, here {_shown(b.get(key))}"
             for key in {**a, **b}
             if a.get(key) != b.get(key)
         ]
-    return "; ".join(found[:3])
+    return "; ".join(differences[:3])
 
 
 def _shown(value: Any) -> str:

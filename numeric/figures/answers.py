@@ -121,10 +121,10 @@ def ordered(plan: Plan, i: Any, j: Any) -> Array:
 
 def theory(plan: Plan) -> Array | None:
     """Give σ_f to first order, (directions, M); None where no closed form applies."""
-    found = first_order_std(plan.problem)
-    if found is None:
+    theory = first_order_std(plan.problem)
+    if theory is None:
         return None
-    unit, layers = plan.scene.load.magnitude, map(found, range(plan.problem.height))
+    unit, layers = plan.scene.load.magnitude, map(theory, range(plan.problem.height))
     return np.array([[float(std * unit) for std in layer] for layer in layers]).T
 
 
@@ -328,16 +328,16 @@ def response(plan: Plan, columns: Columns, errors: Columns, network: Network | N
 
     Of one packing these are as thick as their force, of several as σ of it; p is the mean then.
     """
-    one = "vertical" in columns
+    vertical = "vertical" in columns
     rows = {name: floats(column) for name, column in columns.items()}
     places = np.stack([unwrapped(plan, rows["i"]), rows["j"]], axis=1)
     sites, which = np.unique(places, axis=0, return_inverse=True)
-    p = np.bincount(which, rows["vertical" if one else "vertical_mean"])
+    p = np.bincount(which, rows["vertical" if vertical else "vertical_mean"])
     figure, (left, right) = style.panels("ab", style.PAGE, 2.9)
-    name = r"$p\,/\,f^{\rm load}$" if one else r"$\langle p\rangle\,/\,f^{\rm load}$"
+    name = r"$p\,/\,f^{\rm load}$" if vertical else r"$\langle p\rangle\,/\,f^{\rm load}$"
     centres = ordered(plan, *sites.T)
     beads.draw_cone(left, centres, p, apex(plan), float(p.max()), location="bottom", label=name)
-    forces, what = rows["force" if one else "force_std"], "f" if one else r"\sigma_f"
+    forces, what = rows["force" if vertical else "force_std"], "f" if vertical else r"\sigma_f"
     ends = contacts(plan, rows)
     beads.draw_chains(right, ends, forces, named(forces, what))
     surroundings(right, plan, ends)

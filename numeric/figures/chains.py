@@ -24,12 +24,12 @@ def contacts(o: Options, medium: Medium) -> Table:
         "contact_forces", height=HEIGHT, width=WIDTH, seed=o.seed, std=medium.std,
         spacing=medium.spacing,
     )  # fmt: skip
-    found = solve_first(plan)
+    columns = solve_first(plan)
     names = {"x_low": "x", "y_low": "y", "x_high": "upper_x", "y_high": "upper_y"}
     return {
-        **{name: found[name] for name in ("i", "j", "branch")},
-        **{name: found[column] for name, column in names.items()},
-        "force": found["force"] / (found["force"] - found["change"]),
+        **{name: columns[name] for name in ("i", "j", "branch")},
+        **{name: columns[column] for name, column in names.items()},
+        "force": columns["force"] / (columns["force"] - columns["change"]),
     }
 
 
@@ -37,12 +37,12 @@ def figure(o: Options) -> Made:
     """Contacts as lines, pressing ones dark, pulling ones vermillion."""
     o.notice("chains")
     medium = o.medium(MEDIUM)
-    found = contacts(o, medium)
-    forces = found["force"]
-    ends = np.stack([found[name] for name in ("x_low", "y_low", "x_high", "y_high")], axis=1)
+    columns = contacts(o, medium)
+    forces = columns["force"]
+    ends = np.stack([columns[name] for name in ("x_low", "y_low", "x_high", "y_high")], axis=1)
     ends = ends.reshape(-1, 2, 2)
     right, top = float(medium.spacing) * SHOWN, float(ends[..., 1].max())
-    surface = np.unique(ends[found["j"] == HEIGHT - 1, 1], axis=0)
+    surface = np.unique(ends[columns["j"] == HEIGHT - 1, 1], axis=0)
     f = r"$f=\langle f\rangle$"
     keys = [(1.0, f), (3.0, r"$f=3\langle f\rangle$"), (-1.0, r"pulling, $f=-\langle f\rangle$")]
     if alike(forces):
@@ -67,4 +67,4 @@ def figure(o: Options) -> Made:
         "smallest_force": float(forces.min()),
     }
     says = f"{tensile} of {len(forces)} contacts pull at M = {HEIGHT}, M* = {critical:.3g}"
-    return Made(drawn, {"chains": found}, facts, [says])
+    return Made(drawn, {"chains": columns}, facts, [says])

@@ -53,8 +53,8 @@ def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
 def simulated(M: int, o: Options) -> Comparison:
     """Simulate one height."""
     start, medium = M << 32, o.medium()  # heights share no radii
-    found = averages(M, range(start, start + o.realisations), o.seed, o.notice, medium)
-    band, (exact, _) = packings.band_of_spread(*found, o.seed), curves(M, medium)
+    averaged = averages(M, range(start, start + o.realisations), o.seed, o.notice, medium)
+    band, (exact, _) = packings.band_of_spread(*averaged, o.seed), curves(M, medium)
     return Comparison(f"M = {M}: exact finite-M curve", band, exact)
 
 
@@ -66,17 +66,17 @@ def figure(o: Options) -> Made:
     medium, q_model = o.medium(), "q-model" in o.models
     for M in o.heights:  # one that is too large is refused before any is solved
         _ensemble(M, o.realisations, o.seed, medium)
-    found = [simulated(M, o) for M in o.heights]
+    cases = [simulated(M, o) for M in o.heights]
     critical = critical_height(Fraction(medium.std))
     mosaic, width = ("ac;bc", PAGE) if q_model else ("a;b", COLUMN)
     drawn, axes = panels(mosaic, width, 3.5, sharex=True, height_ratios=(2.6, 1))
-    _draw(axes[0], found, medium)
-    _draw_ratio(axes[1], found)
+    _draw(axes[0], cases, medium)
+    _draw_ratio(axes[1], cases)
     layers = [
         (M, j, j / M, printed) for M in o.heights for j, printed in enumerate(curves(M, medium)[1])
     ]
     made = packings.compared(
-        drawn, "figure3", o, found, packings.table("height j z printed", layers),
+        drawn, "figure3", o, cases, packings.table("height j z printed", layers),
         spacing_over_r=float(medium.spacing), relative_std=medium.std, critical_height=critical,
     )  # fmt: skip
     if not q_model:
@@ -93,37 +93,37 @@ def _marked(M: int, number: int) -> slice:
     return slice(number * step // 3, None, step)
 
 
-def _draw(axes: Axes, found: Sequence[Comparison], medium: Medium) -> None:
+def _draw(axes: Axes, cases: Sequence[Comparison], medium: Medium) -> None:
     """Draw all σ_f/⟨f⟩ over M^(3/2)."""
     power = -math.floor(math.log10(medium.std))
     z, form, phi = np.linspace(0, 1, 201), closed_forms.surface_diffusion, float(medium.phi)
     printed = np.sqrt([form(1, at, phi, medium.std, 1.0) for at in z])
     axes.plot(z, printed * 10.0**power, "k--", lw=1, label="Eq. (13), printed")
     axes.plot([], [], color=GREY, label="exact at finite $M$")
-    for c, one in enumerate(found):
-        M = len(one.theory)
+    for c, case in enumerate(cases):
+        M = len(case.theory)
         unit, z, some = M**1.5 / 10.0**power, np.arange(M) / M, _marked(M, c)
-        low, high = one.band.limits
-        axes.plot(z, one.theory / unit, color=f"C{c}")
+        low, high = case.band.limits
+        axes.plot(z, case.theory / unit, color=f"C{c}")
         axes.fill_between(z, low / unit, high / unit, color=f"C{c}", alpha=0.25, lw=0)
-        points(axes, z[some], one.band.value[some] / unit, c, f"simulated, $M={M}$")
+        points(axes, z[some], case.band.value[some] / unit, c, f"simulated, $M={M}$")
     axes.fill_between([], [], color=GREY, alpha=0.25, lw=0, label=f"{LEVEL:.0%} band")
     axes.set(xlim=(0, 1), ylabel=rf"$10^{{{power}}}\,M^{{-3/2}}\,\sigma_f/\langle f\rangle$")
     axes.set_ylim(bottom=0)
     axes.legend(loc="lower left")
 
 
-def _draw_ratio(axes: Axes, found: Sequence[Comparison]) -> None:
+def _draw_ratio(axes: Axes, cases: Sequence[Comparison]) -> None:
     """Draw simulation over the exact curve, minus 1, in %: all of a band has to hold zero."""
     axes.axhline(0, color="0.6", lw=0.7, zorder=0.5)
     widest = 0.0
-    for c, one in enumerate(found):
-        M = len(one.theory)
+    for c, case in enumerate(cases):
+        M = len(case.theory)
         z, some = np.arange(M) / M, _marked(M, c)
-        low, high = (100 * (edge / one.theory - 1) for edge in one.band.limits)
+        low, high = (100 * (edge / case.theory - 1) for edge in case.band.limits)
         axes.fill_between(z, low, high, color=f"C{c}", alpha=0.18, lw=0)
         axes.plot(z, low, z, high, color=f"C{c}", lw=0.5)
-        points(axes, z[some], (100 * (one.band.value / one.theory - 1))[some], c, ms=2.6)
+        points(axes, z[some], (100 * (case.band.value / case.theory - 1))[some], c, ms=2.6)
         widest = max(widest, -1.15 * low.min(), 1.15 * high.max())
     axes.set(xlabel=RELATIVE_HEIGHT, ylabel="simulated over\nexact, minus 1 (%)")
     axes.set_ylim(-widest, widest)

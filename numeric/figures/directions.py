@@ -39,16 +39,16 @@ def theory(angle: float) -> tuple[float, float]:
 
 def simulated(o: Options) -> Comparison:
     """Simulate all angles, each on radii of its own: f⁺ at all of them, then f⁻."""
-    found = []
+    averaged = []
     for place, angle in enumerate(ANGLES):
         ensemble = packings.planned(
             "profile", height=HEIGHT, seed=o.seed, realisations=o.realisations,
             load=SurfaceLoad(angle_deg=Fraction(angle)),
         )  # fmt: skip
         what = f"figure B2, {angle} degrees"
-        found.append(packings.moments(ensemble, o.notice, what, place << 32, axes=(0, 3)))
+        averaged.append(packings.moments(ensemble, o.notice, what, place << 32, axes=(0, 3)))
     mean, square = (
-        np.stack(parts, axis=2).reshape(o.realisations, -1) for parts in zip(*found, strict=True)
+        np.stack(parts, axis=2).reshape(o.realisations, -1) for parts in zip(*averaged, strict=True)
     )
     exact = np.array([theory(angle) for angle in ANGLES]).T.ravel()
     what = f"M = {HEIGHT}, {len(ANGLES)} angles, both branches: Eq. B2"
@@ -57,7 +57,7 @@ def simulated(o: Options) -> Comparison:
 
 def figure(o: Options) -> Made:
     """σ_f/⟨f⟩ of both branches over the angle of the load, up to that of the contacts."""
-    found, count = simulated(o), len(ANGLES)
+    comparison, count = simulated(o), len(ANGLES)
     fine = np.linspace(-0.93 * LIMIT, 0.93 * LIMIT, 161)
     curves = np.array([theory(angle) for angle in fine]).T
     drawn, (axes,) = panels("a", COLUMN, 2.6)
@@ -66,7 +66,7 @@ def figure(o: Options) -> Made:
     for b, branch in enumerate("+-"):
         own = slice(b * count, (b + 1) * count)
         name = f"$f^{branch}$, simulated"
-        points(axes, ANGLES, found.band.value[own], b, name, found.bars[:, own])
+        points(axes, ANGLES, comparison.band.value[own], b, name, comparison.bars[:, own])
     for edge in (-LIMIT, LIMIT):
         axes.axvline(edge, color="0.6", ls=":", lw=0.7, zorder=0.5)
     axes.set(xlabel="angle of the load from the vertical (degrees)", xlim=(-52, 52), yscale="log")
@@ -79,5 +79,5 @@ def figure(o: Options) -> Made:
         "t": [ratio(angle) for angle in (*ANGLES, *ANGLES)],
     }
     return packings.compared(
-        drawn, "figureB2", o, [found], rows, height=HEIGHT, relative_std=PAPER_STD
+        drawn, "figureB2", o, [comparison], rows, height=HEIGHT, relative_std=PAPER_STD
     )

@@ -57,10 +57,10 @@ def simulated(o: Options, number: int) -> tuple[Array, dict[str, Any]]:
         F, g = quantity.changes(plan.problem, answer, number)
         return np.asarray(g[0, :, 0] / F[0, 0])
 
-    found = gathered(plan, o.notice, f"P(f), {kind} radii, M = {M}", each, number << 32)
+    changes = gathered(plan, o.notice, f"P(f), {kind} radii, M = {M}", each, number << 32)
     std = np.sqrt(closed_forms.surface_variance(M, 0, float(medium.phi), medium.std, 1.0))
-    smirnov, anderson = p_values(found / std, o.seed)
-    return found / std, {
+    smirnov, anderson = p_values(changes / std, o.seed)
+    return changes / std, {
         "radii": kind,
         "height": M,
         "p_kolmogorov_smirnov": smirnov,
@@ -74,10 +74,10 @@ def figure(o: Options) -> Made:
     medium, rows, samples, lines = o.medium(), [], [], []
     drawn, axes = panels("ab", PAGE, 2.6)
     for c, panel in enumerate(axes):
-        deviates, found = simulated(o, c)
+        deviates, tested = simulated(o, c)
         kind, M = CASES[c]
         smirnov, anderson = (
-            f"{name} {in_words(found[f'p_{key}'])}"
+            f"{name} {in_words(tested[f'p_{key}'])}"
             for name, key in (
                 ("Kolmogorov–Smirnov", "kolmogorov_smirnov"),
                 ("Anderson–Darling", "anderson_darling"),
@@ -85,8 +85,8 @@ def figure(o: Options) -> Made:
         )
         _draw(panel, deviates, c, f"{kind} radii, $M={M}$", f"{smirnov}\n{anderson}")
         rows += [(kind, M, k, value) for k, value in enumerate(deviates.tolist())]
-        samples.append(found)
-        verdict = "the tests reject" if found["gaussian_rejected"] else "no test rejects"
+        samples.append(tested)
+        verdict = "the tests reject" if tested["gaussian_rejected"] else "no test rejects"
         lines.append(f"{kind} radii, M = {M}: {verdict} the Gaussian ({smirnov}, {anderson})")
     facts = {
         "spacing_over_r": float(medium.spacing),

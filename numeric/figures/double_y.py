@@ -83,12 +83,12 @@ def table(found: Mapping[float, Array]) -> Table:
     }
 
 
-def draw(axes: Axes, found: Mapping[float, Array], slope: float) -> None:
+def draw(axes: Axes, profiles: Mapping[float, Array], slope: float) -> None:
     """Draw responses over the horizontal position, and the cone of the packing, at ±``slope``."""
     looks: Any = ("-", (0, (5, 2)), (0, (1, 1.2)))
-    for c, (splits, dashes) in enumerate(zip(found, looks, strict=True)):
+    for c, (splits, dashes) in enumerate(zip(profiles, looks, strict=True)):
         name = rf"$H={splits:g}\,\lambda$"
-        axes.stairs(found[splits], BINS, color=f"C{c}", ls=dashes, lw=1, label=name)
+        axes.stairs(profiles[splits], BINS, color=f"C{c}", ls=dashes, lw=1, label=name)
     for side, label in ((-slope, None), (slope, "the packing's cone")):
         axes.axvline(side, color="0.6", ls=(0, (1, 1.5)), lw=0.7, zorder=0.5, label=label)
     axes.set(xlabel="horizontal position $x/H$", xlim=(-3, 3))

@@ -59,28 +59,28 @@ def simulated(o: Options, load: str, spacing: Fraction) -> Comparison:
         )  # fmt: skip
         return packings.moments(ensemble, o.notice, f"figure B5, {where}, {geometry}")[0]
 
-    found = packings.band_of_shift(changed, STD**2, o.seed)
-    return Comparison(f"{where}: Eq. {number}", found, theory(load, HEIGHT, spacing))
+    band = packings.band_of_shift(changed, STD**2, o.seed)
+    return Comparison(f"{where}: Eq. {number}", band, theory(load, HEIGHT, spacing))
 
 
 def figure(o: Options) -> Made:
     """Shifts of the mean over M under both loads, at two spacings."""
-    found = [simulated(o, *case) for case in CASES]
+    cases = [simulated(o, *case) for case in CASES]
     z, fine = np.arange(HEIGHT) / HEIGHT, np.linspace(0, 1, 201)
     drawn, axes = panels("ab", PAGE, 2.6, sharey=True)
-    for panel, load, own in zip(axes, LOADS, (found[:2], found[2:]), strict=True):
+    for panel, load, own in zip(axes, LOADS, (cases[:2], cases[2:]), strict=True):
         panel.axhline(0, color="0.6", lw=0.7, zorder=0.5)
         panel.plot([], [], color=GREY, label=f"exact at $M={HEIGHT}$")
         panel.plot([], [], "--", color=GREY, label=r"$M\to\infty$")
-        for c, (one, phi) in enumerate(zip(own, map(cosine, SPACINGS), strict=True)):
+        for c, (result, phi) in enumerate(zip(own, map(cosine, SPACINGS), strict=True)):
             panel.plot(fine, leading(load, fine, phi), "--", color=f"C{c}")
-            curve(panel, z, one.theory / HEIGHT, BULK, c)
+            curve(panel, z, result.theory / HEIGHT, BULK, c)
             name = rf"$\phi={phi:g}$, simulated"
-            points(panel, z, one.band.value / HEIGHT, c, name, one.bars / HEIGHT)
+            points(panel, z, result.band.value / HEIGHT, c, name, result.bars / HEIGHT)
         panel.set(xlabel=RELATIVE_HEIGHT, xlim=(0, 1), title=f"{load} load")
         panel.legend(loc="upper left")
     shift = r"$(\langle f\rangle/f_{0}-1)\,/\,[M(\sigma_{\delta r}/r)^2]$"
     axes[0].set_ylabel(shift)
     layers = [(load, float(s), cosine(s), j) for load, s in CASES for j in range(HEIGHT)]
     rows = packings.table("load spacing phi j", layers)
-    return packings.compared(drawn, "figureB5", o, found, rows, height=HEIGHT, relative_std=STD)
+    return packings.compared(drawn, "figureB5", o, cases, rows, height=HEIGHT, relative_std=STD)

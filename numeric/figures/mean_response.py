@@ -56,22 +56,22 @@ def simulated(o: Options, spacing: Fraction) -> Comparison:
         what = f"figure B9, {where}, {geometry}"
         return packings.gathered(ensemble, o.notice, what, beside)
 
-    found = packings.band_of_shift(changed, ordered * STD**2, o.seed)
-    return Comparison(f"{where}: Eq. B9", found, theory(spacing))
+    band = packings.band_of_shift(changed, ordered * STD**2, o.seed)
+    return Comparison(f"{where}: Eq. B9", band, theory(spacing))
 
 
 def figure(o: Options) -> Made:
     """The mean response in one layer between the legs of the cone, at two spacings."""
-    found = [simulated(o, spacing) for spacing in SPACINGS]
+    cases = [simulated(o, spacing) for spacing in SPACINGS]
     drawn, (axes,) = panels("a", COLUMN, 2.6)
     axes.axhline(0, color="0.6", lw=0.7, zorder=0.5)
     for leg in (-REACH, REACH):
         axes.axvline(leg, color="0.6", ls=":", lw=0.7, zorder=0.5)
     axes.plot([], [], color=GREY, label="exact second order")
-    for c, (one, spacing) in enumerate(zip(found, SPACINGS, strict=True)):
-        curve(axes, OFFSETS, one.theory, slice(1, None), c)
+    for c, (case, spacing) in enumerate(zip(cases, SPACINGS, strict=True)):
+        curve(axes, OFFSETS, case.theory, slice(1, None), c)
         name = rf"$\phi={cosine(spacing):.3g}$, simulated"
-        points(axes, OFFSETS, one.band.value, c, name, one.bars)
+        points(axes, OFFSETS, case.band.value, c, name, case.bars)
     axes.set(xlabel=r"$i-k$ of a contact $f^{+}$ inside the cone", ylim=(-2.3, 3))
     mean = r"$2n_y\langle f^{+}\rangle\,/\,[f^{\rm load}(\sigma_{\delta r}/r)^2]$"
     axes.set_ylabel(mean)
@@ -79,5 +79,5 @@ def figure(o: Options) -> Made:
     places = [(float(s), cosine(s), int(offset)) for s in SPACINGS for offset in OFFSETS]
     rows = packings.table("spacing phi offset", places)
     return packings.compared(
-        drawn, "figureB9", o, found, rows, apex=APEX, layer=LAYER, relative_std=STD
+        drawn, "figureB9", o, cases, rows, apex=APEX, layer=LAYER, relative_std=STD
     )

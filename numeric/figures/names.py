@@ -40,7 +40,7 @@ FIGURES = {
 
 KINDS = ("png", "svg", "pdf")
 """What figures are written as."""
-OF_ENSEMBLES = tuple(name for name, one in FIGURES.items() if one.realisations)
+OF_ENSEMBLES = tuple(name for name, entry in FIGURES.items() if entry.realisations)
 HEIGHTS = (8, 32, 128)
 """Of figure 3."""
 LEAST_REALISATIONS = 16

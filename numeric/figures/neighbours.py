@@ -63,15 +63,15 @@ def simulated(o: Options) -> Comparison:
 
 def figure(o: Options) -> Made:
     """σ of the mean over N, on logarithmic axes."""
-    found, every, count = simulated(o), np.array(WINDOWS), len(WINDOWS)
+    comparison, every, count = simulated(o), np.array(WINDOWS), len(WINDOWS)
     drawn, (axes,) = panels("a", COLUMN, 2.6)
     for b, name in enumerate(NAMES):
         own = slice(b * count, (b + 1) * count)
-        axes.plot(every, found.theory[own], color=f"C{b}", label=name)
-        points(axes, every, found.band.value[own], b, error=found.bars[:, own])
-    one = found.theory[0]
-    axes.plot(every, one / np.sqrt(every), ":", color=GREY, label="independent contacts")
-    axes.plot(every[2:], 0.7 * one / every[2:], "--", color=GREY, lw=0.7, label=r"$\propto 1/N$")
+        axes.plot(every, comparison.theory[own], color=f"C{b}", label=name)
+        points(axes, every, comparison.band.value[own], b, error=comparison.bars[:, own])
+    single = comparison.theory[0]
+    axes.plot(every, single / np.sqrt(every), ":", color=GREY, label="independent contacts")
+    axes.plot(every[2:], 0.7 * single / every[2:], "--", color=GREY, lw=0.7, label=r"$\propto 1/N$")
     axes.set(xscale="log", yscale="log", xlabel="number of neighbours $N$")
     axes.set_ylabel(r"$\sigma$ of the mean over $N$, relative")
     label_logarithmic(axes.xaxis)
@@ -79,5 +79,5 @@ def figure(o: Options) -> Made:
     axes.legend(loc="lower left")
     rows = packings.table("of N", [(of, N) for of in ("contacts", "beads") for N in WINDOWS])
     return packings.compared(
-        drawn, "figureB7", o, [found], rows, height=HEIGHT, layer=LAYER, relative_std=PAPER_STD
+        drawn, "figureB7", o, [comparison], rows, height=HEIGHT, layer=LAYER, relative_std=PAPER_STD
     )

@@ -52,12 +52,12 @@ def beside(place: Array, right: float, up: float) -> tuple[float, float]:
 
 def figure(o: Options) -> Made:
     """Ordered beads black, the disordered ones grey; what the text names has its name."""
-    found = beads(o)
+    columns = beads(o)
     ordered, displaced = (
-        np.stack([found[f"x{which}"], found[f"y{which}"]], axis=1) for which in ("_ordered", "")
+        np.stack([columns[f"x{which}"], columns[f"y{which}"]], axis=1) for which in ("_ordered", "")
     )
     drawn, (axes,) = panels("a", COLUMN, 2.3)
-    draw_beads(axes, displaced, found["radius"], fc="0.87", ec="0.55", lw=0.7)
+    draw_beads(axes, displaced, columns["radius"], fc="0.87", ec="0.55", lw=0.7)
     draw_beads(axes, ordered, fc="none", ec="black", lw=1.1, zorder=3)
     for site, words in NAMED.items():
         x, y = at(*site)
@@ -79,4 +79,4 @@ def figure(o: Options) -> Made:
     bare(axes, 0.9, 11.9, -2.45, 5.15)
     facts = {"relative_std": STD, "height": HEIGHT, "spacing_over_r": float(SPACING)}
     says = f"{len(ordered)} beads of an exact packing at σ/r = {STD}"
-    return Made(drawn, {"figure1": found}, facts, [says])
+    return Made(drawn, {"figure1": columns}, facts, [says])

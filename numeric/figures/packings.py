@@ -115,24 +115,24 @@ def compared(
     figure: "Figure",
     name: str,
     o: Options,
-    found: Sequence[Comparison],
+    cases: Sequence[Comparison],
     rows: Table,
     **parameters: Any,
 ) -> Made:
     """Give a figure of ensembles beside theory; ``rows`` names the rows of its CSV file."""
     columns: dict[str, list[Array]] = {
-        "simulated": [one.band.value for one in found],
-        "band_low": [one.band.limits[0] for one in found],
-        "band_high": [one.band.limits[1] for one in found],
-        "exact": [one.theory for one in found],
+        "simulated": [c.band.value for c in cases],
+        "band_low": [c.band.limits[0] for c in cases],
+        "band_high": [c.band.limits[1] for c in cases],
+        "exact": [c.theory for c in cases],
     }
     table = {**rows, **{key: np.concatenate(parts) for key, parts in columns.items()}}
     verdicts = [
-        {"of": one.of, "inside": one.deviation() <= 1, "deviation_in_half_widths": one.deviation()}
-        for one in found
+        {"of": c.of, "inside": c.deviation() <= 1, "deviation_in_half_widths": c.deviation()}
+        for c in cases
     ]
     facts = {**parameters, "realisations": o.realisations, "level": LEVEL, "comparisons": verdicts}
-    return Made(figure, {name: table}, facts, [one.verdict() for one in found])
+    return Made(figure, {name: table}, facts, [c.verdict() for c in cases])
 
 
 def table(names: str, rows: Sequence[Sequence[Any]]) -> Table:
@@ -189,12 +189,12 @@ def gathered(
 
     ``each`` takes what was solved, and of how many realisations.
     """
-    count, found = ensemble.scene.ask.realisations, []
+    count, parts = ensemble.scene.ask.realisations, []
     with FLOAT64.active():
         for solved, chunk in packings(ensemble.problem, range(start, start + count), FLOAT64):
-            found.append(each(solved, len(chunk)))
+            parts.append(each(solved, len(chunk)))
             notice(f"{what}: realisation {chunk[-1] - start} of {count}")
-    return np.concatenate(found)
+    return np.concatenate(parts)
 
 
 def moments(

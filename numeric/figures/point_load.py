@@ -56,7 +56,7 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
     low[ON_CUTS], high[ON_CUTS] = (edge**2 for edge in band.limits)
     ordered = np.where(LEG, 0.5, 0.0)
     printed = np.array([float(response(APEX, j, phi, 1, 1)) for j in LAYER.tolist()], dtype=object)
-    one = [float(contact_response(i, j, 0, APEX, "+", phi, 1, 1)) for i, j in SITES]
+    single = [float(contact_response(i, j, 0, APEX, "+", phi, 1, 1)) for i, j in SITES]
     table = {
         "i": COLUMN,
         "j": LAYER,
@@ -67,7 +67,7 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
         "variance_exact": exact,
         "variance_printed": np.where(LEG, "", printed),
         "variance_simulated": square,
-        "variance_upper_plus_contact": np.array(one),
+        "variance_upper_plus_contact": np.array(single),
         "band_low": low,
         "band_high": high,
     }
@@ -80,12 +80,12 @@ def vertical(ensemble: Plan, answer: Solved, number: int) -> Array:
     quantity = ensemble.quantity
     assert isinstance(quantity, quantities.Response)
     _, changes = quantity.changes(ensemble.problem, answer, number)
-    labels, found = quantity.labels(ensemble.problem), np.zeros((len(SITES), number))
+    labels, change_of_p = quantity.labels(ensemble.problem), np.zeros((len(SITES), number))
     rows = zip(*(labels[name] for name in ("i", "j", "component")), changes[:, :, 0], strict=True)
     for i, j, component, change in rows:
         if component == "vertical":
-            found[SITES.index((i, j))] += change
-    return found.T
+            change_of_p[SITES.index((i, j))] += change
+    return change_of_p.T
 
 
 def figure(o: Options) -> Made:
@@ -121,7 +121,8 @@ def figure(o: Options) -> Made:
 
 def _draw_cuts(axes: Axes, table: Table) -> None:
     """Draw variances over the horizontal position, layer by layer."""
-    x, variance, one = COLUMN / APEX, table["variance_exact"], table["variance_upper_plus_contact"]
+    x, variance = COLUMN / APEX, table["variance_exact"]
+    upper = table["variance_upper_plus_contact"]
     for c, j in enumerate(CUTS):
         here, colour = j == LAYER, f"C{c}"
         inside, legs = here & ~LEG, here & LEG
@@ -143,7 +144,7 @@ def _draw_cuts(axes: Axes, table: Table) -> None:
     points(axes, [], [], 0, "simulated", ms=2.6)
     axes.fill_between([], [], color=GREY, alpha=0.2, lw=0, label=f"{LEVEL:.0%} band of all")
     own, colour = (LAYER == ALONE) & ~LEG, f"C{CUTS.index(ALONE)}"
-    axes.plot(x[own], one[own], ":", color=colour, label=f"one contact, $j={ALONE}$")
+    axes.plot(x[own], upper[own], ":", color=colour, label=f"one contact, $j={ALONE}$")
     axes.set(xlabel="horizontal position $i/l$", xlim=(-1.08, 1.4))
     axes.set_ylabel(r"$\sigma^2_{\rm ensemble}(p)\,/\,(f^{\rm load}\sigma_{\delta r}/r)^2$")
     axes.set_ylim(bottom=0)

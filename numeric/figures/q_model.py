@@ -31,12 +31,12 @@ def weight_variance(depth: int) -> Array:
     [0.0, 0.166667, 0.236111]
     """
     c = np.zeros(depth + 2)  # c_n for n ≥ 0; beyond depth D it is zero
-    found = [0.0]
+    variances = [0.0]
     for _ in range(depth):
         left, right = np.append(c[1], c[:-1]), np.append(c[1:], 0.0)
         source = 1 + c[0]
         c = (left + 2 * c + right) / 4
         c[0] += source / 6
         c[1] -= source / 12
-        found.append(float(c[0]))
-    return np.array(found)
+        variances.append(float(c[0]))
+    return np.array(variances)

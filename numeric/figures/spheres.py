@@ -37,22 +37,22 @@ def simulated(o: Options, place: int) -> Comparison:
         "profile", height=M, seed=o.seed, realisations=o.realisations, load=loaded(), dimension=3
     )  # fmt: skip
     what = f"{load} load, M = {M}"
-    found = packings.moments(ensemble, o.notice, f"figure B13, {what}", place << 32)
-    band = packings.band_of_spread(*found, o.seed)
+    averaged = packings.moments(ensemble, o.notice, f"figure B13, {what}", place << 32)
+    band = packings.band_of_spread(*averaged, o.seed)
     return Comparison(f"{what}: Eq. {number}", band, exact(load, M))
 
 
 def figure(o: Options) -> Made:
     """Points with bands, the exact curves, and the leading orders, over M^(3/2)."""
-    found, fine = [simulated(o, place) for place in range(len(CASES))], np.linspace(0, 1, 101)
+    cases, fine = [simulated(o, place) for place in range(len(CASES))], np.linspace(0, 1, 101)
     drawn, (axes,) = panels("a", COLUMN, 2.8)
     axes.plot([], [], color=GREY, label="exact at finite $M$")
     axes.plot([], [], "--", color=GREY, label=r"$M\to\infty$")
-    for c, ((load, M), one) in enumerate(zip(CASES, found, strict=True)):
+    for c, ((load, M), case) in enumerate(zip(CASES, cases, strict=True)):
         z, unit = np.arange(M) / M, PAPER_STD * M**1.5
-        axes.plot(z, one.theory / unit, color=f"C{c}")
+        axes.plot(z, case.theory / unit, color=f"C{c}")
         name = f"{load}, $M={M}$, simulated"
-        points(axes, z, one.band.value / unit, c, name, one.bars / unit)
+        points(axes, z, case.band.value / unit, c, name, case.bars / unit)
     for load in LOADS:
         axes.plot(fine, leading(load, fine) / PAPER_STD, "--", color=GREY)
     axes.set(xlabel=RELATIVE_HEIGHT, xlim=(0, 1))
@@ -65,4 +65,4 @@ def figure(o: Options) -> Made:
         for j, printed in enumerate((leading(load, np.arange(M) / M) * M**1.5).tolist())
     ]
     rows = packings.table("load M j z printed", layers)
-    return packings.compared(drawn, "figureB13", o, found, rows, relative_std=PAPER_STD)
+    return packings.compared(drawn, "figureB13", o, cases, rows, relative_std=PAPER_STD)

@@ -62,8 +62,8 @@ def panels(
     it.
     """
     figure = HouseFigure(figsize=(width, height))
-    found = figure.subplot_mosaic(mosaic, **layout)
-    axes = [found[letter] for letter in sorted(found)]
+    named = figure.subplot_mosaic(mosaic, **layout)
+    axes = [named[letter] for letter in sorted(named)]
     if len(axes) > 1:
         for letter, panel in zip("abcdef", axes, strict=False):
             panel.set_title(f"({letter})", loc="left")

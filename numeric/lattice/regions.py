@@ -62,7 +62,7 @@ def reached(loaded: Iterable[Site], rows: Rows, region: Region) -> list[Layer]:
     on: dict[int, list[int]] = {}
     for i, j in loaded:
         on.setdefault(j, []).append(i)
-    found = list[Layer]()
+    layers = list[Layer]()
     upper, above = Layer(0, 0, 0), np.zeros(0, bool)
     for row in reversed(rows):
         columns = (np.array(on.get(row.j, []), np.int64) - row.first) // 2
@@ -71,9 +71,9 @@ def reached(loaded: Iterable[Site], rows: Rows, region: Region) -> list[Layer]:
         for axis in range(region.dimension if upper.count else 0):
             here |= region.look(upper, row, region.step(axis, 1), False)(above)
         ends = np.flatnonzero(np.diff(here, prepend=False, append=False)).reshape(-1, 2)
-        found += [Layer(row.j, row.first + 2 * a, b - a) for a, b in ends[::-1].tolist()]
+        layers += [Layer(row.j, row.first + 2 * a, b - a) for a, b in ends[::-1].tolist()]
         upper, above = row, here
-    return found[::-1]
+    return layers[::-1]
 
 
 def upward_cone(x: Site, top: int, width: int | None) -> Rows:

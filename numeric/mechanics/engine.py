@@ -71,16 +71,16 @@ def solve(
     if problem.route == Route.ORDERED:
         return _ordered(problem, system)
     if problem.route == Route.LINE_SUMS:
-        found = _line_sums(problem, realisations[0], CARRYING if carried else system, work)
-        return rounded(found) if carried else found
+        line_sums = _line_sums(problem, realisations[0], CARRYING if carried else system, work)
+        return rounded(line_sums) if carried else line_sums
     load = problem.load if problem.needs_forces else None
     linear = problem.route != Route.EXACT
-    found = swept(
+    line_sums = swept(
         problem.n_x, problem.radii, load, problem.region, problem.force_rows, realisations, system,
         linear=linear, carried=carried,
     )  # fmt: skip
     work.did("summed" if linear else "deposited", problem.region.beads * len(realisations))
-    return found
+    return line_sums
 
 
 def _ordered(problem: Problem, system: NumberSystem) -> Solved:

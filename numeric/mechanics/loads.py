@@ -32,12 +32,12 @@ def components(force: Sequence[Any], n_x: Any, up: Any, root12: Any = None) -> C
     (Fraction(5, 8), Fraction(5, 8))
     """
     d = len(force)
-    found = [-force[-1] / (d * up)] * d
+    parts = [-force[-1] / (d * up)] * d
     for k, (part, row) in enumerate(zip(force, level(d), strict=False), 1):
         # k (k + 1) (1 − φ) is the square of the level vector, and 1 − φ = 2 n_x²
         size = n_x * (2 if k == 1 else root12)
-        found = [of - h * part / size if h else of for of, h in zip(found, row, strict=True)]
-    return tuple(found)
+        parts = [of - h * part / size if h else of for of, h in zip(parts, row, strict=True)]
+    return tuple(parts)
 
 
 @dataclass(frozen=True)
@@ -84,8 +84,8 @@ class LoadSpec:
         root12 = own.root(Fraction(12)) if self.dimension > 2 else None
 
         def of(*force: Any) -> Components:
-            found = components(force, nx, up, root12)
-            return tuple(x.nearest for x in found) if own is not system else found
+            parts = components(force, nx, up, root12)
+            return tuple(x.nearest for x in parts) if own is not system else parts
 
         single = {site: of(*map(own.number, force)) for site, force in self.single.items()}
         sin, cos = self._turn(own)
@@ -107,19 +107,19 @@ class LoadSpec:
 
     def on(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
         """Give (L^a) of the beads of ``rows`` (layers 0 … top), (d, beads)."""
-        found = system.zeros(self.dimension, rows.beads)
+        forces = system.zeros(self.dimension, rows.beads)
         ends = np.cumsum(rows.counts)
         if self.loaded is None:
             first = 0 if self.kind == "bulk" else int(ends[-1] - rows.counts[-1])
             for a, share in enumerate(strength.unit):
-                found[a, first:] = share
-            return found
+                forces[a, first:] = share
+            return forces
         for site, load in self._singly(strength).items():
             layers, columns = self._below(site, 0, rows)
             if len(layers) and layers[0] == site[1]:
                 for a, share in enumerate(load):
-                    found[a, ends[site[1]] - rows.counts[site[1]] + columns[0]] += share
-        return found
+                    forces[a, ends[site[1]] - rows.counts[site[1]] + columns[0]] += share
+        return forces
 
     def ordered(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
         """Give the ordered forces below the beads of ``rows`` above the base, (d, beads).
@@ -127,21 +127,21 @@ class LoadSpec:
         A load goes straight down, along each direction by itself.
         """
         starts = rows.starts_above
-        found = system.zeros(self.dimension, int(starts[-1]))
+        forces = system.zeros(self.dimension, int(starts[-1]))
         if self.loaded is None:
             times = np.ones(len(rows))
             if self.kind == "bulk":
                 times = self.height - rows.layers + 1.0
             row = np.arange(len(rows)).repeat(np.diff(starts))
             for a, share in enumerate(strength.unit):
-                found[a] = (system.from_floats(times) * share)[row]
-            return found
+                forces[a] = (system.from_floats(times) * share)[row]
+            return forces
         for site, load in self._singly(strength).items():
             for a, share in enumerate(load):
                 layers, columns = self._below(site, a, rows)
                 at = (starts[layers] + columns)[layers > 0]
-                found[a, at] = found[a, at] + share
-        return found
+                forces[a, at] = forces[a, at] + share
+        return forces
 
     def _below(self, site: Site, a: int, rows: Rows) -> tuple[Array, Array]:
         """Give layers and columns of the beads of ``rows`` from a site straight down −e_a."""
@@ -162,11 +162,11 @@ class LoadSpec:
     @cached_property
     def _by_diagonal(self) -> dict[tuple[int, int], list[Site]]:
         """Loaded beads by (side, i − side·j), the diagonal that they load."""
-        found: dict[tuple[int, int], list[Site]] = {}
+        places: dict[tuple[int, int], list[Site]] = {}
         for site in self.loaded or []:
             for side in (1, -1):
-                found.setdefault((side, self._diagonal(site[0], site[1], side)), []).append(site)
-        return found
+                places.setdefault((side, self._diagonal(site[0], site[1], side)), []).append(site)
+        return places
 
     def _diagonal(self, i: int, j: int, side: int) -> int:
         off = i - side * j

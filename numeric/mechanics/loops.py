@@ -76,7 +76,7 @@ def rest_piece(
     good = True
     for q in range(n):
         rho_own = number(rho, r + own + q, e)
-        found = rest(
+        bead = rest(
             (
                 (number(block, a + q, f), number(block, pitch + a + q, f)),
                 (number(block, b + q, f), number(block, pitch + b + q, f)),
@@ -85,13 +85,13 @@ def rest_piece(
             (number(rho, r + a + q, e), number(rho, r + b + q, e)),
             m,
         )
-        put(block, own + q, f, found.c[0])
-        put(block, pitch + own + q, f, found.c[1])
-        put(block, 2 * pitch + own + q, f, found.dn[0][0])
-        put(block, 3 * pitch + own + q, f, found.dn[0][1])
-        put(block, 4 * pitch + own + q, f, found.dn[1][0])
-        put(block, 5 * pitch + own + q, f, found.dn[1][1])
-        holds = found.holds
+        put(block, own + q, f, bead.c[0])
+        put(block, pitch + own + q, f, bead.c[1])
+        put(block, 2 * pitch + own + q, f, bead.dn[0][0])
+        put(block, 3 * pitch + own + q, f, bead.dn[0][1])
+        put(block, 4 * pitch + own + q, f, bead.dn[1][0])
+        put(block, 5 * pitch + own + q, f, bead.dn[1][1])
+        holds = bead.holds
         good &= sound(1 + rho_own, f) & sound(holds[0], f) & sound(holds[1], f)
         good &= sound(holds[2], f)
     return good
@@ -132,7 +132,7 @@ def balance_piece(
     """Balance n beads below a and b; say whether all is in order. Changes lie k further on."""
     good = True
     for q in range(n):
-        found = balance(
+        bead = balance(
             (number(F, fa + q, e), number(F, size + fb + q, e)),
             (number(g, k + fa + q, h), number(g, k + size + fb + q, h)),
             (
@@ -145,10 +145,10 @@ def balance_piece(
                 (number(block, 4 * pitch + here + q, f), number(block, 5 * pitch + here + q, f)),
             ),
         )
-        put(g, k + own + q, h, found.g[0])
-        put(g, k + size + own + q, h, found.g[1])
-        good &= sound(found.det * found.det, f)
-        good &= (abs(nearest(found.g[0], f)) < INFINITY) & (abs(nearest(found.g[1], f)) < INFINITY)
+        put(g, k + own + q, h, bead.g[0])
+        put(g, k + size + own + q, h, bead.g[1])
+        good &= sound(bead.det * bead.det, f)
+        good &= (abs(nearest(bead.g[0], f)) < INFINITY) & (abs(nearest(bead.g[1], f)) < INFINITY)
     return good
 
 

@@ -173,13 +173,13 @@ def square_of(phi: Fraction, steps: Steps) -> Fraction:
 @lru_cache(maxsize=8)
 def _steps(dimension: int, reach: int) -> tuple[list[Steps], Array, Array]:
     """Give all steps up to ``reach`` to no contact, one of each two; Σ s² and (Σ s)² of them."""
-    found = []
+    listed = []
     for steps in product(range(-reach, reach + 1), repeat=dimension):
         first = next((s for s in (sum(steps), *steps) if s), 0)
         if first > 0 and not (sum(steps) == 1 and sum(map(abs, steps)) == 1):
-            found.append(steps)
-    table = np.array(found, float)
-    return found, (table**2).sum(axis=1), table.sum(axis=1) ** 2
+            listed.append(steps)
+    table = np.array(listed, float)
+    return listed, (table**2).sum(axis=1), table.sum(axis=1) ** 2
 
 
 def by_distance(dimension: int, phi: float) -> Iterator[tuple[float, Steps]]:
@@ -216,16 +216,16 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
     """Give the gaps of beads and those so many steps on, (packings, beads); inf where none is."""
     region, rho, block, rise = packing.region, packing.rho, packing.block, sum(steps)
     d, square = region.dimension, square_of(packing.phi, steps)
-    found = np.full(rho.shape, math.inf)
+    gaps = np.full(rho.shape, math.inf)
     rows, starts = region.rows, region.starts
     if d == 2 and (made := loops()) is not None:
         table = np.stack([starts[:-1], rows.counts, shift_of(rows, rows, steps)], axis=1)
         m = metric_array(packing.phi, CARRYING)[:3]  # its numbers without their errors
         constants = np.array([*m, *steps, float(square), float(square - 4)])
         sizes = len(rho), len(rows), rise, region.width or 0, region.beads, block.strides[1] // 8
-        arrays = (array.ctypes.data for array in (rho, block, found, table, constants))
+        arrays = (array.ctypes.data for array in (rho, block, gaps, table, constants))
         made.gaps(*arrays, *sizes)
-        return found
+        return gaps
     layers, metric = tuple(rows), local.metric(d, packing.phi, FLOAT64.number)
     for j in range(max(region.top + 1 - rise, 0)):
         own = slice(starts[j], starts[j + 1])
@@ -238,8 +238,8 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
         both = look(rho[:, over]) + rho[:, own]
         with FLOAT64.active():
             gap = local.gap(steps, float(square), float(square - 4), u, both, metric)
-        found[:, own] = np.where(known, gap, math.inf)
-    return found
+        gaps[:, own] = np.where(known, gap, math.inf)
+    return gaps
 
 
 def named(region: Region, row: Layer, column: int) -> tuple[int, ...]:

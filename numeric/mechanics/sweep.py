@@ -172,8 +172,8 @@ def swept(
     if load is not None:
         F = load.ordered(rows, load.strength(n_x, own), own)
         forces = sweep_down(packing, rows, F, linear=linear)
-    found = Solved(own, packing, forces, None)
-    return rounded(found) if carried else found
+    solved = Solved(own, packing, forces, None)
+    return rounded(solved) if carried else solved
 
 
 def deposit(
@@ -209,9 +209,9 @@ def _deposited(
         looks = [region.look(layers[j - 1], layer, region.step(a, -1)) for a in range(d)]
         under = tuple(tuple(moved(look, block[:, b, below]) for b in range(d)) for look in looks)
         rho_under = tuple(moved(look, rho[:, below]) for look in looks)
-        found = (rest_linear if linear else rest)(under, radii, rho_under, m)
-        _check_rest(found.holds, layer, region, system, partial(nested, under, rho_under, m))
-        for k, x in enumerate([*found.c, *(x for of in found.dn for x in of)]):
+        rested = (rest_linear if linear else rest)(under, radii, rho_under, m)
+        _check_rest(rested.holds, layer, region, system, partial(nested, under, rho_under, m))
+        for k, x in enumerate([*rested.c, *(x for of in rested.dn for x in of)]):
             block[:, k, own] = x
     return block
 
@@ -263,10 +263,10 @@ def _balanced(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool) -> An
         )
         F_here = tuple(F[a, own] for a in range(d))
         rule: Any = balance_linear if linear else balance
-        found = rule(*zip(*above, strict=True), F_here, dn)
+        balanced = rule(*zip(*above, strict=True), F_here, dn)
         if not linear:
-            check_standing(found.det, layer, region, system)
-        for a, change in enumerate(found.g):
+            check_standing(balanced.det, layer, region, system)
+        for a, change in enumerate(balanced.g):
             g[:, a, own] = change
     return g
 

@@ -104,9 +104,9 @@ def _problem(
         skipped["load"] = "positions follow from the radii alone"
     rows, region = Rows(), Region(load.width, Rows())
     if not single:  # of two questions one needs all beads that the other does
-        found = [quantity.beads(load) for quantity in quantities]
-        rows = max((rows for rows, _ in found), key=len)
-        region = max((region for _, region in found), key=lambda region: region.beads)
+        needed = [quantity.beads(load) for quantity in quantities]
+        rows = max((rows for rows, _ in needed), key=len)
+        region = max((region for _, region in needed), key=lambda region: region.beads)
     alike = DrawnRadii("uniform", Fraction(0), 0, load.width)
     radii: Radii = alike
     if not ordered:

@@ -75,8 +75,8 @@ def answer(
             if "samples" in table.index:
                 table.index["samples"] *= alike
             if isinstance(quantity, Histogram):
-                found = histogram(table.numbers["change"], quantity.bins, system)
-                bins = [(low, high, count * alike) for low, high, count in found]
+                counted = histogram(table.numbers["change"], quantity.bins, system)
+                bins = [(low, high, count * alike) for low, high, count in counted]
                 table = replace(table, bins=bins)
             tables.append(table)
     return Answer(tuple(tables), physical, network, sizes)

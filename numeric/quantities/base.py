@@ -203,8 +203,8 @@ class Listing:
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Take in solved realisations."""
         for number, realisation in enumerate(realisations):
-            one = solved if len(realisations) == 1 else solved.realisation(number)
-            part = self.quantity.rows(self.problem, one)
+            single = solved if len(realisations) == 1 else solved.realisation(number)
+            part = self.quantity.rows(self.problem, single)
             if self.problem.realisations > 1:
                 number_of = {"realisation": np.full(part.rows, realisation)}
                 part = replace(part, index=part.index | number_of)
@@ -352,14 +352,14 @@ def cartesian(
     The last is up; x is along n^1 − n^d, the y of three dimensions along 2 n^2 − n^1 − n^3.
     """
     nx, up = system.number(problem.n_x), slope(problem, system)
-    found = []
+    results = []
     for k, row in enumerate(level(len(components)), 1):
         parts = [v if h == 1 else h * v for h, v in zip(row, components, strict=True) if h]
         along = total(parts)
         across = along if k == 1 else along * system.root(Fraction(1, 3))
-        found.append(across * nx if raised else across / (2 * nx))
+        results.append(across * nx if raised else across / (2 * nx))
     rise = total(components)
-    return (*found, rise * up if raised else rise / (len(components) * up))
+    return (*results, rise * up if raised else rise / (len(components) * up))
 
 
 def first_order_std(problem: Problem) -> Callable[[int], tuple[Fraction, ...]] | None:

@@ -107,12 +107,12 @@ def numbers_of(wanted: Array, there: Array, numbers: Array) -> Array:
     both = np.concatenate([there, wanted], axis=1)
     low = both.min(axis=1, initial=0)[:, None]
     keys = np.ravel_multi_index(both - low, tuple(both.max(axis=1, initial=0) - low[:, 0] + 1))
-    found, asked = keys[: there.shape[1]], keys[there.shape[1] :]
-    order = np.argsort(found)
-    place = np.searchsorted(found, asked, sorter=order)
+    given, asked = keys[: there.shape[1]], keys[there.shape[1] :]
+    order = np.argsort(given)
+    place = np.searchsorted(given, asked, sorter=order)
     padded = np.append(numbers, np.full((len(numbers), 1), np.nan), axis=1)
     at = np.append(order, -1)[place]
-    return np.where(np.append(found, -1)[at] == asked, padded[:, at], np.nan)
+    return np.where(np.append(given, -1)[at] == asked, padded[:, at], np.nan)
 
 
 def of_network(network: Network) -> Table:

@@ -54,10 +54,10 @@ class Profile(Merged):
         shape = -1, self.members(problem)
         return F.reshape(shape), g.reshape(realisations, *shape).swapaxes(0, 1)
 
-    def table(self, problem: Problem, system: NumberSystem, found: Statistics) -> Table:
+    def table(self, problem: Problem, system: NumberSystem, statistics: Statistics) -> Table:
         """One row a layer and branch, base first."""
         index = {name: np.array(column) for name, column in self.labels(problem).items()}
-        index["samples"] = np.full(len(found.mean), found.count)
+        index["samples"] = np.full(len(statistics.mean), statistics.count)
         theory = first_order_std(problem)
         if theory is not None:
             unit = self.scene.load.magnitude
@@ -65,11 +65,11 @@ class Profile(Merged):
             stds = [short(theory(j)[direction(b).number] * unit, 12) for b, j in contacts]
             index["first_order_std"] = np.array(stds, dtype="U")
         numbers = {
-            "mean": found.ordered + found.mean,
-            "mean_change": found.mean,
-            "std": found.std,
+            "mean": statistics.ordered + statistics.mean,
+            "mean_change": statistics.mean,
+            "std": statistics.std,
         }
         if problem.load.loaded is None and not problem.load.angle_deg:  # no mean is zero
             numbers[RATIO] = numbers["std"] / numbers["mean"]
-        errors = {"mean_change": found.mean_error, "std": found.std_error}
+        errors = {"mean_change": statistics.mean_error, "std": statistics.std_error}
         return Table(index, numbers, ("mean_change", "std"), errors)

@@ -55,32 +55,32 @@ class Response(Merged):
     def tilt(self, solved: Solved, blocks: Sequence[Block], realisations: int) -> Array:
         """Give N_y/n_y − 1 of contacts, (realisations, contacts)."""
         assert solved.packing is not None
-        region, found = solved.packing.region, [solved.system.zeros(realisations, 0)]
+        region, changes = solved.packing.region, [solved.system.zeros(realisations, 0)]
         for branch, row in blocks:
             normal = solved.packing.dn(branch.number, row.j)
             parts = [pick(v, region.rows[row.j], row, region.width) for v in normal]
-            found.append(sum(parts[1:], parts[0]))
-        return np.concatenate(found, axis=1)
+            changes.append(sum(parts[1:], parts[0]))
+        return np.concatenate(changes, axis=1)
 
-    def table(self, problem: Problem, system: NumberSystem, found: Statistics) -> Table:
+    def table(self, problem: Problem, system: NumberSystem, statistics: Statistics) -> Table:
         """One row a contact."""
         contacts = self.naming.contacts(self.blocks(problem))
-        half = len(found.mean) // 2
+        half = len(statistics.mean) // 2
         force, vertical = slice(half), slice(half, None)
-        means = found.ordered + found.mean
+        means = statistics.ordered + statistics.mean
         if problem.realisations == 1:
             numbers = {
                 "force": means[force],
-                "change": found.mean[force],
+                "change": statistics.mean[force],
                 "vertical": means[vertical],
-                "vertical_change": found.mean[vertical],
+                "vertical_change": statistics.mean[vertical],
             }
             return Table(contacts, numbers, ("change", "vertical_change"))
         numbers, errors = {}, {}
         for name, part in (("force", force), ("vertical", vertical)):
             numbers[f"{name}_mean"] = means[part]
-            numbers[f"{name}_mean_change"] = found.mean[part]
-            numbers[f"{name}_std"] = found.std[part]
-            errors[f"{name}_mean_change"] = found.mean_error[part]
-            errors[f"{name}_std"] = found.std_error[part]
+            numbers[f"{name}_mean_change"] = statistics.mean[part]
+            numbers[f"{name}_std"] = statistics.std[part]
+            errors[f"{name}_mean_change"] = statistics.mean_error[part]
+            errors[f"{name}_std"] = statistics.std_error[part]
         return Table(contacts, numbers, tuple(errors), errors)

@@ -40,7 +40,7 @@ class Merged(ContactQuantity):
         return _Moments(self, problem, system)
 
     @abstractmethod
-    def table(self, problem: Problem, system: NumberSystem, found: Statistics) -> Table:
+    def table(self, problem: Problem, system: NumberSystem, statistics: Statistics) -> Table:
         """Give the rows."""
 
 
@@ -70,5 +70,5 @@ class _Moments:
         )
         mean, std = self.moments.average(), self.moments.std(self.system)
         count = self.moments.count
-        found = Statistics(self.ordered, mean, std, mean_error, std_error, count)
-        return self.quantity.table(self.problem, self.system, found)
+        statistics = Statistics(self.ordered, mean, std, mean_error, std_error, count)
+        return self.quantity.table(self.problem, self.system, statistics)

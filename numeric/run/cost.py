@@ -238,7 +238,7 @@ class _Study:
         relative = timed.seconds / unit
         return Way(name, digits, error, kind, timed.seconds, relative, timed.numbers is None)
 
-    def _error(self, found: Array) -> float:
+    def _error(self, numbers: Array) -> float:
         """Bound the largest distance from balls, over the largest number; of balls, their radius.
 
         Raises ``SceneError`` where all of them are zero.
@@ -249,11 +249,11 @@ class _Study:
             largest = largest_of(ball.abs_lower() for ball in true)
             if not largest > 0:
                 self._refuse_zero()
-            if hasattr(found[0], "rad"):
-                off = largest_of(ball.rad() for ball in found)
+            if hasattr(numbers[0], "rad"):
+                off = largest_of(ball.rad() for ball in numbers)
             else:
-                pairs = zip(found, true, strict=True)
-                off = largest_of((as_ball(one) - ball).abs_upper() for one, ball in pairs)
+                pairs = zip(numbers, true, strict=True)
+                off = largest_of((as_ball(value) - ball).abs_upper() for value, ball in pairs)
             return float(upper(off / largest))
 
     def _timed(self, name: str, digits: int, allowed: float) -> _Timed:
@@ -262,18 +262,18 @@ class _Study:
         layers = FEW
         while layers < height:
             small = _planned(_smaller(self.plan, layers), name, digits)
-            found = _run(small, name, digits)
-            whole = found.seconds * beads / small.problem.region.beads
+            measured = _run(small, name, digits)
+            whole = measured.seconds * beads / small.problem.region.beads
             if whole <= allowed:
                 break
-            if 4 * found.seconds > allowed:
-                return replace(found, seconds=whole, numbers=None)
+            if 4 * measured.seconds > allowed:
+                return replace(measured, seconds=whole, numbers=None)
             layers *= 2
-        found = _run(_planned(self.scene, name, digits), name, digits)
+        measured = _run(_planned(self.scene, name, digits), name, digits)
         if name == "balls":
-            assert found.numbers is not None
-            self.true = found.numbers, Balls(4 * digits + 200)
-        return found
+            assert measured.numbers is not None
+            self.true = measured.numbers, Balls(4 * digits + 200)
+        return measured
 
 
 def _planned(scene: Scene, name: str, digits: int) -> Plan:
@@ -291,10 +291,10 @@ def _run(planned: Plan, name: str, digits: int) -> _Timed:
             table = answer(planned.quantities, planned.problem, [0], BigFloat(digits)).table
             stated = 0.0
         else:
-            found = run(planned)
-            if found.accuracy.certified and name == "float64":
+            outcome = run(planned)
+            if outcome.accuracy.certified and name == "float64":
                 raise ToleranceError("float64 can't hold such small changes; balls can")
-            table, stated = found.table, float(found.accuracy.error_bound)
+            table, stated = outcome.table, float(outcome.accuracy.error_bound)
         spent.append(max(process_time() - start, TICK))
     numbers = np.concatenate([table.numbers[column] for column in table.small])
     return _Timed(min(spent), numbers, stated)

@@ -59,15 +59,15 @@ class Result(Tabled):
                 "count": np.array([count for _, _, count in bins], dtype=np.int64),
             }
         table = self.table
-        found = {
+        columns = {
             name: values.astype(np.float64) if name == "first_order_std" else values
             for name, values in table.index.items()
         }
         for name, values in table.numbers.items():
-            found[name] = values
+            columns[name] = values
             if name in table.errors:
-                found[f"{name}_error"] = table.errors[name]
-        return found
+                columns[f"{name}_error"] = table.errors[name]
+        return columns
 
     def rows(self) -> list[Row]:
         """The answer row by row, ready for a data frame; numbers as Python's int and float."""
@@ -106,8 +106,8 @@ class Result(Tabled):
         errors = [e[np.isfinite(e)] for e in table.errors.values()]
         if not any(len(e) for e in errors):
             return None
-        found = max((float(e.max(initial=0)) for e in errors), default=0.0)
-        return found / table.largest if found and table.largest else None
+        largest = max((float(e.max(initial=0)) for e in errors), default=0.0)
+        return largest / table.largest if largest and table.largest else None
 
     @property
     def standard_errors(self) -> dict[str, Array]:
@@ -148,11 +148,11 @@ class Outcome(Result):
         ``smallest_gap`` is a float in the unit of the radii: 0 or infinite if it is out of range;
         ``data()`` then has its decimals.
         """
-        found = self.answer.physical
-        if found is None or found.smallest_gap is None:
-            return found
-        gap = _length(found.smallest_gap, self.plan.scene.packing.radius)
-        return replace(found, smallest_gap=float(gap))
+        physical = self.answer.physical
+        if physical is None or physical.smallest_gap is None:
+            return physical
+        gap = _length(physical.smallest_gap, self.plan.scene.packing.radius)
+        return replace(physical, smallest_gap=float(gap))
 
     @cached_property
     def source(self) -> dict[str, Any]:
@@ -165,13 +165,13 @@ class Outcome(Result):
         Without ``rows`` the lists of results are empty, since they may have millions of rows. If
         there are several questions, ``accuracy`` is that of the least accurate answer.
         """
-        found = self.results.values()
-        accuracy = max((answer.accuracy for answer in found), key=lambda one: one.error_bound)
-        sampling = [answer.sampling_error for answer in found if answer.sampling_error is not None]
+        parts = self.results.values()
+        accuracy = max((answer.accuracy for answer in parts), key=lambda a: a.error_bound)
+        sampling = [answer.sampling_error for answer in parts if answer.sampling_error is not None]
         data = {
             "source": self.source,
             **self.plan.data(),
-            "results": {name: one.decimals() if rows else [] for name, one in self.results.items()},
+            "results": {name: a.decimals() if rows else [] for name, a in self.results.items()},
             "accuracy": {
                 "error_bound": _bound(accuracy.error_bound),
                 "sampling_error": max(sampling, default=None),
@@ -301,10 +301,10 @@ def outcome_lines(data: dict[str, Any]) -> list[str]:
     verdict = f"{_physical_words(data['physical'])}; {error}" if "physical" in data else error
     lines = [verdict]
     if "network" in data:
-        found = data["network"]
+        network = data["network"]
         lines.append(
-            f"the packing: {found['rest']}; {found['contacts']} contacts bear force, "
-            f"{found['rattlers']} rattlers, smallest gap {found['smallest_gap']:.3g} r"
+            f"the packing: {network['rest']}; {network['contacts']} contacts bear force, "
+            f"{network['rattlers']} rattlers, smallest gap {network['smallest_gap']:.3g} r"
         )
     if data["skipped"]:
         skipped = "; ".join(f"{s['effect']} ({s['reason']})" for s in data["skipped"])
@@ -321,10 +321,10 @@ def _physical_words(p: dict[str, Any]) -> str:
         words = "open whether it is physical"
     elif not p["overlaps"] and "note" in p:
         words = "not physical by itself, as under any load on single beads"
-    found = [f"{p['overlaps']} overlaps"] if p["overlaps"] else []
+    faults = [f"{p['overlaps']} overlaps"] if p["overlaps"] else []
     if p["tensile_contacts"]:
         opens = ', which contacts = "unilateral" lets open' if "i" in p["first_tensile"] else ""
-        found.append(f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile{opens}")
+        faults.append(f"{p['tensile_contacts']} of {p['contacts']} contacts are tensile{opens}")
     if p["undecided"]:
-        found.append(f"{p['undecided']} signs open")
-    return f"{words}: {', '.join(found)}"
+        faults.append(f"{p['undecided']} signs open")
+    return f"{words}: {', '.join(faults)}"

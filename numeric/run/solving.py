@@ -169,14 +169,14 @@ class Solution(Tabled):
         packings = math.prod(self._shape[:-d])
         named = dict(zip(bead_names(d), [*columns, j], strict=True)) | {"branch": contacts.branch}
         named |= {"lower": lower, "upper": upper, "wraps": contacts.wraps}
-        found = {name: np.tile(column, packings) for name, column in named.items()}
+        table = {name: np.tile(column, packings) for name, column in named.items()}
         if len(self._shape) > d:
-            found["realisation"] = np.repeat(np.arange(packings), len(lower))
+            table["realisation"] = np.repeat(np.arange(packings), len(lower))
         ends = contacts.ends.reshape(-1, 2, d)
         for k, (before, bead) in enumerate((("", lower), ("upper_", upper))):
-            found |= {before + a: ends[:, k, x] for x, a in enumerate(axis_names(d))}
-            found[before + "radius"] = beads.radii[..., bead].reshape(-1)
-        return found | {"force": contacts.force.reshape(-1), "change": contacts.change.reshape(-1)}
+            table |= {before + a: ends[:, k, x] for x, a in enumerate(axis_names(d))}
+            table[before + "radius"] = beads.radii[..., bead].reshape(-1)
+        return table | {"force": contacts.force.reshape(-1), "change": contacts.change.reshape(-1)}
 
     @checked
     def plot(
@@ -408,18 +408,18 @@ def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
     packings, physical = range(len(radii.values)), Physicality()
     with FLOAT64.active():
         try:
-            found = swept(n_x, radii, spec, region, region.rows, packings, FLOAT64, carried=True)
+            solved = swept(n_x, radii, spec, region, region.rows, packings, FLOAT64, carried=True)
         except ForceDiffusionError:
             return None
-        physical.look_at(found, packings)
-        forces, unseen = found.forces, found.sizes.unseen(layers - 1)[0]
+        physical.look_at(solved, packings)
+        forces, unseen = solved.forces, solved.sizes.unseen(layers - 1)[0]
         assert forces is not None
         change, force = forces.g, forces.g + forces.F
         largest = max(float(change.max()), -float(change.min()))
         if load.magnitude != 1:
             magnitude = FLOAT64.number(load.magnitude)
             change, force = change * magnitude, force * magnitude
-    if not (largest > SMALL and found.sizes.moved + unseen < math.inf):
+    if not (largest > SMALL and solved.sizes.moved + unseen < math.inf):
         return None
     roundings = 1 if load.magnitude == 1 else 3
     bound = stated_error(roundings, Fraction(unseen) / Fraction(largest))
@@ -436,14 +436,14 @@ def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
 
 def _by_lower_bead(values: Array, d: int, shape: tuple[int, ...]) -> Array:
     """Turn what belongs to contacts by their upper beads, (packings, d, beads), into ``shape``."""
-    found = values.reshape(*shape[:-d], d, *shape[-d:])
-    rows = np.moveaxis(found, -d - 1, 0)
+    shaped = values.reshape(*shape[:-d], d, *shape[-d:])
+    rows = np.moveaxis(shaped, -d - 1, 0)
     if d == 2:  # (i + 1, j + 1) is of the same column where j is even, (i − 1, j + 1) where odd
         rows[0][..., 1::2, :] = np.roll(rows[0][..., 1::2, :], -1, -1)
         rows[1][..., 0::2, :] = np.roll(rows[1][..., 0::2, :], 1, -1)
     else:
         rows[0][...], rows[1][...] = np.roll(rows[0], -1, -2), np.roll(rows[1], -1, -1)
-    return found
+    return shaped
 
 
 @contextmanager

@@ -64,8 +64,8 @@ def rows_of_table(key: str, path: Path, *headers: list[str]) -> Iterator[Row]:
             for row in filter(None, reader):
                 where = f"{name}, line {reader.line_num + 1}"
                 if len(row) != len(columns):
-                    found = f"{len(row)} values where {len(columns)} are expected"
-                    raise TableError(f"{where}: {found}")
+                    wrong = f"{len(row)} values where {len(columns)} are expected"
+                    raise TableError(f"{where}: {wrong}")
                 yield where, header, [row[place] for place in places]
     except ForeignFileError as error:
         raise TableError(f"{key}: {path}: {error}") from None

@@ -56,14 +56,14 @@ def _value(name: str, written: str) -> object:
     try:
         if len(written) > LONGEST_VALUE or "\n" in written:
             raise ValueError
-        found: object = tomllib.loads(f"value = {written}", parse_float=Decimal)["value"]
+        value: object = tomllib.loads(f"value = {written}", parse_float=Decimal)["value"]
     except (ValueError, ArithmeticError, RecursionError):
         why = "is not a TOML value, such as 8, 1e-4 or [0, 10]"
         if len(written) <= LONGEST_VALUE and re.match(r"[A-Za-z_./~]", written):
             text = json.dumps(written, ensure_ascii=False)  # quotes, which shells take away
             why += f"; text goes in quotes: say --set {shlex.quote(f'{name}={text}')}"
         raise SceneError(name, written, why) from None
-    return found
+    return value
 
 
 def parse_scene(

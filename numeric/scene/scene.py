@@ -123,9 +123,9 @@ def refuse(command: str, scene: CheckedScene, *, reach: bool = False) -> None:
             tolerance=ask.tolerance is not None,
             reach=reach,
         )
-        found = refusal(asked)
-        if found is not None:
-            key, why = found
+        reason = refusal(asked)
+        if reason is not None:
+            key, why = reason
             section, _, name = key.partition(".")
             raise SceneError(key, getattr(getattr(scene, section), name, None), why)
 

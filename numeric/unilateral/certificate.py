@@ -167,13 +167,11 @@ def smallest_singular_value(A: Any, factors: Any) -> float:
     rounded = (int(np.diff(A.indptr).max()) + 2) * ROUNDED * (size.T @ (size @ ones) + shift)
     while shift > float(rounded.max()):
         shifted = square - shift * eye_array(n)
-        found = splu(
-            shifted, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True}
-        )
-        pivots = found.U.diagonal()
+        lu = splu(shifted, "MMD_AT_PLUS_A", diag_pivot_thresh=0.0, options={"SymmetricMode": True})
+        pivots = lu.U.diagonal()
         if (pivots > 0).all():
-            H = (found.L @ diags_array(np.sqrt(pivots))).tocsr()
-            order = np.argsort(found.perm_c)
+            H = (lu.L @ diags_array(np.sqrt(pivots))).tocsr()
+            order = np.argsort(lu.perm_c)
             left = abs(shifted[order][:, order] - H @ H.T) @ ones * (1 + 1e-9)
             positive = abs(H)
             left += (np.diff(H.indptr) + 2) * ROUNDED * (positive @ (positive.T @ ones))

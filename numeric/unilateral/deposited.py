@@ -76,12 +76,12 @@ def must_hold(grains: Grains) -> None:
             f"no packing can stand: beads {q} and {(q + 1) % grains.fixed} of the base overlap"
         )
     smallest = grains.radii[grains.fixed :].min()
-    one = base + smallest
+    reach = base + smallest
     sines = []
-    for other in (np.roll(one, 1), np.roll(one, -1)):
-        if (one + other <= s).any():
+    for other in (np.roll(reach, 1), np.roll(reach, -1)):
+        if (reach + other <= s).any():
             return
-        sines.append((s**2 + one**2 - other**2) / (2 * s * one))
+        sines.append((s**2 + reach**2 - other**2) / (2 * s * reach))
     side, up = grains.load[grains.fixed :].sum(axis=0)
     lean, most = np.arctan2(abs(side), -up), np.arcsin(np.max(sines))
     if lean > most + 1e-9:
@@ -148,8 +148,8 @@ def loads(problem: Problem, system: NumberSystem) -> Array:
     assert problem.width is not None
     nx, ny = axes(problem.n_x, system)
     rows = whole(problem.width, problem.height).rows
-    found = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
-    plus, minus = found
+    forces = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
+    plus, minus = forces
     return np.stack([(minus - plus) * nx, -(plus + minus) * ny], axis=1)
 
 

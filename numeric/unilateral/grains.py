@@ -124,11 +124,11 @@ class Grains:
         places = np.stack([self.x[:, 0] % self.period, self.x[:, 1] - low], axis=1)
         places[places[:, 0] >= self.period, 0] = 0.0  # what rounds up to a whole period
         tree = cKDTree(places, boxsize=[self.period, 2 * tall])
-        found = tree.query_pairs(2 * float(self.radii.max()) + reach, output_type="ndarray")
-        found = np.sort(found.reshape(-1, 2), axis=1)[:, ::-1]
+        pairs = tree.query_pairs(2 * float(self.radii.max()) + reach, output_type="ndarray")
+        pairs = np.sort(pairs.reshape(-1, 2), axis=1)[:, ::-1]
         if not base:
-            found = found[found[:, 0] >= self.fixed]
-        return np.asarray(found[np.lexsort((found[:, 1], found[:, 0]))])
+            pairs = pairs[pairs[:, 0] >= self.fixed]
+        return np.asarray(pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))])
 
     def named(self, pairs: Pairs) -> Array:
         """Give one whole number a pair."""

@@ -60,12 +60,12 @@ def relaxed(problem: Problem, realisation: int, system: Balls, work: Work) -> Re
     return Relaxed(system, None, None, None, network=network)
 
 
-def _proved(problem: Problem, realisation: int, found: Settled, system: Balls) -> Network:
+def _proved(problem: Problem, realisation: int, settled: Settled, system: Balls) -> Network:
     known = frame(problem, realisation, system)
-    if not found.programs:
+    if not settled.programs:
         return as_deposited(problem, realisation, known, system)
-    proved = certify(found.grains, found.contacts, known, system)
-    return replace(proved, programs=found.programs, fall=found.fall)
+    proved = certify(settled.grains, settled.contacts, known, system)
+    return replace(proved, programs=settled.programs, fall=settled.fall)
 
 
 def settle(problem: Problem, realisation: int, work: Work) -> Settled:
@@ -114,20 +114,20 @@ def _bearing(grains: Grains, pairs: Pairs, forces: Array) -> Pairs:
     candidates, sizes = pairs[order], forces[order]
     beads = np.zeros(len(grains.radii), dtype=bool)
     beads[: grains.fixed] = True
-    found, best = None, 0.0
+    count, best = None, 0.0
     free = 0
     for k, pair in enumerate(candidates):
         free += int(np.count_nonzero(~beads[pair]))
         beads[pair] = True
         following = sizes[k + 1] if k + 1 < len(sizes) else 1e-250
         if k + 1 == 2 * free and sizes[k] / following > best:
-            found, best = k + 1, sizes[k] / following
-    if found is None:
+            count, best = k + 1, sizes[k] / following
+    if count is None:
         raise UnfinishedError(
             "degenerate: a strict minimum needs as many contacts with force as their beads have "
             "coordinates, and there is no such set; some force may be exactly zero"
         )
-    return np.asarray(candidates[:found])
+    return np.asarray(candidates[:count])
 
 
 def _close(grains: Grains, contacts: Pairs) -> None:
@@ -160,9 +160,9 @@ def _free(grains: Grains, rattlers: Array) -> None:
         cost = np.zeros(widened.shape[1])
         cost[-1] = -1
         bounds = [(-0.1, 0.1)] * (widened.shape[1] - 1) + [(None, 0.1)]
-        found = linprog(cost, A_ub=widened, b_ub=grains.gaps(pairs), bounds=bounds, method="highs")
-        if found.status:
+        result = linprog(cost, A_ub=widened, b_ub=grains.gaps(pairs), bounds=bounds, method="highs")
+        if result.status:
             return
         move = np.zeros(grains.unknowns)
-        move[place] = found.x[:-1]
+        move[place] = result.x[:-1]
         grains.move(move)
