@@ -18,7 +18,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
     "derivations": 7_852,
-    "numeric": 9_648,
+    "numeric": 9_646,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
