@@ -14,7 +14,7 @@ from typing import Any
 import flint
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
@@ -56,7 +56,7 @@ class Drawn:
             elif self.kind == "file":
                 rows = [f"{i},{j},{x},{y}" for (i, j), (x, y) in self.loads.items()]
                 Path(folder, "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows, ""]))
-                load = {"kind": "file", "file": "loads.csv"}
+                load = {"kind": "file", "file": "loads.csv", "magnitude": 2}
             scene = question(
                 quantity, self.height, self.width, radius=self.r, spacing=self.spacing * self.r,
                 radii=fd.GivenRadii(delta_r=self.delta * 2.0**-14), load=fd.Load(**load),
@@ -152,6 +152,7 @@ def enclosed(outcome: fd.Outcome, names: tuple[str, str], found: list[tuple[Any,
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)
+@settings(max_examples=settings.default.max_examples // 2)
 @given(strips())
 def test_every_question_about_a_strip(geometry: str, drawn: Drawn) -> None:
     beads = [(i, j) for j in range(drawn.height + 1) for i in range(j % 2, 2 * drawn.width, 2)]

@@ -187,32 +187,6 @@ def test_a_realisation_that_can_not_be_built_is_named() -> None:
     assert len(answer(sections).rows()) == k * 6 * 8 * 2  # those before it can
 
 
-@pytest.mark.parametrize("tolerance", [None, "=1e-40"])
-@pytest.mark.parametrize("top", [6, 4])
-def test_a_load_beside_a_surface_load_adds_its_forces(
-    top: int, tolerance: str | None, tmp_path: Path
-) -> None:
-    """Force balance is linear in the load; what is pressed all over has no contact that pulls."""
-    sections = basic(6, 14)
-    if tolerance:
-        sections["ask"]["tolerance"] = tolerance
-    point = {"kind": "point", "at": [4, top], "magnitude": 2}
-    surface = {"kind": "surface", "magnitude": 3}
-    alone = [answer({**sections, "load": load}) for load in (point, surface)]
-    loads = {(i, 6): -3 for i in range(0, 28, 2)}
-    loads[4, top] = loads.get((4, top), 0) - 2
-    rows = [f"{i},{j},0,{f}" for (i, j), f in loads.items()]
-    (tmp_path / "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows]) + "\n")
-    listed = {"kind": "file", "file": "loads.csv", "magnitude": 2}
-    both = answer({**sections, "load": listed}, tmp_path)
-    for name in ("force", "change"):
-        total = [float(a + b) for a, b in zip(*(f.arrays[name] for f in alone), strict=True)]
-        np.testing.assert_allclose(both.arrays[name].astype(float), total, rtol=0, atol=1e-14)
-    assert both.physical is not None
-    assert both.physical.sound
-    assert not alone[0].physical.sound
-
-
 def test_a_notebook_shows_the_first_rows_and_says_how_many_there_are() -> None:
     shown = answer(basic(6, 14))._repr_html_()
     assert shown.count("<tr>") == 21

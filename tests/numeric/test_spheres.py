@@ -74,32 +74,6 @@ def test_images_are_seen_where_a_wider_packing_differs(
         assert plan.sees_images == sees, width
 
 
-@pytest.mark.parametrize(
-    ("changes", "says"),
-    [
-        ({"packing": {"spacing": 3.3}}, "packing.spacing = 3.3: must lie strictly"),
-        ({"load": {"kind": "point", "at": (1, 1)}}, r"load.at.*\[p, q, j\]"),
-        ({"load": {"kind": "point", "at": (9, 1, 1)}}, "p and q must be from 0 to 5"),
-        ({"ask": {"quantity": "contact", "at": (1, 1, "+")}}, "must be a contact"),
-        ({"ask": {"quantity": "contact", "at": (1, 1, 4, "1")}}, "j must be from 0 to 3"),
-        ({"ask": {"quantity": "positions", "at": (1, 1)}}, "must be a bead"),
-        ({"ask": {"quantity": "profile", "at": (1, 1, 1, "1")}}, "ask.at"),
-    ],
-)
-def test_what_is_not_offered_is_refused(changes: dict[str, dict[str, Any]], says: str) -> None:
-    sections: dict[str, dict[str, Any]] = {
-        "packing": {"height": 4, "width": 6, "dimension": 3},
-        "disorder": {"kind": "uniform", "relative_std": 1e-3},
-        "load": {},
-        "effects": {},
-        "ask": {"quantity": "profile"},
-    }
-    for name, keys in changes.items():
-        sections[name] = keys if name == "disorder" else sections[name] | keys
-    with pytest.raises(fd.SceneError, match=says):
-        fd.Scene(**sections)
-
-
 @pytest.mark.parametrize(("dimension", "ends"), [(3, "is meant"), (2, "for the infinite slab")])
 def test_the_slab_is_advice_in_two_dimensions_alone(dimension: Any, ends: str) -> None:
     with pytest.raises(fd.SceneError, match=f"allow_images = true.*{ends}$"):

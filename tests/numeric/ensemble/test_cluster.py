@@ -42,6 +42,7 @@ def client(local: Any) -> Iterator[Any]:
         yield client
 
 
+@pytest.mark.long
 def test_a_worker_is_killed_in_the_middle(client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sums, "BEADS", 4 * M.problem.region.beads)
     pids = list(client.run(os.getpid).values())

@@ -62,22 +62,6 @@ def test_radii_that_float64_holds_are_taken(kind: Any) -> None:
     assert fd.solve(radii, radius=64).scene.disorder.values.dtype == np.float64  # type: ignore[union-attr]
 
 
-@pytest.mark.parametrize(
-    ("wrong", "says"),
-    [
-        ({"radii": RADII[0], "spacing": 9}, r"^spacing = 9: .* \(it is about 8\.99\d* r\)"),
-        ({"radii": RADII[0], "radius": 9}, "^radius = 9"),
-        ({"radii": "a"}, "^radii = "),
-        ({"delta_r": [["a"]]}, "^delta_r = "),
-        ({"radii": RADII[0] * 1.7e308}, r"^radii = .*at most 1e\+300"),
-        ({"radii": RADII[0], "load": fd.PointLoad(at=(3, 8))}, "j must be from 1, above the base"),
-    ],
-)
-def test_solve_names_its_own_arguments(wrong: dict[str, Any], says: str) -> None:
-    with np.errstate(over="ignore"), pytest.raises(fd.SceneError, match=says):
-        fd.solve(**wrong)
-
-
 def test_a_huge_number_can_be_shown() -> None:
     assert "radius=1e+4999" in repr(fd.Packing(height=4, width=9, radius=10**4999))
     assert "radius=2.5" in repr(fd.Packing(height=4, width=9, radius=2.5))

@@ -14,51 +14,70 @@ from force_diffusion.numeric.scene.sections import SceneError
 import force_diffusion as fd
 from tests.numeric.scenes import answer, basic, parse_scene, planned, scene
 
-WRONG: list[tuple[str, str, Any, str]] = [
-    ("packing", "height", 0, "from 1 to 10000000"),
-    ("packing", "allow_images", "=1.50", "boolean"),
-    ("packing", "height", "=2.0", "whole number"),
-    ("packing", "width", 6, "allow_images"),
-    ("packing", "spacing", "=2.0", "strictly between"),
-    ("packing", "spacing", "=3.4641016151378", "strictly between"),
-    ("packing", "spacing", "=nan", "finite"),
-    ("packing", "spacing", "three", "must be a number"),
-    ("packing", "radius", 0, "greater than 0"),
-    ("packing", "radius", "=1e999999", "exponent"),
-    ("packing", "hieght", 4, 'did you mean "height"'),
-    ("disorder", "kind", "unifrom", 'did you mean "uniform"'),
-    ("disorder", "kind", "gaussian", 'did you mean "normal"'),
-    ("disorder", "relative_std", "=-1e-3", "at least 0"),
-    ("disorder", "relative_std", "=0.58", "radius ≤ 0"),
-    ("disorder", "seed", -1, "at least 0"),
-    ("disorder", "seed", 2**64, "less than"),
-    ("disorder", "file", "radii.csv", 'needs kind = "file"'),
-    ("load", "magnitude", 0, "greater than 0"),
-    ("load", "angle_deg", 181, "from -90 to 90"),
-    ("load", "at", "+", "a bead, [i, j]"),
-    ("load", "at", [1, 1], 'needs kind = "point"'),
-    ("effects", "most_programs", 0, "at least 1"),
-    ("effects", "most_seconds", "=1.50", 'contacts = "unilateral"'),
-    ("ask", "quantity", "forces", "must be one of"),
-    ("ask", "tolerance", 0, "greater than 0"),
-    ("ask", "tolerance", 1, "less than 1"),
-    ("ask", "realisations", 0, "from 1 to 1000000000"),
-    ("ask", "bins", 5, 'needs quantity = "histogram"'),
-    ("ask", "layers", [0], 'needs quantity = "response"'),
-    ("ask", "layers", [0.5], "a list of layers"),
-    ("ask", "at", [0, 0, "+"], 'needs quantity = "contact", "histogram" or "positions"'),
+CONTACT: dict[str, Any] = {"quantity": "contact"}
+SPHERES: dict[str, Any] = {"dimension": 3}
+Sections = dict[str, dict[str, Any]]
+WRONG: list[tuple[Sections, str]] = [
+    ({"packing": {"height": 0}}, "from 1 to 10000000"),
+    ({"packing": {"allow_images": "=1.50"}}, "boolean"),
+    ({"packing": {"height": "=2.0"}}, "whole number"),
+    ({"packing": {"width": 6}}, "allow_images"),
+    ({"packing": {"spacing": "=2.0"}}, "strictly between"),
+    ({"packing": {"spacing": "=3.4641016151378"}}, "strictly between"),
+    ({"packing": {"spacing": "=nan"}}, "finite"),
+    ({"packing": {"spacing": "three"}}, "must be a number"),
+    ({"packing": {"radius": 0}}, "greater than 0"),
+    ({"packing": {"radius": "=1e999999"}}, "exponent"),
+    ({"packing": {"hieght": 4}}, 'did you mean "height"'),
+    ({"disorder": {"kind": "unifrom"}}, 'did you mean "uniform"'),
+    ({"disorder": {"kind": "gaussian"}}, 'did you mean "normal"'),
+    ({"disorder": {"relative_std": "=-1e-3"}}, "at least 0"),
+    ({"disorder": {"relative_std": "=0.58"}}, "radius ≤ 0"),
+    ({"disorder": {"seed": -1}}, "at least 0"),
+    ({"disorder": {"seed": 2**64}}, "less than"),
+    ({"disorder": {"file": "radii.csv"}}, 'needs kind = "file"'),
+    ({"load": {"magnitude": 0}}, "greater than 0"),
+    ({"load": {"angle_deg": 181}}, "from -90 to 90"),
+    ({"load": {"at": "+"}}, "a bead, [i, j]"),
+    ({"load": {"at": [1, 1]}}, 'needs kind = "point"'),
+    ({"effects": {"most_programs": 0}}, "at least 1"),
+    ({"effects": {"most_seconds": "=1.50"}}, 'contacts = "unilateral"'),
+    ({"ask": {"quantity": "forces"}}, "must be one of"),
+    ({"ask": {"tolerance": 0}}, "greater than 0"),
+    ({"ask": {"tolerance": 1}}, "less than 1"),
+    ({"ask": {"realisations": 0}}, "from 1 to 1000000000"),
+    ({"ask": {"bins": 5}}, 'needs quantity = "histogram"'),
+    ({"ask": {"layers": [0]}}, 'needs quantity = "response"'),
+    ({"ask": {"layers": [0.5]}}, "a list of layers"),
+    ({"ask": {"at": [0, 0, "+"]}}, 'needs quantity = "contact", "histogram" or "positions"'),
+    ({"ask": CONTACT | {"at": [0, 0]}}, "must be a contact"),
+    ({"ask": CONTACT | {"at": [0, 0, "x"]}}, "must be a contact"),
+    ({"ask": CONTACT | {"at": [0, 1, "+"]}}, "even"),
+    ({"ask": CONTACT | {"at": [0, 6, "+"]}}, "j must be from 0 to 5"),
+    ({"ask": CONTACT | {"at": [28, 0, "+"]}}, "i must be from 0 to 27"),
+    ({"packing": SPHERES | {"spacing": "=3.3"}}, "must lie strictly"),
+    ({"packing": SPHERES, "load": {"kind": "point", "at": [1, 1]}}, "[p, q, j]"),
+    ({"packing": SPHERES, "load": {"kind": "point", "at": [14, 1, 1]}}, "must be from 0 to 13"),
+    ({"packing": SPHERES, "ask": CONTACT | {"at": [1, 1, "+"]}}, "must be a contact"),
+    ({"packing": SPHERES, "ask": CONTACT | {"at": [1, 1, 6, "1"]}}, "j must be from 0 to 5"),
+    ({"packing": SPHERES, "ask": {"quantity": "positions", "at": [1, 1]}}, "must be a bead"),
+    ({"packing": SPHERES, "ask": {"quantity": "profile", "at": [1, 1, 1, "1"]}}, "needs"),
+    ({"ask": {"quantity": []}}, "one quantity, or several, each once"),
+    ({"ask": {"quantity": ["profile", "profile"]}}, "one quantity, or several, each once"),
+    ({"ask": {"quantity": ["profile", "postions"]}}, 'did you mean "positions"'),
+    ({"ask": {"quantity": ["histogram", "positions"], "at": [0, 0, "+"]}}, "asks for one place"),
+    ({"ask": {"quantity": ["profile", "positions"], "bins": 3}}, 'needs quantity = "histogram"'),
 ]
 
 
-@pytest.mark.parametrize(("section", "key", "value", "says"), WRONG)
-def test_errors_name_the_key_and_what_is_allowed(
-    section: str, key: str, value: Any, says: str
-) -> None:
-    sections = basic()
-    sections.setdefault(section, {})[key] = value
+@pytest.mark.parametrize(("changes", "says"), WRONG, ids=range(len(WRONG)))
+def test_errors_name_the_key_and_what_is_allowed(changes: Sections, says: str) -> None:
+    sections: Sections = basic()
+    for name, keys in changes.items():
+        sections[name] = sections.get(name, {}) | keys
     with pytest.raises(SceneError) as caught:
         scene(sections)
-    assert f"{section}.{key}" in str(caught.value)
+    assert f"{name}.{[*keys][-1]}" in str(caught.value)
     assert says in str(caught.value)
 
 
@@ -69,26 +88,15 @@ def test_columns_of_a_slab_may_be_negative() -> None:
             scene(basic(4, None, quantity="contact", at=[i, 0, "+"]))
 
 
-@pytest.mark.parametrize(
-    ("at", "says"),
-    [
-        ([0, 0], "must be a contact"),
-        ([0, 0, "x"], "must be a contact"),
-        ([0, 1, "+"], "even"),
-        ([0, 6, "+"], "j must be from 0 to 5"),
-        ([28, 0, "+"], "i must be from 0 to 27"),
-    ],
-)
-def test_contacts_outside_the_packing(at: list[Any], says: str) -> None:
-    with pytest.raises(SceneError, match=says):
-        scene(basic(quantity="contact", at=at))
-
-
 def test_missing_sections_and_keys() -> None:
     for text, says in [
         ("", r"section \[packing\] is required"),
         ("[packing]\nheight = 3\n", r"section \[ask\] is required"),
         ("[packing]\n[ask]\nquantity = 'contact'\n", "packing.height is required"),
+        (
+            "[packing]\nheight = 3\n[ask]\nquantity = ['contact', 'positions']",
+            "ask.at: is required",
+        ),
         ("[packing]\nhieght = 3\n[ask]\nquantity = 'profile'", 'hieght: .* mean "height"'),
         ("packing = 3\n", "must be a section"),
         ("[packing\n", "is not a scene, which is a TOML file"),

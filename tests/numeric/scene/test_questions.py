@@ -83,22 +83,6 @@ def test_files_hold_all_tables(
         assert len(rows) == count
 
 
-@pytest.mark.parametrize(
-    ("ask", "says"),
-    [
-        ({"quantity": []}, "one quantity, or several, each once"),
-        ({"quantity": ["profile", "profile"]}, "one quantity, or several, each once"),
-        ({"quantity": ["profile", "postions"]}, 'did you mean "positions"'),
-        ({"quantity": ["histogram", "positions"], "at": [0, 0, "+"]}, "asks for one place"),
-        ({"quantity": ["profile", "positions"], "bins": 3}, 'needs quantity = "histogram"'),
-        ({"quantity": ["contact", "positions"]}, r"ask\.at.*is required"),
-    ],
-)
-def test_what_does_not_go_together(ask: dict[str, Any], says: str) -> None:
-    with pytest.raises(SceneError, match=says):
-        scene({**basic(4, 9), "ask": ask})
-
-
 def test_other_commands_take_one() -> None:
     asked = scene(asking("contact_forces", "positions", realisations=3))
     for refused in (fd.cost, fd.ensemble, lambda one: one.run().plot()):
