@@ -56,5 +56,3 @@ from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
 from .numeric.unilateral.linear_programs import MissingSolverError as MissingSolverError
 from .numeric.unilateral.network import UnfinishedError as UnfinishedError
-from .symbolic.algebra.exact import NotExactError as NotExactError
-from .symbolic.algebra.exact import NotProvedError as NotProvedError

@@ -15,6 +15,7 @@ from force_diffusion.symbolic.algebra.exact import (
     FIELD,
     NotAStatementError,
     NotExactError,
+    NotProvedError,
     RationalFunction,
 )
 from force_diffusion.symbolic.kernel.decisions import (
@@ -131,9 +132,12 @@ class ClosedForm:
         """Its formula on a part of its domain where a single formula holds.
 
         Raises:
-            NotProvedError: several formulas hold there.
+            ArgumentError: several formulas hold there, or these are no relations of indices.
         """
-        return factored(self.function.on(*relations))
+        try:
+            return factored(self.function.on(*relations))
+        except NotProvedError as reason:
+            raise ArgumentError(f"{text(self.quantity)}: {reason}") from None
 
     @property
     def pieces(self) -> tuple[Piece, ...]:
