@@ -436,9 +436,9 @@ class ClosedForm:
         statement*. ``.note`` says why.
 
         >>> import force_diffusion as fd
-        >>> from force_diffusion.symbols import f_plus, i, j, M
+        >>> from force_diffusion.symbols import f_plus, i, j
         >>> form = fd.mean(f_plus(i, j))
-        >>> print(form.decide(M / M))
+        >>> print(form.decide(1))
         proved: by taking moments of the radii
 
         Args:

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
+from numbers import Rational
 from typing import Any
 
 import sympy
@@ -31,7 +32,7 @@ def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
     """Rule on a candidate for printed lines.
 
     Args:
-        candidate: a SymPy ``Eq``, an expression or a closed form for a right-hand side, or as many
+        candidate: a SymPy ``Eq``; an expression, number or closed form for a right-hand side; or as many
             of these as there are lines, in a ``Tuple``, tuple or list.
         lines: what is printed.
         rule_on: rules on an equation in the place of one of them.
@@ -45,7 +46,8 @@ def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
 
 
 def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
-    if hasattr(candidate, "_sympy_"):  # a closed form
+    is_number = isinstance(candidate, Rational) and not isinstance(candidate, bool)
+    if is_number or hasattr(candidate, "_sympy_"):  # a closed form
         candidate = sympy.sympify(candidate)
     if isinstance(candidate, sympy.Basic) and (reason := too_large(candidate)):
         return undecided(reason)

@@ -1,5 +1,7 @@
 """Contact forces and positions for radii of one's own, as arrays."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
