@@ -17,8 +17,8 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
-    "derivations": 7_852,
-    "numeric": 9_646,
+    "derivations": 7_858,
+    "numeric": 9_647,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
