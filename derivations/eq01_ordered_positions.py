@@ -1,8 +1,6 @@
 """Eq. 1: where the beads of the ordered packing are, and for which spacings it is a packing."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, axioms, equation, follows, reach, rewrite, terms, times)
@@ -33,10 +31,8 @@ def squared_distance(across: sympy.Expr, up: sympy.Expr) -> sympy.Expr:
     return Dot(apart, apart)
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """From touching along the two lattice directions to the range of the spacing."""
-    steps = Steps(1, BEADS, {D: squared_distance})
     touching = steps.show(
         "Bead (0, 0) is the origin; each bead touches the two above it, so one step up moves by a "
         "full diameter along n⁺ or n⁻.",
@@ -113,7 +109,6 @@ def steps() -> Steps:
         rewrite(printed.theorem),
         definitions=in_spacing,
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -135,7 +130,8 @@ DERIVATION = Derivation(
     ),
     printed=(PRINTED,),
     domain=BEADS,
-    steps=steps,
+    show_steps=show_steps,
+    definitions={D: squared_distance},
 )
 
 if __name__ == "__main__":

@@ -1,8 +1,6 @@
 """Eq. 2: how far a deposited bead moves when its own and its supports' radii deviate."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, Symbol, axioms, equation, follows, minus, order,
@@ -56,10 +54,8 @@ def of_support(site: tuple[sympy.Expr, sympy.Expr]) -> dict[sympy.Symbol, sympy.
     return {dx: Dot(e_x, apart), dy: Dot(e_y, apart), rho: DeltaR(i, j) + DeltaR(*site)}
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Differentiate both contact constraints and invert the 2×2 system."""
-    steps = Steps(2, ABOVE)
     contacts = sympy.Matrix([contact(0), contact(1)])
     supports = tuple(map(of_support, SUPPORTS))
     exact = steps.show(
@@ -119,7 +115,6 @@ def steps() -> Steps:
         solved,
     )
     steps.show("Written out in Cartesian components, this is the printed form.", PRINTED, solved)
-    return steps
 
 
 DERIVATION = Derivation(
@@ -140,7 +135,7 @@ DERIVATION = Derivation(
     ),
     printed=(PRINTED,),
     domain=ABOVE,
-    steps=steps,
+    show_steps=show_steps,
 )
 
 if __name__ == "__main__":

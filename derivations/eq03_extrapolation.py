@@ -45,10 +45,8 @@ def positions() -> tuple[Theorem, ...]:
     return *shown(3, from_the_base_up(PRINTED, ABOVE)), axioms.base()
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Base case on the fixed base, then one step of Eq. 2 with symbolic i and j."""
-    steps = Steps(3, ABOVE)
     resting, base = eq02.DERIVATION.theorem, axioms.base()
     steps.show(
         "The base is held, δx_(i,0) = 0. A bead of layer 1 rests on two such beads. What Eq. 2 "
@@ -87,7 +85,6 @@ def steps() -> Steps:
         rewrite(),
         Domain.of(sympy.Eq(j, 0)),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -109,7 +106,7 @@ DERIVATION = Derivation(
     ),
     printed=(PRINTED,),
     domain=ABOVE,
-    steps=steps,
+    show_steps=show_steps,
     remarks=(
         "Erratum: the printed formula is for j ≥ 1. At j = 0 its empty sums leave "
         "2δr_(i,0)(b⁺ + b⁻), while the base is fixed: δx_(i,0) = 0 is a condition of its own.",

@@ -1,8 +1,6 @@
 """Eq. 4: the change of the direction of the contact along n⁺."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations.framework.vocabulary import (
@@ -45,10 +43,8 @@ def show_change(steps: Steps, side: int, printed: sympy.Eq, reasons: tuple[str, 
     return steps.show(reasons[2], printed, rewrite(changed.theorem, displaced))
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Differentiate the exact unit vector, then put in Eq. 3."""
-    steps = Steps(4, BEADS)
     printed = show_change(
         steps,
         1,
@@ -67,7 +63,6 @@ def steps() -> Steps:
         RIGHT_ANGLE,
         rewrite(printed.theorem),
     )
-    return steps
 
 
 RIGHT_ANGLE = equation(Dot(n_plus, DeltaNPlus(i, j)), 0)
@@ -88,7 +83,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δr", "fixed base", *BEADS.in_words()),
     printed=(PRINTED,),
     domain=BEADS,
-    steps=steps,
+    show_steps=show_steps,
 )
 
 if __name__ == "__main__":

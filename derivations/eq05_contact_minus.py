@@ -1,8 +1,6 @@
 """Eq. 5: the change of the direction of the contact along n⁻, derived, and as a mirror image."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.framework.vocabulary import (
@@ -27,10 +25,8 @@ PRINTED = equation(
 )
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """The same derivation for the other contact, and the mirror image of Eq. 4."""
-    steps = Steps(5, BEADS)
     printed = eq04.show_change(
         steps,
         -1,
@@ -50,7 +46,6 @@ def steps() -> Steps:
     steps.show(
         "Again the change is at right angles to the contact.", RIGHT_ANGLE, rewrite(printed.theorem)
     )
-    return steps
 
 
 RIGHT_ANGLE = equation(Dot(n_minus, DeltaNMinus(i, j)), 0)
@@ -76,7 +71,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δr", "fixed base", *BEADS.in_words()),
     printed=(PRINTED,),
     domain=BEADS,
-    steps=steps,
+    show_steps=show_steps,
 )
 
 if __name__ == "__main__":

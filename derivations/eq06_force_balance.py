@@ -1,8 +1,6 @@
 """Eq. 6: force balance of the loaded bead, from the constraints that its contacts impose."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, Symbol, axioms, differentiate, equation, follows, instance, rewrite,
@@ -46,10 +44,8 @@ def to_first_order(carried: sympy.Matrix) -> sympy.Matrix:
     )
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """A frictionless contact pushes along the gradient of the distance of the two centres."""
-    steps = Steps(6, LOADED)
     slopes = [sympy.Derivative(SQUARED_DISTANCE, axis) for axis in (x, y)]
     steps.show(
         "A frictionless contact opposes only a change of the distance of its two centres, (X, Y) "
@@ -84,7 +80,6 @@ def steps() -> Steps:
         equation(Dot(n_plus, n_minus), phi),
         rewrite(),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -99,8 +94,7 @@ DERIVATION = Derivation(
     assumptions=("no friction; contacts push along the line of centres", *LOADED.in_words()),
     printed=(PRINTED,),
     domain=LOADED,
-    steps=steps,
-    loads=("single",),
+    show_steps=show_steps,
 )
 
 if __name__ == "__main__":

@@ -41,7 +41,7 @@ def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
 @cache
 def right_angles() -> tuple[Theorem, ...]:
     """What is used of Eqs. 4 and 5: n⁺·δn⁺ = 0 and n⁻·δn⁻ = 0."""
-    return eq04.steps()[-1].theorem, eq05.steps()[-1].theorem
+    return eq04.DERIVATION.proof[-1].theorem, eq05.DERIVATION.proof[-1].theorem
 
 
 def balancing(loads: tuple[Theorem, ...], above: tuple[Theorem, ...] = ()) -> Rule:
@@ -70,10 +70,8 @@ def carried_down(
     return inducted(j, top, first, next_layer, statements, down=True, mirrored=mirrored)
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Dot the balance with n⁺ and n⁻, invert, and expand in the tilts."""
-    steps = Steps(7, LOADED, {eq06.nu_plus: TILT_PLUS, eq06.nu_minus: TILT_MINUS})
     loads = axioms.loads(axioms.LOADED_VERTICALLY)
     balance = eq06.DERIVATION.theorem
     (plus, minus_), carried = FORCES, times(ORDERED, terms(1, phi))
@@ -105,7 +103,6 @@ def steps() -> Steps:
         lattice.mirror(PRINTED[0]),
         mirror_of(printed.theorems[0]),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -121,8 +118,8 @@ DERIVATION = Derivation(
     assumptions=("first order in δn^±", *LOADED.in_words()),
     printed=PRINTED,
     domain=LOADED,
-    steps=steps,
-    loads=("single",),
+    show_steps=show_steps,
+    definitions={eq06.nu_plus: TILT_PLUS, eq06.nu_minus: TILT_MINUS},
 )
 
 if __name__ == "__main__":

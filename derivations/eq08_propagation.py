@@ -1,8 +1,6 @@
 """Eq. 8: how a contact force passes through one bead."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq07_load_split as eq07
@@ -44,10 +42,8 @@ def branching(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     return PRINTED[1].rhs.xreplace({site_r: across, site_s: layer})
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """The same 2×2 system with an incoming contact force in place of the load."""
-    steps = Steps(8, PASSED, TILTS)
     loads, (plus, minus_) = axioms.loads(axioms.PASSING), FORCES
     balance = instance(axioms.balance(), {}, PASSED)
     rows = steps.show(
@@ -84,7 +80,6 @@ def steps() -> Steps:
         tuple(map(mirror_of, printed.theorems)),
         PASSED.mirrored(),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -100,8 +95,8 @@ DERIVATION = Derivation(
     assumptions=("first order in δn^±", *PASSED.in_words()),
     printed=PRINTED,
     domain=PASSED,
-    steps=steps,
-    loads=("any",),
+    show_steps=show_steps,
+    definitions=TILTS,
     remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is shown here.",),
 )
 

@@ -1,8 +1,6 @@
 """Eq. 9: the contribution of a contact force to a contact straight below it."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
@@ -52,10 +50,8 @@ def from_the_entry_down(*others: tuple[sympy.Eq, Domain]) -> Rule:
     return rule
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Induction on the layer, downwards."""
-    steps = Steps(9, STRAIGHT)
     above = (i + 1, j + 1)
     steps.show(
         "Each bead that is passed multiplies by Eq. 8.",
@@ -90,7 +86,6 @@ def steps() -> Steps:
         PRINTED,
         from_the_entry_down(*NOTHING_TO_THE_LEFT),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -107,8 +102,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δn^±", *STRAIGHT.in_words()),
     printed=(PRINTED,),
     domain=STRAIGHT,
-    steps=steps,
-    loads=("single",),
+    show_steps=show_steps,
 )
 
 if __name__ == "__main__":

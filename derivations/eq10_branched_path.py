@@ -1,8 +1,6 @@
 """Eq. 10: the contribution of a contact force along a path with exactly one branch."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq09_straight_path as eq09
@@ -45,10 +43,8 @@ def branched_plus(across: sympy.Expr, layer: sympy.Expr, count: sympy.Expr) -> s
     return lattice.mirror(PRINTED.rhs).xreplace({i: across, j: layer, n: count})
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Count the paths with one branch; only the branch itself is of first order."""
-    steps = Steps(10, BRANCHED)
     on_path = Domain.of(Eq(i, k - 1 - p + q), Eq(j, l - 1 - p - q), p >= 0, q >= 1, j >= 0)
     steps.show(
         "A branch is of first order in δn^± (Eq. 8), so that a first-order calculation needs the "
@@ -86,7 +82,6 @@ def steps() -> Steps:
         PRINTED,
         eq09.from_the_entry_down((eq09.PRINTED, eq09.STRAIGHT), *NOTHING_BESIDE),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -102,8 +97,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δn^±", "n is whole", *BRANCHED.in_words()),
     printed=(PRINTED,),
     domain=BRANCHED,
-    steps=steps,
-    loads=("single",),
+    show_steps=show_steps,
 )
 
 if __name__ == "__main__":

@@ -71,10 +71,8 @@ def in_radii() -> Groups:
     return (force, mirror(force)), eq05.directions()
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """One straight path, M − j − 1 paths with one branch."""
-    steps = Steps(11, LOADED)
     at_load = dict(zip((k, l), STRAIGHT_LOAD, strict=True))
     split, carried = eq07.split_plus(*STRAIGHT_LOAD), eq09.PRINTED.rhs.xreplace(at_load)
     steps.show(
@@ -153,7 +151,6 @@ def steps() -> Steps:
         rewrite(),
         LAYERS.also(sympy.Eq(j, M - 1)),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -169,8 +166,7 @@ DERIVATION = Derivation(
     assumptions=("first order in δr", *LOADED.in_words(), "no path meets a side wall (W > M)"),
     printed=(PRINTED,),
     domain=LOADED,
-    steps=steps,
-    loads=("surface",),
+    show_steps=show_steps,
 )
 
 if __name__ == "__main__":

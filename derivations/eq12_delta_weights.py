@@ -1,8 +1,6 @@
 """Eq. 12: the same force as weights of the second differences Δ, to leading order in M."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq11_total_force as eq11
@@ -50,10 +48,8 @@ def weighted(count: sympy.Expr) -> sympy.Expr:
     return sympy.Sum(times(count, ON_DIAGONAL), (m, 1, M))
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Put in Eqs. 4 and 5, keep the sums, count how often each Δ occurs."""
-    steps = Steps(12, IN_THE_LIMIT)
     steps.show(
         "The second difference of three neighbouring radii of one layer:",
         equation(SecondDifference(i, j), SecondDifference(i, j).doit()),
@@ -103,7 +99,6 @@ def steps() -> Steps:
         rewrite(),
         INSIDE,
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -118,10 +113,8 @@ DERIVATION = Derivation(
     assumptions=("first order in δr", "M → ∞ at fixed z = j/M, 0 < z < 1"),
     printed=(PRINTED,),
     domain=IN_THE_LIMIT,
-    steps=steps,
+    show_steps=show_steps,
     deciders=lambda: [negligible(*eq11.in_radii())],
-    loads=("surface",),
-    relation="≈",
     remarks=(
         "Erratum: the double sum printed just before Eq. 12 counts M − m + 1 for m > j; the braces "
         "say M − m. The difference is of the order that Eq. 12 drops.",

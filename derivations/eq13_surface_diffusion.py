@@ -1,8 +1,6 @@
 """Eq. 13: variance of the contact forces under a surface load; exact, and to leading order."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
@@ -43,10 +41,9 @@ def _squares_to(last: sympy.Expr) -> sympy.Expr:
     return last * (last - 1) * (2 * last - 1) / 6
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Six radii's worth for each Δ, the squared weights summed."""
-    steps, groups = Steps(13, eq12.INSIDE, MEANING), eq11.in_radii()
+    groups = eq11.in_radii()
     variance = steps.show(
         "Each Δ holds one radius with the weight 2 and two with the weight −1: their squares add "
         "up to 6. Those of Eq. 12 lie in different layers and share no radius. With its prefactor, "
@@ -109,7 +106,6 @@ def steps() -> Steps:
         rewrite(),
         Domain(),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -120,10 +116,10 @@ DERIVATION = Derivation(
     assumptions=(*FIRST_ORDER, "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M"),
     printed=(PRINTED,),
     domain=IN_THE_LIMIT,
-    steps=steps,
+    show_steps=show_steps,
+    step_domain=eq12.INSIDE,
+    definitions=MEANING,
     deciders=lambda: [asymptotic(*eq11.in_radii())],
-    loads=("surface",),
-    relation="∼",
     exact=lambda: {
         "layer": layers.closed_form(RELATIVE_VARIANCE, MEANING, eq11.LOADED, eq11.in_radii)
     },

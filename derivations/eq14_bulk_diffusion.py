@@ -101,10 +101,9 @@ def gained(above: int) -> sympy.Eq:
     )
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Superpose the surface loads of all layers above the contact."""
-    steps, groups = Steps(14, eq12.INSIDE, MEANING), in_radii()
+    groups = in_radii()
     steps.show(
         "The weight of the beads in layer l acts as the surface load of a packing of "
         "height l. The ordered forces of the layers above j add up to",
@@ -205,7 +204,6 @@ def steps() -> Steps:
         asymptotic(*groups),
         [next_to_the_maximum(4), next_to_the_maximum(5)],
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -220,10 +218,10 @@ DERIVATION = Derivation(
     ),
     printed=(PRINTED,),
     domain=IN_THE_LIMIT,
-    steps=steps,
+    show_steps=show_steps,
+    step_domain=eq12.INSIDE,
+    definitions=MEANING,
     deciders=lambda: [asymptotic(*in_radii())],
-    loads=("bulk",),
-    relation="∼",
     exact=lambda: {"layer": layers.closed_form(RELATIVE_VARIANCE, MEANING, LOADED, in_radii)},
 )
 

@@ -2,8 +2,6 @@
 
 # fmt: off
 from collections.abc import Callable
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
@@ -109,10 +107,8 @@ NEGATIVE = (
 )
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """Average the exact variances; set the average to one; count negative Gaussian forces."""
-    steps = Steps(15, Domain())
     for load in LOADS:
         layers.show_closed_form(
             steps,
@@ -162,7 +158,6 @@ def steps() -> Steps:
             meaning(load),
         )
     claims(steps)
-    return steps
 
 
 def claims(steps: Steps) -> None:
@@ -212,9 +207,8 @@ DERIVATION = Derivation(
     ),
     printed=(PRINTED, PRINTED_HEIGHT),
     domain=heights("surface").in_the_limit(at_large_height("∝")),
-    steps=steps,
-    loads=("surface", "bulk"),
-    relation="∝",
+    show_steps=show_steps,
+    step_domain=Domain(),
     exact=lambda: {
         load: layers.closed_form(MEAN_SQUARE, meaning(load), heights(load), IN_RADII[load])
         for load in LOADS

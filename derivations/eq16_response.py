@@ -107,10 +107,9 @@ def in_radii() -> Groups:
     return forces(), eq05.directions()
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """One path to each contact; squared weights; the sum of both upper contacts of a bead."""
-    steps, groups = Steps(16, INSIDE, MEANING), in_radii()
+    groups = in_radii()
     by = moment(*groups)
     steps.show(
         "Let (i, j) lie p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): inside "
@@ -167,7 +166,6 @@ def steps() -> Steps:
         down_leg,
     )
     claims(steps)
-    return steps
 
 
 def claims(steps: Steps) -> None:
@@ -263,10 +261,10 @@ DERIVATION = Derivation(
     ),
     printed=(PRINTED,),
     domain=CONE,
-    steps=steps,
+    show_steps=show_steps,
+    step_domain=INSIDE,
+    definitions=MEANING,
     deciders=lambda: [asymptotic(*in_radii())],
-    loads=("single",),
-    relation="∼",
     exact=lambda: {
         name: layers.closed_form(symbol, MEANING, ALL_BELOW, in_radii)
         for name, symbol in (("bead", RESPONSE), ("contact", ONE_CONTACT), ("force", LEG_MAGNITUDE))

@@ -64,10 +64,8 @@ def in_radii(load: str) -> Groups:
     return forces(load), eq05.directions()
 
 
-@cache
-def steps() -> Steps:
+def show_steps(steps: Steps) -> None:
     """From layer to layer down: what enters along n⁺ is L⁺, what turns into it was L⁻."""
-    steps = Steps("B1", ON_SURFACE, {L_minus: t * L_plus})
     above = (i + 1, j + 1)
     steps.show(
         "Every bead passes on what it carries (Eq. 8 and its mirror image): f⁺ has what came along "
@@ -120,7 +118,6 @@ def steps() -> Steps:
         rewrite(),
         Domain(),
     )
-    return steps
 
 
 DERIVATION = Derivation(
@@ -144,7 +141,8 @@ DERIVATION = Derivation(
     ),
     printed=PRINTED,
     domain=ON_SURFACE,
-    steps=steps,
+    show_steps=show_steps,
+    definitions={L_minus: t * L_plus},
     remarks=(
         "Only the changes along the other branch carry t: what turns into f⁺ is what came "
         "along n⁻. As L⁻ is taken away, f⁺ stays near L⁺ and feels the tilt of its own contact "

@@ -62,13 +62,19 @@ def _entered(entering: str, other: str, loaded: str) -> CoqLoad:
     return CoqLoad("load", "", "(load : Z -> Z -> vector)", f"(single {loaded} 6 5)", supposed)
 
 
+_SINGLE = ("loaded", "loaded vertically", "entering", "point")
 LOADS = {
-    "single": CoqLoad("single k l f_load"),
+    **dict.fromkeys(_SINGLE, CoqLoad("single k l f_load")),
     "surface": CoqLoad("surface M f_load", "f_load / (2 * n_y G)"),
     "bulk": CoqLoad("bulk f_load", "(IZR M - IZR j) * (f_load / (2 * n_y G))"),
-    "any": _entered("f_plus", "f_minus", "2"),
-    "any, mirrored": _entered("f_minus", "f_plus", "(-2)"),
+    "passing": _entered("f_plus", "f_minus", "2"),
+    "passing, mirrored": _entered("f_minus", "f_plus", "(-2)"),
 }
+
+
+def _load(derivation: Derivation) -> CoqLoad | None:
+    loading = derivation.domain.loading
+    return LOADS[loading.name] if loading else None
 
 
 def _about(
@@ -219,11 +225,11 @@ def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> C
     number, printed = derivation.number, derivation.printed[part]
     setting = SETTINGS.get(number, Setting())
     name = f"equation_{number}" + (f"_part_{part + 1}" if len(derivation.printed) > 1 else "")
-    load = LOADS[derivation.loads[0]] if derivation.loads else None
+    load = _load(derivation)
     example = dict(setting.example)
     if mirrored:
         name, printed = f"{name}_mirrored", mirror(printed)
-        load = LOADS["any, mirrored"] if load is LOADS["any"] else load
+        load = LOADS["passing, mirrored"] if load is LOADS["passing"] else load
         example |= {symbol: -example[symbol] for symbol in _HORIZONTAL if symbol in example}
     # an asymptotic equation is stated of every contact, with a bound
     relations = () if derivation.domain.limit else derivation.domain.relations
@@ -258,7 +264,7 @@ def _averages(derivation: Derivation) -> CoqStatement:
     at_height = f"c (phi G) * ({words(deviation.rhs.xreplace({sy.M: HEIGHT}))})"
     layers = ("(1 <= M)%Z", "(0 <= j < M)%Z", "contact M (across j) j")
     claims, companions = [], []
-    for load in derivation.loads:
+    for load in derivation.exact_forms:
         free = "contact M (across j) j /\\ (Z.abs (across j) + M + 2 <= W)%Z"
         before, something = _about(
             "(M W : Z) (across : Z -> Z)",
@@ -290,12 +296,14 @@ def _averages(derivation: Derivation) -> CoqStatement:
 
 def _exact(derivation: Derivation) -> CoqStatement:
     """Mean and variance of one contact's force in every layer."""
-    printed, statistic = statement(derivation, 0), words(derivation.printed[0].lhs)
+    printed, load = statement(derivation, 0), _load(derivation)
+    assert load is not None
+    statistic = words(derivation.printed[0].lhs)
     (form,) = derivation.exact_forms.values()
     layers = {_all_of(part): piece.expr for piece in form.pieces for part in piece.where}
     claims = [
         f"exists f, linearised ({_OF_RHO} f_plus F i j e) f",
-        f"expect L f = {LOADS[derivation.loads[0]].mean}",
+        f"expect L f = {load.mean}",
         *(f"({at} ->\n    {statistic} = {words(is_)})" for at, is_ in layers.items()),
     ]
     every = "forall M j : Z, (0 <= j < M)%Z ->\n  " + " \\/\n  ".join(layers)
@@ -322,7 +330,7 @@ def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> CoqState
         "(M k l i j : Z)",
         _integers((7, 0, 6, 6 if mirrored else -6, 2)),
         ("bead M k l", "contact M i j", "(j < l)%Z", outside),
-        LOADS[derivation.loads[0]],
+        _load(derivation),
         random=False,
     )
     nothing = _to_first_order(sympy.Eq(force, sympy.S.Zero, evaluate=False))

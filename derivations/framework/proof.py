@@ -167,12 +167,10 @@ class Steps(list[Step]):
         definitions: what symbols of all steps stand for.
     """
 
-    def __init__(
-        self, equation: Number, domain: Domain, definitions: Definitions | None = None
-    ) -> None:
+    def __init__(self, equation: Number, domain: Domain, definitions: Definitions) -> None:
         super().__init__()
         self._equation, self._domain = equation, domain
-        self._definitions = dict(definitions or {})
+        self._definitions = definitions
         self.claims: list[Step] = []
         self.refuted: list[Refuted] = []
 

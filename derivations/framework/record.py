@@ -1,9 +1,10 @@
 """The shape of a derivation: what every ``eqNN_…`` module states, and what proving it found."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from time import perf_counter
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
 import sympy
@@ -18,7 +19,7 @@ from force_diffusion.symbolic.printing.lines import latex_body, text_lines
 
 from .catalogue import Number, in_order
 from .display import room_of
-from .proof import Step, Steps
+from .proof import Definitions, Step, Steps
 
 if TYPE_CHECKING:
     from .closed_form import ClosedForm
@@ -63,11 +64,11 @@ class Statement:
     assumptions: tuple[str, ...]
     printed: tuple[sympy.Eq, ...]
     remarks: tuple[str, ...]
-    relation: str = "="
     domain: Domain
-    steps: Callable[[], Steps]
+    step_domain: Domain | None = None
+    definitions: Definitions = MappingProxyType({})
+    show_steps: Callable[[Steps], None]
     exact: Callable[[], Mapping[str, "ClosedForm"]] | None
-    loads: tuple[str, ...] = ()
     call: str = ""
     """How the calculator is asked for it; "" where it is no row of that."""
 
@@ -79,7 +80,8 @@ class Statement:
             NotProvedError: one of them is not.
         """
         start, others = perf_counter(), sum(_SECONDS)
-        steps = self.steps()
+        steps = Steps(self.number, self.step_domain or self.domain, self.definitions)
+        self.show_steps(steps)
         seconds = perf_counter() - start - (sum(_SECONDS) - others)
         _SECONDS.append(seconds)
         self.__dict__["seconds"] = seconds
@@ -99,6 +101,11 @@ class Statement:
         except NotProvedError:
             return ()
         return in_order(number for step in shown for number in step.equations_used)
+
+    @property
+    def relation(self) -> str:
+        """The printed sign: "=", or that of the limit in which it is proved."""
+        return self.domain.limit.relation if self.domain.limit else "="
 
     @cached_property
     def exact_forms(self) -> Mapping[str, "ClosedForm"]:
@@ -154,8 +161,8 @@ class Statement:
 class Derivation(Statement):
     """One numbered equation: what is printed, why it holds, and what else is known of it.
 
-    ``steps`` is a function so that importing a derivation proves nothing and costs nothing. One
-    of its steps is the printed equation.
+    ``show_steps`` is a function so that importing a derivation proves nothing and costs nothing.
+    One of the steps is the printed equation.
 
     Attributes:
         number: of the paper; beyond it a label such as "B1".
@@ -164,13 +171,13 @@ class Derivation(Statement):
         symbols: each with its meaning; ``usual`` gives the common ones.
         assumptions: in words.
         printed: the equations, each of which is the formula of a step.
-        domain: where they are proved, with the load and the limit.
-        steps: proves them.
+        domain: where they are proved, with the load and the limit. The limit has the printed sign:
+            "∼", left over right goes to 1; "≈", what is dropped varies less, by an order, than the
+            force it is about; "∝", left over right goes to a positive function of φ alone.
+        show_steps: proves them.
+        step_domain: of a step that does not have its own; by default ``domain``.
+        definitions: what symbols of all steps stand for.
         remarks: in words.
-        loads: in words, for Coq: "surface", "bulk" or "single"; "any" but on the bead passed.
-        relation: the printed sign: "=", at every size in its domain; "∼", left over right goes to 1
-            in its limit; "≈", what is dropped varies less, by an order, than the force it is about;
-            "∝", left over right goes to a positive function of φ alone.
         exact: gives closed forms, exact at finite size, by name; the first is the usual one.
         deciders: rules that decide what is said of ``printed`` in a limit, beside that of its step.
     """
@@ -182,10 +189,10 @@ class Derivation(Statement):
     assumptions: tuple[str, ...]
     printed: tuple[sympy.Eq, ...]
     domain: Domain
-    steps: Callable[[], Steps]
+    show_steps: Callable[[Steps], None]
+    step_domain: Domain | None = None
+    definitions: Definitions = field(default_factory=dict, hash=False)
     remarks: tuple[str, ...] = ()
-    loads: tuple[str, ...] = ()
-    relation: str = "="
     exact: Callable[[], Mapping[str, "ClosedForm"]] | None = None
     deciders: Callable[[], Sequence[Rule]] = tuple
 

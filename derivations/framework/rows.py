@@ -117,9 +117,8 @@ class Row(Statement):
         """What the kernel proves of it, one theorem for each formula and part of its domain."""
         return tuple(step.theorem for step in self.proof)
 
-    def steps(self) -> Steps:
+    def show_steps(self, steps: Steps) -> None:
         """A step for each formula and part of its domain."""
-        steps = Steps(self.number, self.domain)
         for form in self.exact_forms.values():
             by = moment(*form.groups, on=form.kernel_domain)
             shown = form.quantity if form.divisor == 1 else form.divisor * form.quantity
@@ -132,7 +131,6 @@ class Row(Statement):
                         form.kernel_domain.also(*part),
                         {shown: form.statistic},
                     )
-        return steps
 
 
 copyreg.pickle(Row, pickled)

@@ -31,18 +31,14 @@ def baffled(formula: sympy.Eq, domain: Domain) -> Theorem:
     raise NotProvedError("nobody knows")
 
 
-def premise() -> Steps:
-    steps = Steps(1, BEADS)
+def premise(steps: Steps) -> None:
     steps.show("Subtract two radii:", PRINTED, rewrite())
     steps.show("Two and two are n⁺ apart.", TWICE, rewrite())
     steps.claim("a claim", TWICE, rewrite())
-    return steps
 
 
-def conclusion() -> Steps:
-    steps = Steps(2, BEADS)
+def conclusion(steps: Steps) -> None:
     steps.show("Again:", PRINTED, rewrite(PREMISE.theorem))
-    return steps
 
 
 PREMISE = Derivation(
@@ -53,11 +49,11 @@ PREMISE = Derivation(
     assumptions=("j ≥ 1",),
     printed=(PRINTED,),
     domain=BEADS,
-    steps=premise,
+    show_steps=premise,
     remarks=("A remark about n⁺·δn⁺ = 0.",),
 )
 
-CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", steps=conclusion)
+CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", show_steps=conclusion)
 
 
 def with_claim(rule: Rule) -> Derivation:
@@ -71,9 +67,8 @@ def with_step(rule: Rule) -> Derivation:
 
 
 def _with(added: Callable[[Steps], object]) -> Derivation:
-    def steps() -> Steps:
-        proof = conclusion()
-        added(proof)
-        return proof
+    def show_steps(steps: Steps) -> None:
+        conclusion(steps)
+        added(steps)
 
-    return replace(CONCLUSION, steps=steps)
+    return replace(CONCLUSION, show_steps=show_steps)

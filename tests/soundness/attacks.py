@@ -697,7 +697,7 @@ beside("the tensile fraction", fraction(),
 
 def shown(definitions: dict[Any, Any], left: Any, right: Any) -> object:
     formula = equation(left, right)
-    return Steps(99, BEADS).show("", formula, REWRITE, definitions=definitions)
+    return Steps(99, BEADS, {}).show("", formula, REWRITE, definitions=definitions)
 
 
 OWN = "has a meaning of its own"

@@ -272,17 +272,15 @@ def test_z_stands_for_the_height_of_a_layer() -> None:
 
 
 def test_what_is_assumed_is_said_wherever_it_is_used() -> None:
-    eq = Equation(replace(fakes.PREMISE, steps=_guess))
+    eq = Equation(replace(fakes.PREMISE, show_steps=_guess))
     found = eq.decide(eq.expr)
     assert found.verdict is Verdict.ASSUMING
     assert found.assuming == (fakes.GUESS,)
     assert str(found).startswith(f"proved, assuming {fakes.GUESS}: by a guess")
 
 
-def _guess() -> Steps:
-    steps = Steps(1, fakes.BEADS)
+def _guess(steps: Steps) -> None:
     steps.show("A guess:", fakes.PRINTED, fakes.guessed)
-    return steps
 
 
 def test_assumptions_add_up() -> None:

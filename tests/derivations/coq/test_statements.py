@@ -10,6 +10,8 @@ from force_diffusion.derivations.coq.files import theory
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.symbolic import symbols as sy
+from force_diffusion.symbolic.kernel import axioms
+from force_diffusion.symbolic.kernel.domain import Loading
 from force_diffusion.symbolic.trees import equation
 
 i, j, m = sy.i, sy.j, sy.m
@@ -42,10 +44,11 @@ def test_a_statistic_is_the_one_that_is_printed() -> None:
 
 
 @pytest.mark.parametrize(
-    ("load_of", "shown"), [("surface", "surface M f_load"), ("bulk", "bulk f_load")]
+    ("loading", "shown"), [(axioms.SURFACE, "surface M f_load"), (axioms.BULK, "bulk f_load")]
 )
-def test_the_load_is_the_one_that_the_derivation_names(load_of: str, shown: str) -> None:
-    made = coq.statement(replace(load(13), loads=(load_of,)), 0)
+def test_the_load_is_that_of_the_domain(loading: Loading, shown: str) -> None:
+    derivation = load(13)
+    made = coq.statement(replace(derivation, domain=derivation.domain.loaded(loading)), 0)
     assert f"carries M (Xs rho) ({shown}) (Fs rho)" in made.proposition
     assert f"carries M (Xs rho) ({shown}) (Fs rho)" in made.companions[0].proposition
 

@@ -83,34 +83,30 @@ def test_what_is_assumed_is_told_everywhere(make: Callable[[Rule], Derivation]) 
 
 
 def test_what_rests_on_an_assumption_assumes_it() -> None:
-    def premise() -> Steps:
-        steps = Steps(1, fakes.BEADS)
+    def premise(steps: Steps) -> None:
         steps.show("A guess:", fakes.PRINTED, fakes.guessed)
-        return steps
 
-    def conclusion() -> Steps:
-        steps = Steps(2, fakes.BEADS)
+    def conclusion(steps: Steps) -> None:
         steps.show("Twice that:", twice, rewrite(guess.theorem))
-        return steps
 
-    guess = replace(fakes.PREMISE, steps=premise)
+    guess = replace(fakes.PREMISE, show_steps=premise)
     left, right = fakes.PRINTED.args
     twice = equation(2 * left, 2 * right)
-    outcome = run(replace(fakes.CONCLUSION, printed=(twice,), steps=conclusion))
+    outcome = run(replace(fakes.CONCLUSION, printed=(twice,), show_steps=conclusion))
     assert outcome.verdict is Verdict.ASSUMING
     assert outcome.words == f"proved, assuming {fakes.GUESS}"
     assert run(fakes.with_claim(fakes.baffled)).assuming == ()
 
 
 def test_a_step_defines_new_symbols_alone_and_rests_on_nothing_supposed() -> None:
-    steps = Steps(1, fakes.BEADS)
+    steps = Steps(1, fakes.BEADS, {})
     with pytest.raises(NotProvedError, match="r has a meaning of its own"):
         steps.show("So.", equation(sy.r, sy.phi), rewrite(), definitions={sy.r: sy.phi})
     assert not steps
 
 
 def test_a_refutation_of_what_holds_is_no_refutation() -> None:
-    steps = Steps(1, fakes.BEADS)
+    steps = Steps(1, fakes.BEADS, {})
     with pytest.raises(NotProvedError, match="was to be refuted: a reading"):
         steps.refute("a reading", fakes.TWICE, rewrite(), fakes.BEADS)
     steps.refute("another", equation(sy.DeltaR(sy.i, sy.j), 0), rewrite(), fakes.BEADS)
