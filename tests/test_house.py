@@ -17,13 +17,8 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
-<<<<<<< HEAD
-    "derivations": 7_858,
+    "derivations": 7_801,
     "numeric": 9_647,
-=======
-    "derivations": 7_795,
-    "numeric": 9_646,
->>>>>>> 7b95ad57 (A derivation's steps are shown on a list that the framework makes; sign and load are those of its domain, not typed again)
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
