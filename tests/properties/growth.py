@@ -11,21 +11,7 @@ from functools import lru_cache
 from itertools import product
 from math import comb
 
-from force_diffusion.symbolic.symbols import (
-    ForcePlus,
-    M,
-    Variance,
-    VerticalMinus,
-    VerticalPlus,
-    f_load,
-    i,
-    j,
-    k,
-    l,
-    m_g,
-    n_y,
-    sigma,
-)
+from force_diffusion.symbolic import symbols as sy
 
 from tests.properties.drawn import Geometry
 from tests.properties.moments import Slab, moment
@@ -33,11 +19,11 @@ from tests.properties.packing import Number
 
 VERTICAL = Fraction(1), Fraction(1)
 RATIO = {
-    "surface": 2 * n_y * ForcePlus(i, j) / f_load,
-    "bulk": 2 * n_y * ForcePlus(i, j) / (m_g * (M - j)),
+    "surface": 2 * sy.n_y * sy.ForcePlus(sy.i, sy.j) / sy.f_load,
+    "bulk": 2 * sy.n_y * sy.ForcePlus(sy.i, sy.j) / (sy.m_g * (sy.M - sy.j)),
 }
 """f⁺_ij/⟨f⟩."""
-RESPONSE = (VerticalPlus(i, j) + VerticalMinus(i, j)) / f_load
+RESPONSE = (sy.VerticalPlus(sy.i, sy.j) + sy.VerticalMinus(sy.i, sy.j)) / sy.f_load
 """p/f_load of a bead, from both of its upper contacts."""
 
 
@@ -62,7 +48,7 @@ class Newton:
 def variance(geometry: Geometry, load: str, height: int, layer: int) -> Number:
     """σ_f²/⟨f⟩² of a layer for σ = 1, from nonlinear packings of this height."""
     slab = Slab(geometry, height, load, VERTICAL)
-    return moment(slab, Variance(RATIO[load]), {i: layer, j: layer, sigma: 1})
+    return moment(slab, sy.Variance(RATIO[load]), {sy.i: layer, sy.j: layer, sy.sigma: 1})
 
 
 @lru_cache(maxsize=64)
@@ -106,8 +92,8 @@ def response(geometry: Geometry, level: int, layer: int, across: int) -> Number:
     """σ²(p)/f_load² of the bead so many columns to the right of the loaded one, for σ = 1."""
     slab = Slab(geometry, level, "point", VERTICAL)
     first = level % 2
-    at = {i: first + across, j: layer, k: first, l: level, sigma: 1}
-    return moment(slab, Variance(RESPONSE), at)
+    at = {sy.i: first + across, sy.j: layer, sy.k: first, sy.l: level, sy.sigma: 1}
+    return moment(slab, sy.Variance(RESPONSE), at)
 
 
 @lru_cache(maxsize=64)

@@ -14,18 +14,8 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.mechanics.lattice import MIRRORED_FUNCTIONS, MIRRORED_SYMBOLS
 from force_diffusion.symbolic.printing.text import text
 
-SIGN, TERM, NUMBER, BOUND, INDEX, SYMBOL = (
-    "sign flipped",
-    "term dropped",
-    "number changed",
-    "bound or case shifted",
-    "index shifted",
-    "symbol swapped",
-)
-"""Kinds of mechanical change."""
-
-Change = tuple[str, str, sympy.Basic]
-"""Its kind, its description, and what it makes of an expression."""
+Change = tuple[str, sympy.Basic]
+"""Its description, and what it makes of an expression."""
 
 
 _ONE_LAYER = "Δ in one layer, with a weight of order M: of the variance M², and M³ is kept"
@@ -45,7 +35,6 @@ EQUIVALENT: dict[int | str, dict[str, str]] = {
 class Mutated(NamedTuple):
     """An equation with one mechanical change."""
 
-    kind: str
     change: str
     equation: sympy.Eq
 
@@ -56,14 +45,14 @@ def mutants(equation: sympy.Eq) -> Iterator[Mutated]:
     Changes that give the same expression again, or one already seen, are left out.
     """
     seen = set(equation.args)
-    for kind, change, left in _changes(equation.lhs):
+    for change, left in _changes(equation.lhs):
         if left not in seen:
             seen.add(left)
-            yield Mutated(kind, f"left: {change}", sympy.Eq(left, equation.rhs, evaluate=False))
-    for kind, change, right in _changes(equation.rhs):
+            yield Mutated(f"left: {change}", sympy.Eq(left, equation.rhs, evaluate=False))
+    for change, right in _changes(equation.rhs):
         if right not in seen:
             seen.add(right)
-            yield Mutated(kind, change, sympy.Eq(equation.lhs, right, evaluate=False))
+            yield Mutated(change, sympy.Eq(equation.lhs, right, evaluate=False))
 
 
 def _changes(node: sympy.Basic) -> Iterator[Change]:
@@ -73,18 +62,18 @@ def _changes(node: sympy.Basic) -> Iterator[Change]:
         return
     if isinstance(node, sympy.Sum):
         yield from _shifted_bounds(node)
-        for kind, change, body in _changes(node.function):
-            yield kind, change, sympy.Sum(body, *node.limits)
+        for change, body in _changes(node.function):
+            yield change, sympy.Sum(body, *node.limits)
         return
     if isinstance(node, sympy.MatrixBase):
         for number, entry in enumerate(node.flat()):
-            for kind, change, changed in _changes(entry):
+            for change, changed in _changes(entry):
                 entries = [*node.flat()[:number], changed, *node.flat()[number + 1 :]]
-                yield kind, change, node.func(*node.shape, entries)
+                yield change, node.func(*node.shape, entries)
         return
     for number, argument in enumerate(node.args):
-        for kind, change, changed in _changes(argument):
-            yield kind, change, _with_argument(node, number, changed)
+        for change, changed in _changes(argument):
+            yield change, _with_argument(node, number, changed)
 
 
 def _here(node: sympy.Basic) -> Iterator[Change]:
@@ -92,39 +81,36 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
         for number, term in enumerate(node.args):
             others = (*node.args[:number], *node.args[number + 1 :])
             yield (
-                SIGN,
                 f"sign of {_brief(term)} flipped",
                 node.func(*node.args[:number], -term, *node.args[number + 1 :], evaluate=False),
             )
             yield (
-                TERM,
                 f"{_brief(term)} dropped",
                 (others[0] if len(others) == 1 else node.func(*others, evaluate=False)),
             )
     elif isinstance(node, sympy.Integer) and node not in (sympy.S.Zero, sympy.S.NegativeOne):
-        yield NUMBER, f"{node} changed to {node + 1}", node + 1
+        yield f"{node} changed to {node + 1}", node + 1
     elif isinstance(node, sympy.Rational) and not isinstance(node, sympy.Integer):
-        yield NUMBER, f"{node} changed to {2 * node}", 2 * node
+        yield f"{node} changed to {2 * node}", 2 * node
     elif isinstance(node, sympy.Pow) and node.exp.is_Rational and not node.exp.is_Integer:
         for exponent in (node.exp + 1, node.exp - 1, -node.exp):
             changed = sympy.Pow(node.base, exponent, evaluate=False)
-            yield NUMBER, f"exponent {node.exp} changed to {exponent}", changed
+            yield f"exponent {node.exp} changed to {exponent}", changed
     elif node in MIRRORED_SYMBOLS:
         other = MIRRORED_SYMBOLS[node]
-        yield SYMBOL, f"{_brief(node)} replaced by {_brief(other)}", other
+        yield f"{_brief(node)} replaced by {_brief(other)}", other
     elif type(node) in MIRRORED_FUNCTIONS:
         changed = MIRRORED_FUNCTIONS[type(node)](*node.args)
-        yield SYMBOL, f"{_brief(node)} replaced by {_brief(changed)}", changed
+        yield f"{_brief(node)} replaced by {_brief(changed)}", changed
     elif isinstance(node, sy.Braces):
         first, second, index, last = node.args
         for by in (1, -1):
             yield (
-                BOUND,
                 f"case {index} ≤ {_brief(last)} shifted to {_brief(last + by)}",
                 node.func(first, second, index, last + by),
             )
     elif isinstance(node, sympy.Sum | sy.Dot):
-        yield SIGN, f"sign of {_brief(node)} flipped", sympy.Mul(-1, node, evaluate=False)
+        yield f"sign of {_brief(node)} flipped", sympy.Mul(-1, node, evaluate=False)
 
 
 def _with_argument(node: sympy.Basic, number: int, changed: sympy.Basic) -> sympy.Basic:
@@ -139,19 +125,17 @@ def _shifted_indices(node: sy.SiteFunction) -> Iterator[Change]:
     across, layer = node.args
     for right, up in ((1, 0), (0, -1), (2, 0), (-1, 1)):
         changed = node.func(across + right, layer + up)
-        yield INDEX, f"{_brief(node)} shifted to {_brief(changed)}", changed
+        yield f"{_brief(node)} shifted to {_brief(changed)}", changed
 
 
 def _shifted_bounds(node: sympy.Sum) -> Iterator[Change]:
     index, low, high = node.limits[0]
     for by in (1, -1):
         yield (
-            BOUND,
             f"lower bound {index} = {_brief(low)} shifted to {_brief(low + by)}",
             sympy.Sum(node.function, (index, low + by, high)),
         )
         yield (
-            BOUND,
             f"upper bound {index} = {_brief(high)} shifted to {_brief(high + by)}",
             sympy.Sum(node.function, (index, low, high + by)),
         )

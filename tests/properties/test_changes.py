@@ -42,7 +42,7 @@ Change = tuple[int, str, sympy.Eq]
 def changes(number: int | str) -> Iterator[Change]:
     """Of every line: each mechanical change, each factor dropped, and the sign of one side."""
     for line, equation in enumerate(printed(number)):
-        for _, change, mutant in mutants(equation):
+        for change, mutant in mutants(equation):
             yield line, change, mutant
         left, right = equation.args
         for factor, other in without_a_factor(right):

@@ -5,15 +5,7 @@ from force_diffusion.symbolic.as_printed import terms, times
 from force_diffusion.symbolic.symbols import Braces, DeltaR, DeltaX, Dot, M, i, j, m, n_plus
 from force_diffusion.symbolic.trees import equation
 
-from tests.properties.mutants import (
-    BOUND,
-    INDEX,
-    NUMBER,
-    SIGN,
-    SYMBOL,
-    TERM,
-    mutants,
-)
+from tests.properties.mutants import mutants
 
 EQUATION = equation(
     Dot(n_plus, DeltaX(i, j)),
@@ -27,7 +19,9 @@ EQUATION = equation(
 
 def test_every_kind_occurs_and_nothing_twice() -> None:
     found = list(mutants(EQUATION))
-    assert {one.kind for one in found} == {SIGN, TERM, NUMBER, BOUND, INDEX, SYMBOL}
+    words = " ".join(mutant.change for mutant in found)
+    for kind in ("flipped", "dropped", "changed", "bound m", "case m", "δr_(i+2,j)", "replaced"):
+        assert kind in words
     equations = [one.equation for one in found]
     assert len(set(equations)) == len(equations)
     assert EQUATION not in equations

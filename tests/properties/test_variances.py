@@ -9,14 +9,8 @@ from force_diffusion.symbolic.symbols import M, i, j, k, l, sigma, z
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.properties import growth
 from tests.properties.drawn import FEWER, GEOMETRY, Geometry, exactly, geometries, lengths
-from tests.properties.growth import (
-    deep_response,
-    mean_variance,
-    response,
-    tall_variance,
-    variance,
-)
 from tests.properties.moments import ACCURATE
 from tests.properties.orders import falls, printed
 from tests.properties.packing import Number, Packing, mp
@@ -68,11 +62,11 @@ def is_the_leading_order(
 
 OF_LAYERS = {
     number: is_the_leading_order(
-        lambda geometry, *at, load=load: tall_variance(geometry, load, *at), 3
+        lambda geometry, *at, load=load: growth.tall_variance(geometry, load, *at), 3
     )
     for number, load in LOADS.items()
 }
-OF_RESPONSE = is_the_leading_order(deep_response, 1)
+OF_RESPONSE = is_the_leading_order(growth.deep_response, 1)
 
 
 @pytest.mark.parametrize("load", LOADS.values())
@@ -80,14 +74,14 @@ OF_RESPONSE = is_the_leading_order(deep_response, 1)
 def test_small_packings_tell_the_variances_of_taller_ones(
     load: str, place: tuple[int, int]
 ) -> None:
-    found = variance(GEOMETRY, load, *place)
-    assert abs(found / tall_variance(GEOMETRY, load, *place) - 1) < ACCURATE
+    found = growth.variance(GEOMETRY, load, *place)
+    assert abs(found / growth.tall_variance(GEOMETRY, load, *place) - 1) < ACCURATE
 
 
 @pytest.mark.parametrize("place", [(8, 3), (8, 4), (8, 5)])
 def test_small_packings_tell_the_responses_of_taller_ones(place: tuple[int, int]) -> None:
-    found = response(GEOMETRY, *place, across=place[1] % 2)
-    assert abs(found / deep_response(GEOMETRY, *place) - 1) < ACCURATE
+    found = growth.response(GEOMETRY, *place, across=place[1] % 2)
+    assert abs(found / growth.deep_response(GEOMETRY, *place) - 1) < ACCURATE
 
 
 # Eq. 15: the mean over all layers
@@ -108,7 +102,7 @@ def is_the_general_form(equation: sympy.Eq, systems: tuple[System, System]) -> N
             at = {
                 M: top,
                 sigma: exactly(sd),
-                deviation: exactly(sd) * mp.sqrt(mean_variance(geometry, load, top)),
+                deviation: exactly(sd) * mp.sqrt(growth.mean_variance(geometry, load, top)),
                 height: unit_height(geometry, load, exactly(sd)),
             }
             left, right = (numbers(geometry).read(side, at) for side in equation.args)
@@ -128,7 +122,7 @@ def unit_height(geometry: Geometry, load: str, sd: Number) -> int:
     low, high = 4, 1000
     while high - low > 1:
         middle = (low + high) // 2
-        is_enough = sd**2 * mean_variance(geometry, load, middle) >= 1
+        is_enough = sd**2 * growth.mean_variance(geometry, load, middle) >= 1
         low, high = (low, middle) if is_enough else (middle, high)
     return high
 
@@ -163,7 +157,7 @@ def test_eq_16_is_the_leading_order_in_the_heights(drawn: Deep) -> None:
 @given(geometries)
 def test_inside_of_the_cone_the_response_depends_on_the_heights_alone(geometry: Geometry) -> None:
     """It is completely independent of the horizontal position."""
-    inside = [response(geometry, 7, 3, across) for across in (-2, 0, 2)]
+    inside = [growth.response(geometry, 7, 3, across) for across in (-2, 0, 2)]
     assert max(inside) / min(inside) - 1 < ACCURATE
 
 

@@ -2,14 +2,8 @@
 
 from collections.abc import Iterable
 
+from force_diffusion.numeric.lattice import regions
 from force_diffusion.numeric.lattice.layers import Layer
-from force_diffusion.numeric.lattice.regions import (
-    contact_rows,
-    downward_cone,
-    triangle,
-    triangle_beads,
-    upward_cone,
-)
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -55,12 +49,12 @@ def test_a_triangle_is_what_a_bead_stands_on(
     data: st.DataObject, width: int | None, j: int
 ) -> None:
     tip = data.draw(beads(j, j, width))
-    found = triangle(*tip, width)
+    found = regions.triangle(*tip, width)
     assert sites(found.rows, width) == walk([tip], -1, j, width)
     assert [row.j for row in found.rows] == list(range(j + 1))
     assert found.width == width
     if width is None:
-        assert repr(triangle_beads(j)) == repr(found.beads)  # a whole number
+        assert repr(regions.triangle_beads(j)) == repr(found.beads)  # a whole number
 
 
 @often
@@ -69,7 +63,7 @@ def test_loads_reach_all_below_them_and_may_reach_what_lies_between(
     data: st.DataObject, width: int | None, top: int
 ) -> None:
     loaded = data.draw(st.lists(beads(0, top, width), min_size=1, max_size=3))
-    rows = downward_cone(loaded, width)
+    rows = regions.downward_cone(loaded, width)
     reached = walk(loaded, -1, top, width)
     assert sites(rows, width) >= reached
     assert len(rows) == 1 + max(j for _, j in loaded)
@@ -87,16 +81,16 @@ def test_a_contact_needs_what_stands_on_it_and_bears_load(
     surface = [(2 * q + top % 2, top) for q in range(width or 9)]
     some = st.lists(beads(0, top, width), min_size=1, max_size=2)
     loaded = data.draw(some | st.just(surface))
-    reach = downward_cone(loaded, width)
+    reach = regions.downward_cone(loaded, width)
     x = (i + (1 if branch == "+" else -1), j + 1)
     needed = walk([x], 1, len(reach) - 1, width) & sites(reach, width)
-    found = sites(contact_rows((i, j, branch), reach, width), width)
+    found = sites(regions.contact_rows((i, j, branch), reach, width), width)
     if (home(x[0], width), x[1]) not in needed:
         assert not found
         return
     assert needed <= found <= sites(reach, width)
     if width is None or all(
         up.count + row.count <= width or width in (up.count, row.count)
-        for up, row in zip(upward_cone(x, len(reach) - 1, width), reach, strict=True)
+        for up, row in zip(regions.upward_cone(x, len(reach) - 1, width), reach, strict=True)
     ):
         assert found == needed

@@ -6,12 +6,7 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.lattice.branch import Branch, Contact
-from force_diffusion.numeric.mechanics.first_order import (
-    beads_read,
-    contact_change,
-    crossing_layers,
-    lines_read,
-)
+from force_diffusion.numeric.mechanics import first_order
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 
 TOP = 5
@@ -29,7 +24,7 @@ def test_beads_are_counted_as_they_are_read(at: tuple[int, int]) -> None:
     load = LoadSpec("point", TOP, None, at=at)
     counts = set()
     for contact in CONTACTS:
-        lines = lines_read(contact, load)
+        lines = first_order.lines_read(contact, load)
         listed = {site for line in lines.values() for site in line.sites()}
         read = set()
 
@@ -38,10 +33,10 @@ def test_beads_are_counted_as_they_are_read(at: tuple[int, int]) -> None:
                 read.add(site)
                 return 1 / (100 + 7 * site[0] + site[1])
 
-        contact_change(contact, load, Noted(), Fraction(3, 5), FLOAT64)
-        assert len(read) == beads_read(contact, load), contact
+        first_order.contact_change(contact, load, Noted(), Fraction(3, 5), FLOAT64)
+        assert len(read) == first_order.beads_read(contact, load), contact
         assert read == listed
-        above, below = crossing_layers(contact, load)
+        above, below = first_order.crossing_layers(contact, load)
         counts.add(bool(above or below) + 2 * load.carries(*contact))
     assert 0 in counts  # outside of the cone nothing is read
     assert at[1] == 1 or {1, 2} & counts

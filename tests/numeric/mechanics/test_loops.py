@@ -16,12 +16,6 @@ from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_bas
 from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
 from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.physicality import Physicality
-from force_diffusion.numeric.mechanics.sweep import (
-    Forces,
-    NotStandingError,
-    SolvedPacking,
-    UnbuildableError,
-)
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -53,13 +47,13 @@ def regions(draw: st.DrawFn) -> tuple[Region, Rows]:
 
 def solved(
     phi: Fraction, region: Region, rho: Any, rows: Rows, F: Any, system: Any
-) -> tuple[SolvedPacking, Forces] | None:
+) -> tuple[sweep.SolvedPacking, sweep.Forces] | None:
     """A packing and its forces; None where a bead can't rest or stand."""
     with system.active():
         try:
             packing = sweep.deposit(phi, region, rho, system)
             return packing, sweep.sweep_down(packing, rows, F)
-        except (UnbuildableError, NotStandingError):
+        except (sweep.UnbuildableError, sweep.NotStandingError):
             return None
 
 
@@ -90,7 +84,7 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
     assert same is not None
     assert carried is not None
     for ours, theirs in zip(usual, same, strict=True):
-        for name in ("block",) if isinstance(ours, SolvedPacking) else ("g",):
+        for name in ("block",) if isinstance(ours, sweep.SolvedPacking) else ("g",):
             # LLVM and NumPy round alike
             assert getattr(ours, name).tobytes() == getattr(theirs, name).tobytes()
     found, again = (Physicality(looks_at=range(len(rho))) for _ in range(2))

@@ -10,14 +10,8 @@ import pytest
 from force_diffusion.numeric.arithmetic.errors import UndecidedError
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, Balls
 from force_diffusion.numeric.lattice.layers import Region, whole
+from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.physicality import Physicality, by_distance
-from force_diffusion.numeric.mechanics.sweep import (
-    NotStandingError,
-    SolvedPacking,
-    UnbuildableError,
-    deposit,
-    sweep_down,
-)
 
 from tests.numeric.spheres import scene
 
@@ -48,7 +42,7 @@ def test_gaps_of_touching_beads_are_told_apart() -> None:
     region, rho = spheres([np.zeros((3, 3))] * 2)
     with FLOAT64.active():
         found = Physicality()
-        found.look_at_gaps(deposit(Fraction(1, 2), region, rho, FLOAT64))
+        found.look_at_gaps(sweep.deposit(Fraction(1, 2), region, rho, FLOAT64))
     assert found.smallest_gap == 0
     # three pairs a bead, in each of two layers
     assert (found.overlaps, found.undecided_gaps) == (0, 3 * 9 * 2)
@@ -72,8 +66,8 @@ def test_pairs_come_by_distance_each_once(dimension: int, phi: Fraction) -> None
 def test_a_support_that_is_too_large_is_named() -> None:
     rho = [np.zeros((4, 4)), np.zeros((4, 4))]
     rho[0][2, 1] = 6.0
-    with FLOAT64.active(), pytest.raises(UnbuildableError) as raised:
-        deposit(Fraction(1, 5), *spheres(rho), FLOAT64)
+    with FLOAT64.active(), pytest.raises(sweep.UnbuildableError) as raised:
+        sweep.deposit(Fraction(1, 5), *spheres(rho), FLOAT64)
     # it holds up (2, 1, 1), (3, 1, 1) and (2, 2, 1): the first in order is named
     assert raised.value.site == (2, 1, 1)
 
@@ -87,8 +81,8 @@ def test_a_support_that_is_too_large_is_named() -> None:
 )
 def test_supports_that_lie_too_steeply_are_named(rho: list[list[list[float]]]) -> None:
     """In the first their plane is steeper than a base vector, in the second two change places."""
-    with FLOAT64.active(), pytest.raises(UnbuildableError, match="steeper") as raised:
-        deposit(Fraction(1, 5), *spheres([np.array(row) for row in rho]), FLOAT64)
+    with FLOAT64.active(), pytest.raises(sweep.UnbuildableError, match="steeper") as raised:
+        sweep.deposit(Fraction(1, 5), *spheres([np.array(row) for row in rho]), FLOAT64)
     assert raised.value.site[2] == 2
 
 
@@ -97,9 +91,9 @@ def test_contacts_in_one_plane_hold_nothing_up() -> None:
     block = np.zeros((1, 12, 8))
     block[0, 3:5, 6] = -1, 1
     region, nothing = spheres([np.zeros((2, 2))] * 2)
-    placed = SolvedPacking(Fraction(1, 5), FLOAT64, region, nothing, block)
-    with FLOAT64.active(), pytest.raises(NotStandingError, match=r"\(1, 0, 1\).*one plane"):
-        sweep_down(placed, region.rows, from_above(region, 1.0))
+    placed = sweep.SolvedPacking(Fraction(1, 5), FLOAT64, region, nothing, block)
+    with FLOAT64.active(), pytest.raises(sweep.NotStandingError, match=r"\(1, 0, 1\).*one plane"):
+        sweep.sweep_down(placed, region.rows, from_above(region, 1.0))
 
 
 def test_what_balls_leave_open_is_undecided() -> None:
@@ -108,4 +102,4 @@ def test_what_balls_leave_open_is_undecided() -> None:
         rho = [system.zeros(2, 2), system.zeros(2, 2)]
         rho[0][0, 1] = flint.arb(3, 3)  # a support of any size from r to 7 r
         with pytest.raises(UndecidedError, match="layer 1"):
-            deposit(Fraction(1, 5), *spheres(rho), system)
+            sweep.deposit(Fraction(1, 5), *spheres(rho), system)
