@@ -198,7 +198,7 @@ def first() -> Iterator[Line]:
 
 def running() -> Iterator[Line]:
     """Reading, planning, solving and writing a small scene."""
-    from force_diffusion.derivations.export.answers import Format, files_of
+    from force_diffusion.derivations.export.answers import files_of
 
     text = (
         "packing = {height = 8, width = 20}\n"
@@ -214,7 +214,7 @@ def running() -> Iterator[Line]:
 
         def written() -> Any:
             found = run()
-            return files_of([found], found.data(rows=False), Format.CSV)
+            return files_of([found], found.data(rows=False), "csv")
 
         def planned() -> Any:
             return fd.read_scene(path).explain()

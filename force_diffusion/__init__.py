@@ -32,14 +32,11 @@ from typing import Any
 
 import lazy_loader
 
+__version__ = "0.2.0"
 _attribute, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 
 def __getattr__(name: str) -> Any:
-    if name == "__version__":
-        from importlib.metadata import version
-
-        return version("force-diffusion")
     try:
         return _attribute(name)
     except AttributeError:

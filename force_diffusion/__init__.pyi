@@ -1,3 +1,4 @@
+__version__: str
 from .derivations.api.certificates import certify as certify
 from .derivations.api.derived import derive as derive
 from .derivations.api.equation import Equation as Equation

@@ -16,7 +16,7 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import lru_cache, partial
 from importlib import import_module
-from importlib.metadata import PackageNotFoundError, version
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -33,12 +33,16 @@ Function = Callable[..., Any]
 
 def stamp(functions: Sequence[Function]) -> str:
     """Give a hash of all that the machine code of functions comes from."""
-    from llvmlite import binding
+    from llvmlite import __version__, binding
 
     files = {function.__code__.co_filename for function in functions}
-    texts = [Path(file).read_bytes() for file in sorted({*files, __file__, carried.__file__})]
+    if (numba := find_spec("numba")) is None:
+        raise ModuleNotFoundError("numba")
+    release = str(Path(str(numba.origin)).with_name("_version.py"))
+    sources = sorted({*files, __file__, carried.__file__, release})
+    texts = [Path(file).read_bytes() for file in sources]
     features = binding.get_host_cpu_features().flatten()
-    made = [version("numba"), version("llvmlite"), binding.get_host_cpu_name(), features]
+    made = [__version__, binding.get_host_cpu_name(), features]
     return hashlib.sha256(b"\0".join([*texts, *map(str.encode, made)])).hexdigest()[:24]
 
 
@@ -56,7 +60,7 @@ def compiled(
         from llvmlite import binding
 
         name = stamp([*called, *(function for function, _ in entries)])
-    except (ImportError, PackageNotFoundError):
+    except ImportError:
         return None
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()

@@ -14,6 +14,8 @@ from operator import index
 from pathlib import Path
 from typing import SupportsIndex
 
+from force_diffusion import __version__
+
 from ..arithmetic.errors import (
     NOT_REACHED,
     ArgumentError,
@@ -29,7 +31,7 @@ from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
 from ..mechanics.work import bar
 from ..scene.reading import read_scene
-from ..scene.scene import CheckedScene, program_version
+from ..scene.scene import CheckedScene
 from ..statistics.confidence import looks
 from .result import Ensemble
 from .store import Store, StoreFailedError, description
@@ -204,7 +206,7 @@ def solved_blocks(
         while True:
             for block in islice(todo, AHEAD - len(pending)):
                 with without_interrupts():  # the first ones may start processes
-                    pending.append(executor.submit(_solve, program_version(), m, *block))
+                    pending.append(executor.submit(_solve, __version__, m, *block))
             if not pending:
                 return
             yield pending.popleft().result()
@@ -214,9 +216,9 @@ def solved_blocks(
 
 
 def _solve(version: str, m: Measurement, first: int, stop: int) -> Sums:
-    if version != program_version():
+    if version != __version__:
         raise WorkersError(
-            f"a worker has force-diffusion {program_version()}, and this is {version}: numbers "
+            f"a worker has force-diffusion {__version__}, and this is {version}: numbers "
             "could differ; install the same version everywhere"
         )
     return solve_block(m, first, stop)

@@ -15,6 +15,8 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from force_diffusion import __version__
+
 from ..arithmetic.decimals import short
 from ..arithmetic.errors import (
     ForceDiffusionError,
@@ -23,7 +25,7 @@ from ..arithmetic.errors import (
     printable,
     quoted,
 )
-from ..scene.scene import PROGRAM, program_version
+from ..scene.scene import PROGRAM
 from .sums import Block, Measurement, Sums, from_bytes
 
 APPLICATION = 0x46444546  # "FDEF"
@@ -58,7 +60,7 @@ def description(m: Measurement) -> dict[str, Any]:
         sections["load"]["file"] = f"sha256 {digest}"
     content: dict[str, Any] = json.loads(json.dumps(sections, default=str))  # of fractions
     content["measured"] = {"edges": [edge.hex() for edge in m.edges]}
-    content["version"] = {PROGRAM: program_version()}
+    content["version"] = {PROGRAM: __version__}
     return content
 
 

@@ -136,26 +136,18 @@ def contact_forces(
     Of an ensemble, which has no one packing, lines are as thick as σ_f. Under unilateral contacts
     they lie where the beads rest.
     """
-    surface, what = None, "f"
+    rows, surface = of_first(columns), None
+    forces, what = rows["force" if "force" in rows else "std"], "f"
     if network is not None:
-        ends, forces, surface = at_rest(plan, network)
+        places = [rows[name] for name in ("x", "y", "upper_x", "upper_y")]
+        ends = np.stack(places, axis=1).reshape(-1, 2, 2) / float(plan.scene.packing.radius)
+        surface = as_floats(network.x[-network.width :])
     else:
-        rows = of_first(columns)
-        ends, forces = contacts(plan, rows), rows["force" if "force" in rows else "std"]
-        what = "f" if "force" in rows else r"\sigma_f"
+        ends, what = contacts(plan, rows), "f" if "force" in rows else r"\sigma_f"
     figure, (axes,) = style.panels("a", style.PAGE, height_of(ends))
     beads.draw_chains(axes, ends, forces, named(forces, what))
     surroundings(axes, plan, ends, surface)
     return figure
-
-
-def at_rest(plan: Plan, network: Network) -> tuple[Array, Array, Array]:
-    """Give both ends of contacts, (contacts, 2, 2), their forces, and the beads of the surface."""
-    x, period = as_floats(network.x), float(network.frame.period)
-    low, high = x[network.pairs[:, 1]], x[network.pairs[:, 0]]
-    high[:, 0] -= period * np.round((high[:, 0] - low[:, 0]) / period)
-    forces = as_floats(network.forces) * float(plan.scene.load.magnitude)
-    return np.stack([low, high], axis=1), forces, x[-network.width :]
 
 
 def contacts(plan: Plan, rows: Columns) -> Array:

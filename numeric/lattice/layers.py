@@ -55,8 +55,8 @@ def bead_of(site: tuple[Any, Any], side: int) -> Bead:
     return number // side, number % side, j
 
 
-def site_of(bead: Sequence[int], side: int) -> Site:
-    """Give the site in the row of W² beads.
+def site_of(bead: Sequence[Any], side: int) -> Site:
+    """Give the site in the row of W² beads; of columns of names, columns.
 
     >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5)
     ((23, 3), (2, 1, 3))
@@ -256,6 +256,17 @@ class Region:
     def row(self, j: int) -> slice:
         """Say which of the beads are those of row j."""
         return slice(self.starts[j], self.starts[j + 1])
+
+    def numbers(self, beads: Array) -> Array:
+        """Number beads, columns of their names; −1 where the region lacks them."""
+        sites: Any = beads if self.dimension == 2 else site_of([*beads], self.side)
+        i, j = sites
+        there, j = j <= self.top, np.minimum(j, self.top)
+        column = (i - self.rows.firsts[j]) // 2
+        if self.width is not None:
+            column %= self.width
+        there &= (column >= 0) & (column < self.rows.counts[j])
+        return np.where(there, self.starts[j] + column, -1)
 
     @cached_property
     def widest(self) -> int:

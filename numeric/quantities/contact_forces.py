@@ -2,7 +2,6 @@
 
 import math
 from dataclasses import replace
-from fractions import Fraction
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from ..mechanics.sweep import Solved
 from ..scene.sections import LARGEST
 from ..unilateral.network import Network, Relaxed
 from .base import Columns, ContactQuantity, Table, cartesian
-from .positions import Positions
+from .positions import ordered_places
 
 
 class ContactForces(ContactQuantity):
@@ -33,49 +32,48 @@ class ContactForces(ContactQuantity):
         return len(self.branches) * beads * realisations
 
     def rows(self, problem: Problem, solved: Solved) -> Table:
-        """Give a row a contact."""
+        """Give a row a contact, with the places of both its beads, to be drawn.
+
+        The upper bead is the image next to the lower one; ``wraps`` says which contacts cross the
+        seam. Centres are rounded to 1e-12 r. NaN: the answer doesn't depend on the bead.
+        """
         if isinstance(solved, Relaxed):
-            table = of_network(solved.network)
+            table, low, high, wraps = of_network(solved.network)
         else:
             blocks = self.blocks(problem)
             if self.width is not None:
                 rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
                 blocks = [Block(b, row) for row in rows for b in self.branches]
             table = self.listed(blocks, solved)
-        return replace(table, index=table.index | self._ends(problem, solved, table.index))
-
-    def _ends(self, problem: Problem, solved: Solved, contacts: Columns) -> Columns:
-        """Say where both beads of contacts are, to be drawn; and which contacts cross the seam.
-
-        The upper bead is the image next to the lower one. Centres are rounded to 1e-12 r. NaN: the
-        answer doesn't depend on the bead.
-        """
-        d, packing = problem.dimension, self.scene.packing
-        names, axes = bead_names(d), axis_names(d)
-        spacing = packing.s / packing.radius
-        usual = packing.model_copy(update={"radius": Fraction(1), "spacing": spacing})
-        beads = Positions(self.scene.model_copy(update={"packing": usual})).rows(problem, solved)
-        there = np.stack([beads.index[name] for name in names])
-        columns = [*axes, *(f"d{axis}" for axis in axes)]
-        numbers = np.stack([as_floats(beads.numbers[name]) for name in columns])
-        lower = np.stack([contacts[name] for name in names])
-        low, moved = np.split(numbers_of(lower, there, numbers), 2)
-        if isinstance(solved, Relaxed):
-            upper = np.stack([contacts["upper_i"], contacts["upper_j"]])
-            high, period = numbers_of(upper, there, numbers)[:d], float(solved.network.frame.period)
-            turns = np.round((low[0] - high[0]) / period)
-            high[0] += turns * period
-            wraps = turns != 0
-        else:
-            number = np.argmax([contacts["branch"] == part.value for part in self.branches], axis=0)
-            upper, wraps = upper_beads(lower, number, self.naming)
-            apart = numbers_of(upper, there, numbers)[d:] - moved
-            high = low + steps_up(problem)[number].T + apart
-        r = float(packing.radius) if packing.radius < LARGEST else math.inf
+            low, high, wraps = self._ends(problem, solved, table.index)
+        axes, radius = axis_names(problem.dimension), self.scene.packing.radius
+        r = float(radius) if radius < LARGEST else math.inf
         with np.errstate(all="ignore"):
             low, high = (np.round(places, 12) * r for places in (low, high))
         ends = zip([*axes, *(f"upper_{axis}" for axis in axes)], [*low, *high], strict=True)
-        return {**dict(ends), "wraps": wraps.astype(np.int64)}
+        return replace(table, index=table.index | dict(ends) | {"wraps": wraps.astype(np.int64)})
+
+    def _ends(self, problem: Problem, solved: Solved, contacts: Columns) -> tuple[Array, ...]:
+        """Give lower and upper centres in units of r, (axes, contacts), and what crosses the seam.
+
+        They are float64: balls would take long.
+        """
+        lower = np.stack([contacts[name] for name in bead_names(problem.dimension)])
+        number = np.argmax([contacts["branch"] == part.value for part in self.branches], axis=0)
+        upper, wraps = upper_beads(lower, number, self.naming)
+        with FLOAT64.active():
+            low = np.stack(ordered_places(lower, problem, FLOAT64))
+            if solved.packing is None:
+                return low, low + steps_up(problem)[number].T, wraps
+            region, d = solved.packing.region, problem.dimension
+            moves = np.pad(as_floats(solved.packing.block[0, :d]), ((0, 0), (0, 1)))
+            moves[:, -1] = np.nan
+            moved, upper_moved = (
+                np.stack(cartesian([*moves[:, region.numbers(b)]], problem, FLOAT64, raised=False))
+                for b in (lower, upper)
+            )
+        low += moved
+        return low, low + steps_up(problem)[number].T + (upper_moved - moved), wraps
 
 
 def upper_beads(lower: Array, number: Array, naming: Naming) -> tuple[Array, Array]:
@@ -99,27 +97,17 @@ def steps_up(problem: Problem) -> Array:
         return np.stack(cartesian(steps, problem, FLOAT64, raised=True), axis=-1)
 
 
-def numbers_of(wanted: Array, there: Array, numbers: Array) -> Array:
-    """Give the ``numbers``, (…, beads), of ``wanted`` beads, NaN where they are not ``there``.
+def of_network(network: Network) -> tuple[Table, Array, Array, Array]:
+    """Give a row a contact, by its lower bead, then its upper one.
 
-    Beads are columns of their numbers.
+    Gives both centres, too, (2, contacts), and which contacts cross the seam.
     """
-    both = np.concatenate([there, wanted], axis=1)
-    low = both.min(axis=1, initial=0)[:, None]
-    keys = np.ravel_multi_index(both - low, tuple(both.max(axis=1, initial=0) - low[:, 0] + 1))
-    given, asked = keys[: there.shape[1]], keys[there.shape[1] :]
-    order = np.argsort(given)
-    place = np.searchsorted(given, asked, sorter=order)
-    padded = np.append(numbers, np.full((len(numbers), 1), np.nan), axis=1)
-    at = np.append(order, -1)[place]
-    return np.where(np.append(given, -1)[at] == asked, padded[:, at], np.nan)
-
-
-def of_network(network: Network) -> Table:
-    """Give a row a contact, by its lower bead, then its upper one."""
     order = np.lexsort((network.pairs[:, 0], network.pairs[:, 1]))
     pairs = network.pairs[order]
     (upper_i, upper_j), (i, j) = (network.names(pairs[:, end]) for end in (0, 1))
     branch = np.array([network.branch(pair) for pair in pairs])
     index = {"i": i, "j": j, "branch": branch, "upper_i": upper_i, "upper_j": upper_j}
-    return Table(index, {"force": network.forces[order]}, ("force",))
+    high, low = as_floats(network.x)[pairs].transpose(1, 2, 0)
+    turns = np.round((low[0] - high[0]) / float(network.frame.period))
+    high[0] += turns * float(network.frame.period)
+    return Table(index, {"force": network.forces[order]}, ("force",)), low, high, turns != 0

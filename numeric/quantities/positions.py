@@ -1,6 +1,6 @@
 """Positions of beads."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 from ..arithmetic.systems import Array, NumberSystem
@@ -11,7 +11,7 @@ from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
 from ..unilateral.network import Relaxed
-from .base import Columns, Listed, Table, cartesian, column, joined
+from .base import Listed, Table, cartesian, column, joined
 
 
 class Positions(Listed):
@@ -60,7 +60,7 @@ class Positions(Listed):
             i, j = self.naming.site(at)
             rows = [Layer(j, i, 1)]
         r, index = system.number(self.scene.packing.radius), self.naming.beads(rows)
-        home = [of * r for of in self._ordered(problem, index, system)]
+        home = [of * r for of in ordered_places(index.values(), problem, system)]
         if isinstance(solved, Relaxed):
             beads = index["j"] * solved.network.width + index["i"] // 2
             index["contacts"] = solved.network.bearing[beads]
@@ -87,13 +87,16 @@ class Positions(Listed):
         ]
         return [joined(system, parts) for parts in moved]
 
-    def _ordered(self, problem: Problem, index: Columns, system: NumberSystem) -> tuple[Array, ...]:
-        """Give the positions of beads in the ordered packing, in units of r."""
-        *columns, j = index.values()
-        steps = [2 * across for across in (*columns, j - sum(columns))]
-        if len(columns) == 1:
-            steps = [j + columns[0], j - columns[0]]
-        return cartesian([_whole(step, system) for step in steps], problem, system, raised=True)
+
+def ordered_places(
+    beads: Iterable[Array], problem: Problem, system: NumberSystem
+) -> tuple[Array, ...]:
+    """Give the positions of beads, columns of names, in the ordered packing, in units of r."""
+    *columns, j = beads
+    steps = [2 * across for across in (*columns, j - sum(columns))]
+    if len(columns) == 1:
+        steps = [j + columns[0], j - columns[0]]
+    return cartesian([_whole(step, system) for step in steps], problem, system, raised=True)
 
 
 def _whole(numbers: Array, system: NumberSystem) -> Any:

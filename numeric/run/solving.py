@@ -58,12 +58,21 @@ class Solution(Tabled):
     Numbers are float64 or, if a tolerance needs more, balls: numbers of any length, each with a
     rigorous error. ``print`` shows only a few digits of a ball. ``.astype(float)`` rounds an array;
     ``forces.decimals()`` and ``positions.decimals()`` give all known digits.
+
+    Attributes:
+        force: f^±_ij, shape (2, M, W): branch (0: "+", 1: "-"), layer j and column q of the lower
+            bead. Compressive forces are positive. For spheres (3, M, W, W): axis, layer j, p and q.
+        change: each force minus its value in the ordered packing, computed without cancellation.
+        accuracy: the error of the forces, relative to the largest change, and how it is known.
+        physical: overlaps and tensile contacts, over all packings; None where all radii are equal.
+            ``physical.smallest_gap`` is in the unit of the radii.
     """
 
     sections: Mapping[str, Any]
-    tolerance: Fraction | None = None
-    only_certified: bool = False
-    found: "_Found | None" = None
+    force: Array
+    change: Array
+    accuracy: Accuracy
+    physical: Physicality | None
 
     @cached_property
     def scene(self) -> Scene:
@@ -73,7 +82,7 @@ class Solution(Tabled):
     @cached_property
     def plan(self) -> Plan:
         """How the forces are computed: method and expected error."""
-        return plan(self.scene, self.tolerance, certified=self.only_certified, text=False)
+        return plan(self.scene, text=False)
 
     @cached_property
     def forces(self) -> Outcome:
@@ -84,19 +93,6 @@ class Solution(Tabled):
     def sees_images(self) -> bool:
         """Whether some bead bears on another in two ways round the period."""
         return self.plan.sees_images
-
-    @property
-    def force(self) -> Array:
-        """f^±_ij, shape (2, M, W): branch (0: "+", 1: "-"), layer j and column q of the lower bead.
-
-        Compressive forces are positive. For spheres (3, M, W, W): axis, layer j, p and q.
-        """
-        return self._lattice("force") if self.found is None else self.found.force
-
-    @property
-    def change(self) -> Array:
-        """Each force minus its value in the ordered packing, computed without cancellation."""
-        return self._lattice("change") if self.found is None else self.found.change
 
     @property
     def position(self) -> Array:
@@ -183,12 +179,12 @@ class Solution(Tabled):
     @checked
     def plot(
         self,
-        ax: "Axes | None" = None,
+        ax: Axes | None = None,
         *,
         color: str | ArrayLike | None = None,
         least: float = 0,
         packing: int = 0,
-    ) -> "Axes":
+    ) -> Axes:
         """Draw force chains: a line for each contact, as thick as its force; lengths in units of r.
 
         Args:
@@ -271,11 +267,6 @@ class Solution(Tabled):
         return box_of(*places, self._shape[-1] * float(self.scene.packing.s))
 
     @property
-    def accuracy(self) -> Accuracy:
-        """The error of the forces, relative to the largest change, and how it is known."""
-        return self.forces.accuracy if self.found is None else self.found.accuracy
-
-    @property
     def error(self) -> float:
         """Bound or estimate of the largest error of a change, relative to the largest change."""
         return float(self.accuracy.error_bound)
@@ -285,22 +276,13 @@ class Solution(Tabled):
         """Whether ``error`` is a rigorous bound, and not an estimate."""
         return self.accuracy.certified
 
-    @property
-    def physical(self) -> Physicality | None:
-        """Overlaps and tensile contacts, over all packings; None where all radii are equal.
-
-        ``physical.smallest_gap`` is in the unit of the radii.
-        """
-        return self.forces.physical if self.found is None else self.found.physical
-
     @cached_property
     def positions(self) -> Outcome:
         """The positions as an ``Outcome``, with their ``accuracy``; made when first asked for."""
         ask = self.scene.ask.model_copy(update={"quantity": "positions"})
-        made = self.plan if self.found is not None else self.forces.plan
-        scene = self.scene.model_copy(update={"ask": ask})
-        certified = made.tolerance is not None and made.certified
-        return run(plan(scene, made.tolerance, certified=certified, text=False))
+        scene, tolerance = self.scene.model_copy(update={"ask": ask}), self.plan.tolerance
+        certified = tolerance is not None and self.plan.certified
+        return run(plan(scene, tolerance, certified=certified, text=False))
 
     @property
     def _dimension(self) -> int:
@@ -312,25 +294,9 @@ class Solution(Tabled):
         shape: tuple[int, ...] = self.sections["disorder"].values.shape
         return shape
 
-    def _lattice(self, name: str) -> Array:
-        d = self._dimension
-        *batch, layers = self._shape[: 1 - d]
-        width = self._shape[1 - d :]
-        rows = self._numbers(self.forces, name).reshape(*batch, layers - 1, *width, d)
-        return np.moveaxis(rows, -1, -d - 1)
-
     def _beads(self, kind: str) -> Array:
         names = [kind + axis for axis in axis_names(self._dimension)]
-        columns = [self._numbers(self.positions, name) for name in names]
-        return np.stack([column.reshape(self._shape) for column in columns], axis=-1)
-
-    def _numbers(self, outcome: Outcome, name: str) -> Array:
-        """Give a column; of equal radii, which are solved once, in balls, as was asked for."""
-        values = outcome.arrays[name]
-        if outcome.plan.problem.route != Route.ORDERED:
-            return values
-        values = np.tile(values, math.prod(self._shape[: -self._dimension]))
-        return values if outcome.plan.tolerance is not None else as_floats(values)
+        return np.stack([_numbers(self.positions, name, self._shape) for name in names], axis=-1)
 
     def __str__(self) -> str:
         """Say what was found, how accurately, and what was done for it."""
@@ -375,14 +341,13 @@ def _colours(contacts: Contacts, color: Any) -> Array:
     return values
 
 
-@dataclass(frozen=True)
-class _Found:
-    """Forces and changes as ``Solution`` has them, their error, and what is physical."""
-
-    force: Array
-    change: Array
-    accuracy: Accuracy
-    physical: Physicality
+def _numbers(outcome: Outcome, name: str, shape: tuple[int, ...]) -> Array:
+    """Give a column in shape; of equal radii, which are solved once, in balls, as asked for."""
+    values, plan = outcome.arrays[name], outcome.plan
+    if plan.problem.route == Route.ORDERED:
+        values = np.tile(values, math.prod(shape) // len(values))
+        values = values if plan.tolerance is not None else as_floats(values)
+    return values.reshape(shape)
 
 
 # Beads that are solved at once, without a plan.
@@ -391,8 +356,9 @@ AT_ONCE = 2_000_000
 SMALL = 1e-140
 
 
-def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
+def _directly(sections: Mapping[str, Any]) -> Solution | None:
     """Solve packings under loads on layers; None for what is out of the ordinary, or can't be."""
+    packing, given, load, _ = sections.values()
     d, shape, r, s = packing.dimension, given.values.shape, packing.radius, packing.s
     layers, width = shape[-d], shape[-1]
     usual = all(1 / FARTHEST_UNIT < x < FARTHEST_UNIT for x in (r, s, load.magnitude))
@@ -428,7 +394,8 @@ def _directly(given: GivenRadii, packing: Packing, load: Load) -> _Found | None:
     if physical.smallest_gap is not None:
         physical.smallest_gap = float(Fraction(physical.smallest_gap) * r)
     below = (*shape[:-d], layers - 1, *shape[1 - d :])
-    return _Found(
+    return Solution(
+        sections,
         _by_lower_bead(force, d, below),
         _by_lower_bead(change, d, below),
         Accuracy(bound, False, FLOAT64.name, CARRIED),
@@ -567,11 +534,16 @@ def solve(
         load = SurfaceLoad() if load is None else load
         ask = Ask(quantity="contact_forces", realisations=batch[0] if batch else 1)
         sections: dict[str, Any] = {"packing": packing, "disorder": given, "load": load, "ask": ask}
-        if tolerance is None and (found := _directly(given, packing, load)) is not None:
-            return Solution(sections, found=found)
+        if tolerance is None and (solution := _directly(sections)) is not None:
+            return solution
         scene = Scene(**sections)
     asked = None if tolerance is None else read_tolerance(tolerance)
-    solution = Solution(sections, asked, certified)
     forces = run(plan(scene, asked, certified=certified, text=False))
+    below = (*batch, layers - 1, *shape[1 - dimension :], dimension)
+    force, change = (
+        np.moveaxis(_numbers(forces, name, below), -1, -dimension - 1)
+        for name in ("force", "change")
+    )
+    solution = Solution(sections, force, change, forces.accuracy, forces.physical)
     vars(solution).update(scene=scene, plan=forces.plan, forces=forces)
     return solution

@@ -3,10 +3,10 @@
 import hashlib
 import math
 from fractions import Fraction
-from functools import cache
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
+
+from force_diffusion import __version__
 
 from ..arithmetic.decimals import decimal_string, short
 from ..lattice.branch import Branch, Contact, Site
@@ -232,15 +232,6 @@ def _check_layers(ask: Ask, load: Load, height: int) -> None:
         raise SceneError("ask.layers", ask.layers, allowed)
 
 
-@cache
-def program_version() -> str:
-    """Version of this package, or "unknown" where it is not installed."""
-    try:
-        return version(PROGRAM)
-    except PackageNotFoundError:
-        return "unknown"
-
-
 def files_read(scene: CheckedScene) -> dict[str, str]:
     """Give the SHA-256 of the bytes of the files of radii and loads, as they are now."""
     disorder, load = scene.disorder, scene.load
@@ -267,7 +258,7 @@ def source_of(scene: CheckedScene, files: dict[str, str] | None = None) -> dict[
         sections["disorder"].pop("seed", None)
     return {
         "program": PROGRAM,
-        "version": program_version(),
+        "version": __version__,
         "scene": sections,
         "seed": disorder.seed if drawn and disorder is not None else None,
         "sha256": hashes,

@@ -72,7 +72,7 @@ def test_what_a_worker_finds_wrong_is_told(client: Any) -> None:
 def test_another_version_on_a_worker_is_refused(
     client: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(module, "program_version", lambda: "9.9")
+    monkeypatch.setattr(module, "__version__", "9.9")
     with pytest.raises(WorkersError, match="install the same version"):
         fd.ensemble(scene(PROFILE), 40, executor=client.get_executor(pure=False))
 

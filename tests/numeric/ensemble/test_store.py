@@ -119,7 +119,7 @@ def test_a_file_of_another_ensemble_or_version(
     ):
         with pytest.raises(StoreError, match=says):
             Store(path, description(other))
-    monkeypatch.setattr("force_diffusion.numeric.ensemble.store.program_version", lambda: "9.9")
+    monkeypatch.setattr("force_diffusion.numeric.ensemble.store.__version__", "9.9")
     with pytest.raises(StoreError, match=r"version.force-diffusion is .*, here 9.9"):
         Store(path, description(M))
     assert path.read_bytes() == sound

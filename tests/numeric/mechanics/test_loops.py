@@ -3,6 +3,7 @@
 import sys
 from contextlib import nullcontext
 from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -107,13 +108,15 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
 def test_machine_code_on_disk_follows_each_of_its_sources(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Another rest of a bead, another loop, another way to compile, another rule for errors."""
+    """Another rest of a bead, loop, way to compile, rule for errors, or release of numba."""
     used = [local.rest, loops.deposit]
     usual = compiling.stamp(used)
     assert usual == compiling.stamp(used)
     read = Path.read_bytes
-    for module in (local, loops, compiling, sys.modules[Carried.__module__]):
-        own = Path(str(module.__file__))
+    modules = (local, loops, compiling, sys.modules[Carried.__module__])
+    sources = [Path(str(module.__file__)) for module in modules]
+    release = Path(str(find_spec("numba").origin)).with_name("_version.py")
+    for own in [*sources, release]:
 
         def changed(path: Path, own: Path = own) -> bytes:
             return read(path) + (b"# new" if path == own else b"")
