@@ -17,12 +17,12 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
-    "derivations": 7_801,
+    "derivations": 7_807,
     "numeric": 9_625,
     "force_diffusion": 74,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 14_315,
+    "tests": 14_320,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

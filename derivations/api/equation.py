@@ -18,7 +18,7 @@ from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.code import python_source, sympy_source
 from force_diffusion.symbolic.printing.text import text
 
-from ..coq.record import recorded
+from ..coq.statements import recorded
 from ..export.terminal import statement_data, statement_text
 from ..framework.catalogue import Number as EquationNumber
 from ..framework.catalogue import allowed, modules, number_of
@@ -145,7 +145,7 @@ class Equation:
         >>> fd.equation(13).coq
         'accepted by Coq 8.16.1'
         """
-        return recorded(self.number)
+        return recorded(self._derivation)
 
     # SymPy and LaTeX
 

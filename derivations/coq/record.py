@@ -65,11 +65,3 @@ def record() -> dict[str, Any]:
     """What ``certify`` found when Coq was last asked, as ``Certification.data`` gives it."""
     certificates: dict[str, Any] = json.loads((PROOFS / RECORD).read_text(encoding="utf-8"))
     return certificates
-
-
-def recorded(number: Number) -> str:
-    """What Coq said of an equation when it was last asked."""
-    for certificate in record()["equations"]:
-        if certificate["number"] == number and certificate["accepted"]:
-            return f"accepted by {certificate['checker']}"
-    return "not on record"

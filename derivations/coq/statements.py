@@ -16,8 +16,9 @@ from force_diffusion.symbolic.printing.structure import is_vector
 from force_diffusion.symbolic.words import Style, parts
 
 from ..framework.catalogue import Number
-from ..framework.record import Derivation
+from ..framework.record import Derivation, Statement
 from .files import Companion, CoqStatement
+from .record import record
 from .words import FIXED, HEIGHT, argument, index, words
 
 _OF_RHO = "fun rho e => let X := Xs rho in let F := Fs rho in"
@@ -384,12 +385,28 @@ BESIDE: dict[Number, tuple[Callable[[Derivation], CoqStatement], ...]] = {
 }
 
 
-def statements(derivation: Derivation) -> list[CoqStatement]:
-    """The printed equations in Coq, part by part, mirror images, and what is stated beside them."""
-    number = derivation.number
-    if number == 15:
+def printed(derivation: Derivation) -> list[CoqStatement]:
+    """The printed equations in Coq, part by part, and their mirror images."""
+    if derivation.number == 15:
         return [_averages(derivation)]
-    images = (False, True) if number in _MIRRORED else (False,)
+    images = (False, True) if derivation.number in _MIRRORED else (False,)
     places = range(len(derivation.printed))
-    made = [statement(derivation, part, mirrored=image) for image in images for part in places]
-    return [*made, *(beside(derivation) for beside in BESIDE.get(number, ()))]
+    return [statement(derivation, part, mirrored=image) for image in images for part in places]
+
+
+def statements(derivation: Derivation) -> list[CoqStatement]:
+    """The printed equations in Coq, and what is stated beside them."""
+    beside = BESIDE.get(derivation.number, ())
+    return [*printed(derivation), *(stated(derivation) for stated in beside)]
+
+
+def recorded(derivation: Statement) -> str:
+    """What Coq said of the printed equations when it was last asked."""
+    accepted = {made["number"]: made for made in record()["equations"] if made["accepted"]}
+    certificate = accepted.get(derivation.number)
+    if certificate is None or not isinstance(derivation, Derivation):
+        return "not on record"
+    theorems = {made.name: made.hash for made in printed(derivation)}
+    if theorems.items() <= certificate["theorems"].items():
+        return f"accepted by {certificate['checker']}"
+    return "not asked since the equation changed"

@@ -11,7 +11,7 @@ from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import LINE_WIDTH, latex_body, latex_cases, width
 from sympy import Basic
 
-from ..coq.record import recorded
+from ..coq.statements import recorded
 from ..framework.catalogue import Number
 from ..framework.display import over_common, with_commas
 from ..framework.proof import Step
@@ -146,7 +146,7 @@ def _sections(outcomes: Iterable[ProofOutcome], explained: str) -> str:
 def _verdicts(outcomes: Iterable[ProofOutcome]) -> str:
     rows = (
         f"({of.derivation.number}) & {prose_latex(of.derivation.title)} & "
-        f"{prose_latex(of.words)} & {recorded(of.derivation.number).partition(' by ')[0]} \\\\\n"
+        f"{prose_latex(of.words)} & {recorded(of.derivation).partition(' by ')[0]} \\\\\n"
         for of in outcomes
     )
     return (

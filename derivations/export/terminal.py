@@ -11,7 +11,7 @@ from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.words import in_words as where_in_words
 
-from ..coq.record import recorded
+from ..coq.statements import recorded
 from ..framework.lists import both
 from ..framework.proof import Step
 from ..framework.record import Check, ProofOutcome, Statement
@@ -69,7 +69,7 @@ def statement_text(derivation: Statement) -> str:
     parts += [_paragraph(words, "  - ", "    ") for words in derivation.assumptions]
     if derivation.call:
         parts += ["", f"The calculator: {derivation.call}"]
-    parts += ["", f"Coq: {recorded(derivation.number)}"]
+    parts += ["", f"Coq: {recorded(derivation)}"]
     if derivation.remarks:
         parts += ["", "Remarks"]
         parts += [_paragraph(words, "  - ", "    ") for words in derivation.remarks]

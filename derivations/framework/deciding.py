@@ -32,8 +32,8 @@ def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
     """Rule on a candidate for printed lines.
 
     Args:
-        candidate: a SymPy ``Eq``; an expression, number or closed form for a right-hand side; or as many
-            of these as there are lines, in a ``Tuple``, tuple or list.
+        candidate: a SymPy ``Eq``; an expression, number or closed form for a right-hand side; or as
+            many of these as there are lines, in a ``Tuple``, tuple or list.
         lines: what is printed.
         rule_on: rules on an equation in the place of one of them.
     """

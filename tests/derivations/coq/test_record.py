@@ -1,13 +1,16 @@
 """What is on record of Coq's verdicts, and that it is about what is printed now."""
 
+from dataclasses import replace
+
 import pytest
 from force_diffusion.derivations.coq.files import theory_hash
-from force_diffusion.derivations.coq.record import Certificate, record, recorded
-from force_diffusion.derivations.coq.statements import statements
+from force_diffusion.derivations.coq.record import Certificate, record
+from force_diffusion.derivations.coq.statements import recorded, statements
 from force_diffusion.derivations.export.document import document
 from force_diffusion.derivations.framework.catalogue import paper
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import run
+from force_diffusion.symbolic.trees import equation
 
 import force_diffusion as fd
 from force_diffusion.__main__ import main
@@ -23,11 +26,14 @@ def test_the_record_is_up_to_date() -> None:
 
 
 def test_only_what_was_accepted_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert recorded(1) == "accepted by Coq 8.16.1"
-    assert recorded("B5") == "not on record"
-    for one in record()["equations"]:
-        monkeypatch.setitem(one, "accepted", False)
-    assert recorded(1) == "not on record"
+    (line,) = load(4).printed
+    changed = replace(load(4), printed=(equation(line.lhs, -line.rhs),))
+    assert recorded(changed) == "not asked since the equation changed"
+    assert [recorded(load(number)) for number in paper()] == ["accepted by Coq 8.16.1"] * 16
+    assert recorded(load("B5")) == "not on record"
+    for certificate in record()["equations"]:
+        monkeypatch.setitem(certificate, "accepted", False)
+    assert recorded(load(1)) == "not on record"
 
 
 def test_lists_and_documents_say_so(capsys: pytest.CaptureFixture[str]) -> None:
