@@ -173,12 +173,30 @@ class Packing:
             return laid[site]
         return plus(laid[home], self.ordered(minus(site, home)))
 
+    def _below(self, site: Site) -> list[Site]:
+        return [step(site, c, -1) for c in range(self.d)]
+
+    @cached_property
+    def _disturbed(self) -> set[Site]:
+        """Beads of another radius than r, and all that rest on such; others lie on the lattice."""
+        found = {self.home(site) for site, by in self.change.items() if by}
+        for layer in range(1, self.height + 1):
+            found.update(
+                site
+                for site in self.sites(layer)
+                if any(self.home(below) in found for below in self._below(site))
+            )
+        return found
+
     @cached_property
     def _centres(self) -> dict[Site, Vector]:
         found = {site: self.ordered(site) for site in self.sites(0)}
         for layer in range(1, self.height + 1):
             for site in self.sites(layer):
-                below = [step(site, c, -1) for c in range(self.d)]
+                if site not in self._disturbed:
+                    found[site] = self.ordered(site)
+                    continue
+                below = self._below(site)
                 centres = [self._image(found, one) for one in below]
                 reaches = [self.radius(site) + self.radius(one) for one in below]
                 found[site] = upper_meeting_point(centres, reaches)
@@ -188,6 +206,8 @@ class Packing:
         """The unit vector from the bead below to the one above."""
         lower, c = contact
         home = self.home(lower)
+        if self.home(step(home, c)) not in self._disturbed:
+            return self.base[c]
         if (home, c) not in self._directions:
             apart = minus(self.centre(step(home, c)), self.centre(home))
             self._directions[home, c] = times(1 / mp.sqrt(dot(apart, apart)), apart)

@@ -38,7 +38,7 @@ def disordered(draw: st.DrawFn) -> Packing:
     cosine = draw(st.fractions(Fraction(-1, 5), Fraction(2, 5), max_denominator=20))
     r = draw(st.builds(Fraction, st.integers(1, 9), st.integers(1, 9)))
     packing = Packing(exactly(cosine), width, height, exactly(r), {}, d)
-    parts = st.integers(-9, 9)
+    parts = st.just(0) | st.integers(-9, 9)
     change = {site: packing.r * draw(parts) / 90 for site in every(packing)}
     packing = replace(packing, change=change)
     try:

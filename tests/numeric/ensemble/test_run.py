@@ -66,7 +66,7 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sums, "BEADS", 4 * BEADS)
 
 
-@settings(max_examples=6)
+@settings(max_examples=settings.default.max_examples // 6)
 @given(st.integers(0, 10**6), st.integers(2, 150))
 def test_what_fails_goes_on_from_the_file(
     tmp_path_factory: pytest.TempPathFactory, seed: int, before: int
@@ -114,7 +114,7 @@ def test_a_process_that_is_killed_loses_nothing_that_was_kept(
     assert bytes_of(found) == bytes_of_first(M, 150)
 
 
-@settings(max_examples=5)
+@settings(max_examples=settings.default.max_examples // 6)
 @given(st.integers(0, 10**6))
 def test_where_it_stops_depends_on_nothing_but_the_sums(seed: int) -> None:
     with pytest.MonkeyPatch.context() as monkeypatch:
