@@ -14,7 +14,6 @@ from typing import Any, Self
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
-from ..printing.text import text
 from ..symbols import H_M, INDICES, PARAMETERS, M, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
@@ -138,6 +137,8 @@ _MOST_TERMS = 20_000
 
 def _not_exact(expression: sympy.Expr) -> NotExactError:
     """Why an expression is no rational function."""
+    from ..printing.text import text  # which factors polynomials as elements of a field
+
     if expression.has(*_NO_NUMBERS):
         return NotAStatementError(f"{text(expression)} is not a number")
     if decimals := sorted(map(float, expression.atoms(sympy.Float))):

@@ -7,7 +7,7 @@ which says nothing, is put into a readable order.
 """
 
 from abc import abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
@@ -16,8 +16,11 @@ from sympy import Add, Basic, Expr, Integer, Mul, Pow, Rational, Sum, Symbol
 from sympy.printing.printer import Printer
 
 from .. import symbols as sy
+from ..algebra.exact import Field, NotExactError
+from ..notation import by_name
 
 
+@cache
 def rebuilt(expr: Basic) -> Basic:
     """An expression in SymPy's own order, whatever order it was built in; sums stay sums."""
     return expr.func(*map(rebuilt, expr.args)) if expr.args else expr
@@ -58,40 +61,50 @@ def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
     """A sum of monomials, each with the terms of its factor: as a product, or one by one."""
     if len(part) > 1 and sum(map(len, part.values())) < _TOO_MANY:
         whole = Add(*(Add(*terms) * monomial for monomial, terms in part.items()))
-        number, factors = sympy.Poly(whole).factor_list()
+        number, factors = _factors(whole)
         if sum(power for _, power in factors) > 1:
-            return [_product(number, [(factor.as_expr(), power) for factor, power in factors])]
+            return [_product(number, factors)]
     found = []
     for monomial, terms in part.items():
         if len(terms) == 1 or monomial == 1:
             found += [term * monomial for term in terms]
         else:
-            number, factors = sympy.factor_list(Add(*terms))
+            number, factors = _factors(Add(*terms))
             if len(factors) > 1:  # unlike (1 − φ)²
-                number, inner = Add(*terms).primitive()
-                factors = [(inner, 1)]
+                factors = [(Add(*(term / number for term in terms)), 1)]
             found.append(_product(number, [*monomial.as_powers_dict().items(), *factors]))
     return found
 
 
-def _product(number: Expr, factors: Iterable[tuple[Expr, int]]) -> Expr:
-    """A product whose number is not multiplied out; each factor begins with a plus sign."""
-    signed = [
-        (-base, -1, power) if _begins_negative(base) else (base, 1, power)
-        for base, power in factors
-    ]
-    number *= Mul(*(sign**power for _, sign, power in signed))
-    ordered = sorted((base**power for base, _, power in signed), key=_factor_key)
+def _factors(whole: Expr) -> tuple[Expr, list[tuple[Expr, int]]]:
+    """A number and the factors of a polynomial with their powers; itself if it is none.
+
+    The first term of a factor, the highest in M or in another index, has a plus sign.
+    """
+    indices = [symbol for symbol in reversed(sy.INDICES) if whole.has(symbol)]
+    others = {*whole.free_symbols, sy.phi, sy.n_x, sy.n_y} - {*indices}
+    field = Field((*indices, *by_name(others)))
+    try:
+        content, parts = field.from_sympy(whole).numerator.factor()
+    except NotExactError:
+        return sympy.S.One, [(whole, 1)]
+    number, factors = sympy.Rational(int(content.p), int(content.q)), []
+    for part, power in parts:
+        scale, factor = field.expanded(part).primitive()
+        if part.leading_coefficient() < 0:
+            scale, factor = -scale, -factor
+        number *= scale ** int(power)
+        factors.append((factor, int(power)))
+    return number, factors
+
+
+def _product(number: Expr, factors: Sequence[tuple[Expr, int]]) -> Expr:
+    """A product whose number is not multiplied out; 1 − φ stands for φ − 1."""
+    if (power := dict(factors).get(sy.phi - 1)) is not None:
+        factors = [(1 - sy.phi if base == sy.phi - 1 else base, n) for base, n in factors]
+        number *= (-1) ** power
+    ordered = sorted((base**power for base, power in factors), key=_factor_key)
     return Mul(*([] if number == 1 else [number]), *ordered, evaluate=False)
-
-
-def _begins_negative(base: Expr) -> bool:
-    """Whether its first term is: the highest in M, or in another index; 1 of 1 − φ."""
-    held = sorted(base.free_symbols & {*sy.INDICES}, key=sy.INDICES.index, reverse=True)
-    if base == sy.phi - 1:
-        return True
-    others = sorted(base.free_symbols - {*held}, key=str)
-    return bool(base.is_Add and sympy.Poly(base, *held, *others).LC() < 0)
 
 
 def _with_ratio(factors: Sequence[Expr]) -> Sequence[Expr]:
@@ -149,6 +162,7 @@ def without_sign(term: Expr) -> Expr:
     return kept[0] if len(kept) == 1 else Mul(*kept, evaluate=False)
 
 
+@cache
 def is_operand(factor: Expr) -> bool:
     """Whether a factor is a vector, or a sum or product of some."""
     return bool(factor.has(Sum, sy.Dot, sy.MatrixTimes)) or is_vector(factor)
