@@ -284,10 +284,8 @@ def fixed(points: Set, first: Sequence[sympy.Symbol] = ()) -> dict[sympy.Symbol,
 
 def polynomial(form: tuple[Mapping[sympy.Symbol, Any], Any]) -> RationalFunction:
     """A form as an element of the field."""
-    total = FIELD.constant(form[1])
-    for symbol, factor in form[0].items():
-        total = total + FIELD.generator(symbol) * FIELD.constant(factor)
-    return total
+    terms = (FIELD.generator(symbol).numerator * factor for symbol, factor in form[0].items())
+    return FIELD.polynomial(sum(terms, FIELD.context.constant(form[1])))
 
 
 Range = tuple[Set, RationalFunction, RationalFunction]

@@ -79,7 +79,6 @@ def force(ordered: Sequence[Weights], axis: int) -> Known:
         for a in range(dimension):
             turn = turns(dimension)[a][c].scaled(own if a == axis else cross)
             turned = turned + turn.times(carried)
-        turned = turned.merged()
         gained = gained + turned - turned.at({beads[c]: beads[c] - 1})
     upwards = gained.merged().at({beads[axis]: beads[axis] + n}).on(_UPWARDS)
     weights = upwards.summed(n).merged()

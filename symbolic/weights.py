@@ -154,10 +154,12 @@ class Weights:
         groups: list[tuple[RationalFunction, list[Set]]] = [(FIELD.zero, [])]
         for held, part, value in cells:
             numbers = _place(part)
-            own = _at(value, numbers)
+            own, divisor = value.numerator(*numbers), value.denominator(*numbers)
             for other, parts in groups:
-                there = _at(other, numbers)
-                if (own == there or None in (own, there)) and _agree(other, value, held):
+                same = other.denominator == value.denominator
+                scale = divisor if same else other.denominator(*numbers)
+                alike = other.numerator(*numbers) * divisor == own * scale
+                if alike and _agree(other, value, held):
                     parts.append(part)
                     break
             else:
@@ -173,12 +175,6 @@ class Weights:
 def _place(part: Set) -> list[fmpq]:
     """A point of a set, and numbers for all other symbols: where two functions may differ."""
     return list({**_NUMBERS, **sets.sample(part)}.values())
-
-
-def _at(function: RationalFunction, numbers: list[fmpq]) -> fmpq | None:
-    """The value of a function; None where it has none."""
-    divisor = function.denominator(*numbers)
-    return function.numerator(*numbers) / divisor if divisor else None
 
 
 def _joined(parts: list[Set]) -> Set:

@@ -10,7 +10,7 @@ from decimal import Decimal
 from fractions import Fraction
 from typing import Any, TypeAlias
 
-import numpy as np
+import lazy_loader
 import sympy
 from flint import fmpq, fmpz
 from force_diffusion.numeric.arithmetic.errors import ArgumentError, WrongTypeError, quoted
@@ -20,6 +20,8 @@ from force_diffusion.symbolic.printing.code import name_of
 from force_diffusion.symbolic.printing.text import text
 
 from .lists import both, either
+
+np = lazy_loader.load("numpy")
 
 Number: TypeAlias = int | float | Fraction | Decimal
 """What is put in: int, Fraction, Decimal and, at run time, SymPy's Rational are exact."""
@@ -251,7 +253,7 @@ def shared_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
     """
     shapes = {name: np.shape(array) for name, array in arrays.items()}
     try:
-        return np.broadcast_shapes(*shapes.values())
+        return tuple(np.broadcast_shapes(*shapes.values()))
     except ValueError:
         shown = both([f"{name} of shape {shape}" for name, shape in shapes.items()])
         raise ArgumentError(

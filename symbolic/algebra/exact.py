@@ -14,6 +14,7 @@ from typing import Any, Self
 import sympy
 from flint import Ordering, fmpq, fmpq_mpoly_ctx
 
+from ..printing.text import text
 from ..symbols import H_M, INDICES, PARAMETERS, M, n_x, n_y, phi
 
 Polynomial = Any  # flint's fmpq_mpoly, which ships no types
@@ -50,6 +51,7 @@ class Field:
         self.context = fmpq_mpoly_ctx.get(names, Ordering.lex)
         self.position = {g: number for number, g in enumerate(self.generators)}
         self._gens = self.context.gens()
+        self._elements = [*map(self.polynomial, self._gens)]
         self.zero = self.constant(0)
         self.one = self.constant(1)
 
@@ -66,7 +68,7 @@ class Field:
     def generator(self, symbol: sympy.Expr) -> "RationalFunction":
         """The generator that stands for ``symbol``."""
         try:
-            return self.polynomial(self._gens[self.position[symbol]])
+            return self._elements[self.position[symbol]]
         except KeyError:
             raise NotExactError(f"{symbol} is not a symbol of the exact domain") from None
 
@@ -137,8 +139,6 @@ _MOST_TERMS = 20_000
 
 def _not_exact(expression: sympy.Expr) -> NotExactError:
     """Why an expression is no rational function."""
-    from ..printing.text import text  # which factors polynomials as elements of a field
-
     if expression.has(*_NO_NUMBERS):
         return NotAStatementError(f"{text(expression)} is not a number")
     if decimals := sorted(map(float, expression.atoms(sympy.Float))):

@@ -12,12 +12,11 @@ from functools import cache
 from typing import Any
 
 import sympy
+from flint import Ordering, fmpz_mpoly_ctx
 from sympy import Add, Basic, Expr, Integer, Mul, Pow, Rational, Sum, Symbol
 from sympy.printing.printer import Printer
 
 from .. import symbols as sy
-from ..algebra.exact import Field, NotExactError
-from ..notation import by_name
 
 
 @cache
@@ -60,7 +59,7 @@ def _by_degree(expr: Expr) -> tuple[Expr, ...]:
 def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
     """A sum of monomials, each with the terms of its factor: as a product, or one by one."""
     if len(part) > 1 and sum(map(len, part.values())) < _TOO_MANY:
-        whole = Add(*(Add(*terms) * monomial for monomial, terms in part.items()))
+        whole = Add(*(term * monomial for monomial, terms in part.items() for term in terms))
         number, factors = _factors(whole)
         if sum(power for _, power in factors) > 1:
             return [_product(number, factors)]
@@ -77,25 +76,23 @@ def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
 
 
 def _factors(whole: Expr) -> tuple[Expr, list[tuple[Expr, int]]]:
-    """A number and the factors of a polynomial with their powers; itself if it is none.
+    """A number and the factors of a polynomial with their powers.
 
     The first term of a factor, the highest in M or in another index, has a plus sign.
     """
-    indices = [symbol for symbol in reversed(sy.INDICES) if whole.has(symbol)]
-    others = {*whole.free_symbols, sy.phi, sy.n_x, sy.n_y} - {*indices}
-    field = Field((*indices, *by_name(others)))
-    try:
-        content, parts = field.from_sympy(whole).numerator.factor()
-    except NotExactError:
+    divisor, polynomial = sympy.Poly(whole, expand=False).clear_denoms(convert=True)
+    if not polynomial.domain.is_ZZ:
         return sympy.S.One, [(whole, 1)]
-    number, factors = sympy.Rational(int(content.p), int(content.q)), []
-    for part, power in parts:
-        scale, factor = field.expanded(part).primitive()
-        if part.leading_coefficient() < 0:
-            scale, factor = -scale, -factor
-        number *= scale ** int(power)
-        factors.append((factor, int(power)))
-    return number, factors
+    indices = [symbol for symbol in reversed(sy.INDICES) if symbol in polynomial.gens]
+    held = [*indices, *sorted({*polynomial.gens} - {*indices}, key=str)]
+    context = fmpz_mpoly_ctx.get([f"g{n}" for n in range(len(held))], Ordering.lex)
+    terms = {powers: int(c) for powers, c in polynomial.reorder(*held).terms()}
+    number, parts = context.from_dict(terms).factor()
+    factors = [
+        (sympy.Poly({x: int(c) for x, c in part.to_dict().items()}, *held), power)
+        for part, power in parts
+    ]
+    return int(number) / divisor, [(factor.as_expr(), int(power)) for factor, power in factors]
 
 
 def _product(number: Expr, factors: Sequence[tuple[Expr, int]]) -> Expr:
