@@ -65,7 +65,8 @@ def conditions(whole: Set, context: Set) -> list[Conditions]:
                 [form for form in reversed(forms) if form not in held],
             )
         )
-    if not left.is_empty() or not all(_both(context, part).is_subset(whole) for part in choices):
+    sets = (_inside(context, (*equal, *bounds), equal) for equal, bounds in choices)
+    if not left.is_empty() or not all(part.is_subset(whole) for part in sets):
         raise OpenSumError(f"{whole} is not written by forms")
     return choices
 
@@ -75,10 +76,6 @@ def _inside(points: Set, forms: Iterable[Row], equations: Iterable[Row]) -> Set:
     for form in forms:
         points = points.add_constraint(constraint(form, form in equations))
     return points
-
-
-def _both(points: Set, told: Conditions) -> Set:
-    return _inside(points, (*told[0], *told[1]), told[0])
 
 
 def _needed(equations: Iterable[Row], context: Set) -> list[Row]:

@@ -153,7 +153,7 @@ class Weights:
         cells.sort(key=lambda cell: len(cell[0]))
         groups: list[tuple[RationalFunction, list[Set]]] = [(FIELD.zero, [])]
         for held, part, value in cells:
-            numbers = _place(part)
+            numbers = [*{**_NUMBERS, **sets.sample(part)}.values()]
             own, divisor = value.numerator(*numbers), value.denominator(*numbers)
             for other, parts in groups:
                 same = other.denominator == value.denominator
@@ -170,11 +170,6 @@ class Weights:
         """Whether it is 0 everywhere."""
         zeros = (_agree(FIELD.zero, value, sets.fixed(part)) for part, value in self.cells().pieces)
         return all(zeros)
-
-
-def _place(part: Set) -> list[fmpq]:
-    """A point of a set, and numbers for all other symbols: where two functions may differ."""
-    return list({**_NUMBERS, **sets.sample(part)}.values())
 
 
 def _joined(parts: list[Set]) -> Set:

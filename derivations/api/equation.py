@@ -31,7 +31,6 @@ from ..framework.loading import load
 from ..framework.record import Derivation, Statement
 from ..framework.rows import Row
 from ..framework.runner import run_all
-from .numpy_function import NumpyFunction
 from .proof import Proof, StepList
 
 
@@ -377,6 +376,8 @@ class Equation:
             ArgumentError: the right-hand side is not a number. The function itself raises it for
                 values outside the formula's domain.
         """
+        from .numpy_function import NumpyFunction
+
         about = "; ".join(self._about(line) for line in self._derivation.printed)
         heading, meanings = f"Eq. {self.number}: {about}.", dict(self._derivation.symbols)
         return NumpyFunction(self._numbers, self.name, heading, meanings, self)

@@ -6,15 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from decimal import Decimal
 from typing import Any
 
-import lazy_loader
+import numpy as np
 import sympy
 from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
 from ..framework.evaluation import TOGETHER, at_element, in_order, range_of, shared_shape, unpacked
-
-np = lazy_loader.load("numpy")
 
 Arrays = dict[sympy.Symbol, Any]
 """Float64 arrays of one shape, by symbol."""

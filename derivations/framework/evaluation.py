@@ -274,9 +274,7 @@ def _array(name: str, value: Any) -> Any:
         return np.asarray(value)
     if hasattr(value, "__len__") and not isinstance(value, str | bytes | Mapping | Set):
         return np.array([*value], dtype=object)
-    single = np.empty((), dtype=object)
-    single[()] = value
-    return single
+    return np.array([value], dtype=object).reshape(())
 
 
 def _element(array: Any, place: tuple[int, ...]) -> Any:

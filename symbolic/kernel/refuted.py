@@ -23,7 +23,7 @@ def refuse(
     Radii are independent: what holds nothing else is false where a weight differs.
     """
     keys = {key for form in apart for key in form.parts}
-    if keys <= {NUMBER, RADII} and not _supposes(groups):
+    if keys <= {NUMBER, RADII} and not any(group.supposed for group in flat(groups)):
         for form in apart:
             for key, weights in form.parts.items():
                 for points, value in weights.pieces:
@@ -52,10 +52,6 @@ def shown(value: RationalFunction, limit: Limit | None = None) -> str:
     if limit and {*limit.growing} == {sy.M, sy.j}:
         value = value.substitute({sy.j: FIELD.generator(sy.z) * FIELD.generator(sy.M)})
     return text(factored(value.reduced()))
-
-
-def _supposes(groups: Groups) -> bool:
-    return any(group.supposed for group in flat(groups))
 
 
 def _witness(
