@@ -17,15 +17,9 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
-<<<<<<< HEAD
     "derivations": 7_807,
     "numeric": 9_625,
     "force_diffusion": 74,
-=======
-    "derivations": 7_800,
-    "numeric": 9_647,
-    "force_diffusion": 78,
->>>>>>> 224751cc (Single-use helpers go where they are used; numpy loads when numbers are asked for)
     "benchmarks": 836,
     ".ci": 500,
     "tests": 14_337,
