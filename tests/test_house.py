@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
-    "derivations": 7_807,
+    "derivations": 7_806,
     "numeric": 9_625,
     "force_diffusion": 74,
     "benchmarks": 836,
