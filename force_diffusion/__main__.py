@@ -1,5 +1,6 @@
 """Where the program starts; the command line is loaded inside of the guard."""
 
+import gc
 import os
 
 from force_diffusion.derivations.commands.guard import guarded
@@ -12,8 +13,11 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return its exit status."""
 
     def program() -> int:
+        gc.disable()  # what is loaded now stays: collections need not look at it, now or later
         from force_diffusion.derivations.commands.cli import run
 
+        gc.freeze()
+        gc.enable()
         return run(arguments)
 
     return guarded(program)

@@ -18,11 +18,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
     "derivations": 7_806,
-    "numeric": 9_625,
-    "force_diffusion": 74,
+    "numeric": 9_597,
+    "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 14_337,
+    "tests": 14_338,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

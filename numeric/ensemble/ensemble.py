@@ -5,7 +5,7 @@ from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent import futures
 from concurrent.futures import Executor
-from contextlib import closing, contextmanager, nullcontext
+from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
 from dataclasses import replace
 from itertools import islice
 from multiprocessing import get_context
@@ -116,13 +116,14 @@ def ensemble(
     if store is not None and not isinstance(store, str | Path):
         raise ArgumentError(f"store = {quoted(store)}: must be the name of a file")
     m = measurement(scene, reach=None if reach is None else _number("reach", reach, 1e300))
-    own = None if executor is not None else _executor(m, size, workers)
+    solving: AbstractContextManager[Executor] = (
+        _executor(m, size, workers) if executor is None else nullcontext(executor)
+    )
     opened = None if store is None else Store(Path(store), description(m))
+    followed = _bar(size, until) if progress is True else nullcontext(progress or _silent)
     try:
-        solved = own or executor
-        assert solved is not None
-        with _bar(size, until) if progress is True else nullcontext(progress or _silent) as follow:
-            return _joined(m, size, solved, opened, until, confidence, follow)
+        with closing(opened) if opened else nullcontext(), solving as solver, followed as follow:
+            return _joined(m, size, solver, opened, until, confidence, follow)
     except (futures.BrokenExecutor, futures.CancelledError, MemoryError) as error:
         raise WorkersError(
             f"a worker died, perhaps for want of memory ({error}): use fewer.{_kept(opened)}"
@@ -133,11 +134,6 @@ def ensemble(
         if opened is not None:
             interrupt.add_note(_kept(opened).strip())
         raise
-    finally:
-        if own is not None:
-            own.shutdown(cancel_futures=True)
-        if opened is not None:
-            opened.close()
 
 
 def _silent(done: int, width: float | None) -> None:

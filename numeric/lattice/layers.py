@@ -176,23 +176,6 @@ class Rows(Sequence[Layer]):
         row = range(len(self))[which]
         return Layer(self.lowest + row, int(self.firsts[row]), int(self.counts[row]))
 
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Rows) and (
-            self is other
-            or (
-                self.lowest == other.lowest
-                and np.array_equal(self.firsts, other.firsts)
-                and np.array_equal(self.counts, other.counts)
-            )
-        )
-
-    def __hash__(self) -> int:
-        return self._hash
-
-    @cached_property
-    def _hash(self) -> int:
-        return hash((self.lowest, self.firsts.tobytes(), self.counts.tobytes()))
-
 
 @dataclass(frozen=True)
 class Region:

@@ -13,14 +13,8 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from .branch import Contact, Site
 from .layers import Layer, Region, Rows, closed_below
-
-Site = tuple[int, int]
-
-
-def upper_bead(i: int, j: int, branch: str) -> Site:
-    """Give the upper bead of the contact f^±_ij."""
-    return (i + 1 if branch == "+" else i - 1, j + 1)
 
 
 def triangle(i: int, j: int, width: int | None) -> Region:
@@ -105,13 +99,13 @@ def meet(a: Rows, b: Rows, width: int | None) -> Rows:
     return Rows(np.where(empty, a.firsts, first), np.where(empty, 0, count), a.lowest)
 
 
-def contact_rows(contact: tuple[int, int, str], reach: Rows, width: int | None) -> Rows:
+def contact_rows(contact: Contact, reach: Rows, width: int | None) -> Rows:
     """Give the beads whose force balance decides one contact force.
 
     ``reach`` are the beads that the loads reach (all of the packing for surface and bulk loads).
     There is none where no load reaches the contact: its force is then exactly zero.
     """
-    x = upper_bead(*contact)
+    x = contact.upper
     top = len(reach) - 1
     if top < x[1]:
         return Rows()

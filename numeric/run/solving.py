@@ -232,12 +232,11 @@ class Solution(Tabled):
 
         Lengths and forces are those of ``contacts``; each point has a ``radius``.
         """
-        at = self._packing(packing)
-        _write(path, vtk(*self._places(at), self.contacts.of(at)))
+        _write(path, vtk(*self._places(packing), self.contacts.of(packing)))
 
     def to_dump(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the beads of one packing as a *dump* of LAMMPS, which OVITO opens."""
-        places = self._places(self._packing(packing))
+        places = self._places(packing)
         _write(path, dump(*places, self._box(places)))
 
     def to_dump_local(self, path: str | Path, *, packing: int = 0) -> None:
@@ -246,8 +245,8 @@ class Solution(Tabled):
         ``batom1`` and ``batom2`` are the lower and the upper bead, numbered from 1 as in
         ``to_dump``. In OVITO open the beads, then load this file by the modifier *Load trajectory*.
         """
-        at = self._packing(packing)
-        _write(path, dump_local(self.contacts.of(at), self._box(self._places(at))))
+        box = self._box(self._places(packing))
+        _write(path, dump_local(self.contacts.of(packing), box))
 
     def _packing(self, number: int) -> int:
         """The number of a packing. Raises ``SceneError``."""
@@ -257,11 +256,11 @@ class Solution(Tabled):
         return int(number)
 
     def _places(self, packing: int) -> tuple[Array, Array]:
-        """Centres and radii of one packing."""
-        beads = self.beads
+        """Centres and radii of one packing. Raises ``SceneError``."""
+        at, beads = self._packing(packing), self.beads
         count = len(beads.layers)
         positions = as_floats(beads.positions).reshape(-1, count, self._dimension)
-        return positions[packing], beads.radii.reshape(-1, count)[packing]
+        return positions[at], beads.radii.reshape(-1, count)[at]
 
     def _box(self, places: tuple[Array, Array]) -> list[str]:
         return box_of(*places, self._shape[-1] * float(self.scene.packing.s))
@@ -422,7 +421,7 @@ def _named_as_here() -> Iterator[None]:
         yield
     except SceneError as error:
         name = error.key.removeprefix("packing.").removeprefix("disorder.")
-        raise SceneError(name, error.value, error.allowed) from None
+        raise type(error)(name, error.value, error.allowed) from None
 
 
 def _dimension_of(given: GivenRadii, asked: Any) -> int:
@@ -432,9 +431,8 @@ def _dimension_of(given: GivenRadii, asked: Any) -> int:
         raise SceneError("dimension", asked, "must be 2, of discs, or 3, of spheres")
     if asked is None and len(shape) == 3 and shape[1] == shape[2]:
         count, side = shape[:2]
-        raise SceneError(
+        raise given.wrong(
             given.name,
-            None,
             f"shape {shape}: say dimension=3 if it is one packing of spheres in {count} layers of "
             f"{side} × {side}, or dimension=2 if it is {count} packings of discs in {side} layers "
             f"of {side}",
@@ -443,11 +441,12 @@ def _dimension_of(given: GivenRadii, asked: Any) -> int:
     beads, form = ("discs", "(layers, W)") if dimension == 2 else ("spheres", "(layers, W, W)")
     if len(shape) not in {dimension, dimension + 1} or len(set(shape[1 - dimension :])) > 1:
         allowed = f"shape {shape}: {beads} take {form}, with an axis before it for several packings"
-        raise SceneError(given.name, None, allowed)
+        raise given.wrong(given.name, allowed)
     return dimension
 
 
 @checked
+@_named_as_here()
 def solve(
     radii: ArrayLike | None = None,
     *,
@@ -494,8 +493,7 @@ def solve(
     """
     if (radii is None) == (delta_r is None):
         raise SceneError("radii", None, "give either radii or delta_r")
-    with _named_as_here():
-        given = GivenRadii(radii=radii) if delta_r is None else GivenRadii(delta_r=delta_r)
+    given = GivenRadii(radii=radii) if delta_r is None else GivenRadii(delta_r=delta_r)
     if load is not None and not isinstance(load, Load):
         allowed = "must be SurfaceLoad(), BulkLoad(), PointLoad(at=(k, l)) or Load(kind=…)"
         raise SceneError("load", load, allowed)
@@ -505,16 +503,15 @@ def solve(
     shape = given.values.shape
     *batch, layers = shape[: 1 - dimension]
     if layers < 2:
-        raise SceneError(given.name, None, f"shape {shape}: a packing has at least 2 layers")
+        raise given.wrong(given.name, f"shape {shape}: a packing has at least 2 layers")
     if shape[-1] < layers and not allow_images:
         beads = " × ".join(map(str, shape[1 - dimension :]))
         turned = "swapaxes(-1, -2)" if batch else "T"
         remedy = (
             f"if transposed, give {given.name}.{turned}; " if dimension == 2 <= shape[-1] else ""
         )
-        raise SceneError(
+        raise given.wrong(
             given.name,
-            None,
             f"shape {shape}: {layers} layers of {beads} beads would bear on their "
             f"own images; {remedy}if you mean it, say allow_images=True",
         )
@@ -522,21 +519,20 @@ def solve(
         radius = Fraction(float(given.values.mean())) if delta_r is None else 1
         if radius <= 0:
             raise SceneError("radii", None, f"must be positive; their mean is {float(radius):.6g}")
-    with _named_as_here():
-        packing = Packing(
-            height=layers - 1,
-            width=shape[-1],
-            dimension=dimension,
-            radius=radius,
-            spacing=spacing,
-            allow_images=allow_images,
-        )
-        load = SurfaceLoad() if load is None else load
-        ask = Ask(quantity="contact_forces", realisations=batch[0] if batch else 1)
-        sections: dict[str, Any] = {"packing": packing, "disorder": given, "load": load, "ask": ask}
-        if tolerance is None and (solution := _directly(sections)) is not None:
-            return solution
-        scene = Scene(**sections)
+    packing = Packing(
+        height=layers - 1,
+        width=shape[-1],
+        dimension=dimension,
+        radius=radius,
+        spacing=spacing,
+        allow_images=allow_images,
+    )
+    load = SurfaceLoad() if load is None else load
+    ask = Ask(quantity="contact_forces", realisations=batch[0] if batch else 1)
+    sections: dict[str, Any] = {"packing": packing, "disorder": given, "load": load, "ask": ask}
+    if tolerance is None and (solution := _directly(sections)) is not None:
+        return solution
+    scene = Scene(**sections)
     asked = None if tolerance is None else read_tolerance(tolerance)
     forces = run(plan(scene, asked, certified=certified, text=False))
     below = (*batch, layers - 1, *shape[1 - dimension :], dimension)

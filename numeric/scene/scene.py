@@ -80,7 +80,7 @@ def check(scene: CheckedScene) -> None:
         _check_place(packing, "load.at", load.at, contact=False, layers=(1, packing.height))
     if scene.effects.contacts == "unilateral" and (packing.width or 3) < 3:
         allowed = 'must be 3 or more with contacts = "unilateral": beads move in a periodic strip'
-        raise SceneError("packing.width", packing.width, allowed)
+        raise packing.wrong("width", allowed)
     if ask.at is not None:
         contact = ask.quantity != "positions"
         layers = (0, packing.height - contact)
@@ -98,9 +98,9 @@ def _check_need(scene: CheckedScene, need: Need) -> None:
     value = getattr(keys, name) if name in keys.model_fields_set else None
     if value is None and any(word in need.required for word in says):
         form = ', as at = [i, j], or for a contact [i, j, "+"]' if name == "at" else ""
-        raise SceneError(need.key, None, f'is required with {need.other} = "{says[0]}"{form}')
+        raise keys.wrong(name, f'is required with {need.other} = "{says[0]}"{form}')
     if value is not None and not any(word in need.values for word in says):
-        raise SceneError(need.key, value, f"needs {need.other} = {either(need.values)}")
+        raise keys.wrong(name, f"needs {need.other} = {either(need.values)}")
 
 
 def refuse(command: str, scene: CheckedScene, *, reach: bool = False) -> None:
@@ -143,9 +143,8 @@ def _check_packing(p: Packing) -> None:
             f"(it is {ratio} r), or beads of the ordered packing overlap",
         )
     if p.width is not None and p.width <= p.height and not p.allow_images:
-        raise SceneError(
-            "packing.width",
-            p.width,
+        raise p.wrong(
+            "width",
             f"must be greater than the height {p.height}, or contacts see their periodic images; "
             "say allow_images = true if a narrow periodic strip is meant"
             + (", or leave width out for the infinite slab" if flat else ""),
@@ -181,43 +180,36 @@ def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
     shape, wanted, rank = given.values.shape, packing.shape, packing.dimension
     if shape[-rank:] != wanted or len(shape) not in (rank, rank + 1):
         beads = " × ".join(map(str, wanted[1:]))
-        raise SceneError(
-            f"disorder.{given.name}",
-            None,
+        raise given.wrong(
+            given.name,
             f"an array of shape {shape}; the packing has {wanted[0]} layers, base included, of "
             f"{beads} beads: give {wanted}, or (packings, …) for several",
         )
     if not 1 <= packing.radius * FARTHEST <= FARTHEST**2:
         allowed = "must lie between 1e-307 and 1e307 with an array of float64: choose another unit"
-        raise SceneError("packing.radius", packing.radius, allowed)
+        raise packing.wrong("radius", allowed)
     mean = float(given.values.mean()) - (packing.radius if given.delta_r is None else 0)
     if abs(mean) > packing.radius / 2:
-        raise SceneError(
-            "packing.radius",
-            packing.radius,
-            f"must be close to the mean radius of the beads, which differs from it by {mean:.3g}",
-        )
+        allowed = f"must be close to the mean radius of the beads, which is {mean:.3g} off"
+        raise packing.wrong("radius", allowed)
     packings = shape[0] if len(shape) > rank else 1
     if ask.realisations > packings:
-        raise SceneError(
-            "ask.realisations", ask.realisations, f"must be at most {packings}: so many are given"
-        )
+        raise ask.wrong("realisations", f"must be at most {packings}: so many are given")
 
 
 def _check_disorder(d: Disorder, ask: Ask) -> None:
     if d.kind == "file":
         if ask.realisations > 1:
-            allowed = "must be 1: a file holds one packing"
-            raise SceneError("ask.realisations", ask.realisations, allowed)
+            raise ask.wrong("realisations", "must be 1: a file holds one packing")
         return
     assert d.relative_std is not None
     if d.relative_std > 10**100:
-        raise SceneError("disorder.relative_std", d.relative_std, "must be at most 1e100")
+        raise d.wrong("relative_std", "must be at most 1e100")
     reach = {"uniform": 3 * d.relative_std**2, "two-point": d.relative_std**2}.get(d.kind, 0)
     if reach >= 1:
         below = "1/√3 = 0.57735…" if d.kind == "uniform" else "1"
         allowed = f"must be below {below}: {d.kind} disorder would reach a radius ≤ 0"
-        raise SceneError("disorder.relative_std", d.relative_std, allowed)
+        raise d.wrong("relative_std", allowed)
 
 
 def _check_layers(ask: Ask, load: Load, height: int) -> None:
@@ -226,10 +218,10 @@ def _check_layers(ask: Ask, load: Load, height: int) -> None:
         return
     top = height if load.at is None else int(load.at[-1])
     if not ask.layers or len(set(ask.layers)) < len(ask.layers):
-        raise SceneError("ask.layers", ask.layers, "must be one layer or several, each once")
+        raise ask.wrong("layers", "must be one layer or several, each once")
     if not all(0 <= j < top for j in ask.layers):
         allowed = f"must be layers of lower beads below the load, from 0 to {top - 1}"
-        raise SceneError("ask.layers", ask.layers, allowed)
+        raise ask.wrong("layers", allowed)
 
 
 def files_read(scene: CheckedScene) -> dict[str, str]:

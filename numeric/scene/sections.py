@@ -111,6 +111,12 @@ class Section(BaseModel):
         except ValidationError as error:
             raise explained(error, type(self), values) from None
 
+    def wrong(self, name: str, allowed: str) -> SceneError:
+        """Give the error that says what is allowed of a key; an array is not shown."""
+        value = getattr(self, name)
+        shown = None if isinstance(value, np.ndarray) else value
+        return SceneError(f"{self.section}.{name}", shown, allowed)
+
     def __repr__(self) -> str:
         said = {name: getattr(self, name) for name in self.model_fields_set}
         shown = [f"{name}={_brief(said[name])}" for name in type(self).model_fields if name in said]

@@ -3,6 +3,7 @@
 from collections.abc import Iterable
 
 from force_diffusion.numeric.lattice import regions
+from force_diffusion.numeric.lattice.branch import Branch, Contact
 from force_diffusion.numeric.lattice.layers import Layer
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -84,7 +85,7 @@ def test_a_contact_needs_what_stands_on_it_and_bears_load(
     reach = regions.downward_cone(loaded, width)
     x = (i + (1 if branch == "+" else -1), j + 1)
     needed = walk([x], 1, len(reach) - 1, width) & sites(reach, width)
-    found = sites(regions.contact_rows((i, j, branch), reach, width), width)
+    found = sites(regions.contact_rows(Contact(i, j, Branch(branch)), reach, width), width)
     if (home(x[0], width), x[1]) not in needed:
         assert not found
         return
