@@ -7,16 +7,9 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.ensemble import sums
+from force_diffusion.numeric.ensemble import store, sums
 from force_diffusion.numeric.ensemble.ensemble import RealisationError
 from force_diffusion.numeric.ensemble.result import Ensemble
-from force_diffusion.numeric.ensemble.store import (
-    Store,
-    StoreError,
-    StoreFailedError,
-    description,
-    read_store,
-)
 from force_diffusion.numeric.ensemble.sums import measurement, solve_block
 from hypothesis import given
 from hypothesis import strategies as st
@@ -26,7 +19,7 @@ from tests.numeric.ensemble.cases import PROFILE, bytes_of_first, case
 from tests.numeric.scenes import scene
 
 M = case("profile")
-KEY = description(M)
+KEY = store.description(M)
 SIZE = 40
 WHOLE = bytes_of_first(M, SIZE)
 
@@ -44,7 +37,7 @@ def sound(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 def refused(path: Path, says: str) -> None:
     before = path.read_bytes()
-    with pytest.raises(StoreError, match=says):
+    with pytest.raises(store.StoreError, match=says):
         on_file(path, SIZE)
     assert path.read_bytes() == before
     assert [p.name for p in path.parent.iterdir()] == [path.name]
@@ -62,7 +55,7 @@ def test_flipped_and_missing_bytes_are_refused_or_do_no_harm(
     path.write_bytes(wrong)
     try:
         found = on_file(path, SIZE)
-    except StoreError:
+    except store.StoreError:
         assert path.read_bytes() == bytes(wrong)
     else:  # in a part of the file that holds nothing
         assert found.sums.to_bytes() == WHOLE
@@ -78,12 +71,12 @@ def test_files_of_another_kind_are_refused(tmp_path: Path) -> None:
     with closing(sqlite3.connect(path)) as database, database:
         database.execute("CREATE TABLE sums (first INTEGER)")
     refused(path, "not the store of an ensemble")
-    with pytest.raises(StoreError, match="must be a regular file"):
-        Store(tmp_path, KEY)
-    with pytest.raises(StoreError, match="can't be written to"):
-        Store(tmp_path / "no folder" / "ensemble.fd", KEY)
-    with pytest.raises(StoreError, match="no such store"):
-        Store(tmp_path / "none.fd", None)
+    with pytest.raises(store.StoreError, match="must be a regular file"):
+        store.Store(tmp_path, KEY)
+    with pytest.raises(store.StoreError, match="can't be written to"):
+        store.Store(tmp_path / "no folder" / "ensemble.fd", KEY)
+    with pytest.raises(store.StoreError, match="no such store"):
+        store.Store(tmp_path / "none.fd", None)
 
 
 @pytest.mark.parametrize(
@@ -117,23 +110,23 @@ def test_a_file_of_another_ensemble_or_version(
         (case("profile", relative_std="=1e-5"), "relative_std is 0.0001, here 1e-05"),
         (case("profile of a bulk load"), "load.kind"),
     ):
-        with pytest.raises(StoreError, match=says):
-            Store(path, description(other))
+        with pytest.raises(store.StoreError, match=says):
+            store.Store(path, store.description(other))
     monkeypatch.setattr("force_diffusion.numeric.ensemble.store.__version__", "9.9")
-    with pytest.raises(StoreError, match=r"version.force-diffusion is .*, here 9.9"):
-        Store(path, description(M))
+    with pytest.raises(store.StoreError, match=r"version.force-diffusion is .*, here 9.9"):
+        store.Store(path, store.description(M))
     assert path.read_bytes() == sound
 
 
 def test_the_same_scene_in_other_words_is_the_same_ensemble() -> None:
     other = {**PROFILE, "packing": {"height": 4, "width": 6, "radius": "=1.0", "spacing": "=3.00"}}
     other["ask"] = {"quantity": "profile", "realisations": 77}
-    assert description(measurement(scene(other))) == KEY
+    assert store.description(measurement(scene(other))) == KEY
 
 
 def test_two_runs_may_share_a_file(tmp_path: Path) -> None:
     path = tmp_path / "ensemble.fd"
-    with closing(Store(path, KEY)) as one, closing(Store(path, KEY)) as other:
+    with closing(store.Store(path, KEY)) as one, closing(store.Store(path, KEY)) as other:
         for k, block in enumerate(M.blocks(SIZE)):
             (one, other)[k % 2].put(block, solve_block(M, *block))
             one.put(block, solve_block(M, *block))
@@ -154,10 +147,10 @@ def test_a_full_disk_is_told_and_leaves_the_file_good(
         return database
 
     monkeypatch.setattr(sqlite3, "connect", small)
-    with pytest.raises(StoreFailedError, match=r"full.* holds [1-9]\d* realisations"):
+    with pytest.raises(store.StoreFailedError, match=r"full.* holds [1-9]\d* realisations"):
         fd.ensemble(scene(PROFILE), 400, store=path)
     monkeypatch.setattr(sqlite3, "connect", connect)
-    held = read_store(path).realisations
+    held = store.read_store(path).realisations
     assert fd.ensemble(scene(PROFILE), 400, store=path).solved == 400 - held
 
 
@@ -183,7 +176,7 @@ def test_stopped_before_a_statement_it_goes_on(
     monkeypatch.setattr(sqlite3, "connect", connect)
     # the first block is written by the second INSERT
     written = 4 * max(statements.count("INSERT") - 2, 0)
-    assert (read_store(path).realisations if written else path.stat().st_size) == written
+    assert (store.read_store(path).realisations if written else path.stat().st_size) == written
     found = on_file(path, SIZE)
     assert found.solved == SIZE - written
     assert found.sums.to_bytes() == bytes_of_first(M, SIZE)

@@ -16,12 +16,6 @@ from force_diffusion.numeric.theory.expected import critical_height
 from tests.numeric.scenes import answer, basic
 
 
-def exact(value: Any) -> Fraction:
-    """Turn an mpf into the fraction that it is."""
-    sign, mantissa, exponent, _ = value._mpf_
-    return Fraction(int(-mantissa if sign else mantissa)) * Fraction(2) ** int(exponent)
-
-
 @pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1.0, -1.5])
 @pytest.mark.parametrize("layer", [0, 1, 2])
 def test_a_radius_that_is_none_names_the_bead(wrong: float, layer: int) -> None:

@@ -4,30 +4,87 @@ from copy import deepcopy
 from functools import cache
 from typing import Any
 
+import flint
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.errors import UndecidedError
+from force_diffusion.numeric.arithmetic.systems import Balls
 from force_diffusion.numeric.unilateral import certificate
-from force_diffusion.numeric.unilateral.certificate import smallest_singular_value
-from force_diffusion.numeric.unilateral.network import UnfinishedError
+from force_diffusion.numeric.unilateral.certificate import certify, smallest_singular_value
+from force_diffusion.numeric.unilateral.grains import Grains
+from force_diffusion.numeric.unilateral.network import Frame, Network, UnfinishedError
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.sparse import csc_array, eye_array, random_array
 from scipy.sparse.linalg import splu
 
 import force_diffusion as fd
-from tests.numeric.unilateral.packings import (
-    Packing,
-    certified,
-    changed,
-    more,
-    must_hold,
-    network_of,
-    packing_of,
-    pile,
-    strip,
-    third_base_bead,
-)
+from tests.numeric.unilateral.packings import Packing, must_hold, network_of, packing_of, strip
+
+BITS = 256
+
+
+def pile(*, period: str = "12") -> Packing:
+    """A bead on two of the base, in two triangles of sides 3, 4 and 5; forces are 5/8."""
+    return Packing(
+        period,
+        2,
+        ["2.5", "2.5", "2.5"],
+        [["0", "0"], ["0", "0"], ["0", "-1"]],
+        [["0", "0"], ["6", "0"], ["3", "4"]],
+        [[2, 0], [2, 1]],
+    )
+
+
+def more(x: str = "3", y: str = "20", *, radius: str = "1", load: str = "0", **of: Any) -> Packing:
+    """The pile, and a bead that touches nothing."""
+    packing = pile(**of)
+    packing.radii.append(radius)
+    packing.loads.append(["0", load])
+    packing.centres.append([x, y])
+    return packing
+
+
+def changed(key: str, at: int, value: Any) -> Packing:
+    packing = pile()
+    getattr(packing, key)[at] = value
+    return packing
+
+
+def third_base_bead(x: str, y: str) -> Packing:
+    packing = more(x, y, radius="2.5")
+    for column in (packing.radii, packing.loads, packing.centres):
+        column.insert(2, column.pop())
+    packing.fixed, packing.contacts = 3, [[3, 0], [3, 1]]
+    return packing
+
+
+def certified(packing: Packing) -> Network:
+    """Prove a packing by the certificate, to which contacts are pairs with a free bead.
+
+    Raises what that raises.
+    """
+    pairs = np.array([sorted(pair, reverse=True) for pair in packing.contacts]).reshape(-1, 2)
+    if (pairs[:, 0] == pairs[:, 1]).any() or (pairs[:, 0] < packing.fixed).any():
+        raise UnfinishedError("no contact")
+    with flint.ctx.workprec(BITS), np.errstate(all="ignore"):
+
+        def balls(values: Any) -> np.ndarray:
+            return np.asarray(np.frompyfunc(flint.arb, 1, 1)(np.array(values, dtype=object)))
+
+        centres, fixed = np.array(packing.centres, dtype=float), packing.fixed
+        load = balls(packing.loads)
+        frame = Frame(
+            balls(packing.radii), balls(packing.centres[:fixed]), flint.arb(packing.period), load
+        )
+        grains = Grains(
+            centres,
+            np.array(packing.radii, dtype=float),
+            float(packing.period),
+            load.astype(float),
+            fixed,
+        )
+        return certify(grains, pairs, frame, Balls(BITS))
 
 
 def refused(packing: Packing) -> str:

@@ -86,8 +86,8 @@ def test_without_tension_forces_are_as_deposited(seed: int) -> None:
 @pytest.mark.parametrize(
     "scene",
     [
-        strip(std=0.03, load=fd.BulkLoad()),
-        strip(std=0.03, load=fd.SurfaceLoad(angle_deg=10)),
+        strip(std=0.03, width=8, load=fd.BulkLoad()),
+        strip(std=0.03, width=8, load=fd.SurfaceLoad(angle_deg=10)),
         strip(std=0.03, load=fd.PointLoad(at=[0, 8])),
         *(strip(std=0.03, width=width, seed=seed) for width, seed in ((3, 2), (4, 4), (5, 2))),
     ],
@@ -140,7 +140,7 @@ def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(
 
 @pytest.mark.parametrize("load", [fd.SurfaceLoad(angle_deg=20), fd.BulkLoad()], ids=str)
 def test_equal_radii_rest_as_deposited(load: fd.Load) -> None:
-    at_rest(strip(std=0, load=load).run(), moved=False)
+    at_rest(strip(std=0, width=8, load=load).run(), moved=False)
 
 
 def test_equal_radii_under_one_load_are_no_strict_minimum() -> None:
