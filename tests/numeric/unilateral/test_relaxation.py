@@ -86,7 +86,7 @@ def test_without_tension_forces_are_as_deposited(seed: int) -> None:
 @pytest.mark.parametrize(
     "scene",
     [
-        strip(std=0.03, width=8, load=fd.BulkLoad()),
+        strip(std=0.04, width=8, load=fd.BulkLoad()),
         strip(std=0.03, width=8, load=fd.SurfaceLoad(angle_deg=10)),
         strip(std=0.03, load=fd.PointLoad(at=[0, 8])),
         *(strip(std=0.03, width=width, seed=seed) for width, seed in ((3, 2), (4, 4), (5, 2))),
