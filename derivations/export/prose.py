@@ -34,6 +34,7 @@ _POWER = re.compile(r"\^(?:\(([^()]*)\)|([-−]?\d+))")
 _STAR = re.compile(r"(?<=[A-Za-z])\*")
 _ROOT = re.compile(r"√(?:(\d+|[^\W\d_])|\(([^()]*)\))")
 _PUNCTUATION = re.compile(r"(?P<open>[(“\"]*)(?P<core>.*?)(?P<close>[)”\".,;:?!]*)", re.DOTALL)
+_END = re.compile(r"[”\".,;:?!]\)*$")
 _COORDINATES = re.compile(r"\(\$([^$]+)\$, \$([^$]+)\$\)")
 _MARKED = re.compile(r"([\\`*_$<\[\]])")  # what Markdown reads as markup
 _SYMBOLIC = re.compile("[" + re.escape("".join([*_MATHS, *_RAISED, *_LOWERED])) + "_^=+*/<>|0-9]")
@@ -117,36 +118,45 @@ def _parts(word: str) -> tuple[str, str, str]:
     return opening, core, closing
 
 
-def _pieces(words: str) -> Iterator[tuple[str, list[str], str]]:
-    """The pieces between a sentence's spaces: what stands before a formula, its words, what after.
+def _is_sign(word: str) -> bool:
+    return bool(word) and not any(character.isalnum() for character in word)
 
-    Neighbouring pieces of mathematics are one formula. Plain words have an empty one, and stand
-    before it.
+
+def _is_formula(word: str, last: str, following: str) -> bool:
+    """Whether a word between two others is mathematics, its punctuation apart."""
+    opening, core, closing = _parts(word)
+    symbol = core == "a" and (  # and not the article
+        (opening.endswith("(") and closing.startswith(",")) or {last, following} & _SIGNS
+    )
+    return bool(core) and (core.isdecimal() or bool(symbol) or _is_mathematics(core))
+
+
+def _pieces(words: str) -> Iterator[tuple[str, str, str]]:
+    """The pieces of a sentence: what stands before a formula, the formula, what after it.
+
+    Neighbouring pieces of mathematics are one formula, but for those in brackets of their own.
+    Plain words have an empty formula, and stand before it.
     """
-    formula: list[str] = []  # mathematics that is still open to the right
-    before = ""
+    run: list[str] = []
+    open_brackets = 0
     split = _ARGUMENT.sub(lambda match: match[0].replace(" ", ""), words).split(" ")
     for word, last, following in zip(split, ["", *split], [*split[1:], ""], strict=False):
-        opening, core, closing = _parts(word)
-        symbol = core == "a" and (  # and not the article
-            (opening.endswith("(") and closing.startswith(",")) or {last, following} & _SIGNS
-        )
-        if not core or not (core.isdecimal() or symbol or _is_mathematics(core)):
-            if formula:
-                yield before, formula, ""
-            formula, before = [], ""
-            yield word, [], ""
+        is_formula = _is_formula(word, last, following)
+        apart = word.startswith("(") and not open_brackets and not _is_sign(last)
+        if run and (apart or not is_formula):
+            yield _parts(" ".join(run))
+            run, open_brackets = [], 0
+        if not is_formula:
+            yield word, "", ""
             continue
-        if opening:
-            if formula:
-                yield before, formula, ""
-            formula, before = [], opening
-        formula.append(core)
-        if closing:
-            yield before, formula, closing
-            formula, before = [], ""
-    if formula:
-        yield before, formula, ""
+        run.append(word)
+        open_brackets += len(re.findall(r"[(\[]", word)) - len(re.findall(r"[)\]]", word))
+        closed = word.endswith(")") and open_brackets <= 0 and not _is_sign(following)
+        if closed or _END.search(word):
+            yield _parts(" ".join(run))
+            run, open_brackets = [], 0
+    if run:
+        yield _parts(" ".join(run))
 
 
 def prose_latex(words: str) -> str:
@@ -171,8 +181,8 @@ def _set(words: str, text: Callable[[str], str]) -> str:
     """A sentence with mathematics between dollars, and the ``text`` of all else."""
     done = []
     for before, formula, after in _pieces(words):
-        inner = " ".join(formula)
-        if formula and not inner.isdecimal():
-            inner = f"${' '.join(map(_set_mathematics, formula))}$"
-        done.append(f"{text(before)}{inner}{text(after)}")
+        shown = formula
+        if formula and not formula.isdecimal():
+            shown = f"${' '.join(map(_set_mathematics, formula.split(' ')))}$"
+        done.append(f"{text(before)}{shown}{text(after)}")
     return _COORDINATES.sub(r"$(\1, \2)$", " ".join(done))

@@ -99,7 +99,7 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
         r"50 \% of \{a\} \& $b_{1}$, $\#2$, \textbackslash{}x \~{}"
     )
     assert prose_latex("a sum of the (i, j)") == "a sum of the $(i, j)$"
-    assert prose_latex("as (i − k)/l grows (W > M)") == "as ($i - k)/l$ grows ($W > M$)"
+    assert prose_latex("as (1 − φ)²(i − k)/l (W > M)") == r"as $(1 - \phi )^{2}(i - k)/l$ ($W > M$)"
     assert prose_latex("n⁺·δn⁺_ij = 0.") == (
         r"$\hat{\mathbf{n}}^{+}\cdot \delta \hat{\mathbf{n}}^{+}_{ij} = 0$."
     )
@@ -112,7 +112,7 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
         r"$[a_{1}/((2b + c)\kappa ^{2})]^{1/3}$, if $a + b$ is even"
     )
     assert prose_latex("N = ½[l − (k − i)], a √(l + j)/M") == (
-        r"$N = \frac{1}{2}[l -$ ($k - i)]$, a $\sqrt{l+j}/M$"
+        r"$N = \frac{1}{2}[l - (k - i)]$, a $\sqrt{l+j}/M$"
     )
     assert prose_latex("unknown ☃").endswith(r"\text{[snowman]}$")
 
