@@ -27,7 +27,7 @@ EQUIVALENT: dict[int | str, dict[str, str]] = {
         "upper bound m = M shifted to M − 1": "the weight at m = M is M − m = 0",
         "case m ≤ j shifted to j + 1": "at m = j + 1 the weights of the two cases differ by 1",
         "case m ≤ j shifted to j − 1": "at m = j the two cases agree: nothing changes",
-    },
+    }
 }
 """The mechanical changes of an equation that say the same at the order that it keeps, and why."""
 

@@ -138,10 +138,7 @@ class Plane:
         return force * self.packing.direction(contact)[-1] / self.packing.base[0][-1]
 
     def read(
-        self,
-        expression: sympy.Basic,
-        at: Mapping[sympy.Symbol, Value],
-        origin: Site = (0, 0),
+        self, expression: sympy.Basic, at: Mapping[sympy.Symbol, Value], origin: Site = (0, 0)
     ) -> Value:
         """The value of an expression, for these values of its indices and other symbols.
 

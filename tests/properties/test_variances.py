@@ -23,9 +23,7 @@ HEIGHTS = 10**8, 10**10
 Deep = tuple[Geometry, Fraction, Fraction]
 """φ and r, σ, and z = j/M."""
 deep = st.tuples(
-    geometries,
-    lengths,
-    st.fractions(Fraction(1, 10), Fraction(9, 10), max_denominator=10),
+    geometries, lengths, st.fractions(Fraction(1, 10), Fraction(9, 10), max_denominator=10)
 )
 """So many tenths that whole layers lie there."""
 
