@@ -229,3 +229,7 @@ def test_progress_is_shown(
     shown = capsys.readouterr().err
     assert "solving" in shown
     assert "100%" in shown
+    fd.ensemble(scene(basic(4, 9, quantity="profile")), 200, until=0.2, progress=True)
+    shown = capsys.readouterr().err
+    assert "of 200 realisations" in shown
+    assert "until 0.2" in shown

@@ -27,7 +27,7 @@ def test_a_response_has_vertical_forces_that_sum_to_the_load() -> None:
 def test_one_contact_and_one_bead_are_those_of_all() -> None:
     every = scene(height=3, width=4).run()
     for p, q, j, branch, change in columns(every, "p", "q", "j", "branch", "change"):
-        if (p + 2 * q + j) % 5 == 0:
+        if (p + 2 * q + j) % 11 == 0:
             one = scene("contact", height=3, width=4, at=(p, q, j, branch)).run()
             assert one.arrays["change"].tolist() == [change]
             assert one.rows()[0]["branch"] == branch

@@ -19,7 +19,10 @@ from tests.numeric.ensemble.cases import PROFILE, bytes_of_first, case
 from tests.numeric.scenes import scene, toml
 
 # a second to load, which collecting tests should not take
-pytestmark = pytest.mark.skipif(find_spec("distributed") is None, reason="without Dask")
+pytestmark = [
+    pytest.mark.skipif(find_spec("distributed") is None, reason="without Dask"),
+    pytest.mark.long,
+]
 
 M = case("profile")
 
@@ -42,7 +45,6 @@ def client(local: Any) -> Iterator[Any]:
         yield client
 
 
-@pytest.mark.long
 def test_a_worker_is_killed_in_the_middle(client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(sums, "BEADS", 4 * M.problem.region.beads)
     pids = list(client.run(os.getpid).values())
@@ -92,7 +94,6 @@ def test_the_command_gives_the_same(
     assert capsys.readouterr().out == found
 
 
-@pytest.mark.long
 def test_a_scheduler_that_is_missing_or_has_no_workers(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

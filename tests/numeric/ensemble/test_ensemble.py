@@ -48,9 +48,6 @@ def test_arrays_rows_and_data_say_the_same(name: str) -> None:
 
 def test_layers_of_both_branches() -> None:
     found = fd.ensemble(scene(PROFILE), 150)
-    assert found.first_order_std is not None
-    error = found.std_error / found.std
-    assert (abs(found.std / found.first_order_std - 1) < 5 * error).all()
     assert found.mean - found.mean_change == pytest.approx(0.7559289460184544)
     assert found.solved == 150
     assert found.variance == pytest.approx(found.std**2)
@@ -59,19 +56,19 @@ def test_layers_of_both_branches() -> None:
     assert f"known to {100 * found.half_width:.2g} % (95 %, simultaneous)" in repr(found)
 
 
-@pytest.mark.parametrize("kind", ["surface", "bulk"])
-def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind: str) -> None:
-    load = {"kind": kind, "angle_deg": 25}
+@pytest.mark.parametrize(("kind", "angle"), [("surface", 25), ("bulk", 25), ("surface", 0)])
+def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind: str, angle: int) -> None:
+    load = {"kind": kind, "angle_deg": angle}
     found = fd.ensemble(scene({**PROFILE, "load": load}), 400)
     assert found.first_order_std is not None
-    assert found.std_over_mean is None
+    assert (found.std_over_mean is None) == bool(angle)
     ratio = found.std / found.first_order_std
     error = found.std_error / found.std
     assert (abs(ratio - 1) < 5 * error).all()
     plus = found.index["branch"] == "+"
     # the theory of the other branch is refuted everywhere
     other = found.std[plus] / found.first_order_std[~plus]
-    assert (abs(other - 1) > 5 * error[plus]).all()
+    assert (abs(other - 1) > 5 * error[plus]).all() == bool(angle)
 
 
 @pytest.mark.parametrize("reach", [-1, 0, math.nan])
@@ -100,13 +97,3 @@ def test_squares_beyond_floats_are_refused_and_not_zero(magnitude: str) -> None:
             getattr(found, squares)
     assert found.std / float(magnitude[1:]) == pytest.approx(usual.std, rel=1e-14)
     str(found)
-
-
-def test_progress_is_shown(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setenv("FORCE_COLOR", "1")  # as on a terminal
-    fd.ensemble(scene(PROFILE), 200, until=0.2, progress=True)
-    shown = capsys.readouterr().err
-    assert "of 200 realisations" in shown
-    assert "until 0.2" in shown

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -41,6 +42,13 @@ from matplotlib.axes import Axes
 import force_diffusion as fd
 
 NY = math.sqrt(1 - N_X**2)
+
+
+@cache
+def few(module: Any) -> Made:
+    """A figure of few packings."""
+    made: Made = module.figure(Options(realisations=16))
+    return made
 
 
 def columns(made: Made, name: str) -> dict[str, list[Any]]:
@@ -235,7 +243,7 @@ def test_theory_is_within_the_band_and_a_wrong_one_outside(name: str) -> None:
     ],
 )
 def test_points_with_bars_are_the_rows_of_the_table(module: Any, name: str, rows: int) -> None:
-    made = module.figure(Options(realisations=16))
+    made = few(module)
     table = {key: np.array(column) for key, column in columns(made, name).items()}
     assert {len(column) for column in table.values()} == {rows}
     shares = []
@@ -265,9 +273,6 @@ def test_figure_b13_has_the_leading_orders_of_the_exact_forms() -> None:
         assert spheres.leading(load, z) == pytest.approx(at_large, rel=1e-5)
 
 
-FEW = Options(realisations=16)
-
-
 def laid_out(made: Made) -> list[Axes]:
     made.figure.draw_without_rendering()
     return list(made.figure.axes)
@@ -283,15 +288,15 @@ def labels(axes: Axes, axis: str) -> list[str]:
 
 
 def test_figure_b7_has_labels_on_both_axes() -> None:
-    (axes,) = laid_out(neighbours.figure(FEW))
+    (axes,) = laid_out(few(neighbours))
     assert labels(axes, "x") == ["1", "2", "5", "10"]
     assert len(labels(axes, "y")) >= 3
 
 
 def test_panels_are_lettered_where_there_are_several() -> None:
-    both = laid_out(mean_forces.figure(FEW))
+    both = laid_out(few(mean_forces))
     assert [axes.get_title(loc="left") for axes in both] == ["(a)", "(b)"]
-    (alone,) = laid_out(neighbours.figure(FEW))
+    (alone,) = laid_out(few(neighbours))
     assert not alone.get_title(loc="left")
 
 

@@ -22,6 +22,7 @@ def scene(load: fd.Load, relative_std: float, packing: dict[str, int] = DISCS) -
     return question("profile", kind="normal", std=relative_std, seed=8, load=load, **packing)
 
 
+@pytest.mark.long(sample=3)
 @pytest.mark.parametrize(
     ("load", "relative_std", "packing", "room"),
     [
