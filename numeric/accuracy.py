@@ -111,7 +111,7 @@ def enclosed(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
     Gives the plan with the precision that was. Raises ``ToleranceError``, which says why more bits
     do not help.
     """
-    problem, spread = plan.problem, plan.problem.radii.relative_std()
+    problem, spread = plan.problem, plan.problem.radii.relative_std
     system = plan.system
     assert isinstance(system, Balls)
     if system.bits > MOST_BITS:
@@ -175,7 +175,7 @@ def of_carried(quantity: Quantity, table: Table, sizes: Sizes, plan: Plan) -> Ac
         return Accuracy(math.inf, False, FLOAT64.name, "nothing is left of the answer")
     if not largest:
         # the square of a small σ/r, which is what is left where changes cancel, rounds to zero
-        vanishes = 0 < problem.radii.relative_std() ** 2 < Fraction(1, 10**300)
+        vanishes = 0 < problem.radii.relative_std**2 < Fraction(1, 10**300)
         if plan.tolerance is None and not (sizes.changed or sizes.moved or vanishes):
             return Accuracy(0.0, False, FLOAT64.name, CARRIED)
         note = "every change is zero here, and only balls (a tolerance) tell whether that is exact"

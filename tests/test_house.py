@@ -18,11 +18,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
     "derivations": 7_811,
-    "numeric": 9_597,
+    "numeric": 9_545,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 14_310,
+    "tests": 14_313,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

@@ -106,7 +106,7 @@ def differs(rough: fd.Outcome, sharp: fd.Outcome) -> str:
     if "relative to σ/r" in rough.accuracy.note:  # as every change is zero
         scene = rough.plan.scene
         unit = scene.load.magnitude if rough.plan.quantity.needs_forces else scene.packing.radius
-        error = Fraction(stated) * rough.plan.problem.radii.relative_std() * unit
+        error = Fraction(stated) * rough.plan.problem.radii.relative_std * unit
     for name, a, b in zip(names, mine, true, strict=True):
         wide = max((midpoint(y.rad()) for y in b), default=Fraction(0))
         apart = (abs(midpoint(x) - midpoint(y)) for x, y in zip(a, b, strict=True))

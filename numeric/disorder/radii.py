@@ -45,6 +45,7 @@ class Radii(Protocol):
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Give δr/r of single beads, the same as in their rows; shape (sites,)."""
 
+    @property
     def relative_std(self) -> Fraction:
         """σ_δr/r: of the distribution, or as measured."""
 
@@ -67,13 +68,9 @@ class DrawnRadii:
     """Independent draws: ``kind`` "uniform", "normal" or "two-point", width of the packing."""
 
     kind: str
-    std: Fraction
+    relative_std: Fraction
     seed: int
     width: int | None
-
-    def relative_std(self) -> Fraction:
-        """σ_δr/r of the distribution."""
-        return self.std
 
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Scale deviates; a radius that is not positive raises ``RadiusError``."""
@@ -85,20 +82,20 @@ class DrawnRadii:
             drawn[:, at:end] = deviates(self.kind, self.seed, realisations, low, high)
             at = end
         self._check(drawn, lambda q: _site(rows, q))
-        return system.from_floats(drawn) * system.number(self.std)
+        return system.from_floats(drawn) * system.number(self.relative_std)
 
     def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
         """Scale deviates of single beads."""
         i, j = np.array(sites, dtype=np.int64).reshape(-1, 2).T
         drawn = deviates(self.kind, self.seed, [realisation], *_counters_of(i, j, self.width))
         self._check(drawn, sites.__getitem__)
-        return system.from_floats(drawn[0]) * system.number(self.std)
+        return system.from_floats(drawn[0]) * system.number(self.relative_std)
 
     def _check(self, drawn: Array, site: Callable[[int], tuple[int, int]]) -> None:
         least = Fraction(float(drawn.min(initial=0)))
-        if self.std * least <= -1:
+        if self.relative_std * least <= -1:
             bead = int(np.argwhere(drawn == float(least))[0][1])
-            shown = short(1 + self.std * least)
+            shown = short(1 + self.relative_std * least)
             raise RadiusError(site(bead), f"the drawn radius is {shown} r, not positive")
 
 
@@ -114,12 +111,9 @@ class MeasuredRadii:
     rho: Mapping[tuple[int, int], Fraction]
     width: int | None
 
-    def relative_std(self) -> Fraction:
-        """Give the root of the measured mean square of δr/r, to 15 digits; 0 only if all are 0."""
-        return self._relative_std
-
     @cached_property  # a plan asks for it again and again
-    def _relative_std(self) -> Fraction:
+    def relative_std(self) -> Fraction:
+        """The root of the measured mean square of δr/r, to 15 digits; 0 only if all are 0."""
         values = [v for v in self.rho.values() if v]
         if not values:
             return Fraction(0)
@@ -165,12 +159,9 @@ class ArrayRadii:
     origin: Fraction
     radius: Fraction
 
-    def relative_std(self) -> Fraction:
-        """Give the root of the mean square of δr/r; 0 only if all are 0."""
-        return self._relative_std
-
     @cached_property
-    def _relative_std(self) -> Fraction:
+    def relative_std(self) -> Fraction:
+        """The root of the mean square of δr/r; 0 only if all are 0."""
         deltas = self.values - float(self.origin)
         deltas /= float(self.radius)
         largest = float(max(deltas.max(initial=0), -deltas.min(initial=0)))

@@ -67,7 +67,7 @@ class Measurement:
     @cached_property
     def unit(self) -> int:
         """The power of two in whose units changes are summed up (σ/r is near it)."""
-        return math.frexp(unit_near(self.problem.radii.relative_std()))[1] - 1
+        return math.frexp(unit_near(self.problem.radii.relative_std))[1] - 1
 
     @cached_property
     def labels(self) -> dict[str, list[Any]]:

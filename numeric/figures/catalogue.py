@@ -12,7 +12,7 @@ from ..arithmetic.errors import ForceDiffusionError, checked, quoted
 from ..scene.sections import SceneError
 from ..tables import csv_bytes
 from .names import FIGURES, HEIGHTS, KINDS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
-from .packings import PAPER, Made, Notice, Options, Table, planned
+from .packings import PAPER, Made, Medium, Notice, Options, Table, planned
 
 LEAST_STD, MOST_STD = 1e-9, 0.5
 
@@ -141,8 +141,8 @@ def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None
         if value is not None and name not in own:
             raise SceneError(key, value, f"goes with figures {', '.join(own)} only")
     usual = PAPER.spacing if spacing is None else spacing
-    std = PAPER.std if relative_std is None else relative_std
-    scene = planned("profile", height=1, width=3, seed=0, spacing=usual, std=std).scene
+    medium = Medium(usual, PAPER.std if relative_std is None else relative_std)
+    scene = planned("profile", Options(), medium, height=1, width=3).scene
     assert scene.disorder is not None
     std = float(scene.disorder.relative_std or 0)
     if not LEAST_STD <= std <= MOST_STD:

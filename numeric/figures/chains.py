@@ -20,11 +20,7 @@ SHOWN = 34  # beads of a layer that are drawn
 
 def contacts(o: Options, medium: Medium) -> Table:
     """Solve one packing: lower bead (i, j), branch, both ends in units of r, f over its mean."""
-    plan = planned(
-        "contact_forces", height=HEIGHT, width=WIDTH, seed=o.seed, std=medium.std,
-        spacing=medium.spacing,
-    )  # fmt: skip
-    columns = solve_first(plan)
+    columns = solve_first(planned("contact_forces", o, medium, height=HEIGHT, width=WIDTH))
     names = {"x_low": "x", "y_low": "y", "x_high": "upper_x", "y_high": "upper_y"}
     return {
         **{name: columns[name] for name in ("i", "j", "branch")},

@@ -15,31 +15,14 @@ from matplotlib.axes import Axes
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
-from ..planning.plan import Plan
 from ..theory.expected import critical_height
 from . import packings
-from .packings import LEVEL, PAPER, Comparison, Made, Medium, Notice, Options
+from .packings import LEVEL, PAPER, Comparison, Made, Medium, Options
 from .q_model import weight_variance
 from .style import COLUMN, GREY, PAGE, RELATIVE_HEIGHT, panels, points
 
 MARKED = 16
 """About so many layers get a marker."""
-
-
-def averages(
-    M: int, realisations: range, seed: int, notice: Notice, medium: Medium = PAPER
-) -> tuple[Array, Array]:
-    """Average g = f/F − 1 and g² over the contacts of each layer; shapes (realisations, M)."""
-    ensemble = _ensemble(M, len(realisations), seed, medium)
-    return packings.moments(ensemble, notice, f"figure 3, M = {M}", realisations.start)
-
-
-def _ensemble(M: int, realisations: int, seed: int, medium: Medium) -> Plan:
-    """Plan packings of W = 2M: then no exact force sees an image."""
-    return packings.planned(
-        "profile", height=M, seed=seed, realisations=realisations, std=medium.std,
-        spacing=medium.spacing,
-    )  # fmt: skip
 
 
 def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
@@ -52,9 +35,10 @@ def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
 
 def simulated(M: int, o: Options) -> Comparison:
     """Simulate one height."""
-    start, medium = M << 32, o.medium()  # heights share no radii
-    averaged = averages(M, range(start, start + o.realisations), o.seed, o.notice, medium)
-    band, (exact, _) = packings.band_of_spread(*averaged, o.seed), curves(M, medium)
+    ensemble = packings.planned("profile", o, o.medium(), height=M)
+    # heights share no radii
+    averaged = packings.moments(ensemble, o.notice, f"figure 3, M = {M}", M << 32)
+    band, (exact, _) = packings.band_of_spread(*averaged, o.seed), curves(M, o.medium())
     return Comparison(f"M = {M}: exact finite-M curve", band, exact)
 
 
@@ -65,7 +49,7 @@ def figure(o: Options) -> Made:
     """
     medium, q_model = o.medium(), "q-model" in o.models
     for M in o.heights:  # one that is too large is refused before any is solved
-        _ensemble(M, o.realisations, o.seed, medium)
+        packings.planned("profile", o, medium, height=M)
     cases = [simulated(M, o) for M in o.heights]
     critical = critical_height(Fraction(medium.std))
     mosaic, width = ("ac;bc", PAGE) if q_model else ("a;b", COLUMN)

@@ -41,10 +41,8 @@ def simulated(o: Options) -> Comparison:
     """Simulate all angles, each on radii of its own: f⁺ at all of them, then f⁻."""
     averaged = []
     for place, angle in enumerate(ANGLES):
-        ensemble = packings.planned(
-            "profile", height=HEIGHT, seed=o.seed, realisations=o.realisations,
-            load=SurfaceLoad(angle_deg=Fraction(angle)),
-        )  # fmt: skip
+        load = SurfaceLoad(angle_deg=Fraction(angle))
+        ensemble = packings.planned("profile", o, height=HEIGHT, load=load)
         what = f"figure B2, {angle} degrees"
         averaged.append(packings.moments(ensemble, o.notice, what, place << 32, axes=(0, 3)))
     mean, square = (

@@ -46,10 +46,7 @@ def simulated(o: Options, number: int) -> tuple[Array, dict[str, Any]]:
     Gives (f − ⟨f⟩)/σ_f, shape (realisations,), and what the tests find.
     """
     (kind, M), medium = CASES[number], o.medium()
-    plan = planned(
-        "contact", at=(0, 0, "+"), height=M, width=None, seed=o.seed, kind=kind,
-        realisations=o.realisations, std=medium.std, spacing=medium.spacing,
-    )  # fmt: skip
+    plan = planned("contact", o, medium, height=M, width=None, kind=kind, at=(0, 0, "+"))
     quantity = plan.quantity
     assert isinstance(quantity, ContactQuantity)
 

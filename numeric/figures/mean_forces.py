@@ -53,10 +53,10 @@ def simulated(o: Options, load: str, spacing: Fraction) -> Comparison:
     where = f"{load} load, s = {float(spacing):g} r"
 
     def changed(geometry: str) -> Array:
+        medium = Medium(spacing, STD)
         ensemble = packings.planned(
-            "profile", height=HEIGHT, seed=o.seed, std=STD,
-            realisations=o.realisations, geometry=geometry, spacing=spacing, load=loaded(),
-        )  # fmt: skip
+            "profile", o, medium, height=HEIGHT, geometry=geometry, load=loaded()
+        )
         return packings.moments(ensemble, o.notice, f"figure B5, {where}, {geometry}")[0]
 
     band = packings.band_of_shift(changed, STD**2, o.seed)

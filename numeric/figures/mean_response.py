@@ -13,7 +13,7 @@ from ..mechanics.sweep import Solved
 from ..scene.sections import PointLoad
 from . import packings
 from .mean_forces import STD, cosine
-from .packings import Comparison, Made, Options
+from .packings import Comparison, Made, Medium, Options
 from .style import COLUMN, GREY, curve, panels, points
 
 APEX, LAYER = 8, 2
@@ -49,10 +49,10 @@ def simulated(o: Options, spacing: Fraction) -> Comparison:
     where, ordered = f"s = {float(spacing):g} r", 1 / (2 * np.sqrt((1 + cosine(spacing)) / 2))
 
     def changed(geometry: str) -> Array:
+        medium, load = Medium(spacing, STD), PointLoad(at=(0, APEX))
         ensemble = packings.planned(
-            "response", height=APEX, width=None, seed=o.seed, std=STD, geometry=geometry,
-            load=PointLoad(at=(0, APEX)), realisations=o.realisations, spacing=spacing,
-        )  # fmt: skip
+            "response", o, medium, height=APEX, width=None, geometry=geometry, load=load
+        )
         what = f"figure B9, {where}, {geometry}"
         return packings.gathered(ensemble, o.notice, what, beside)
 

@@ -54,7 +54,7 @@ def window_means(answer: Solved, number: int) -> Array:
 
 def simulated(o: Options) -> Comparison:
     """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
-    ensemble = packings.planned("profile", height=HEIGHT, seed=o.seed, realisations=o.realisations)
+    ensemble = packings.planned("profile", o, height=HEIGHT)
     square = packings.gathered(ensemble, o.notice, "figure B7", window_means)
     exact = [form(N) for form in (contacts, beads) for N in WINDOWS]
     what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"

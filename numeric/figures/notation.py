@@ -10,7 +10,7 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array
 from .beads import arrow, bare, draw_beads
-from .packings import N_X, SPACING, Made, Options, Table, planned, solve_first
+from .packings import N_X, SPACING, Made, Medium, Options, Table, planned, solve_first
 from .style import COLUMN, panels
 
 HEIGHT, WIDTH, STD = 3, 16, 0.06
@@ -25,7 +25,7 @@ NAMED = {
 def beads(o: Options) -> Table:
     """Solve a packing and cut the detail out of it: i, j, ordered and displaced centre, radius."""
     o.notice("figure 1")
-    plan = planned("positions", height=HEIGHT, width=WIDTH, seed=o.seed, std=STD)
+    plan = planned("positions", o, Medium(std=STD), height=HEIGHT, width=WIDTH)
     found = solve_first(plan)
     found = {name: column[found["i"] < SHOWN] for name, column in found.items()}
     sites = list(zip(found["i"].tolist(), found["j"].tolist(), strict=True))

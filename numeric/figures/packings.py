@@ -142,32 +142,34 @@ def table(names: str, rows: Sequence[Sequence[Any]]) -> Table:
 
 def planned(
     quantity: Any,
+    o: Options,
+    medium: Medium = PAPER,
     *,
     height: int,
-    seed: int,
     width: int | None = 0,
-    realisations: int = 1,
-    std: float = PAPER_STD,
     kind: Any = "uniform",
     at: tuple[int, int, str] | None = None,
     load: Load | None = None,
     geometry: Any = "exact",
-    spacing: Fraction = SPACING,
     dimension: int = 2,
 ) -> Plan:
-    """Plan an ensemble. Raises ``SceneError`` where a number is out of range or too large.
+    """Plan packings. Raises ``SceneError`` where a number is out of range or too large.
 
     A ``width`` of 0 is 2M: then no exact force sees an image. None is the infinite slab.
     """
     width, narrow = 2 * height if width == 0 else width, width is not None
     scene = CheckedScene(
         packing=Packing(
-            height=height, width=width, spacing=spacing, dimension=dimension, allow_images=narrow
+            height=height,
+            width=width,
+            spacing=medium.spacing,
+            dimension=dimension,
+            allow_images=narrow,
         ),
-        disorder=Disorder(kind=kind, relative_std=std, seed=seed),
+        disorder=Disorder(kind=kind, relative_std=medium.std, seed=o.seed),
         load=SurfaceLoad() if load is None else load,
         effects=Effects(geometry=geometry),
-        ask=Ask(quantity=quantity, at=at, realisations=realisations),
+        ask=Ask(quantity=quantity, at=at, realisations=o.realisations or 1),
     )
     return plan(scene)
 

@@ -43,10 +43,8 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
     right contact alone. Compared is σ on the beads of ``ON_CUTS``.
     """
     medium = o.medium(MEDIUM)
-    ensemble = packings.planned(
-        "response", height=APEX, width=None, seed=o.seed, std=medium.std, spacing=medium.spacing,
-        load=PointLoad(at=(0, APEX)), realisations=o.realisations,
-    )  # fmt: skip
+    load = PointLoad(at=(0, APEX))
+    ensemble = packings.planned("response", o, medium, height=APEX, width=None, load=load)
     change = packings.gathered(ensemble, o.notice, "figure 4", partial(vertical, ensemble))
     phi, square = medium.phi, change.var(axis=0) / medium.std**2
     exact = np.array([bead_response(i, j, 0, APEX, phi, 1, 1) for i, j in SITES], dtype=float)

@@ -33,9 +33,7 @@ def simulated(o: Options, place: int) -> Comparison:
     """Simulate a case, each on radii of its own."""
     load, M = CASES[place]
     number, loaded = LOADS[load]
-    ensemble = packings.planned(
-        "profile", height=M, seed=o.seed, realisations=o.realisations, load=loaded(), dimension=3
-    )  # fmt: skip
+    ensemble = packings.planned("profile", o, height=M, load=loaded(), dimension=3)
     what = f"{load} load, M = {M}"
     averaged = packings.moments(ensemble, o.notice, f"figure B13, {what}", place << 32)
     band = packings.band_of_spread(*averaged, o.seed)

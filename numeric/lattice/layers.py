@@ -137,7 +137,9 @@ class Rows(Sequence[Layer]):
         return self.firsts.repeat(self.counts) + 2 * steps, self.layers.repeat(self.counts)
 
     def parts(self, beads: int) -> "Iterator[Rows]":
-        """Cut into parts of about so many beads."""
+        """Cut into parts of about so many beads; fewer stay the rows that they are."""
+        if self.beads <= beads:
+            return iter([self])
         ends = np.flatnonzero(np.diff(np.cumsum(self.counts) // beads, append=-1)) + 1
         return (self[a:b] for a, b in pairwise([0, *ends.tolist()]))
 

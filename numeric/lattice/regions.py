@@ -23,15 +23,6 @@ def triangle(i: int, j: int, width: int | None) -> Region:
     return Region(width, Rows.between(i - depth, i + depth, width))
 
 
-def triangle_beads(j: int) -> int:
-    """Count the beads of a triangle with its tip in layer j.
-
-    >>> triangle_beads(3) == triangle(0, 3, None).beads == 10
-    True
-    """
-    return (j + 1) * (j + 2) // 2
-
-
 def downward_cone(loaded: Iterable[Site], width: int | None) -> Rows:
     """Give the beads that loads on ``loaded`` reach: rows of layers 0 … highest load.
 
@@ -113,15 +104,3 @@ def contact_rows(contact: Contact, reach: Rows, width: int | None) -> Rows:
     if not rows[x[1]].count:
         return Rows()
     return rows[: int(np.flatnonzero(rows.counts)[-1]) + 1]
-
-
-def contact_beads(j: int, height: int) -> int:
-    """Count the beads on which the exact f^±_ij depends (surface or bulk load, W ≥ 2M − j).
-
-    The cone above the contact holds M − j beads of the surface; layer m lies M − m below it, and
-    the triangles widen by one bead a layer: 2M − j − m beads, summed over m = 0 … M.
-
-    >>> contact_beads(0, 1), contact_beads(0, 64)
-    (3, 6240)
-    """
-    return (height + 1) * (3 * height - 2 * j) // 2

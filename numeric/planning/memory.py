@@ -51,7 +51,7 @@ def memory(
 
 
 def refuse_beads(quantities: Sequence[Quantity], beads: int, limit: int, *, text: bool) -> None:
-    """Refuse what surely takes too much memory before a single row of ``beads`` is made."""
+    """Refuse what surely takes too much memory for so many ``beads``, and for the plan itself."""
     scene = quantities[0].scene
     layers = 0 if quantities[0].single and not beads else scene.packing.height + 1
     nothing = Region(scene.packing.width, Rows())

@@ -77,14 +77,14 @@ class Plan:
         known = self.scene.effects.contacts == "bilateral" and problem.needs_forces
         if not known or problem.width is None or not has_theory(problem):
             return None
-        phi, std = float(problem.phi), float(problem.radii.relative_std())
+        phi, std = float(problem.phi), float(problem.radii.relative_std)
         unit = tuple(map(float, problem.load.strength(problem.n_x, FLOAT64).unit))
         return expected_tension(problem.height, problem.width, phi, std, load.kind, unit)
 
     @cached_property
     def critical_height(self) -> float:
         """M* = (σ/r)^(-2/3), where forces scatter by about their mean; infinite for equal radii."""
-        return critical_height(self.problem.radii.relative_std())
+        return critical_height(self.problem.radii.relative_std)
 
     @property
     def notes(self) -> list[str]:
@@ -99,7 +99,7 @@ class Plan:
                 f"about {tension.height_of_one}"
             )
         radii = problem.radii
-        spread = radii.relative_std()
+        spread = radii.relative_std
         if isinstance(radii, MeasuredRadii | ArrayRadii) and abs(radii.mean) > float(spread) / 2:
             notes.append(
                 f"the mean of the given radii differs from packing.radius by {radii.mean:.3g} r: "

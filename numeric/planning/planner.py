@@ -84,7 +84,7 @@ def _problem(
 ) -> tuple[Problem, dict[str, str]]:
     """Say which beads are solved, by which theory, and what that leaves out.
 
-    Raises ``SceneError`` for a scene that is too large, before a single row of beads is made, and
+    Raises ``SceneError`` for a scene that is too large, before any radii are read, and
     ``TableError``.
     """
     skipped: dict[str, str] = {}
@@ -93,10 +93,9 @@ def _problem(
     single = quantities[0].single and bool(ordered or effects.geometry == "first-order")
     beads = 5 * scene.packing.height
     if not single:
-        beads = max(quantity.most_beads() for quantity in quantities)
-    if ordered and scene.packing.dimension == 2:
-        beads = 0
-    refuse_beads(quantities, beads, limit, text=text)
+        beads = max(quantity.layers_beads for quantity in quantities)
+    swept = not ordered or scene.packing.dimension > 2
+    refuse_beads(quantities, beads * swept, limit, text=text)
 
     load = load_of(scene)
     needs_forces = any(quantity.needs_forces for quantity in quantities)
@@ -107,12 +106,14 @@ def _problem(
         needed = [quantity.beads(load) for quantity in quantities]
         rows = max((rows for rows, _ in needed), key=len)
         region = max((region for _, region in needed), key=lambda region: region.beads)
+        beads = int(region.rows.counts.sum(dtype=float))  # whole numbers could overflow
+        refuse_beads(quantities, beads * swept, limit, text=text)
     alike = DrawnRadii("uniform", Fraction(0), 0, load.width)
     radii: Radii = alike
     if not ordered:
         radii = radii_of(scene, region.rows)
         if not single and not unilateral:
-            if not radii.relative_std():
+            if not radii.relative_std:
                 ordered = "every delta_r is 0"
             elif not region.rows or (needs_forces and load.loaded == []):
                 ordered = "no load reaches what is asked for: the forces are exactly zero"
@@ -176,7 +177,7 @@ def why_balls(made: Plan, *, certified: bool) -> str:
     if tolerance is None:
         return ""
     if error is None:
-        half = critical_height(problem.radii.relative_std()) * SOUND
+        half = critical_height(problem.radii.relative_std) * SOUND
         return f"the height is above M*/2 = {half:.3g}, where rounding errors grow with it"
     return f"float64 is expected to err by {short(error)}" if error > tolerance else ""
 
@@ -214,7 +215,7 @@ def expected(
     if isinstance(system, Balls):
         exact = problem.route == Route.ORDERED
         return Fraction(0 if exact else max(problem.height, 4) ** 2 * 2**12, 2**system.bits)
-    highest = critical_height(problem.radii.relative_std())
+    highest = critical_height(problem.radii.relative_std)
     if problem.route == Route.EXACT and problem.height > highest * SOUND:
         return None
     return PRINTED * (1 + max(gathering(quantity, problem) for quantity in quantities)) * UNIT

@@ -62,7 +62,7 @@ def beyond_floats(scene: CheckedScene, radii: Radii, load: LoadSpec) -> bool:
     A change is about δr/r times the load, or times the unit of length. Errors of given radii are
     products of these.
     """
-    packing, spread = scene.packing, radii.relative_std()
+    packing, spread = scene.packing, radii.relative_std
     if isinstance(radii, MeasuredRadii):
         spread = radii.least
     if isinstance(radii, ArrayRadii) and not 1 / FARTHEST_UNIT <= packing.radius <= FARTHEST_UNIT:

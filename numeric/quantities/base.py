@@ -127,6 +127,11 @@ class Quantity(ABC):
         return self.scene.ask.at is not None and not self.by_layers
 
     @property
+    def layers_beads(self) -> int:
+        """How many beads whole layers have, where these are solved; else 0."""
+        return (self.top + 1) * (self.width or 0) if self.by_layers else 0
+
+    @property
     def top(self) -> int:
         """The highest layer that is solved where layers are whole: of the load, or as asked."""
         if self.scene.effects.contacts == "unilateral":
@@ -161,17 +166,6 @@ class Quantity(ABC):
         raise NotImplementedError(f"{self.name} has no line sums")
 
     # What limits it
-
-    def most_beads(self) -> int:
-        """Bound the beads to be solved, before a single row of them is made."""
-        if self.by_layers:
-            return (self.top + 1) * (self.width or 0)
-        layers = self.height + 1
-        beads = layers * (self.width or layers)
-        if self.scene.load.at is not None:
-            top = int(self.scene.load.at[1])
-            layers, beads = top + 1, regions.triangle_beads(top)
-        return beads if self.width is None else min(beads, self.width * layers)
 
     @abstractmethod
     def answer_rows(self, region: Region, realisations: int) -> int:
@@ -372,7 +366,7 @@ def first_order_std(problem: Problem) -> Callable[[int], tuple[Fraction, ...]] |
     if not has_theory(problem):
         return None
     assert isinstance(radii, DrawnRadii)
-    std, phi = radii.std, float(problem.phi)
+    std, phi = radii.relative_std, float(problem.phi)
     unit = tuple(map(float, load.strength(problem.n_x, FLOAT64).unit))
 
     def layer(j: int) -> tuple[Fraction, ...]:

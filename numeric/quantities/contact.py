@@ -38,13 +38,6 @@ class SingleContact(ContactQuantity):
         """Count the beads of the diagonals that decide the first-order force."""
         return first_order.beads_read(self.contact, load)
 
-    def most_beads(self) -> int:
-        """Bound the beads to be solved."""
-        if self.scene.load.at is not None or self.by_layers:
-            return super().most_beads()
-        beads = regions.contact_beads(self.contact.j, self.height)
-        return beads if self.width is None else min(beads, self.width * (self.height + 1))
-
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the one group, as the scene does."""
         assert self.scene.ask.at is not None

@@ -40,14 +40,6 @@ class Positions(Listed):
         assert self.scene.site is not None
         return 2 * self.scene.site[1] + 1
 
-    def most_beads(self) -> int:
-        """Bound the beads to be solved."""
-        if not self.single or self.scene.site is None:
-            return (self.top + 1) * (self.width or 0)
-        j = self.scene.site[1]
-        beads = regions.triangle_beads(j)
-        return beads if self.width is None else min(beads, self.width * (j + 1))
-
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a bead."""
         return (1 if self.scene.ask.at is not None else region.beads) * realisations

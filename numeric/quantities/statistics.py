@@ -47,7 +47,7 @@ class Merged(ContactQuantity):
 class _Moments:
     def __init__(self, quantity: Merged, problem: Problem, system: NumberSystem) -> None:
         self.quantity, self.problem, self.system = quantity, problem, system
-        self.unit = unit_near(problem.radii.relative_std())
+        self.unit = unit_near(problem.radii.relative_std)
         self.ordered: Any = None
         self.moments, self.scatter = Moments(self.unit), list[Array]()
 

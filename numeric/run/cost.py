@@ -306,7 +306,7 @@ def _smaller(whole: Plan, layers: int) -> Scene:
     ask = Ask(quantity="positions" if scene.ask.quantity == "positions" else "contact_forces")
     if scene.packing.width is None:
         ask = Ask(quantity="contact", at=(0, 0, "+"))
-    std = whole.problem.radii.relative_std()
+    std = whole.problem.radii.relative_std
     return Scene(
         packing=scene.packing.model_copy(update={"height": layers, "allow_images": True}),
         disorder=Disorder(kind="uniform", relative_std=std),

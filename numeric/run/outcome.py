@@ -82,8 +82,7 @@ class Result(Tabled):
     def text(self) -> dict[str, list[str]]:
         """The columns of the answer as text, see ``numeric.tables``: decimals with known digits."""
         if self.table.bins is not None:
-            rows = bins.printed(self.table.bins)
-            return {name: [str(row[name]) for row in rows] for name in ("low", "high", "count")}
+            return bins.printed(self.table.bins)
         system, table = self.plan.system, self.table
         with system.active():
             # a tolerance asks for the digits of these very packings
@@ -102,12 +101,9 @@ class Result(Tabled):
     @property
     def sampling_error(self) -> float | None:
         """The largest standard error of a statistic, relative to the largest change; or None."""
-        table = self.table
-        errors = [e[np.isfinite(e)] for e in table.errors.values()]
-        if not any(len(e) for e in errors):
-            return None
-        largest = max((float(e.max(initial=0)) for e in errors), default=0.0)
-        return largest / table.largest if largest and table.largest else None
+        errors = np.concatenate([np.zeros(0), *self.table.errors.values()])
+        largest = errors[np.isfinite(errors)].max(initial=0)
+        return float(largest) / self.table.largest if largest and self.table.largest else None
 
     @property
     def standard_errors(self) -> dict[str, Array]:

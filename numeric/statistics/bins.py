@@ -3,7 +3,6 @@
 import math
 from bisect import bisect_right
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
@@ -56,13 +55,11 @@ def counted(values: Array, edges: list[Fraction]) -> Array:
     return np.histogram(values, [float(edge) for edge in edges])[0]
 
 
-def printed(bins: list[tuple[Fraction, Fraction, int]]) -> list[dict[str, Any]]:
-    """Print bins, edges as the decimals that they are; a bin begins where the last one ends."""
-    rows: list[dict[str, Any]] = []
-    for low, high, count in bins:
-        start = rows[-1]["high"] if rows else decimal_string(low)
-        rows.append({"low": start, "high": decimal_string(high), "count": count})
-    return rows
+def printed(bins: list[tuple[Fraction, Fraction, int]]) -> dict[str, list[str]]:
+    """Print bins as columns, edges as the decimals that they are; each begins where one ends."""
+    highs = [decimal_string(high) for _, high, _ in bins]
+    lows = [decimal_string(low) for low, *_ in bins[:1]] + highs[:-1]
+    return {"low": lows, "high": highs, "count": [str(count) for *_, count in bins]}
 
 
 def _scaled(values: Array) -> tuple[Fraction, Array]:

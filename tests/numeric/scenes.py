@@ -153,8 +153,9 @@ class _Noted:
     radii: Radii
     sites: list[tuple[int, int]] = field(default_factory=list)
 
+    @property
     def relative_std(self) -> Fraction:
-        return self.radii.relative_std()
+        return self.radii.relative_std
 
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         self.sites.extend(zip(*(one.tolist() for one in rows.sites), strict=True))

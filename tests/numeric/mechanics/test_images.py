@@ -25,6 +25,7 @@ class Known:
     special: dict[tuple[int, int], Fraction]
     period: int
 
+    @property
     def relative_std(self) -> Fraction:
         return Fraction(1, 1000)
 

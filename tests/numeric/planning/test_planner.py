@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.lattice import regions
 from force_diffusion.numeric.planning.memory import float_bead
 from force_diffusion.numeric.run.running import run
 from hypothesis import given
@@ -29,7 +28,7 @@ def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(
     sections["effects"] = {"geometry": geometry}
     plan = planned(sections)
     solved, sites = radii_read(plan)
-    count = regions.contact_beads(j, M)
+    count = (M + 1) * (3 * M - 2 * j) // 2
     if geometry == "first-order":  # three diagonals up, and what two cross ones add
         count = j + max(j - 1, 0) + (3 * M + 2 if j <= M - 2 else 2 * M + 1)
     assert len(sites) == len(set(sites)) == count
@@ -68,7 +67,7 @@ def test_a_point_load_stays_in_its_cone() -> None:
     for row in solved.forces.rows:
         assert all(abs(i - 5) <= 7 - row.j for i in row.sites())
     assert solved.forces.g.shape[-1] == sum(7 - j + 1 for j in range(1, 8))
-    assert solved.packing.block.shape[-1] == regions.triangle_beads(7)
+    assert solved.packing.block.shape[-1] == 8 * 9 // 2
 
 
 def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[str, Any]]:

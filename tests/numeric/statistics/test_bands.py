@@ -2,7 +2,8 @@
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.figures.comparison import averages, curves
+from force_diffusion.numeric.figures.comparison import curves
+from force_diffusion.numeric.figures.packings import Options, moments, planned
 from force_diffusion.numeric.statistics import bands
 from force_diffusion.numeric.statistics.bands import critical_value, log_relative_std, simultaneous
 from scipy.special import ndtri
@@ -15,7 +16,8 @@ def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch: pytest.Mo
     monkeypatch.setattr(bands, "DRAWS", 4000)  # the quantile scatters: by 1.5 %, and both ways
     M, n, repetitions = 3, 50, 300
     # far below M*: what is nonlinear is a share M³(σ/r)² of σ_f, 2e-6
-    mean, square = averages(M, range(n * repetitions), 5, lambda _: None)
+    ensemble = planned("profile", Options(realisations=n * repetitions, seed=5), height=M)
+    mean, square = moments(ensemble, lambda _: None, "")
     truth = curves(M)[0]
     outside = {0.9: 0, 0.99: 0}
     for k in range(repetitions):
