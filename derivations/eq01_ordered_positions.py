@@ -78,22 +78,20 @@ def show_steps(steps: Steps) -> None:
         "All others are further apart: none of the terms is negative for |p| ≥ 2 (first) or "
         "|q| ≥ 2 (second), the last one being that of the tightest pair.",
         sympy.Tuple(
-            equation(
-                D(p, q) - 4 * r**2,
-                terms(
-                    times(4 * r**2, terms(p**2, -4), n_x**2),
-                    times(4 * r**2, q**2, n_y**2),
-                    terms(D(2, 0), -4 * r**2),
-                ),
-            ),
-            equation(
-                D(p, q) - 4 * r**2,
-                terms(
-                    times(4 * r**2, p**2, n_x**2),
-                    times(4 * r**2, terms(q**2, -4), n_y**2),
-                    terms(D(0, 2), -4 * r**2),
-                ),
-            ),
+            *(
+                equation(
+                    D(p, q) - 4 * r**2,
+                    terms(
+                        times(4 * r**2, across, n_x**2),
+                        times(4 * r**2, up, n_y**2),
+                        terms(D(*tightest), -4 * r**2),
+                    ),
+                )
+                for across, up, tightest in (
+                    (terms(p**2, -4), q**2, (2, 0)),
+                    (p**2, terms(q**2, -4), (0, 2)),
+                )
+            )
         ),
         rewrite(printed.theorem),
         PAIRS,

@@ -27,14 +27,9 @@ PRINTED = equation(
 )
 
 # δx of the bead less that of a support, and δr of both together
-dx, dy, rho = (
-    Symbol(name, latex, shown, real=True)
-    for name, latex, shown in (
-        ("dx", r"\Delta x", "Δx"),
-        ("dy", r"\Delta y", "Δy"),
-        ("rho", r"\rho", "ρ"),
-    )
-)
+dx = Symbol("dx", r"\Delta x", "Δx", real=True)
+dy = Symbol("dy", r"\Delta y", "Δy", real=True)
+rho = Symbol("rho", r"\rho", "ρ", real=True)
 SIDES = sympy.ImmutableMatrix([[n_x, n_y], [-n_x, n_y]])
 """The directions n⁺ and n⁻ from the supports to the bead, as rows."""
 

@@ -1,7 +1,7 @@
 """Eq. 7: how a vertical load splits between the two supports."""
 
 # fmt: off
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import cache, partial
 
 import sympy
@@ -28,9 +28,14 @@ SHARES = tuple(
 )
 """The forces over f_load/2n_y."""
 
-PRINTED = tuple(
-    equation(force, times(ORDERED, share)) for force, share in zip(FORCES, SHARES, strict=True)
-)
+
+def of_load(shares: Iterable[sympy.Expr]) -> list[sympy.Eq]:
+    """Both forces as shares of f_load/2n_y."""
+    pairs = zip(FORCES, shares, strict=True)
+    return [equation(force, times(ORDERED, share)) for force, share in pairs]
+
+
+PRINTED = tuple(of_load(SHARES))
 
 
 def split_plus(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
@@ -87,12 +92,7 @@ def show_steps(steps: Steps) -> None:
     forces = eq06.to_first_order(sympy.Matrix([1 + phi, 1 + phi]))
     steps.show(
         "Solved by elimination, with the pivots 1 and, at order 0, 1 − φ², and expanded in ν:",
-        sympy.Tuple(
-            *(
-                equation(force, times(ORDERED, share))
-                for force, share in zip(FORCES, forces, strict=True)
-            )
-        ),
+        sympy.Tuple(*of_load(forces)),
         solve(rows.theorems, FORCES),
     )
     printed = steps.show(

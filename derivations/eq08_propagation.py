@@ -17,11 +17,12 @@ HERE = (site_r, site_s)
 LEFT, RIGHT = (site_r - 1, site_s - 1), (site_r + 1, site_s - 1)
 FORCES = ForcePlus(*LEFT), ForceMinus(*RIGHT)
 ENTERING = ForcePlus(*HERE)
+RATIOS = FORCES[0] / ENTERING, FORCES[1] / ENTERING
 TURN = Dot(n_minus, terms(DeltaNPlus(*LEFT), minus(DeltaNPlus(*HERE))))
 
 PRINTED = (
-    equation(FORCES[0] / ENTERING, terms(1, times(phi / (1 - phi**2), TURN))),
-    equation(FORCES[1] / ENTERING, minus(times(1 / (1 - phi**2), TURN))),
+    equation(RATIOS[0], terms(1, times(phi / (1 - phi**2), TURN))),
+    equation(RATIOS[1], minus(times(1 / (1 - phi**2), TURN))),
 )
 
 nu_in = Symbol("nu_in", r"\nu_{\mathrm{in}}", "ν_in")  # n⁻·δn⁺ of the contact above
@@ -61,12 +62,7 @@ def show_steps(steps: Steps) -> None:
     forces = eq06.to_first_order(sympy.Matrix([1, phi + epsilon * nu_in]))
     steps.show(
         "Solved as for Eq. 7, and expanded in the three tilts ν:",
-        sympy.Tuple(
-            *(
-                equation(force / ENTERING, share)
-                for force, share in zip(FORCES, forces, strict=True)
-            )
-        ),
+        sympy.Tuple(*map(equation, RATIOS, forces)),
         solve(rows.theorems, FORCES),
     )
     printed = steps.show(

@@ -21,20 +21,13 @@ from force_diffusion.symbolic.symbols import (
 from sympy import Eq, Rational
 # fmt: on
 
-RESPONSE = Symbol(
-    "response",
-    r"\frac{\sigma_{\mathrm{ensemble}}^{2}(p)}{(f^{\mathrm{load}})^{2}}",
-    "σ²(p)/f_load²",
-)
-ONE_CONTACT = Symbol(
-    "contact_response",
-    r"\frac{\sigma^{2}(n_{y} f_{ij}^{+})}{(f^{\mathrm{load}})^{2}}",
-    "σ²(n_y f⁺_ij)/f_load²",
-)
-ON_LEG = Symbol(
-    "leg_response",
-    r"\frac{\sigma_{\mathrm{leg}}^{2}(p)}{(f^{\mathrm{load}})^{2}}",
-    "σ²(p on a leg)/f_load²",
+RESPONSE, ONE_CONTACT, ON_LEG = (
+    Symbol(name, rf"\frac{{{latex}}}{{(f^{{\mathrm{{load}}}})^{{2}}}}", f"{words}/f_load²")
+    for name, latex, words in (
+        ("response", r"\sigma_{\mathrm{ensemble}}^{2}(p)", "σ²(p)"),
+        ("contact_response", r"\sigma^{2}(n_{y} f_{ij}^{+})", "σ²(n_y f⁺_ij)"),
+        ("leg_response", r"\sigma_{\mathrm{leg}}^{2}(p)", "σ²(p on a leg)"),
+    )
 )
 LEG_MAGNITUDE = Symbol(
     "leg_force", r"\frac{\sigma_{\mathrm{leg}}^{2}(f)}{\langle f\rangle^{2}}", "σ²(f on a leg)/⟨f⟩²"

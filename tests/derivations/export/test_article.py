@@ -9,7 +9,6 @@ import pytest
 import sympy
 from force_diffusion.derivations.beyond.variances import IN_SPACE, UNIT
 from force_diffusion.derivations.export.article import (
-    ArticleError,
     article,
     figures_of,
     page,
@@ -319,18 +318,3 @@ def test_what_is_written() -> None:
     )
     figure = written("![](B5)\n\n*What it is.*\n")
     assert "\\includegraphics{figureB5.pdf}\n\\caption{What it is.}" in figure
-
-
-@pytest.mark.parametrize(
-    ("markdown", "said"),
-    [
-        ("### Small", "level 3"),
-        ("![a](B5)\n\nno caption", "figure B5 has no caption"),
-        ("![a](B99)\n\n*b*", "figure B99; there are 1, 2"),
-        ("It is {{nothing}}.", "quotes 'nothing'"),
-        ("It is {{leading B5 9}}.", "quotes 'leading B5 9'"),
-    ],
-)
-def test_what_it_does_not_know_is_an_error_in_words(markdown: str, said: str) -> None:
-    with pytest.raises(ArticleError, match=said):
-        written(markdown)
