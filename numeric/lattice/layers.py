@@ -25,19 +25,6 @@ Array = NDArray[Any]
 _NONE = np.empty(0, dtype=np.int64)
 
 
-def column(i: int, j: int, width: int) -> int:
-    """Give the column q of site (i, j) in a periodic layer of ``width`` beads (0 ≤ q < W).
-
-    Raises ``ValueError`` where no bead sits, that is where i + j is odd.
-
-    >>> column(-1, 1, 4)
-    3
-    """
-    if (i + j) % 2:
-        raise ValueError(f"({i}, {j}) is not a lattice site: i + j must be even")
-    return (i - j % 2) // 2 % width
-
-
 Bead = tuple[int, ...]
 """A bead (p, q, j) in three dimensions.
 
@@ -378,6 +365,18 @@ class Naming(NamedTuple):
         i, j = self.site([p + (branch.number == 0), q + (branch.number == 1), j + 1])
         return Block(branch, Layer(j, i, 1))
 
+    def above(self, lower: Array, number: Array) -> tuple[Array, Array]:
+        """Give the upper beads of contacts, and which of them are images beside the lower ones.
+
+        Beads are columns of their names; ``number`` is that of the direction.
+        """
+        steps = [[1, 1], [-1, 1]] if self.dimension == 2 else [[1, 0, 1], [0, 1, 1], [0, 0, 1]]
+        beside = lower + np.array(steps)[number].T
+        upper = beside.copy()
+        if self.side is not None:
+            upper[:-1] %= self.side * (2 if self.dimension == 2 else 1)
+        return upper, (upper != beside).any(axis=0)
+
     def beads(self, rows: Sequence[Layer]) -> dict[str, Array]:
         """Give the columns i and j, or p, q and j, of beads."""
         j = np.repeat([row.j for row in rows] or _NONE, [row.count for row in rows] or _NONE)
@@ -401,3 +400,16 @@ class Naming(NamedTuple):
 
     def _named(self, numbers: Sequence[Any]) -> dict[str, Array]:
         return dict(zip(bead_names(self.dimension), numbers, strict=True))
+
+
+def contacts_of(region: Region) -> tuple[Array, Array, Array]:
+    """Number the lower and upper beads of a whole packing's contacts, (n, 2).
+
+    Gives their directions and which of them cross the seam, too, (n,). They are in the order of
+    the lower beads.
+    """
+    beads = np.stack([*region.naming.beads(region.rows[:-1]).values()])
+    lower = beads.repeat(region.dimension, axis=1)
+    number = np.tile(np.arange(region.dimension), beads.shape[1])
+    upper, wraps = region.naming.above(lower, number)
+    return np.stack([region.numbers(lower), region.numbers(upper)], axis=-1), number, wraps

@@ -181,15 +181,19 @@ class Quantity(ABC):
 
     # How it is gathered
 
-    @abstractmethod
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
-        """Start to gather the answer."""
+        """Start to gather the answer: by default a list of one realisation after the other."""
+        return Listing(self, problem)
+
+    @abstractmethod
+    def rows(self, problem: Problem, solved: Solved) -> Table:
+        """Give the rows of one realisation."""
 
 
 class Listing:
     """Lists the rows of every realisation below each other."""
 
-    def __init__(self, quantity: "Listed", problem: Problem) -> None:
+    def __init__(self, quantity: Quantity, problem: Problem) -> None:
         """Start empty."""
         self.quantity, self.problem = quantity, problem
         self.parts: list[Table] = []
@@ -214,19 +218,7 @@ class Listing:
         )
 
 
-class Listed(Quantity):
-    """A quantity whose realisations are listed one after the other."""
-
-    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
-        """Start a list."""
-        return Listing(self, problem)
-
-    @abstractmethod
-    def rows(self, problem: Problem, solved: Solved) -> Table:
-        """Give the rows of one realisation."""
-
-
-class ContactQuantity(Listed):
+class ContactQuantity(Quantity):
     """A question about contact forces, of which an ensemble has statistics.
 
     Its groups hold contacts that are alike: a layer and branch of a profile, or one contact.

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import axis_names, bead_names
-from ..lattice.layers import Block, Naming, Region, full_layer
+from ..lattice.layers import Block, Region, full_layer
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
 from ..scene.sections import LARGEST
@@ -60,7 +60,7 @@ class ContactForces(ContactQuantity):
         """
         lower = np.stack([contacts[name] for name in bead_names(problem.dimension)])
         number = np.argmax([contacts["branch"] == part.value for part in self.branches], axis=0)
-        upper, wraps = upper_beads(lower, number, self.naming)
+        upper, wraps = self.naming.above(lower, number)
         with FLOAT64.active():
             low = np.stack(ordered_places(lower, problem, FLOAT64))
             if solved.packing is None:
@@ -74,20 +74,6 @@ class ContactForces(ContactQuantity):
             )
         low += moved
         return low, low + steps_up(problem)[number].T + (upper_moved - moved), wraps
-
-
-def upper_beads(lower: Array, number: Array, naming: Naming) -> tuple[Array, Array]:
-    """Give the upper beads of contacts, and which of them are images beside the lower ones.
-
-    Beads are columns of their numbers, (2, contacts) or (3, contacts); ``number`` is that of the
-    direction.
-    """
-    steps = [[1, 1], [-1, 1]] if naming.dimension == 2 else [[1, 0, 1], [0, 1, 1], [0, 0, 1]]
-    beside = lower + np.array(steps)[number].T
-    upper = beside.copy()
-    if naming.side is not None:
-        upper[:-1] %= naming.side * (2 if naming.dimension == 2 else 1)
-    return upper, (upper != beside).any(axis=0)
 
 
 def steps_up(problem: Problem) -> Array:

@@ -11,10 +11,10 @@ from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
 from ..unilateral.network import Relaxed
-from .base import Listed, Table, cartesian, column, joined
+from .base import Quantity, Table, cartesian, column, joined
 
 
-class Positions(Listed):
+class Positions(Quantity):
     """Positions of one bead or of all, in the scene's unit of length.
 
     The first bead of the ordered base is at the origin, x is along the base, and the last axis up.

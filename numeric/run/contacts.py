@@ -7,8 +7,6 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.systems import Array, as_floats
-from ..lattice.layers import Naming
-from ..quantities.contact_forces import upper_beads
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,20 +67,6 @@ class Contacts:
         shared = {"pairs", "branch", "wraps"}
         values = vars(self).items()
         return Contacts(**{name: v if name in shared else v[packing] for name, v in values})
-
-
-def lattice_pairs(height: int, width: int, dimension: int) -> tuple[Array, Array, Array]:
-    """Number of the lower and the upper bead, (n, 2), direction and wrap of all contacts, (n,)."""
-    shape = (height + 1, *[width] * (dimension - 1))
-    j, *columns, number = np.indices((height, *shape[1:], dimension)).reshape(dimension + 1, -1)
-    if dimension == 2:
-        columns = [2 * columns[0] + j % 2]
-    lower = np.stack([*columns, j])
-    upper, wraps = upper_beads(lower, number, Naming(dimension, width))
-    if dimension == 2:
-        lower[0], upper[0] = lower[0] // 2, upper[0] // 2
-    pairs = [np.ravel_multi_index((beads[-1], *beads[:-1]), shape) for beads in (lower, upper)]
-    return np.stack(pairs, axis=-1), number, wraps
 
 
 def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:

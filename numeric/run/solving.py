@@ -24,7 +24,7 @@ from ..arithmetic.machine import write_whole
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import ArrayRadii
 from ..lattice.branch import axis_names, bead_names, directions
-from ..lattice.layers import whole
+from ..lattice.layers import contacts_of, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Route
@@ -36,7 +36,7 @@ from ..quantities.contact_forces import steps_up
 from ..scene.combinations import either
 from ..scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
 from ..tables import Tabled
-from .contacts import Beads, Contacts, box_of, dump, dump_local, lattice_pairs, vtk
+from .contacts import Beads, Contacts, box_of, dump, dump_local, vtk
 from .outcome import Outcome
 from .running import Scene, read_tolerance, run
 
@@ -132,7 +132,8 @@ class Solution(Tabled):
         """
         d, problem, beads = self._dimension, self.plan.problem, self.beads
         lead = self._shape[:-d]
-        pairs, number, wraps = lattice_pairs(problem.height, self._shape[-1], d)
+        region = whole(math.prod(self._shape[1 - d :]), problem.height, d)
+        pairs, number, wraps = contacts_of(region)
         lower, upper = pairs.T
         straight = float(self.scene.packing.radius) * steps_up(problem)
         moved = as_floats(self.displacement).reshape(*lead, -1, d)

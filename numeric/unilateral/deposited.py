@@ -7,8 +7,7 @@ import numpy as np
 
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
-from ..lattice.branch import Branch
-from ..lattice.layers import column, whole
+from ..lattice.layers import contacts_of, whole
 from ..mechanics.engine import solve
 from ..mechanics.physicality import pulling
 from ..mechanics.problem import Problem, Route, axes
@@ -134,13 +133,8 @@ def frame(problem: Problem, realisation: int, system: NumberSystem) -> Frame:
 
 def lattice_contacts(width: int, height: int) -> Pairs:
     """List the contacts of the lattice: each bead above the base with its two supports."""
-    pairs = [
-        (j * width + q, (j - 1) * width + column(2 * q + j % 2 - branch.side, j - 1, width))
-        for j in range(1, height + 1)
-        for q in range(width)
-        for branch in Branch
-    ]
-    return np.array(pairs)
+    pairs, number, _ = contacts_of(whole(width, height))
+    return pairs[np.lexsort((number, pairs[:, 1]))][:, ::-1]
 
 
 def loads(problem: Problem, system: NumberSystem) -> Array:

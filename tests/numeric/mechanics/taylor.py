@@ -20,13 +20,18 @@ import numpy as np
 import sympy
 from force_diffusion.numeric.arithmetic.systems import Array, NumberSystem
 from force_diffusion.numeric.lattice.branch import Branch
-from force_diffusion.numeric.lattice.layers import column, whole
+from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.loads import LoadSpec, Strength, components
 from force_diffusion.numeric.mechanics.local import cosine
 from force_diffusion.numeric.mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
 
 Site = tuple[int, int]
 Coefficients = list[flint.fmpq]
+
+
+def column(i: int, j: int, width: int) -> int:
+    """The column of site (i, j) in a periodic layer."""
+    return (i - j % 2) // 2 % width
 
 
 def exact(value: Fraction | int | sympy.Rational | flint.fmpq) -> flint.fmpq:
