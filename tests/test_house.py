@@ -18,11 +18,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
     "derivations": 7_769,
-    "numeric": 9_545,
+    "numeric": 9_525,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 14_297,
+    "tests": 14_299,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

@@ -13,14 +13,13 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache, partial
 from itertools import pairwise
-from typing import Any, NamedTuple, TypeVar, overload
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .branch import Direction, Site, bead_names, direction, directions
 
-T = TypeVar("T")
 Array = NDArray[Any]
 _NONE = np.empty(0, dtype=np.int64)
 
