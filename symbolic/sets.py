@@ -174,9 +174,14 @@ def _forms(part: Any) -> Iterator[tuple[Any, Row | None]]:
         if one.involves_dims(isl.dim_type.div, 0, one.dim(isl.dim_type.div)):
             yield one, None
             continue
-        numbers = ((symbol, one.get_coefficient_val(_DIM, n).to_python()) for symbol, n in held)
-        factors = {symbol: number for symbol, number in numbers if number}
-        yield one, (factors, one.get_constant_val().to_python())
+        involved = (pair for pair in held if one.involves_dims(_DIM, pair[1], 1))
+        factors = {s: _number(one.get_coefficient_val(_DIM, n)) for s, n in involved}
+        yield one, (factors, _number(one.get_constant_val()))
+
+
+def _number(value: Any) -> int:
+    """A whole number of isl's; of one beyond 64 bits it says 0, but writes it out."""
+    return value.get_num_si() or value.to_python()  # type: ignore[no-any-return]
 
 
 def depends_on(points: Set, symbol: sympy.Symbol) -> bool:

@@ -34,7 +34,6 @@ from .theorem import (
 )
 
 _SQUARE = FIELD.generator(sy.sigma) ** 2
-_PLANE = 2
 
 
 _SPHERES = "each bead rests on three others, and "
@@ -104,7 +103,7 @@ class MomentReader(Reader):
         """
         linear = kind is Form
         plain, loading = Reader(self.points, self.straight, linear=linear), self.domain.loading
-        if self.domain.dimension == _PLANE:
+        if self.domain.dimension == 2:
             reader = knowing(plain, self.domain, self.groups, kind)
         elif linear and loading and loading in SPHERES.values():
             reader = replace(plain, known=spheres.forces_in_radii(loading.name))

@@ -39,7 +39,6 @@ def in_order(expr: Expr) -> Sequence[Expr]:
 
 
 _MANY = 4  # terms of a polynomial that is put in order
-_TOO_MANY = 100  # terms of a part that is not factored: it would take long
 
 
 def _by_degree(expr: Expr) -> tuple[Expr, ...]:
@@ -58,7 +57,7 @@ def _by_degree(expr: Expr) -> tuple[Expr, ...]:
 
 def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
     """A sum of monomials, each with the terms of its factor: as a product, or one by one."""
-    if len(part) > 1 and sum(map(len, part.values())) < _TOO_MANY:
+    if len(part) > 1:
         whole = Add(*(term * monomial for monomial, terms in part.items() for term in terms))
         number, factors = _factors(whole)
         if sum(power for _, power in factors) > 1:

@@ -154,3 +154,10 @@ def test_points_far_apart_are_not_joined_to_a_line() -> None:
     assert len(sets.parts(shortest.joined(together))) == 1
     both = shortest.joined(apart)
     assert all(one.is_subset(both) for one in apart)
+
+
+def test_numbers_beyond_64_bits_are_read_whole():
+    large = 2**40
+    points = sets.where(Eq(j, large * i, evaluate=False), Eq(M, large * j, evaluate=False))
+    ((form,), _) = sets.rows(sets.without(points, j))
+    assert form in (({i: large**2, M: -1}, 0), ({i: -(large**2), M: 1}, 0))
