@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
-    "derivations": 7_769,
+    "derivations": 7_763,
     "numeric": 9_525,
     "force_diffusion": 78,
     "benchmarks": 836,

@@ -52,6 +52,7 @@ ON_DIAGONAL = {
     * (3 + 6 * z_upper - 15 * z**2 - 6 * z_upper**2 + 10 * z**3 + 2 * z_upper**3),
 }  # fmt: skip
 """Leading orders of the covariance of two contacts of a diagonal, at the heights z and z′."""
+_BY_LOAD = {"layers": "surface", "bulk": "bulk"}
 _INSIDE = (j >= 2, j <= l - 2, l <= M - 2)
 _DEEP = (j >= 4, j + 6 <= M)
 _LONG = (j + 2 <= N, j >= 2, j + 2 <= M)
@@ -176,9 +177,7 @@ DERIVATIONS: dict[Number, Row] = {
             name: covariance(
                 ForcePlus(i, j), ForcePlus(i + l - j, l), load=load, where=(j <= l,)
             ).named(symbol)
-            for name, load, symbol in (
-                ("layers", "surface", LAYERS), ("bulk", "bulk", BULK_LAYERS)
-            )
+            for (name, load), symbol in zip(_BY_LOAD.items(), (LAYERS, BULK_LAYERS), strict=True)
         },
         meaning="Along a diagonal forces stay correlated over the whole height of the packing, "
         "and averaging over it hardly helps; along a layer their fluctuations cancel.",
@@ -190,10 +189,10 @@ DERIVATIONS: dict[Number, Row] = {
         claimed={
             **{f"the leading order at the heights z = j/M and z′ = l/M, {load} load":
                    goes_as(name, ON_DIAGONAL[load], *_INSIDE, at=AT_HEIGHTS)
-               for name, load in (("layers", "surface"), ("bulk", "bulk"))},
+               for name, load in _BY_LOAD.items()},
             **{f"for l = j it is Eq. {PAPER[load].DERIVATION.number}":
                    equals(name, (PAPER[load].DERIVATION.number, "layer"), Eq(j, l))
-               for name, load in (("layers", "surface"), ("bulk", "bulk"))},
+               for name, load in _BY_LOAD.items()},
             "along a diagonal from the base to the surface a correlation of √3/2 is left under a "
             "surface load, as M → ∞ and then z′ → 1":
                 _correlation("layers", "surface", Rational(3, 4)),

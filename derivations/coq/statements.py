@@ -132,31 +132,23 @@ def _exactly(equation: sympy.Eq) -> str:
     return equality if kinds <= FIXED.keys() else f"near (fun e => {equality})"
 
 
-def _up_to_variance(size: str) -> Callable[[sympy.Eq], str]:
+def _up_to_variance(size: str, equation: sympy.Eq) -> str:
     """Both sides to first order; the mean square of their difference is at most a size."""
-
-    def conclude(equation: sympy.Eq) -> str:
-        left, right = map(words, equation.args)
-        return (
-            "exists left right,\n"
-            f"    linearised ({_OF_RHO} {left}) left /\\\n"
-            f"    linearised ({_OF_RHO} {right}) right /\\\n"
-            f"    expect L (fun rho => (left rho - right rho) ^ 2) <= {size} * {_UNIT}"
-        )
-
-    return conclude
+    left, right = map(words, equation.args)
+    return (
+        "exists left right,\n"
+        f"    linearised ({_OF_RHO} {left}) left /\\\n"
+        f"    linearised ({_OF_RHO} {right}) right /\\\n"
+        f"    expect L (fun rho => (left rho - right rho) ^ 2) <= {size} * {_UNIT}"
+    )
 
 
-def _near(quantity: str, size: str) -> Callable[[sympy.Eq], str]:
+def _near(quantity: str, size: str, equation: sympy.Eq) -> str:
     """A statistic of f, which is a quantity to first order, is the right side up to a size."""
-
-    def conclude(equation: sympy.Eq) -> str:
-        return (
-            f"exists f, linearised ({_OF_RHO} {quantity} e) f /\\\n"
-            f"    Rabs ({words(equation.lhs)} - ({words(equation.rhs)})) <= {size} * {_UNIT}"
-        )
-
-    return conclude
+    return (
+        f"exists f, linearised ({_OF_RHO} {quantity} e) f /\\\n"
+        f"    Rabs ({words(equation.lhs)} - ({words(equation.rhs)})) <= {size} * {_UNIT}"
+    )
 
 
 _AT = {sy.M: 7, sy.i: 1, sy.j: 3}
@@ -170,19 +162,17 @@ class Setting:
         example: indices that obey all conditions, M first.
         conclude: what an equation says, given the hypotheses.
         conditions: on indices, besides ranges and sites.
-        random: whether the packing is one of a family, with a law of the radii.
     """
 
     example: Mapping[sympy.Symbol, int] = field(default_factory=lambda: _AT)
     conclude: Callable[[sympy.Eq], str] = _to_first_order
     conditions: tuple[str, ...] = ()
-    random: bool = False
 
 
 def _variance(size: str) -> Setting:
     every_contact = ("contact M i j", "(0 <= j)%Z", "(j < M)%Z")
-    conclude = _near("f_plus F i j", size)
-    return Setting(_AT, conclude, every_contact, random=True)
+    conclude = partial(_near, "f_plus F i j", size)
+    return Setting(_AT, conclude, every_contact)
 
 
 _BELOW = {sy.M: 7, sy.k: 6, sy.l: 6}
@@ -195,12 +185,12 @@ SETTINGS: dict[Number, Setting] = {  # those of Eqs. 2 to 5 and 11 are the defau
     8: Setting({sy.M: 7, sy.site_r: 1, sy.site_s: 5}),
     9: Setting({**_BELOW, sy.i: 4, sy.j: 4}),
     10: Setting({**_BELOW, sy.i: 5, sy.j: 1, sy.n: 2}),
-    12: Setting(_AT, _up_to_variance("29 * IZR M ^ 2"), random=True),
+    12: Setting(_AT, partial(_up_to_variance, "29 * IZR M ^ 2")),
     13: _variance("(2 * IZR M ^ 2 + IZR M)"),
     14: _variance("(3 / 8 * IZR M ^ 2 + 5 / 4 * IZR M)"),
     16: Setting(
         _BELOW_AT_A_DISTANCE,
-        _near("pressed_down X F i j", "47"),
+        partial(_near, "pressed_down X F i j", "47"),
         (
             "(p >= 1)%Z",
             "(q >= 1)%Z",
@@ -208,7 +198,6 @@ SETTINGS: dict[Number, Setting] = {  # those of Eqs. 2 to 5 and 11 are the defau
             "bead M i j",
             "bead M k l",
         ),
-        random=True,
     ),
 }
 
@@ -232,20 +221,21 @@ def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> C
         name, printed = f"{name}_mirrored", mirror(printed)
         load = LOADS["passing, mirrored"] if load is LOADS["passing"] else load
         example |= {symbol: -example[symbol] for symbol in _HORIZONTAL if symbol in example}
-    # an asymptotic equation is stated of every contact, with a bound
-    relations = () if derivation.domain.limit else derivation.domain.relations
+    # an asymptotic equation is stated of every contact, with a bound, and of random radii
+    random = derivation.domain.limit is not None
+    relations = () if random else derivation.domain.relations
     ranges = map(_relation, map(mirrored_relation, relations) if mirrored else relations)
     sites = dict.fromkeys((*_spoken_of(printed.lhs), *ranges, *setting.conditions))
     free = "(Z.abs i + M + 2 <= W)%Z"  # no horizontal boundary is met within a height
     symbols, values = [symbol.in_code for symbol in example], [*example.values()]
-    if setting.random:
+    if random:
         symbols, values = [*symbols, "W"], [*values, example[sy.M] + abs(example[sy.i]) + 2]
     before, something = _about(
         f"({' '.join(symbols)} : Z)",
         _integers(values),
-        (*sites, *([free] if setting.random else [])),
+        (*sites, *([free] if random else [])),
         load,
-        random=setting.random,
+        random=random,
     )
     companions = [something]
     sums = (total.limits[0] for total in sorted(printed.atoms(sympy.Sum), key=str))
@@ -397,7 +387,7 @@ def printed(derivation: Derivation) -> list[CoqStatement]:
 def statements(derivation: Derivation) -> list[CoqStatement]:
     """The printed equations in Coq, and what is stated beside them."""
     beside = BESIDE.get(derivation.number, ())
-    return [*printed(derivation), *(stated(derivation) for stated in beside)]
+    return [*printed(derivation), *(state(derivation) for state in beside)]
 
 
 def recorded(derivation: Statement) -> str:
