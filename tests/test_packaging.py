@@ -3,6 +3,8 @@
 import tomllib
 from pathlib import Path
 
+import force_diffusion as fd
+
 ROOT = Path(__file__).parents[1]
 CITATION, CHANGES = ((ROOT / name).read_text("utf-8") for name in ("CITATION.cff", "CHANGELOG.md"))
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -19,7 +21,6 @@ def test_every_folder_of_the_rooms_is_a_package() -> None:
 
 
 def test_one_version_everywhere() -> None:
-    version = PROJECT["project"]["version"]
-    assert f"\nversion: {version}\n" in CITATION
+    assert f"\nversion: {fd.__version__}\n" in CITATION
     newest = next(line for line in CHANGES.splitlines() if line.startswith("## "))
-    assert newest.removeprefix("## ").split(",")[0] == version
+    assert newest.removeprefix("## ").split(",")[0] == fd.__version__

@@ -32,6 +32,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "a long equation": (lambda: fd.equation(LONG), "from 1 to 16"),
     "long words": (lambda: fd.equation(DIGITS), "from 1 to 16"),
     "columns": (lambda: fd.equation(13).latex(columns=3), "must be 1 or 2"),
+    "a truth": (lambda: fd.equation(13).latex(columns=True), "must be 1 or 2"),
     "columns of a form": (lambda: fd.equation(13).exact().latex(columns=LONG), "must be 1 or 2"),
     "a form": (lambda: fd.equation(13).exact(DIGITS), "It has layer"),
     "a long z": (lambda: fd.equation(13).at(M=9, z=LONG, phi=0, sigma=1, r=1), "0 ≤ z ≤ 1"),

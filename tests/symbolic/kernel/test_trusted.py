@@ -1,12 +1,9 @@
 """The page on proofs names every trusted file, and counts its lines."""
 
-import ast
-import io
 import re
-import tokenize
 from pathlib import Path
 
-from tests.test_house import imported
+from tests.test_house import imported, lines_of_code
 
 ROOT = Path(__file__).parents[3]
 PAGE = (ROOT / "docs/background/proofs.md").read_text(encoding="utf-8")
@@ -14,29 +11,6 @@ BESIDE = re.compile(
     r"kernel/(__init__|decisions|refuted)$|printing/|words$|notation$|quotients$|shortest$|elimination$"
 )
 """What names symbols, writes verdicts and reasons, or finds what is then checked."""
-_BETWEEN = (
-    tokenize.COMMENT,
-    tokenize.NL,
-    tokenize.NEWLINE,
-    tokenize.INDENT,
-    tokenize.DEDENT,
-    tokenize.ENDMARKER,
-)
-
-
-def lines_of_code(path: Path) -> int:
-    source = path.read_text(encoding="utf-8")
-    tokens = tokenize.generate_tokens(io.StringIO(source).readline)
-    held = {
-        line
-        for token in tokens
-        if token.type not in _BETWEEN
-        for line in range(token.start[0], token.end[0] + 1)
-    }
-    for node in ast.walk(ast.parse(source)):
-        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant):  # a docstring
-            held -= set(range(node.lineno, (node.end_lineno or node.lineno) + 1))
-    return len(held)
 
 
 def trusted() -> dict[str, int]:
