@@ -18,11 +18,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
     "derivations": 7_763,
-    "numeric": 9_525,
+    "numeric": 9_519,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 14_274,
+    "tests": 14_273,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

@@ -111,7 +111,7 @@ def measurement(scene: CheckedScene, *, reach: float | None = None) -> Measureme
     """
     ask = scene.ask
     refuse("ensemble", scene, reach=reach is not None)
-    planned = plan(scene.model_copy(update={"ask": ask.model_copy(update={"realisations": 1})}))
+    planned = plan(scene.asking(realisations=1))
     if planned.problem.route == Route.ORDERED:
         why = planned.skipped["disorder"]
         raise SceneError("disorder", None, f"every realisation would be the same: {why}")

@@ -129,12 +129,10 @@ class LoadSpec:
         starts = rows.starts_above
         forces = system.zeros(self.dimension, int(starts[-1]))
         if self.loaded is None:
-            times = np.ones(len(rows))
-            if self.kind == "bulk":
-                times = self.height - rows.layers + 1.0
             row = np.arange(len(rows)).repeat(np.diff(starts))
+            times = system.from_floats(self.height - rows.layers + 1.0)
             for a, share in enumerate(strength.unit):
-                forces[a] = (system.from_floats(times) * share)[row]
+                forces[a] = (times * share)[row] if self.kind == "bulk" else share
             return forces
         for site, load in self._singly(strength).items():
             for a, share in enumerate(load):

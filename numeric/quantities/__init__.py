@@ -23,4 +23,4 @@ QUANTITIES: dict[str, Callable[[CheckedScene], Quantity]] = {
 
 def quantities_of(scene: CheckedScene) -> tuple[Quantity, ...]:
     """Give the questions that a scene asks."""
-    return tuple(QUANTITIES[name](scene.asking(name)) for name in scene.ask.quantities)
+    return tuple(QUANTITIES[name](scene.asking(quantity=name)) for name in scene.ask.quantities)

@@ -172,8 +172,8 @@ def cost(
     refuse("cost", scene)
     if not isinstance(seconds, Real) or not 0 < seconds < 1e9:
         raise SceneError("seconds", seconds, "must be a positive number")
-    ask = scene.ask.model_copy(update={"realisations": 1, "tolerance": None, "certified": False})
-    study = _Study(scene.model_copy(update={"ask": ask}), process_time() + seconds)
+    single = scene.asking(realisations=1, tolerance=None, certified=False)
+    study = _Study(single, process_time() + seconds)
     ways = []
     for way in study.ways():
         ways.append(way)

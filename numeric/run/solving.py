@@ -238,7 +238,7 @@ class Solution(Tabled):
     def to_dump(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the beads of one packing as a *dump* of LAMMPS, which OVITO opens."""
         places = self._places(packing)
-        _write(path, dump(*places, self._box(places)))
+        _write(path, dump(*places, box_of(*places, self._period)))
 
     def to_dump_local(self, path: str | Path, *, packing: int = 0) -> None:
         """Write the contacts of one packing as a *dump local* of LAMMPS, a line for each.
@@ -246,7 +246,7 @@ class Solution(Tabled):
         ``batom1`` and ``batom2`` are the lower and the upper bead, numbered from 1 as in
         ``to_dump``. In OVITO open the beads, then load this file by the modifier *Load trajectory*.
         """
-        box = self._box(self._places(packing))
+        box = box_of(*self._places(packing), self._period)
         _write(path, dump_local(self.contacts.of(packing), box))
 
     def _packing(self, number: int) -> int:
@@ -263,8 +263,9 @@ class Solution(Tabled):
         positions = as_floats(beads.positions).reshape(-1, count, self._dimension)
         return positions[at], beads.radii.reshape(-1, count)[at]
 
-    def _box(self, places: tuple[Array, Array]) -> list[str]:
-        return box_of(*places, self._shape[-1] * float(self.scene.packing.s))
+    @property
+    def _period(self) -> float:
+        return self._shape[-1] * float(self.scene.packing.s)
 
     @property
     def error(self) -> float:
@@ -279,8 +280,7 @@ class Solution(Tabled):
     @cached_property
     def positions(self) -> Outcome:
         """The positions as an ``Outcome``, with their ``accuracy``; made when first asked for."""
-        ask = self.scene.ask.model_copy(update={"quantity": "positions"})
-        scene, tolerance = self.scene.model_copy(update={"ask": ask}), self.plan.tolerance
+        scene, tolerance = self.scene.asking(quantity="positions"), self.plan.tolerance
         certified = tolerance is not None and self.plan.certified
         return run(plan(scene, tolerance, certified=certified, text=False))
 

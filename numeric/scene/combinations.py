@@ -22,53 +22,50 @@ def either(words: tuple[str, ...]) -> str:
     return " or ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
 
 
-@dataclass(frozen=True)
-class Request:
-    """One question of a scene, what the scene is, and what is done with it."""
-
-    command: str = "run"
-    quantity: str = "profile"
-    dimension: int = 2
-    slab: bool = False
-    drawn: bool = True
-    load: str = "surface"
-    contacts: str = "bilateral"
-    geometry: str = "exact"
-    at: bool = False
-    layers: bool = False
-    several: bool = False
-    together: bool = False
-    tolerance: bool = False
-    reach: bool = False
-
-
 _OF_NETWORKS = ("contact_forces", "positions")
 _GATHERED = ("profile", "contact", "contact_forces", "response", "histogram")
 
 
-def refusal(asked: Request) -> tuple[str, str] | None:
+def refusal(
+    command: str,
+    quantity: str,
+    *,
+    dimension: int = 2,
+    slab: bool = False,
+    drawn: bool = True,
+    load: str = "surface",
+    contacts: str = "bilateral",
+    geometry: str = "exact",
+    at: bool = False,
+    layers: bool = False,
+    several: bool = False,
+    together: bool = False,
+    tolerance: bool = False,
+    reach: bool = False,
+) -> tuple[str, str] | None:
     """Give the key of the scene that is refused, and why; None where nothing is.
 
-    >>> refusal(Request(command="ensemble", tolerance=True))
+    Asked is one question of a scene, what the scene is, and what is done with it.
+
+    >>> refusal("ensemble", "profile", tolerance=True)
     ('ask.tolerance', 'must be left out in an ensemble, which is solved in float64')
-    >>> refusal(Request(command="cost", dimension=3)) is None
+    >>> refusal("cost", "profile", dimension=3) is None
     True
     """
-    command, quantity = asked.command, asked.quantity
-    discs, opens = asked.dimension == 2, asked.contacts == "unilateral"
-    few = asked.load in {"point", "file"} and quantity not in {"profile", "positions"}
-    finite = (asked.at or few) and discs and not opens
-    drawn = quantity in {"profile", "histogram"} or (discs and quantity != "contact")
+    discs, opens = dimension == 2, contacts == "unilateral"
+    few = load in {"point", "file"} and quantity not in {"profile", "positions"}
+    finite = (at or few) and discs and not opens
+    has_figure = quantity in {"profile", "histogram"} or (discs and quantity != "contact")
     refused = (
         (
-            asked.slab and not finite,
+            slab and not finite,
             "packing.width",
             "is required here: an infinite slab of discs answers for one contact, for one bead, or "
             "for the contacts below loads on single beads",
         ),
         (opens and not discs, "effects.contacts", "must stay closed in three dimensions"),
         (
-            opens and asked.geometry != "exact",
+            opens and geometry != "exact",
             "effects.geometry",
             'must be "exact" with contacts = "unilateral": beads move until no contact pulls',
         ),
@@ -78,22 +75,22 @@ def refusal(asked: Request) -> tuple[str, str] | None:
             f'must be {either(_OF_NETWORKS)} with contacts = "unilateral"',
         ),
         (
-            opens and asked.several,
+            opens and several,
             "ask.realisations",
             'must be 1 with contacts = "unilateral"',
         ),
         (
-            asked.at and (asked.layers or asked.together),
+            at and (layers or together),
             "ask.at",
             "asks for one place: for one quantity, and without layers",
         ),
         (
-            quantity == "response" and asked.load != "point",
+            quantity == "response" and load != "point",
             "load.kind",
             'must be "point" for quantity = "response"',
         ),
         (
-            command != "run" and asked.together,
+            command != "run" and together,
             "ask.quantity",
             "must be one quantity: only run answers several at once",
         ),
@@ -108,22 +105,22 @@ def refusal(asked: Request) -> tuple[str, str] | None:
             'must be "bilateral": a single packing is solved where contacts open',
         ),
         (
-            command == "ensemble" and asked.tolerance,
+            command == "ensemble" and tolerance,
             "ask.tolerance",
             "must be left out in an ensemble, which is solved in float64",
         ),
         (
-            command == "ensemble" and not asked.drawn,
+            command == "ensemble" and not drawn,
             "disorder.kind",
             'must be "uniform", "normal" or "two-point" in an ensemble: its radii are drawn',
         ),
         (
-            asked.reach and quantity != "histogram",
+            reach and quantity != "histogram",
             "ask.quantity",
             'must be "histogram" with reach, which sets the edges of its bins',
         ),
         (
-            command == "figures" and not drawn,
+            command == "figures" and not has_figure,
             "ask.quantity",
             'has no figure: ask for "profile" or "histogram", or of discs for "contact_forces", '
             '"positions" or "response"',
@@ -135,11 +132,11 @@ def refusal(asked: Request) -> tuple[str, str] | None:
 def answered(command: str, **features: Any) -> tuple[str, ...]:
     """Give the quantities that a command answers."""
 
-    def asked(quantity: str) -> Request:
+    def refused(quantity: str) -> object:
         load = "point" if quantity == "response" else "surface"
-        return Request(command, quantity, load=load, at=quantity == "contact", **features)
+        return refusal(command, quantity, load=load, at=quantity == "contact", **features)
 
-    return tuple(quantity for quantity in QUANTITIES if refusal(asked(quantity)) is None)
+    return tuple(quantity for quantity in QUANTITIES if not refused(quantity))
 
 
 @dataclass(frozen=True)

@@ -4,13 +4,13 @@ import hashlib
 import math
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 from force_diffusion import __version__
 
 from ..arithmetic.decimals import decimal_string, short
 from ..lattice.branch import Branch, Contact, Site
-from .combinations import NEEDS, Need, Request, either, refusal
+from .combinations import NEEDS, Need, either, refusal
 from .sections import (
     PLACES,
     Ask,
@@ -58,11 +58,9 @@ class CheckedScene(Section):
         i, j = self.ask.at
         return int(i), int(j)
 
-    def asking(self, quantity: str) -> "CheckedScene":
-        """Give the scene with one of its questions."""
-        if self.ask.quantity == quantity:
-            return self
-        return self.model_copy(update={"ask": self.ask.model_copy(update={"quantity": quantity})})
+    def asking(self, **changes: Any) -> Self:
+        """Give the scene with changes of what it asks for."""
+        return self.model_copy(update={"ask": self.ask.model_copy(update=changes)})
 
 
 def check(scene: CheckedScene) -> None:
@@ -107,9 +105,9 @@ def refuse(command: str, scene: CheckedScene, *, reach: bool = False) -> None:
     """Raise ``SceneError`` where a command does not answer what is combined here."""
     packing, effects, ask = scene.packing, scene.effects, scene.ask
     for quantity in ask.quantities:
-        asked = Request(
-            command=command,
-            quantity=quantity,
+        reason = refusal(
+            command,
+            quantity,
             dimension=packing.dimension,
             slab=packing.width is None,
             drawn=scene.disorder is not None and scene.disorder.kind not in {"file", "given"},
@@ -123,7 +121,6 @@ def refuse(command: str, scene: CheckedScene, *, reach: bool = False) -> None:
             tolerance=ask.tolerance is not None,
             reach=reach,
         )
-        reason = refusal(asked)
         if reason is not None:
             key, why = reason
             section, _, name = key.partition(".")

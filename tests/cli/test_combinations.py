@@ -12,7 +12,6 @@ from force_diffusion.numeric.scene.combinations import (
     KINDS,
     NEEDS,
     QUANTITIES,
-    Request,
     answered,
     either,
     refusal,
@@ -106,7 +105,7 @@ def why_not(command: str, quantity: str, kind: str, load: str, said: str) -> str
     found["load"] = "point" if quantity == "response" else "surface"
     if load:
         found["load"] = OTHER_LOADS[load]["kind"]
-    refused = refusal(Request(command, quantity, **found))
+    refused = refusal(command, quantity, **found)
     if refused is None:
         return ""
     key, why = refused
