@@ -1,14 +1,13 @@
 """The documentation: every command and every line of Python in it does what a reader would see."""
 
-import os
 import re
 import shlex
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
+
+from tests.cli.conftest import Call
 
 ROOT = Path(__file__).parents[2]
 DESCRIPTION = ROOT / "force_diffusion" / "README.md"  # of the wheel, shown far from all files
@@ -38,17 +37,11 @@ def _name(page: Path) -> str:
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with nothing but the scenes, and a home of its own."""
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
+    monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("HOME", str(tmp_path))
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setenv("MPLBACKEND", "agg")
     return tmp_path
-
-
-def _python(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [sys.executable, "-W", "error", *arguments],
-        cwd=folder, env=os.environ, capture_output=True, text=True, check=False, timeout=600,
-    )  # fmt: skip
 
 
 def _commands(page: Path) -> list[str]:
@@ -58,27 +51,23 @@ def _commands(page: Path) -> list[str]:
 
 @pytest.mark.long
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "sh")], ids=_name)
-def test_its_commands_run_as_written(page: Path, folder: Path) -> None:
+def test_its_commands_run_as_written(page: Path, folder: Path, call: Call) -> None:
     _save_files(page, folder)
     if "force-diffusion examples scenes" in _commands(page):
         shutil.rmtree(folder / "scenes")
-    earlier = {command for one in PAGES[: PAGES.index(page)] for command in _commands(one)}
     for command in _commands(page):
         program, *arguments = shlex.split(command)
         assert program == "force-diffusion", command
-        if command in earlier and arguments[:2] in (["derive", "13"], ["show", "13"]):
-            continue  # which reads no file of the page, and leaves none that it needs
-        done = _python(folder, "-m", "force_diffusion", *arguments)
-        assert done.returncode == 0, f"{command}\n{done.stderr}"
-        assert done.stdout, command
+        status, shown, err = call(*arguments)
+        assert status == 0, f"{command}\n{err}"
+        assert shown, command
 
 
-@pytest.mark.long(sample=2)
+@pytest.mark.long
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "python")], ids=_name)
 def test_its_python_runs_as_written(page: Path, folder: Path) -> None:
     _save_files(page, folder)
-    done = _python(folder, "-c", "\n".join(_blocks(page, "python")))
-    assert done.returncode == 0, done.stderr
+    exec("\n".join(_blocks(page, "python")), {})
 
 
 def test_the_guides_have_commands_that_are_run() -> None:

@@ -18,6 +18,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
 from force_diffusion.__main__ import main
+from tests.derivations.rows import each
 
 ROOT = Path(__file__).parents[2]
 NUMBERS = list(modules())
@@ -63,8 +64,7 @@ def test_list_names_every_equation(capsys: pytest.CaptureFixture[str]) -> None:
     assert "surface_diffusion" in lines[12]
 
 
-@pytest.mark.long(sample=24)
-@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("number", each(NUMBERS, share=4))
 @pytest.mark.parametrize("form", ["text", "latex", "sympy", "python", "steps"])
 def test_every_form_of_every_equation(capsys, number: int, form: str) -> None:
     assert shown(capsys, str(number), "--as", form).strip()
@@ -80,8 +80,7 @@ def test_the_right_hand_side_of_13_in_one_line(capsys: pytest.CaptureFixture[str
     assert value == expected
 
 
-@pytest.mark.long(sample=4)
-@pytest.mark.parametrize("number", [13, 14, 15, 16, *BEYOND])
+@pytest.mark.parametrize("number", each([13, 14, 15, 16, *BEYOND], share=3))
 def test_exact_forms(capsys: pytest.CaptureFixture[str], number: int | str) -> None:
     """SymPy source, Python source, JSON and text are those of the closed forms."""
     forms = load(number).exact_forms

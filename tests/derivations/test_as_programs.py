@@ -21,7 +21,7 @@ def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     )
 
 
-@pytest.mark.long(sample=2)
+@pytest.mark.long(sample=1, share=4)
 @pytest.mark.parametrize("number", paper())
 def test_each_is_a_script_that_prints_its_steps_and_claims(number: int) -> None:
     done = run(FOLDER.parent, f"derivations/{modules()[number]}.py")

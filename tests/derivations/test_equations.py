@@ -16,8 +16,10 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_FORCES
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
+from tests.derivations.rows import each
 
-@pytest.mark.parametrize("number", modules())
+
+@pytest.mark.parametrize("number", each(modules()))
 def test_proved(number: Number) -> None:
     outcome = run(load(number))
     assert outcome.assuming == ((GAUSSIAN_FORCES,) if number == 15 else ())

@@ -18,6 +18,7 @@ from sympy import Eq, Rational, Tuple
 
 import force_diffusion as fd
 from tests.derivations import fakes
+from tests.derivations.rows import late
 
 BEYOND = [number for number in modules() if number not in paper()]
 OF_VECTORS = (1, 2, 3, 4, 5, 6)
@@ -28,7 +29,7 @@ def equal(left: sympy.Expr, right: sympy.Expr) -> Eq:
     return Eq(left, right, evaluate=False)
 
 
-@pytest.mark.parametrize("number", [7, 8, 15])
+@pytest.mark.parametrize("number", [8, 15])
 def test_all_lines_at_once(number: int | str) -> None:
     eq = fd.equation(number)
     lines = list(eq.expr)
@@ -144,7 +145,7 @@ NEVER_PROVED = [
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("number", [3, 12, 13, 15])
+@pytest.mark.parametrize("number", [3, 13, 15, *late([12])])
 def test_what_is_not_read_is_undecided_with_the_reason(number: int) -> None:
     for candidate in NOT_READ + NEVER_PROVED:
         found = fd.equation(number).decide(candidate)
@@ -181,8 +182,7 @@ def test_what_is_no_equation_is_told_by_its_type(given: Any, says: str) -> None:
 # exact forms
 
 
-@pytest.mark.long(sample=3, share=3)
-@pytest.mark.parametrize("number", [13, 14, 15, 16, *BEYOND])
+@pytest.mark.parametrize("number", [13, 14, 15, *late((16, *BEYOND), share=3)])
 def test_exact_forms_are_decided_on_their_own(number: int | str) -> None:
     equation = fd.equation(number)
     for form in map(equation.exact, equation.forms):

@@ -14,8 +14,9 @@ from force_diffusion.symbolic.printing.lines import COLUMNS, width
 from force_diffusion.symbolic.printing.structure import rebuilt
 
 import force_diffusion as fd
+from tests.derivations.rows import each
 
-every_equation = pytest.mark.parametrize("number", modules())
+every_equation = pytest.mark.parametrize("number", each(modules()))
 
 
 def test_the_package_is_light_until_it_is_used() -> None:
@@ -66,7 +67,6 @@ STANDARD = {
 }  # fmt: skip
 
 
-@pytest.mark.long(sample=8)
 @every_equation
 def test_notebooks_can_set_it(number: Number) -> None:
     eq = fd.equation(number)
@@ -79,7 +79,6 @@ def test_notebooks_can_set_it(number: Number) -> None:
         assert shown.isascii()
 
 
-@pytest.mark.long(sample=8, share=2)
 @pytest.mark.parametrize("columns", [1, 2])
 @every_equation
 def test_the_lines_of_exact_forms_fit(number: Number, columns: int) -> None:

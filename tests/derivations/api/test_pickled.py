@@ -11,16 +11,14 @@ from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 
 import force_diffusion as fd
-
-NUMBERS = list(modules())
+from tests.derivations.rows import each
 
 
 def again(thing: Any) -> Any:
     return pickle.loads(pickle.dumps(thing))
 
 
-@pytest.mark.long(sample=6, share=2)
-@pytest.mark.parametrize("number", NUMBERS)
+@pytest.mark.parametrize("number", each(modules(), share=2))
 def test_every_equation(number: Any) -> None:
     found = fd.equation(number)
     assert str(again(found)) == str(found)

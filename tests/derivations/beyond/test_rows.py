@@ -19,6 +19,7 @@ from force_diffusion.symbolic.weights import Weights
 
 import force_diffusion as fd
 from force_diffusion import symbols
+from tests.derivations.rows import each
 
 ROWS = [number for number in modules() if isinstance(number, str) and number != "B1"]
 GOLDEN = Path(__file__).parents[2] / "golden" / "rows"
@@ -30,8 +31,7 @@ def row(number: str) -> Row:
     return found
 
 
-@pytest.mark.long(sample=8, share=3)
-@pytest.mark.parametrize("number", ROWS)
+@pytest.mark.parametrize("number", each(ROWS, share=3))
 def test_formulas_are_those_on_record(number: str) -> None:
     """To make the record anew write this text into the file, and look at what has changed."""
     forms = row(number).exact_forms.items()
@@ -39,8 +39,7 @@ def test_formulas_are_those_on_record(number: str) -> None:
     assert text == (GOLDEN / f"{number}.txt").read_text(encoding="utf-8")
 
 
-@pytest.mark.long(sample=8, share=3)
-@pytest.mark.parametrize("number", ROWS)
+@pytest.mark.parametrize("number", each(ROWS, share=3))
 def test_the_call_gives_the_first_form(number: str) -> None:
     names = {name: getattr(symbols, name) for name in symbols.__all__}
     names |= {name: getattr(fd, name) for name in CALLS}
@@ -81,8 +80,7 @@ def refutations(decide: Any, forms: dict[str, ClosedForm]) -> Iterator[bool]:
             yield False
 
 
-@pytest.mark.long(sample=6)
-@pytest.mark.parametrize("number", ROWS)
+@pytest.mark.parametrize("number", each(ROWS, share=3))
 def test_claims_are_proved_and_false_of_other_forms(number: str) -> None:
     forms = row(number).exact_forms
     assert row(number).claimed

@@ -173,7 +173,8 @@ def test_values_without_names(number: int | str) -> None:
 
 
 def test_a_long_form_says_how_to_see_all_of_it() -> None:
-    form = fd.covariance(f_plus(i, j), f_minus(k, l))
+    observable = FORCE - own("a") * f_minus(i, j) + own("b") * f_plus(i + 1, j + 1)
+    form = fd.variance(observable, load=fd.leaning(t))
     for shown in (str(form), repr(form)):
         assert f"{len(form.pieces)} formulas" in shown
         assert "print(" in shown

@@ -16,7 +16,7 @@ import sympy
 from flint import fmpq
 from force_diffusion.derivations.calculator.loads import LoadCase
 from force_diffusion.numeric.arithmetic.errors import ArgumentError
-from hypothesis import given, note, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
@@ -158,7 +158,6 @@ def beads(form: fd.ClosedForm) -> Iterator[dict[str, int]]:
 @given(_terms(3), loads)
 def test_variances(terms: Terms, drawn: Drawn) -> None:
     form = fd.variance(observable(terms, i, j), load=drawn.load)
-    note(str(form))
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
         whole = value(terms, packing, (at["j"] % 2, at["j"]))
@@ -167,12 +166,12 @@ def test_variances(terms: Terms, drawn: Drawn) -> None:
     compare(form, drawn, beads(form), true)
 
 
+@pytest.mark.long
 @FEW
 @given(_terms(1), _terms(1), loads, st.integers(-9, 8))
 def test_two_layers(one: Terms, other: Terms, drawn: Drawn, apart: int) -> None:
     """At any distance; where the distance is of the wrong parity there is no bead."""
     form = fd.covariance(observable(one, i, j), observable(other, i + p, l), load=drawn.load)
-    note(str(form))
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
         first, second = (at["j"] % 2, at["j"]), (at["j"] % 2 + at["p"], at["l"])
@@ -191,7 +190,6 @@ def mean(terms: Terms, packing: Packing, bead: Bead, count: int) -> Value:
 @given(_terms(1), loads)
 def test_any_number_of_neighbours(terms: Terms, drawn: Drawn) -> None:
     form = fd.variance(fd.mean_over(observable(terms, i, j), N), load=drawn.load)
-    note(str(form))
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
         if at["N"] < 1:
@@ -209,7 +207,6 @@ def test_second_order_of_products(terms: Terms, n: tuple[Fraction, Fraction]) ->
     drawn = Drawn("surface", Fraction(3, 5), True, n)
     forces = sympy.Mul(*(term.force(i, j) for term in terms))
     form = fd.mean(forces, order=2, load=drawn.load)
-    note(str(form))
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
         values = (term.value(packing, (at["j"] % 2, at["j"])) for term in terms)
@@ -223,7 +220,6 @@ def test_second_order_of_products(terms: Terms, n: tuple[Fraction, Fraction]) ->
 def test_below_one_loaded_bead(terms: Terms, n: tuple[Fraction, Fraction]) -> None:
     """Of forces over f_load/2n_y, as the ordered one is zero off the legs."""
     form = fd.variance(observable(terms, i, j), load=fd.point(k, l))
-    note(str(form))
     cosine = n[1] ** 2 - n[0] ** 2
     for level in range(1, 5):
         packing = Packing(level, n, "point", at={k: level % 2}, order=1)

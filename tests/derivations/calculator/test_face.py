@@ -27,7 +27,6 @@ from force_diffusion.symbols import (
     l,
     m_g,
     n_y,
-    p,
     p_plus,
     phi,
     r,
@@ -38,13 +37,10 @@ _CALLS = """
 import sys
 import force_diffusion as fd
 assert not {"sympy", "numpy", "flint", "islpy"} & {*sys.modules}, sorted(sys.modules)
-from force_diffusion.symbols import N, f_minus, f_plus, i, j, t
-found = [
-    fd.variance(f_plus(i, j) - f_minus(i, j), load="surface"),
-    fd.variance(fd.mean_over(f_plus(i, j), N), load="bulk"),
-    fd.mean(f_plus(i, j), order=2, load=fd.leaning(t)),
-]
-print(*(isinstance(one, fd.ClosedForm) and len(one.pieces) for one in found))
+from force_diffusion.symbols import f_minus, f_plus, i, j
+form = fd.variance(f_plus(i, j) - f_minus(i, j), load="surface")
+assert isinstance(form, fd.ClosedForm)
+assert len(form.pieces) > 1
 """
 
 HERE = {"M": 6, "j": 2, "phi": Fraction(1, 3), "sigma": 1, "r": 1}
@@ -54,9 +50,6 @@ def test_calls_of_a_fresh_process() -> None:
     command = [sys.executable, "-c", _CALLS]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
-    counts = [int(one) for one in done.stdout.split()]
-    assert len(counts) == 3
-    assert min(counts) > 1
 
 
 def test_every_symbol_is_documented() -> None:
@@ -187,11 +180,8 @@ def test_layers_are_those_of_the_contact_and_not_of_the_index() -> None:
     moved = fd.variance(f_plus(i, j + 2))
     assert moved.domain == "−2 ≤ j ≤ M − 3"
     assert moved.at(**{**HERE, "j": -2}) == fd.variance(f_plus(i, j)).at(**{**HERE, "j": 0})
-    upper = fd.covariance(f_plus(i, j), f_plus(i + p, l))
-    swapped = {**HERE, "p": 1}
-    assert upper.at(**{**swapped, "j": 3, "l": 2}) == upper.at(
-        **{**swapped, "j": 2, "l": 3, "p": -1}
-    )
+    right, left = (fd.covariance(f_plus(i, j), f_plus(i + step, l)) for step in (1, -1))
+    assert right.at(**{**HERE, "j": 3, "l": 2}) == left.at(**{**HERE, "j": 2, "l": 3})
 
 
 def test_neighbours() -> None:

@@ -50,10 +50,14 @@ NUMBERS = {"phi": Fraction(-2, 7), "sigma": Fraction(3, 2), "r": 5, "t": Fractio
            "t_2": 2, "t_3": Fraction(1, 3), "L_plus": 3, "n_y": Fraction(1, 2)}  # fmt: skip
 
 
-pytestmark = pytest.mark.long(sample=5)
+SOON = ("Eq. 13", "averages", "bare")
+"""Those that take less than a second to derive and to ask."""
 
 
-@pytest.fixture(scope="module", params=CALLS)
+@pytest.fixture(
+    scope="module",
+    params=[name if name in SOON else pytest.param(name, marks=pytest.mark.long) for name in CALLS],
+)
 def form(request: pytest.FixtureRequest) -> fd.ClosedForm:
     return CALLS[request.param]()
 

@@ -24,6 +24,8 @@ from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.symbols import M, N, j, l, phi, r, sigma, t, z
 from sympy import Ge, Rational
 
+from tests.derivations.rows import each
+
 WIDE = dict.fromkeys(FIGURES, False)
 TEXT = source()
 u, v, z_upper, tau = sympy.symbols("u v zp tau", positive=True)
@@ -138,7 +140,7 @@ def test_every_display_is_looked_at() -> None:
     assert {*re.findall(r"\bB\d+\b", TEXT)} == labels
 
 
-@pytest.mark.parametrize("tag", EXACT)
+@pytest.mark.parametrize("tag", each(EXACT))
 def test_exact_displays_are_the_closed_forms(tag: str) -> None:
     forms = load(tag).exact_forms
     for name, (relation, value) in zip(EXACT[tag], STATED[tag], strict=True):
@@ -146,7 +148,7 @@ def test_exact_displays_are_the_closed_forms(tag: str) -> None:
         assert equals(name, value, *DOMAINS[tag])(forms).verdict.is_proved
 
 
-@pytest.mark.parametrize("tag", LEADING)
+@pytest.mark.parametrize("tag", each(LEADING))
 def test_leading_orders_are_those_of_the_closed_forms(tag: str) -> None:
     for words, (relation, value) in zip(LEADING[tag], STATED[tag], strict=True):
         label, name = words.split()
@@ -159,7 +161,7 @@ def test_those_of_the_paper() -> None:
         assert sympy.cancel(load(number).exact_forms["layer"].leading(1) - value) == 0
 
 
-@pytest.mark.parametrize("tag", GROWING)
+@pytest.mark.parametrize("tag", each(GROWING))
 def test_limits_are_those_of_the_closed_forms(tag: str) -> None:
     for (label, name, where, growing, at), (relation, value) in zip(
         GROWING[tag], STATED[tag], strict=True
@@ -170,6 +172,7 @@ def test_limits_are_those_of_the_closed_forms(tag: str) -> None:
         assert decide(load(label).exact_forms).verdict.is_proved
 
 
+@pytest.mark.long
 def test_both_loads_turn_the_axes_alike() -> None:
     forms = load("B18").exact_forms
     assert forms["axes_surface"].leading(1) == forms["axes_bulk"].leading(1)
@@ -207,6 +210,7 @@ def test_formulas_within_sentences(words: str, label: str, name: str, where, at)
     assert decide(load(label).exact_forms).verdict.is_proved
 
 
+@pytest.mark.long
 def test_averaging_over_loads_lowers_the_variance_by_less_than_a_third() -> None:
     one, many = load(16).exact_forms["bead"], load("B22").exact_forms["loads"]
     for cosine in (Rational(-2, 5), Rational(0), Rational(2, 5)):
@@ -218,6 +222,7 @@ def test_averaging_over_loads_lowers_the_variance_by_less_than_a_third() -> None
                     assert many.at(N=count, **at) > Rational(2, 3) * one.at(**at)
 
 
+@pytest.mark.long
 def test_numbers_of_steel_balls() -> None:
     said = TEXT.partition("## Steel balls\n")[2].partition("\n## ")[0]
     radius, share, height, cosine = 2.5e-3, 1e-4, 100, -0.125

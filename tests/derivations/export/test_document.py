@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
+import pytest
 from force_diffusion.derivations.export.document import (
     document,
     fragment_name,
@@ -11,12 +12,13 @@ from force_diffusion.derivations.export.document import (
     statement_latex,
 )
 from force_diffusion.derivations.export.prose import prose_latex
-from force_diffusion.derivations.framework.catalogue import modules
+from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.lists import both
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.runner import run
 
 from tests.derivations import fakes
+from tests.derivations.rows import each
 
 GOLDEN = Path(__file__).parents[2] / "golden"
 
@@ -117,18 +119,18 @@ def test_prose_is_escaped_and_set_as_mathematics() -> None:
     assert prose_latex("unknown ☃").endswith(r"\text{[snowman]}$")
 
 
-def sentences() -> Iterator[str]:
-    for number in modules():
-        derivation = load(number)
-        for step in derivation.proof:
-            yield from (step.reason, both(step.uses) if step.uses else "follows")
-        yield from (claim.reason for claim in derivation.proof.claims)
-        yield from (*derivation.remarks, *derivation.assumptions, derivation.title)
-        yield from (said for _, said in derivation.symbols)
+def sentences(number: Number) -> Iterator[str]:
+    derivation = load(number)
+    for step in derivation.proof:
+        yield from (step.reason, both(step.uses) if step.uses else "follows")
+    yield from (claim.reason for claim in derivation.proof.claims)
+    yield from (*derivation.remarks, *derivation.assumptions, derivation.title)
+    yield from (said for _, said in derivation.symbols)
 
 
-def test_sentences_of_every_derivation_can_be_set() -> None:
-    for sentence in sentences():
+@pytest.mark.parametrize("number", each(modules()))
+def test_sentences_of_every_derivation_can_be_set(number: Number) -> None:
+    for sentence in sentences(number):
         source = prose_latex(sentence)
         assert source.isascii()
         assert r"\text{[" not in source, source  # a character that it has only a name for

@@ -45,6 +45,7 @@ LEADING = {
 GIVEN = {"phi": Fraction(2, 7), "sigma": Fraction(1, 3), "r": Fraction(2)}
 
 
+@pytest.mark.long
 def test_the_file_is_what_the_derivations_generate() -> None:
     written = generator.TARGET.read_text(encoding="utf-8")
     assert written == generator.source(), (

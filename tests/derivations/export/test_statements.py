@@ -14,6 +14,8 @@ from force_diffusion.derivations.framework.proof import Refuted, Step
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, latex_body, text_lines
 
+from tests.derivations.rows import each
+
 GOLDEN = Path(__file__).parents[2] / "golden"
 
 
@@ -49,7 +51,7 @@ def refuted_shown(one: Refuted) -> str:
     return "\n\n".join(shown) + "\n"
 
 
-@pytest.mark.parametrize("number", list(modules()))
+@pytest.mark.parametrize("number", each(modules()))
 def test_statement(number: int, update_golden: bool) -> None:
     derivation = load(number)
     compare(GOLDEN / fragment_name(derivation.number), statement_latex(derivation), update_golden)

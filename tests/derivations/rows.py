@@ -1,0 +1,20 @@
+"""Equations as parameters of tests: those soon derived always, the others where CI runs."""
+
+from collections.abc import Iterable
+from typing import Any
+
+import pytest
+from force_diffusion.derivations.framework.catalogue import Number, modules
+
+SOON = {"B1", "B5", "B13", "B15", "B16", "B20", *(n for n in modules() if isinstance(n, int))}
+"""A row that is not among them takes a second or more to derive."""
+
+
+def each(numbers: Iterable[Number], share: int = 1) -> list[Any]:
+    """Mark what is derived late as long, of which CI runs one in so many."""
+    return [one if one in SOON else late([one], share)[0] for one in numbers]
+
+
+def late(cases: Iterable[Any], share: int = 1) -> list[Any]:
+    """Mark cases as long."""
+    return [pytest.param(one, marks=pytest.mark.long(share=share)) for one in cases]
