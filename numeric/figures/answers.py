@@ -8,7 +8,7 @@ from . import style  # first: it says what to install
 
 # isort: split
 from collections.abc import Callable, Mapping
-from math import ceil, radians, sqrt, tan
+from math import ceil, cos, radians, sin, sqrt
 from typing import Any
 
 import numpy as np
@@ -121,10 +121,10 @@ def ordered(plan: Plan, i: Any, j: Any) -> Array:
 
 def theory(plan: Plan) -> Array | None:
     """Give σ_f to first order, (directions, M); None where no closed form applies."""
-    theory = first_order_std(plan.problem)
-    if theory is None:
+    std = first_order_std(plan.problem)
+    if std is None:
         return None
-    unit, layers = plan.scene.load.magnitude, map(theory, range(plan.problem.height))
+    unit, layers = plan.scene.load.magnitude, map(std, range(plan.problem.height))
     return np.array([[float(std * unit) for std in layer] for layer in layers]).T
 
 
@@ -175,17 +175,18 @@ def surroundings(axes: Axes, plan: Plan, ends: Array, surface: Array | None = No
     if low < 2:  # else layers further below are left out
         beads.draw_base(axes, left, right)
     if load.at is not None:
-        x, y = apex(plan)
-        y = y if surface is None else float(surface[:, 1].max())
-        beads.draw_point_load(axes, x, y)
-        top = max(top, y) + 10
+        bead = apex(plan)
+        if surface is not None:
+            bead[1] = surface[:, 1].max()
+        beads.draw_point_load(axes, bead, along(plan))
+        top = max(top, bead[1]) + 10
     elif load.kind == "surface":
         if surface is None:
             step = 2 * float(plan.problem.n_x)
             i = np.arange(ceil(left / step), right / step + beads.EQUAL)
             i = i[(i - M) % 2 == 0]
             surface = ordered(plan, i, np.full(len(i), M))
-        beads.draw_surface_load(axes, surface, tan(radians(plan.problem.load.angle_deg)))
+        beads.draw_surface_load(axes, surface, along(plan))
         top = max(top, surface[:, 1].max()) + 5
     beads.bare(axes, left - 1, right + 1, low - 1.5, top + 1)
 
@@ -207,11 +208,16 @@ def named(forces: Array, what: str) -> list[tuple[float, str]]:
     return shown
 
 
-def apex(plan: Plan) -> tuple[float, float]:
-    """Give the ordered centre of the loaded bead."""
+def apex(plan: Plan) -> Array:
+    """Give the ordered centre of the loaded bead, (2,)."""
     assert plan.scene.load.at is not None
-    x, y = ordered(plan, *map(int, plan.scene.load.at))
-    return float(x), float(y)
+    return np.array(ordered(plan, *map(int, plan.scene.load.at)), float)
+
+
+def along(plan: Plan) -> Array:
+    """Give the direction of the load, (2,)."""
+    angle = radians(plan.problem.load.angle_deg)
+    return np.array([sin(angle), -cos(angle)])
 
 
 def height_of(places: Array) -> float:
@@ -328,7 +334,8 @@ def response(plan: Plan, columns: Columns, errors: Columns, network: Network | N
     figure, (left, right) = style.panels("ab", style.PAGE, 2.9)
     name = r"$p\,/\,f^{\rm load}$" if vertical else r"$\langle p\rangle\,/\,f^{\rm load}$"
     centres = ordered(plan, *sites.T)
-    beads.draw_cone(left, centres, p, apex(plan), float(p.max()), location="bottom", label=name)
+    most, load = float(p.max()), along(plan)
+    beads.draw_cone(left, centres, p, apex(plan), most, load, location="bottom", label=name)
     forces, what = rows["force" if vertical else "force_std"], "f" if vertical else r"\sigma_f"
     ends = contacts(plan, rows)
     beads.draw_chains(right, ends, forces, named(forces, what))

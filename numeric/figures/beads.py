@@ -18,6 +18,7 @@ WIDEST, THINNEST = 3.0, 0.05  # points
 EQUAL = 1e-12
 """Forces that differ by less than this share are equal: their differences are rounding."""
 MOST_ARROWS = 40
+DOWN = np.array([0.0, -1.0])
 NOTHING = 0.01
 """Share of the largest response, up to which a negative one is no tension."""
 
@@ -64,25 +65,26 @@ def arrow(axes: Axes, tail: Any, tip: Any, words: str = "", **look: Any) -> None
     )  # fmt: skip
 
 
-def draw_surface_load(axes: Axes, beads: Array, across: float = 0.0) -> None:
+def draw_surface_load(axes: Axes, beads: Array, along: Array = DOWN) -> None:
     """Draw arrows that end on ``beads``, (beads, 2), or on every other one, …, if they are many.
 
-    ``across``: how far to the side they go on one unit downwards.
+    ``along``: the direction of the load, (2,), a unit vector.
     """
-    down = np.array([across, -1.0]) / np.hypot(across, 1)
     for bead in beads[:: ceil(len(beads) / MOST_ARROWS)]:
-        arrow(axes, bead - 4.5 * down, bead - 1.1 * down, color="0.3", mutation_scale=5)
+        arrow(axes, bead - 4.5 * along, bead - 1.1 * along, color="0.3", mutation_scale=5)
 
 
-def draw_point_load(axes: Axes, x: float, y: float) -> None:
-    """Draw the loaded bead and the arrow of its load."""
-    draw_beads(axes, np.array([[x, y]]), fc="none", ec="black", lw=0.6, zorder=3)
-    arrow(axes, (x, y + 6), (x, y + 1), r"$\mathbf{F}^{\rm load}$", lw=1, mutation_scale=7)
+def draw_point_load(axes: Axes, bead: Array, along: Array = DOWN) -> None:
+    """Draw the loaded bead, (2,), and the arrow of its load."""
+    draw_beads(axes, bead[None], fc="none", ec="black", lw=0.6, zorder=3)
+    words = r"$\mathbf{F}^{\rm load}$"
+    arrow(axes, bead - 6 * along, bead - along, words, lw=1, mutation_scale=7)
 
 
 def draw_cone(
-    axes: Axes, centres: Array, shades: Array, apex: tuple[float, float], most: float, **bar: Any
-) -> None:
+    axes: Axes, centres: Array, shades: Array, apex: Array, most: float, along: Array = DOWN,
+    **bar: Any,
+) -> None:  # fmt: skip
     """Draw the beads of a response below its apex, with the load, the base and a bar of greys.
 
     ``centres``: (beads, 2); ``shades``, (beads,), from 0 to ``most``; ``bar`` as ``shade`` has it.
@@ -90,7 +92,7 @@ def draw_cone(
     shades = np.where(shades > -NOTHING * most, np.maximum(shades, 0), shades)
     reach = max(float(np.abs(centres[:, 0] - apex[0]).max(initial=0)), 0) + 2
     shade(axes, draw_beads(axes, centres), shades, most, **bar)
-    draw_point_load(axes, *apex)
+    draw_point_load(axes, apex, along)
     draw_base(axes, apex[0] - reach, apex[0] + reach, -1.2)
     bare(axes, apex[0] - reach, apex[0] + reach, -2, apex[1] + 10)
 

@@ -101,7 +101,7 @@ def figure(o: Options) -> Made:
         (axes[0], table["mean_simulated"], 0.5, r"$\langle p\rangle\,/\,f^{\rm load}$"),
         (axes[1], variance, highest, r"$\sigma^2(p)$, unit of (c)"),
     ):
-        apex, location = (0.0, APEX * step[1]), "bottom" if models else "right"
+        apex, location = np.array([0.0, APEX * step[1]]), "bottom" if models else "right"
         centres = np.array(SITES) * step
         draw_cone(panel, centres, shades, apex, most, location=location, label=label)
     _draw_cuts(axes[2], table)

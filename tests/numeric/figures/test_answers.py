@@ -238,6 +238,16 @@ def test_an_arrow_stands_on_each_bead_of_the_surface(angle: int) -> None:
     assert beads[:, 0] / (2 * nx) == pytest.approx(np.arange(M % 2, 2 * W + 1, 2))
 
 
+@pytest.mark.parametrize("quantity", ["response", "contact_forces"])
+def test_the_arrow_of_a_point_load_leans_with_it(quantity: str) -> None:
+    load = fd.PointLoad(at=(M % 2, M), angle_deg=30)
+    panels = scene(quantity, load=load).run().plot().axes
+    texts: list[Any] = [text for axes in panels for text in axes.texts]
+    across, up = np.array([np.subtract(text.xy, text.xyann) for text in texts]).T
+    assert up.max() < 0
+    assert across / -up == pytest.approx(np.tan(np.radians(30)))
+
+
 def test_arrows_stand_on_the_beads_of_a_packing_at_rest() -> None:
     free = scene("contact_forces", std=0.03, effects={"contacts": "unilateral"}).run()
     assert free.answer.network is not None
