@@ -151,7 +151,8 @@ def figures(
         if value is not None and not set(those) & set(wanted):
             add = those[0] if len(those) == 1 else "one of them"
             raise typer.BadParameter(
-                f"goes with figure{'s' * (len(those) > 1)} {', '.join(those)} only; add {add}.",
+                f"goes with figure{'s' * (len(those) > 1)} {', '.join(those)} only; add {add}"
+                + (", or change the scene." if scenes else "."),
                 param_hint=f"--{key.replace('_', '-')}",
             )
     if seed is not None and scenes == wanted:

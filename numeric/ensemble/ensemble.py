@@ -32,6 +32,7 @@ from ..mechanics import engine
 from ..mechanics.work import bar
 from ..scene.reading import read_scene
 from ..scene.scene import CheckedScene
+from ..scene.sections import SceneError
 from ..statistics.confidence import looks
 from .result import Ensemble
 from .store import Store, StoreFailedError, description
@@ -110,12 +111,14 @@ def ensemble(
         scene = read_scene(Path(scene), CheckedScene)
     if not isinstance(scene, CheckedScene):
         raise WrongTypeError(f"ensemble takes a scene or its path, not {type(scene).__name__}")
-    size = _size(scene.ask.realisations if realisations is None else realisations)
+    if not isinstance(executor, Executor | None):
+        raise WrongTypeError(f"executor = {quoted(executor)}: must be one of concurrent.futures")
     until = None if until is None else _number("until", until)
     confidence = _number("confidence", confidence)
     if store is not None and not isinstance(store, str | Path):
         raise ArgumentError(f"store = {quoted(store)}: must be the name of a file")
     m = measurement(scene, reach=None if reach is None else _number("reach", reach, 1e300))
+    size = _size(scene, realisations)
     solving: AbstractContextManager[Executor] = (
         _executor(m, size, workers) if executor is None else nullcontext(executor)
     )
@@ -188,7 +191,7 @@ def _joined(
         number = statistics.sums.first_left_out
         raise RealisationError(
             f"{statistics.unbuildable} of {size} packings are left out, and statistics need two: "
-            f"realisation {number}: {why_left_out(m, number)}"
+            f"realisation {number}: {why_left_out(m, number)}; choose a smaller scatter"
         )
     return statistics
 
@@ -238,11 +241,14 @@ def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
     return futures.ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent)
 
 
-def _size(realisations: object) -> int:
-    if not isinstance(realisations, SupportsIndex) or not 2 <= index(realisations) <= MOST:
-        allowed = f"an ensemble has from 2 to {MOST} packings"
-        raise ArgumentError(f"realisations = {quoted(realisations)}: {allowed}")
-    return index(realisations)
+def _size(scene: CheckedScene, realisations: object) -> int:
+    size = scene.ask.realisations if realisations is None else realisations
+    if isinstance(size, SupportsIndex) and 2 <= index(size) <= MOST:
+        return index(size)
+    allowed = f"must be a whole number from 2 to {MOST} for an ensemble"
+    if realisations is None:
+        raise SceneError("ask.realisations", size, allowed)
+    raise ArgumentError(f"realisations = {quoted(size)}: {allowed}")
 
 
 def _number(name: str, value: object, below: float = 1) -> float:
@@ -251,7 +257,8 @@ def _number(name: str, value: object, below: float = 1) -> float:
     except OverflowError:
         number = math.inf
     if not 0 < number < below:
-        raise ArgumentError(f"{name} = {quoted(value)}: must be a number between 0 and {below:g}")
+        allowed = f"must be greater than 0 and less than {below:g}"
+        raise ArgumentError(f"{name} = {quoted(value)}: {allowed}")
     return number
 
 

@@ -279,7 +279,7 @@ def printed_over_exact(plan: Plan) -> Array:
 def histogram(plan: Plan, columns: Columns, errors: Columns, network: Network | None) -> Figure:
     """Draw P of the changes, with the Gaussian of theory where there is one.
 
-    All contacts together have a Gaussian a layer. Errors are drawn where they are known: of one
+    All contacts together have one Gaussian per layer. Errors are drawn where they are known: of one
     contact, or of an ensemble.
     """
     known, contact, stds = theory(plan), plan.problem.contact, None
@@ -310,7 +310,7 @@ def histogram(plan: Plan, columns: Columns, errors: Columns, network: Network | 
     if stds is not None:
         v, ratio = np.linspace(low[0], high[-1], 321), (stds / unit)[:, None]
         gauss = np.exp(-((v / ratio) ** 2) / 2) / ratio / sqrt(2 * np.pi)
-        name = "Gaussian of theory" if contact is not None else "theory: a Gaussian a layer"
+        name = "Gaussian of theory" if contact is not None else "theory: one Gaussian per layer"
         axes.plot(v, gauss.mean(axis=0), "k", lw=1, label=name)
         axes.set_ylim(bottom=0.3 / count.sum() / (high - low).max())
     style.label_logarithmic(axes.yaxis)

@@ -8,7 +8,7 @@ from importlib import import_module
 from operator import index
 from typing import Any, SupportsIndex
 
-from ..arithmetic.errors import ForceDiffusionError, checked, quoted
+from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, checked, quoted
 from ..scene.sections import SceneError
 from ..tables import csv_bytes
 from .names import FIGURES, HEIGHTS, KINDS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
@@ -92,14 +92,18 @@ def figure(
         UnbuildableError, NotStandingError: a packing with such radii can't be built.
         MissingLibraryError: matplotlib is missing.
     """
+    if not isinstance(name, int | str):
+        drawn = "the answer of a scene is drawn by scene.run().plot()"
+        raise WrongTypeError(f"figure takes a name, not {type(name).__name__}; {drawn}")
     name = name if isinstance(name, str) else quoted(name)
     if name not in FIGURES:
         *names, last = (key if key.isdigit() else repr(key) for key in FIGURES)
         shown = quoted(name).strip("'")
         raise NoSuchFigureError(f"there is no figure {shown}: give {', '.join(names)} or {last}")
+    kinds = (kinds,) if isinstance(kinds, str) else kinds
     for kind in kinds:
         if kind not in KINDS:
-            raise SceneError("kinds", kind, f"must be of {', '.join(KINDS)}")
+            raise SceneError("kinds", kind, f"must be one of {', '.join(KINDS)}")
     beside = (beside,) if isinstance(beside, str) else tuple(beside)
     for model in beside:
         if MODELS.get(model) != name:
@@ -114,8 +118,11 @@ def figure(
         raise SceneError("realisations", realisations, allowed)
     listed = isinstance(heights, Iterable) and not isinstance(heights, str)
     layers = tuple(heights) if listed else ()
-    if not layers:
-        raise SceneError("heights", heights, "must be a list of whole numbers, such as [16, 32]")
+    if not 0 < len(layers) == len(set(layers)):
+        allowed = "must be a list of different whole numbers, such as [16, 32]"
+        raise SceneError("heights", heights, allowed)
+    if name != "3" and layers != HEIGHTS:
+        raise SceneError("heights", heights, "goes with figure 3 only")
     chosen = _chosen(name, spacing, relative_std)
     file, title, module, usual = FIGURES[name]
     made_by = command or f"force_diffusion.figure({name!r}, seed={seed})"

@@ -316,7 +316,7 @@ def _physical_words(p: dict[str, Any]) -> str:
     if not p["overlaps"] and not p["tensile_contacts"]:
         words = "open whether it is physical"
     elif not p["overlaps"] and "note" in p:
-        words = "not physical by itself, as under any load on single beads"
+        words = "not physical on its own, as with any load on single beads"
     faults = [f"{p['overlaps']} overlaps"] if p["overlaps"] else []
     if p["tensile_contacts"]:
         opens = ', which contacts = "unilateral" lets open' if "i" in p["first_tensile"] else ""

@@ -148,6 +148,8 @@ def read_scene(path: str | Path, changes: Mapping[str, str] | None = None) -> Sc
     """
     if not isinstance(path, str | Path):
         raise WrongTypeError(f"read_scene takes the path of a file, not {quoted(path)}")
+    if not isinstance(changes, Mapping | None):
+        raise WrongTypeError(f"changes are values by key, not {quoted(changes)}")
     for key, value in (changes or {}).items():
         if not isinstance(value, str):
             raise SceneError(key, value, "must be text, as a scene file has it")

@@ -91,7 +91,7 @@ def test_a_profile_and_a_histogram_are_drawn() -> None:
     names = axes.get_legend_handles_labels()[1]
     assert names == ["exact at finite $M$", *(f"simulated, $f^{a}$" for a in (1, 2, 3))]
     bins = fd.ensemble(scene("histogram", height=2, width=6, std=1e-4), 20).plot().axes[0]
-    assert "theory: a Gaussian a layer" in bins.get_legend_handles_labels()[1]
+    assert "theory: one Gaussian per layer" in bins.get_legend_handles_labels()[1]
 
 
 @pytest.mark.parametrize("load", [fd.SurfaceLoad(), fd.BulkLoad(magnitude=2)])

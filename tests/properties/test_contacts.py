@@ -48,7 +48,7 @@ def test_the_change_of_a_direction_is_at_right_angles_to_it(drawn: Drawn) -> Non
 GUIDE = Path(__file__).parents[2] / "docs" / "guides" / "properties.md"
 
 
-def test_the_guide_shows_what_a_changed_sign_of_eq_4_gives() -> None:
+def test_the_guide_shows_what_a_changed_sign_gives() -> None:
     (line,) = printed(4)
     (changed,) = (
         one.equation for one in mutants(line) if one.change == "sign of −δr_(i+j,0) flipped"

@@ -73,7 +73,7 @@ def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind: str, angl
 
 @pytest.mark.parametrize("reach", [-1, 0, math.nan])
 def test_no_bins_reach_so_far(reach: float) -> None:
-    with pytest.raises(ArgumentError, match=r"reach = .*between 0"):
+    with pytest.raises(ArgumentError, match=r"reach = .*must be greater than 0"):
         fd.ensemble(scene(CASES["histogram of all"]), 9, reach=reach)
 
 

@@ -113,9 +113,9 @@ def test_what_figure_3_says_draws_and_writes_is_the_same() -> None:
     assert ratio == pytest.approx(100 * (simulated / exact - 1))
 
 
-@pytest.mark.parametrize("heights", [[], 5, "8", iter(())])
+@pytest.mark.parametrize("heights", [[], 5, "8", iter(()), [8, 8]])
 def test_figure_3_needs_heights(heights: Any) -> None:
-    with pytest.raises(fd.SceneError, match=r"heights = .*must be a list of whole numbers"):
+    with pytest.raises(fd.SceneError, match=r"heights = .*must be a list of different whole numbers"):
         fd.figure(3, heights=heights)
 
 
