@@ -110,16 +110,15 @@ def test_a_rule_that_is_not_met_is_status_three(small: Path, call: Call) -> None
 
 def test_scenes_without_an_ensemble(tmp_path: Path, call: Call) -> None:
     for name, says in (
-        ("measured", "from 2 to"),
-        ("settled", "from 2 to"),
+        ("measured", "must be left out in an ensemble"),
+        ("settled", 'ask.quantity = "positions"'),
         ("none", "no such file"),
     ):
         status, _, err = call("ensemble", ROOT / "scenes" / f"{name}.toml")
         assert (status, says in err) == (2, True)
-    status, _, err = call("ensemble", ROOT / "scenes" / "settled.toml", "--realisations", 9)
-    assert status == 2
-    assert 'ask.quantity = "positions"' in err
     path = tmp_path / "wild.toml"
+    path.write_text(SMALL.replace("realisations = 40", "realisations = 1"))
+    assert "ask.realisations = 1: must be a whole number from 2" in call("ensemble", path)[2]
     path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 9'))
     status, _, err = call("ensemble", path)
     assert status == 2
