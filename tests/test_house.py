@@ -17,12 +17,12 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
-    "derivations": 7_763,
-    "numeric": 9_519,
+    "derivations": 7_764,
+    "numeric": 9_541,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 14_273,
+    "tests": 14_281,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
