@@ -22,7 +22,7 @@ LIMITS = {
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 14_281,
+    "tests": 14_274,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
