@@ -15,8 +15,6 @@ from .notation import by_name
 from .symbols import INDICES, M, N, epsilon, n_x, n_y, phi, z
 
 _WHOLE = {*INDICES, *SITE, *SOURCE}
-_COSINES = {n_x, n_y, phi}
-_HALF = sympy.Rational(1, 2)
 
 Symbols = Sequence[sympy.Symbol]
 
@@ -26,8 +24,7 @@ def never_zero(value: RationalFunction, points: sets.Set, dimension: int = 2) ->
 
     Disorder is as weak as one likes: what differs from zero at ε = 0 does.
     """
-    if value.holds(epsilon):
-        value = value.substitute({epsilon: FIELD.zero})
+    value = value.substitute({epsilon: FIELD.zero})
     return bool(points.is_empty()) or sign(value, points, dimension=dimension) != 0
 
 
@@ -61,7 +58,7 @@ def _of_factor(factor: Polynomial, points: sets.Set, positive: Symbols, dimensio
     held = expression.free_symbols
     if held <= _WHOLE and (result := _of_whole_numbers(expression, points)):
         return result
-    if held <= _COSINES and dimension == 2 and (result := _of_cosines(expression)):
+    if held <= {n_x, n_y, phi} and dimension == 2 and (result := _of_cosines(expression)):
         return result
     least = {symbol: _least(symbol, points) for symbol in held & _WHOLE}
     return _of_terms(expression, least, positive, sympy.Rational(-1, dimension))
@@ -96,14 +93,17 @@ def _on_interval(polynomial: sympy.Poly, low: sympy.Expr, high: sympy.Expr) -> i
 def _of_cosines(factor: sympy.Expr) -> int:
     """A polynomial in n_x = 2u/(1 + u²), n_y = (1 − u²)/(1 + u²) and φ = n_y² − n_x².
 
-    As −½ < φ < ½, u is between tan 15° and tan 30°: it is looked at in a range a little wider.
+    As −½ < φ < ½, u is between tan 15° and tan 30°: it is looked at in a range a little wider,
+    without the factors that vanish at these ends; between them these are below zero.
     """
     u = sympy.Dummy("u")
     x, y = 2 * u / (1 + u**2), (1 - u**2) / (1 + u**2)
-    above, below = sympy.fraction(
-        sympy.together(factor.xreplace({n_x: x, n_y: y, phi: y**2 - x**2}))
-    )
-    return _on_interval(sympy.Poly(above * below, u), sympy.Rational(4, 15), sympy.Rational(26, 45))
+    quotient = factor.xreplace({n_x: x, n_y: y, phi: y**2 - x**2})
+    polynomial = sympy.Poly(sympy.Mul(*sympy.fraction(sympy.together(quotient))), u)
+    for end in (u**2 - 4 * u + 1, 3 * u**2 - 1):
+        while polynomial and polynomial.rem(sympy.Poly(end, u)).is_zero:
+            polynomial = -polynomial.quo(sympy.Poly(end, u))
+    return _on_interval(polynomial, sympy.Rational(4, 15), sympy.Rational(26, 45))
 
 
 def _of_terms(
@@ -133,4 +133,4 @@ def _in_phi(factor: sympy.Expr, lowest: sympy.Rational) -> tuple[int, bool]:
     polynomial = sympy.Poly(factor, phi)
     power = min(power for (power,) in polynomial.monoms())
     rest = sympy.Poly({(p - power,): c for (p,), c in polynomial.terms()}, phi)
-    return (0 if power % 2 else _on_interval(rest, lowest, _HALF)), not power
+    return (0 if power % 2 else _on_interval(rest, lowest, sympy.S.Half)), not power
