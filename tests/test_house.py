@@ -16,7 +16,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_186,
+    "symbolic": 4_185,
     "derivations": 7_764,
     "numeric": 9_541,
     "force_diffusion": 78,
