@@ -1,5 +1,6 @@
 """Commands as their users call them, in an empty folder's place."""
 
+import sys
 from collections.abc import Callable
 
 import pytest
@@ -19,3 +20,12 @@ def call(capsys: pytest.CaptureFixture[str]) -> Call:
         return status, shown.out, shown.err
 
     return called
+
+
+@pytest.fixture
+def without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Matplotlib is not installed, as it seems, and nothing has loaded it."""
+    loaded = [name for name in sys.modules if name.split(".")[0] == "matplotlib"]
+    for name in ("force_diffusion.numeric.figures.style", *loaded):
+        monkeypatch.delitem(sys.modules, name, raising=False)
+    monkeypatch.setitem(sys.modules, "matplotlib", None)

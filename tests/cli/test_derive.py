@@ -147,10 +147,8 @@ def test_an_article_that_can_not_be_written_costs_no_proof(
 
 
 def test_an_article_without_what_draws_costs_no_proof(
-    made_up, tmp_path, monkeypatch, capsys
+    made_up, without_matplotlib, tmp_path, capsys
 ) -> None:
-    monkeypatch.delitem(sys.modules, "force_diffusion.numeric.figures.style", raising=False)
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
     assert main(["derive", "2", "--article", str(tmp_path / "new")]) == 3
     printed = capsys.readouterr()
     assert printed.out == ""

@@ -4,7 +4,6 @@ import csv
 import hashlib
 import json
 import shlex
-import sys
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -81,11 +80,8 @@ def test_heights_that_cannot_be_built(
     assert not out.exists()
 
 
-def test_without_matplotlib(tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.delitem(sys.modules, "force_diffusion.numeric.figures.style", raising=False)
-    for module in [m for m in sys.modules if m.split(".")[0] == "matplotlib"]:
-        monkeypatch.delitem(sys.modules, module)
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
+@pytest.mark.usefixtures("without_matplotlib")
+def test_without_matplotlib(tmp_path: Path, call: Call) -> None:
     status, printed, err = call("figures", "1", "--out", tmp_path / "out")
     assert (status, printed) == (3, "")
     assert "need matplotlib" in err

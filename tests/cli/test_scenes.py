@@ -49,41 +49,6 @@ def test_a_tolerance_can_be_given(call: Call) -> None:
     assert accuracy["error_bound"] <= 1e-60
 
 
-def written(folder: Path, text: str) -> Path:
-    path = folder / "scene.toml"
-    path.write_text(text)
-    return path
-
-
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        ("", "[packing]"),
-        ("[packing]\nheight = 4\nspacing = 9.0\n[ask]\nquantity = 'profile'", "packing.spacing"),
-        ("[packing]\nheight = 4\nwidth = 9\n[ask]\nquantity = 'profle'", "did you mean"),
-        (
-            "[packing]\nheight = 4\nwidth = 9\n[disorder]\nkind = 'file'\nfile = 'none.csv'\n"
-            "[ask]\nquantity = 'profile'",
-            "no such file",
-        ),
-        (
-            "[packing]\nheight = 400\nwidth = 401\n[disorder]\nkind = 'normal'\n"
-            "relative_std = 0.25\n[ask]\nquantity = 'profile'",
-            "bead (",
-        ),
-    ],
-)
-def test_wrong_input_is_status_two(text: str, says: str, tmp_path: Path, call: Call) -> None:
-    for command in ("run", "explain"):
-        status, out, err = call(command, written(tmp_path, text), "--json")
-        if status == 0:
-            assert command == "explain"  # found only while it runs: the bead's radius is drawn then
-            continue
-        assert (status, out) == (2, "")
-        assert says in err
-        assert "Traceback" not in err
-
-
 def test_out_writes_the_rows_that_are_printed(tmp_path: Path, call: Call) -> None:
     out = tmp_path / "out"
     for more in ((), ("--overwrite",)):
@@ -111,8 +76,8 @@ def test_out_of_reach_is_status_three(monkeypatch: pytest.MonkeyPatch, call: Cal
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="asks Linux for the peak")
 @pytest.mark.parametrize("tolerance", ["", "tolerance = 1e-30"])
 def test_memory_stays_within_what_was_announced(tolerance: str, tmp_path: Path) -> None:
-    scene = written(
-        tmp_path,
+    scene = tmp_path / "scene.toml"
+    scene.write_text(
         "[packing]\nheight = 60\nwidth = 122\n[disorder]\nkind = 'uniform'\n"
         f"relative_std = 1e-5\n[ask]\nquantity = 'contact_forces'\n{tolerance}\n",
     )

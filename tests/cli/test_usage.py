@@ -83,7 +83,7 @@ WRONG = [
     (f"run scene.toml --set packing.height={MANY}", "is not a TOML value"),
     ("run scene.toml --set disorder.file=other.csv", """say --set 'disorder.file="other.csv"'"""),
     (r"run scene.toml --set disorder.file=a\\b.csv", r"""say --set 'disorder.file="a\\b.csv"'"""),
-    ("run scene.toml --set packing.height=2,0", "packing.height = 0: must be from 1"),
+    ("run scene.toml --set packing.height=2,0", "scene.toml: packing.height = 0: must be"),
     (f"run scene.toml --set disorder.seed={SEEDS}", "1001 scenes"),
     ("run scene.toml --set disorder.seed=1 --seed 2", "leave one out"),
     ("cost scene.toml --seconds 0", "seconds = 0"),
