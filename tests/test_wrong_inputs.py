@@ -41,8 +41,8 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "Coq's number": (lambda: fd.certify(13), r"certify\(\[13\]\)"),  # type: ignore[arg-type]
     "no scene": (lambda: fd.run(3), "takes a scene, its path"),  # type: ignore[arg-type]
     "a table": (lambda: fd.run(SCENES / "radii.csv"), "is not a scene"),
-    "no packings": (lambda: fd.ensemble(SCENE, -3), "from 2 to"),
-    "many packings": (lambda: fd.ensemble(SCENE, LONG), "from 2 to"),
+    "no packings": (lambda: fd.ensemble(SCENES / "ensemble.toml", -3), "from 2 to"),
+    "many packings": (lambda: fd.ensemble(SCENES / "ensemble.toml", LONG), "from 2 to"),
     "workers": (lambda: fd.ensemble(SCENES / "ensemble.toml", 4, workers=DIGITS), "between 1 and"),  # type: ignore[arg-type]
     "progress": (lambda: fd.ensemble(SCENE, 4, progress=3), "True, False or a function"),  # type: ignore[arg-type]
     "no folder": (lambda: fd.solve(R).to_vtk("nowhere/a.vtk"), "can't be written"),
