@@ -29,7 +29,7 @@ def equal(left: sympy.Expr, right: sympy.Expr) -> Eq:
     return Eq(left, right, evaluate=False)
 
 
-@pytest.mark.parametrize("number", [8, 15])
+@pytest.mark.parametrize("number", [8, *late([15])])
 def test_all_lines_at_once(number: int | str) -> None:
     eq = fd.equation(number)
     lines = list(eq.expr)
