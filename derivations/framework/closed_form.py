@@ -30,7 +30,7 @@ from force_diffusion.symbolic.kernel.rules import rewrite
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, flat
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.piecewise import Piece, PiecewiseFunction, Relations
+from force_diffusion.symbolic.piecewise import Piece, PiecewiseFunction
 from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import (
@@ -45,7 +45,7 @@ from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .catalogue import Number as EquationNumber
-from .deciding import decided, strange_symbol
+from .deciding import alternatives_of, decided, strange_symbol
 from .display import alternatives_in_latex, over_common, room_of, with_commas
 from .evaluation import Number, by_name_only, evaluate, in_order, indices_at, with_values
 from .proof import equations_of
@@ -482,7 +482,7 @@ class ClosedForm:
         domain, function = self.kernel_domain.also(*at_place), self.function.part(*at_place)
         rest = function.points
         cases = next(iter(candidate.atoms(sympy.Piecewise)), sympy.S.Zero)
-        for value, relations in _alternatives_of(cases):
+        for value, relations in alternatives_of(cases):
             here = rest & function.part(*relations).points
             rest = rest - here
             formula = in_place(candidate, {cases: value}) if cases else candidate
@@ -519,21 +519,6 @@ class ClosedForm:
             return in_place(formula, {self.quantity: quotient})
         (symbol,) = shown  # the quantity may be this symbol less 1
         return in_place(formula, {symbol: sympy.Add(quotient, symbol - self.quantity)})
-
-
-def _alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
-    """The formulas of a function that is given in pieces, with relations; the first that fits."""
-    if isinstance(candidate, sympy.Piecewise) and not any(
-        c != sympy.false for _, c in candidate.args
-    ):
-        raise NotAStatementError("it has no value anywhere")
-    folded = sympy.piecewise_fold(candidate) if candidate.has(sympy.Piecewise) else candidate
-    if not isinstance(folded, sympy.Piecewise):
-        yield folded, ()
-        return
-    for value, condition in folded.args:
-        for part in sympy.Or.make_args(sympy.to_dnf(condition)):
-            yield value, tuple(each for each in sympy.And.make_args(part) if each != sympy.true)
 
 
 def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:

@@ -3,18 +3,20 @@
 from collections.abc import Iterator, Mapping
 
 import sympy
+from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import NotExactError, NotProvedError
+from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError, NotProvedError
 from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement
-from force_diffusion.symbolic.kernel.domain import Domain
+from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement, undecided
+from force_diffusion.symbolic.kernel.domain import Domain, Limit
+from force_diffusion.symbolic.kernel.limits import large
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.signs import sign
 from force_diffusion.symbolic.trees import equation, in_place
 
-from .deciding import strange_symbol
+from .deciding import alternatives_of, strange_symbol
 from .loading import load
 from .record import Derivation
 
@@ -46,11 +48,35 @@ def candidate_for(
             return not_a_statement(words)
         domain = domain.also(*(sympy.Eq(s, n, evaluate=False) for s, n in at.items()))
     formula = in_place(candidate, step.definitions[place])
+    if domain.limit and formula.has(sympy.Piecewise):
+        try:
+            formula = _in_limit(formula, domain, domain.limit)
+        except NotAStatementError as reason:
+            return not_a_statement(str(reason))
+        except NotExactError as reason:
+            return undecided(str(reason))
     attempts = [step.rules[place], *_further(statement, formula, domain)]
     ruling = decide(formula, domain, attempts)
     if not ruling.verdict.is_proved and (squares := _squares(formula, domain)) is not None:
         return decide(squares, domain, attempts)
     return ruling
+
+
+def _in_limit(formula: sympy.Eq, domain: Domain, limit: Limit) -> sympy.Eq:
+    """A formula with the case of a ``Piecewise`` that holds wherever all that grows is large.
+
+    Raises:
+        NotExactError: there is none, or its relations are not read.
+    """
+    cases = next(iter(formula.atoms(sympy.Piecewise)))
+    late = large(domain, limit) & domain.points
+    for value, relations in alternatives_of(cases):
+        here = late & sets.where(*map(domain.straight.relation, relations))
+        if late.is_subset(here):
+            return in_place(formula, {cases: value})
+        if not here.is_empty():
+            break
+    raise NotExactError(f"no case of it holds in all of {limit.words}")
 
 
 def _further(statement: Derivation, formula: sympy.Eq, domain: Domain) -> Iterator[Rule]:

@@ -1,11 +1,12 @@
 """What a user may hand to ``decide``: a line, the right-hand side of one, or all lines at once."""
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 from numbers import Rational
 from typing import Any
 
 import sympy
+from force_diffusion.symbolic.algebra.exact import NotAStatementError
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -15,6 +16,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.piecewise import Relations
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.sizes import too_large
 from force_diffusion.symbolic.trees import equation, nodes
@@ -126,3 +128,18 @@ def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str
         if symbol.name in names:
             return f"this {symbol.name} is not that of the equation: take it from its symbols"
     return ""
+
+
+def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
+    """The formulas of a function that is given in pieces, with relations; the first that fits."""
+    if isinstance(candidate, sympy.Piecewise) and not any(
+        c != sympy.false for _, c in candidate.args
+    ):
+        raise NotAStatementError("it has no value anywhere")
+    folded = sympy.piecewise_fold(candidate) if candidate.has(sympy.Piecewise) else candidate
+    if not isinstance(folded, sympy.Piecewise):
+        yield folded, ()
+        return
+    for value, condition in folded.args:
+        for part in sympy.Or.make_args(sympy.to_dnf(condition)):
+            yield value, tuple(each for each in sympy.And.make_args(part) if each != sympy.true)

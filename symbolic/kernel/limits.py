@@ -278,6 +278,11 @@ def _not_in(symbols: Iterable[sympy.Symbol]) -> list[sympy.Symbol]:
     return [dimension for dimension in sets.DIMENSIONS if dimension not in {*symbols}]
 
 
+def large(domain: Domain, limit: Limit) -> sets.Set:
+    """Where all that grows is large."""
+    return sets.where(*map(domain.straight.relation, _large(limit)))
+
+
 def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
     """The limit of a statement, if its domain holds all but the first of what grows so.
 
@@ -296,7 +301,7 @@ def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
         for expression in limit.positive
         for s in expression.xreplace(domain.straight.image).free_symbols
     }
-    late = sets.where(*map(domain.straight.relation, _large(limit)))
+    late = large(domain, limit)
     if not late.is_subset(sets.without(domain.points, *_not_in(held))):
         raise NotProvedError(f"its domain does not hold all of {limit.words}")
     return limit

@@ -45,6 +45,35 @@ def test_all_lines_at_once(number: int | str) -> None:
     assert eq.decide(-lines[0].rhs).verdict is Verdict.REFUTED
 
 
+IN_CASES = {
+    Verdict.PROVED: (lambda right: [(right, sy.j >= 5), (0, True)],
+                     lambda right: [(2 * right, sy.j < 3), (right, True)]),
+    Verdict.REFUTED: (lambda right: [(right, sy.j <= 5), (0, True)],
+                      lambda right: [(2 * right, sy.j >= 5), (right, True)]),
+    Verdict.UNDECIDED: (lambda right: [(right, 2 * sy.j >= sy.M), (0, True)],
+                        lambda right: [(right, sy.i >= 0), (0, True)],
+                        lambda right: [(right, sy.M <= 10**6), (0, True)],
+                        lambda right: [(right, sy.j < 3)]),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("verdict", "cases"), [(verdict, cases) for verdict in IN_CASES for cases in IN_CASES[verdict]]
+)
+def test_of_several_cases_a_limit_sees_the_one_that_holds_in_all_of_it(
+    verdict: Verdict, cases: Callable[[sympy.Expr], Any]
+) -> None:
+    eq = fd.equation(13)
+    assert eq.decide(sympy.Piecewise(*cases(eq.rhs))).verdict is verdict
+
+
+def test_a_closed_form_is_compared_in_a_limit() -> None:
+    form = fd.equation(13).exact()
+    assert fd.equation(13).decide(form).verdict is Verdict.PROVED
+    assert fd.equation(13).decide(2 * form.expr).verdict is Verdict.REFUTED
+    assert fd.equation(14).decide(form).verdict is Verdict.REFUTED
+
+
 @pytest.mark.parametrize("number", [7, 8, 15])
 def test_lines_that_are_left_out_are_not_proved(number: int | str) -> None:
     eq = fd.equation(number)
