@@ -208,6 +208,10 @@ class ClosedForm:
     def _for_domain(self) -> str:
         return f" for {self.domain}" if self.domain else ""
 
+    @property
+    def _heading(self) -> str:
+        return f"{text(self.quantity)}, exact{self._for_domain}"
+
     # numbers
 
     @cached_property
@@ -382,7 +386,7 @@ class ClosedForm:
     def python(self, name: str = "closed_form") -> str:
         """Python source of a function that computes what :meth:`at` does, without imports."""
         lines = [f"def {name}({', '.join(self.symbols)}):"]
-        lines.append(f'    """{text(self.quantity)}, exact{self._for_domain}."""')
+        lines.append(f'    """{self._heading}."""')
         relations, even = self._conditions_of(self._needed)
         conditions = words.parts(relations, words.PYTHON)
         conditions += [f"({python_expression(total)}) % 2 == 0" for total in even]
@@ -404,7 +408,7 @@ class ClosedForm:
 
     def lines(self, room: int = TEXT_WIDTH) -> list[str]:
         """The lines that ``print`` shows."""
-        lines = [f"{text(self.quantity)}, exact{self._for_domain}"]
+        lines = [self._heading]
         for piece in self.pieces:
             parts = f"{piece.domain or 'everywhere'}:".replace("; or ", ";\nor ").split("\n")
             where = pack([(part, len(part) + 1) for part in parts], room - 4, room - 2)
@@ -416,11 +420,11 @@ class ClosedForm:
         return lines
 
     def __str__(self) -> str:
-        lines = self.lines()
-        if len(lines) > _MOST_LINES:
-            how = 'print(*form.lines(), sep="\\n") shows all of them'
-            lines[1:] = [f"  {len(self.pieces)} formulas, in .pieces; {how}"]
-        return "\n".join(lines)
+        count = len(self.pieces)
+        if count < _MOST_LINES and len(lines := self.lines()) <= _MOST_LINES:
+            return "\n".join(lines)
+        how = 'print(*form.lines(), sep="\\n") shows all of them'
+        return f"{self._heading}\n  {count} formulas, in .pieces; {how}"
 
     def __repr__(self) -> str:
         count = len(self.pieces)
