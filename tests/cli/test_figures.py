@@ -5,11 +5,9 @@ import hashlib
 import json
 import shlex
 from pathlib import Path
-from typing import Any
 from xml.etree import ElementTree
 
 import pytest
-from force_diffusion.numeric.figures import packings
 from PIL import Image
 
 from tests.cli.conftest import Call
@@ -62,18 +60,11 @@ def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
     assert [row["of"].partition(":")[0] for row in one["comparisons"]] == ["M = 2", "M = 4"]
 
 
-def test_heights_that_cannot_be_built(
-    tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Far above M* beads no longer find a rest: here at a disorder that no option can ask for."""
-    planned = packings.planned
-
-    def rougher(*words: Any, **choices: Any) -> Any:
-        return planned(*words, **{**choices, "std": 0.3})
-
-    monkeypatch.setattr(packings, "planned", rougher)
-    out = tmp_path / "out"
-    status, printed, err = call("figures", 3, "--heights", "40", "--realisations", 16, "--out", out)
+def test_heights_that_cannot_be_built(tmp_path: Path, call: Call) -> None:
+    """Far above M* beads no longer find a rest."""
+    out, few = tmp_path / "out", ("--realisations", 16)
+    rough = "--heights", "40", "--relative-std", "0.3"
+    status, printed, err = call("figures", 3, *rough, *few, "--out", out)
     assert (status, printed) == (2, "")
     assert "figure 3: bead" in err
     assert "less disorder, fewer layers or a smaller spacing" in err
