@@ -181,8 +181,8 @@ def show_steps(steps: Steps) -> None:
     layers.claim_exponent(
         steps,
         "superdiffusive near the surface, subdiffusive below: the local exponent "
-        "d ln σ_f²/d ln (1 − z) falls from 2 at the surface through 1, that of Brownian motion, at "
-        "z = 3/8, is 0 at the maximum, z = 1/6, and negative nearer the base",
+        "d ln (σ_f²/⟨f⟩_z²)/d ln (1 − z) falls from 2 at the surface through 1, that of Brownian "
+        "motion, at z = 3/8, is 0 at the maximum, z = 1/6, and negative nearer the base",
         PROFILE,
         times(12 * z - 2, 1 / (4 * z + 1)),
         (8 * z - 3) / (4 * z + 1),

@@ -217,8 +217,8 @@ DERIVATION = Derivation(
         "The paper writes M* = O[(σ/r)^(−2/3)] in the text; it is checked here as ∝, with the "
         "definition given, and the prefactor is found: (1−φ²)^(2/3) for a surface load, 5^(1/3) "
         "times that for a bulk load.",
-        "M* is a definition: the paper says of it that a finite fraction of the forces is negative "
-        "there, which the fraction below bears out.",
+        "M* is our definition; the paper says only that a finite fraction of the forces is "
+        "negative there, which the fraction above bears out.",
         "The fraction of tensile contacts is an estimate: the forces are Gaussian exactly for "
         "normal radii and else in the limit, to first order in δr. That they are in the limit is "
         "Lindeberg's theorem; its condition is decided, the theorem is quoted.",
@@ -227,10 +227,10 @@ DERIVATION = Derivation(
         "finite at heights of the order of M*.",
         "To let the expected number of tensile contacts vanish, rather than their fraction, the "
         "paper expects a much lower M*. With Gaussian forces M* divided by the cube root of "
-        "8c ln M, c > 1, is enough for a square packing, to leading order: a logarithm, not "
-        "another power of σ/r. The bound on the variance is decided, by which 1/2σ_f² is at least "
-        "2c ln M there; Chernoff's inequality, P(f<0) ≤ exp(−1/2σ_f²) = M^(−2c) for each of the "
-        "M² contacts, is quoted.",
+        "8c ln M, c > 1, is enough for a packing as wide as it is high, to leading order: a "
+        "logarithm, not another power of σ/r. The bound on the variance is decided, by which "
+        "1/(2σ_f²), with σ_f relative to the mean, is at least 2c ln M there; Chernoff's "
+        "inequality, P(f<0) ≤ exp[−1/(2σ_f²)] = M^(−2c) for each of the M² contacts, is quoted.",
     ),
 )
 

@@ -45,8 +45,8 @@ def verdicts(outcomes: Sequence[ProofOutcome]) -> str:
     missing = [str(label) for label in modules() if label not in derived]
     refuted = [f"Eq. {outcome.derivation.number}" for outcome in outcomes if outcome.refuted]
     return (
-        f"In the run that wrote this text the program derived {len(derived)} equations: "
-        f"{verdicts_text(outcomes)}."
+        f"In the run that wrote this text the program derived {len(derived) or 'no'} equations"
+        + (f": {verdicts_text(outcomes)}." if outcomes else ".")
         + (f" Not derived in it: {', '.join(missing)}." if missing else "")
         + (f" As its words read in the paper, {both(refuted)} is refuted." if refuted else "")
     )

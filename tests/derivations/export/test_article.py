@@ -253,7 +253,7 @@ def test_numbers_of_steel_balls() -> None:
         rf"$M^*$ is {highest:.0f} layers, or ${2 * highest * radius * rise:.1f}\,\mathrm{{m}}$",
         rf"settles by ${settled * 1e6:.2f}\,\mathrm{{\mu m}}$",
         rf"${max(abs(shifts)) * 1e6:.1f}\times10^{{-6}}$ at most",
-        rf"${abs(plateau) * 1e8:.1f}\times10^{{-8}}$ of the load",
+        rf"${plateau * 1e8:.1f}\times10^{{-8}}$ of the load",
         rf"standard deviation ${scatter * 1e3:.1f}\times10^{{-3}}$",
         rf"$(r/\sigma)^2=10^{round(-2 * math.log10(share))}$ layers",
         rf"flatten by ${flattened * 1e6:.2f}\,\mathrm{{\mu m}}$ at ${force:.2f}\,\mathrm{{N}}$",
