@@ -178,6 +178,8 @@ def _directives(table: re.Match[str]) -> str:
         module = _OTHER_CLASSES.get(owner, fd.__name__)
         described = getattr(import_module(module), owner)
         if member:
+            if member in getattr(described, "__dataclass_fields__", ()):
+                continue  # its class says what it is
             kind = inspect.getattr_static(described, member)
             directive = "automethod" if inspect.isfunction(kind) else "autoattribute"
             if isinstance(kind, property | cached_property):
