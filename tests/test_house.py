@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_187,
     "derivations": 7_788,
-    "numeric": 9_541,
+    "numeric": 9_540,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,

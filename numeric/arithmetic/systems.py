@@ -122,9 +122,9 @@ FLOAT64 = Float64()
 @cache
 def flint() -> Any:
     """Load python-flint, and let its balls be pickled."""
-    flint = import_module("flint")
-    copyreg.pickle(flint.arb, _pickled)
-    return flint
+    library = import_module("flint")
+    copyreg.pickle(library.arb, _pickled)
+    return library
 
 
 def _pickled(ball: Any) -> tuple[Any, tuple[Any, ...]]:

@@ -121,10 +121,10 @@ def ordered(plan: Plan, i: Any, j: Any) -> Array:
 
 def theory(plan: Plan) -> Array | None:
     """Give σ_f to first order, (directions, M); None where no closed form applies."""
-    std = first_order_std(plan.problem)
-    if std is None:
+    std_of = first_order_std(plan.problem)
+    if std_of is None:
         return None
-    unit, layers = plan.scene.load.magnitude, map(std, range(plan.problem.height))
+    unit, layers = plan.scene.load.magnitude, map(std_of, range(plan.problem.height))
     return np.array([[float(std * unit) for std in layer] for layer in layers]).T
 
 

@@ -75,12 +75,12 @@ def solve(
         return rounded(line_sums) if carried else line_sums
     load = problem.load if problem.needs_forces else None
     linear = problem.route != Route.EXACT
-    line_sums = swept(
+    solved = swept(
         problem.n_x, problem.radii, load, problem.region, problem.force_rows, realisations, system,
         linear=linear, carried=carried,
     )  # fmt: skip
     work.did("summed" if linear else "deposited", problem.region.beads * len(realisations))
-    return line_sums
+    return solved
 
 
 def _ordered(problem: Problem, system: NumberSystem) -> Solved:

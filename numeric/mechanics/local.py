@@ -219,14 +219,14 @@ def nested(under: Sequence[Vector], rho_under: Vector, m: Metric) -> list[Any]:
 
     The square of the difference of their radii, in units of r, less that of their distance.
     """
-    parts = []
+    differences = []
     for a, b in combinations(range(len(under)), 2):
         turn = 2 * (1 - m.phi)
         apart = list(less(under[a], under[b]))
         apart[a], apart[b] = apart[a] - turn, apart[b] + turn
         sizes = rho_under[a] - rho_under[b]
-        parts.append(sizes * sizes - dot(raised(tuple(apart), m), tuple(apart)))
-    return parts
+        differences.append(sizes * sizes - dot(raised(tuple(apart), m), tuple(apart)))
+    return differences
 
 
 class Balanced(NamedTuple):

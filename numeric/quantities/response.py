@@ -55,12 +55,12 @@ class Response(Merged):
     def tilt(self, solved: Solved, blocks: Sequence[Block], realisations: int) -> Array:
         """Give N_y/n_y − 1 of contacts, (realisations, contacts)."""
         assert solved.packing is not None
-        region, changes = solved.packing.region, [solved.system.zeros(realisations, 0)]
+        region, tilts = solved.packing.region, [solved.system.zeros(realisations, 0)]
         for branch, row in blocks:
             normal = solved.packing.dn(branch.number, row.j)
             parts = [pick(v, region.rows[row.j], row, region.width) for v in normal]
-            changes.append(sum(parts[1:], parts[0]))
-        return np.concatenate(changes, axis=1)
+            tilts.append(sum(parts[1:], parts[0]))
+        return np.concatenate(tilts, axis=1)
 
     def table(self, problem: Problem, system: NumberSystem, statistics: Statistics) -> Table:
         """One row a contact."""

@@ -187,7 +187,7 @@ def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:
         raise packing.wrong("radius", allowed)
     mean = float(given.values.mean()) - (packing.radius if given.delta_r is None else 0)
     if abs(mean) > packing.radius / 2:
-        allowed = f"must be close to the mean radius of the beads, which is {mean:.3g} off"
+        allowed = f"must be near the mean radius of the beads, which differs from it by {mean:.3g}"
         raise packing.wrong("radius", allowed)
     packings = shape[0] if len(shape) > rank else 1
     if ask.realisations > packings:

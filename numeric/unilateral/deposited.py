@@ -142,8 +142,7 @@ def loads(problem: Problem, system: NumberSystem) -> Array:
     assert problem.width is not None
     nx, ny = axes(problem.n_x, system)
     rows = whole(problem.width, problem.height).rows
-    forces = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
-    plus, minus = forces
+    plus, minus = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
     return np.stack([(minus - plus) * nx, -(plus + minus) * ny], axis=1)
 
 
