@@ -178,18 +178,6 @@ def contact_response(
     return _below_load(generated.contact_response, i, j, k, l, phi) * (sigma / r) ** 2
 
 
-def leg_variance(j: Any, l: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact σ_f²/⟨f⟩² of the contact that starts in layer j of a leg of the cone (Eq. 16).
-
-    This is the magnitude of the force; ``contact_response`` gives its vertical component. For
-    0 ≤ j < l.
-    """
-    l, j = _whole("l", l, 1), _whole("j", j, 0)
-    if j >= l:
-        raise ValueError(f"no contact of a leg starts at j = {j}: 0 <= j < l = {l} is allowed")
-    return _below_load(generated.leg_variance, j, j, l, l, phi) * (sigma / r) ** 2
-
-
 def _below_load(form: Callable[..., Any], i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
     """A form of bead (i, j) or of a contact above it, for a load on bead (k, l); 0 if not below."""
     j, l = _whole("j", j, 0), _whole("l", l, 0)

@@ -230,23 +230,3 @@ def contact_response(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
     if i == j + k - l and 2 <= j <= l - 2:
         return (2*j + 2*l + phi*(phi + 2) - 2) / (4 * (1 - phi) ** 2 * (phi + 1) ** 2)
     return (-6*i + 6*j + 6*k + 6*l + phi**2 - 6) / (8 * (1 - phi) ** 2 * (phi + 1) ** 2)
-
-
-def leg_variance(i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
-    if i >= -j + k + l or i <= j + k - l - 2:
-        return 0 * phi
-    if i == j + k - 1 and l == 1:
-        return (phi*(phi*(phi*(phi - 2) + 6) - 2) + 1) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == k - 1 and j == 1 and l == 2:
-        return (phi*(phi*(phi*(phi - 1) + 11) + 2) + 4) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == k + l - 2 and j == 0 and l >= 2:
-        return (phi*(phi - 1) + 7) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == k - l and j == 0 and l >= 2:
-        return (4*l + phi*(phi*(phi*(phi - 1) + 5) - 1) - 4) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == k - l + 1 and j == 1 and l >= 3:
-        return (4*l + phi*(phi*(phi**2 + 9) + 3) - 4) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == k - 1 and j == l - 1 and l >= 3:
-        return (l*(4*phi**2 + 4) + phi*(phi*(phi*(phi - 1) + 3) - 1) - 4) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    if i == j + k - l and 2 <= j <= l - 2:
-        return (4*j*phi**2 + 4*l + phi**2*(phi**2 + 5) - 4) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    return (-6*i + 6*j + 6*k + 6*l + phi**2 - 6) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)

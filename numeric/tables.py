@@ -1,7 +1,6 @@
 """Results as rows, as tables to be looked at, and as columns of text."""
 
 import math
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from html import escape
@@ -82,6 +81,49 @@ class Tabled:
         return found
 
 
+class Answered(Tabled):
+    """The answer to a question, as a table whose numbers are known to so many digits."""
+
+    @property
+    def quantity(self) -> str:
+        """The question, by its name in a scene."""
+        raise NotImplementedError
+
+    @property
+    def text(self) -> dict[str, list[str]]:
+        """The columns as text: decimals with the digits that are known."""
+        raise NotImplementedError
+
+    @property
+    def count(self) -> int:
+        """How many rows there are."""
+        return len(next(iter(self.arrays.values()), ()))
+
+    @property
+    def whole_numbers(self) -> list[str]:
+        """The names of columns of whole numbers: sites and counts."""
+        return whole(self.arrays)
+
+    def rows(self) -> list[Row]:
+        """The table row by row, ready for a data frame; numbers as Python's int and float."""
+        return rows_of(self.arrays)
+
+    def decimals(self) -> list[Row]:
+        """The table row by row, numbers as decimal strings with the digits that are known."""
+        return rows_of_text(self.text, self.whole_numbers)
+
+    def _repr_html_(self) -> str:
+        """Show the first rows as a table in a notebook."""
+        first = {name: text[:SHOWN] for name, text in self.text.items()}
+        rows = rows_of_text(first, self.whole_numbers)
+        return html_table(rows, str(self).splitlines(), self.count)
+
+
+def whole(columns: Mapping[str, Array]) -> list[str]:
+    """Name the columns of whole numbers."""
+    return [name for name, column in columns.items() if column.dtype.kind == "i"]
+
+
 def _library(name: str) -> Any:
     """Import pandas or xarray. Raises ``MissingLibraryError``."""
     try:
@@ -90,30 +132,6 @@ def _library(name: str) -> Any:
         raise MissingLibraryError(
             f"{name} is missing; pip install 'force-diffusion[tables]'"
         ) from None
-
-
-def text_table(rows: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Give rows as lines of text below their names: words to the left, numbers to the right.
-
-    >>> print("\\n".join(text_table([{"way": "a", "error": 1e-9}, {"way": "bc", "error": None}])))
-    way  error
-    a    1e-09
-    bc
-    """
-    names = list(rows[0]) if rows else []
-    lines = [names, *([_text(row[name]) for name in names] for row in rows)]
-    adjusted = []
-    for name, column in zip(names, zip(*lines, strict=True), strict=True):
-        width = max(map(len, column))
-        words = any(isinstance(row[name], str) and row[name][:1].isalpha() for row in rows)
-        adjusted.append([cell.ljust(width) if words else cell.rjust(width) for cell in column])
-    return ["  ".join(line).rstrip() for line in zip(*adjusted, strict=True)]
-
-
-def _text(value: Any) -> str:
-    if isinstance(value, float):
-        return f"{value:.3g}"
-    return "" if value is None else str(value)
 
 
 def html_table(
@@ -135,31 +153,6 @@ def _cell(value: Any) -> str:
     if value is None:
         return ""
     return escape(f"{value:.6g}" if isinstance(value, float) else str(value))
-
-
-def latex_table(rows: Sequence[Mapping[str, Any]]) -> str:
-    r"""Show rows as an array in LaTeX, which MathJax reads, too.
-
-    >>> print(latex_table([{"j": 0, "component": "force", "std_error": 2.5e-7}]))
-    $\displaystyle\begin{array}{rrr}
-    \mathrm{j} & \mathrm{component} & \mathrm{std\_error} \\ \hline
-    0 & \mathrm{force} & 2.5\times10^{-7}
-    \end{array}$
-    """
-
-    def line(words: Iterable[str]) -> str:
-        return " & ".join(words).replace("_", r"\_")
-
-    def cell(value: Any) -> str:
-        text = _text(value)
-        if text[:1].isalpha():
-            return rf"\mathrm{{{text}}}"
-        return re.sub(r"e([+-])0*(\d+)$", r"\\times10^{\1\2}", text)
-
-    heads = line(rf"\mathrm{{{name}}}" for name in rows[0])
-    cells = (line(map(cell, r.values())) for r in rows)
-    start = rf"$\displaystyle\begin{{array}}{{{'r' * len(rows[0])}}}"
-    return "\n".join([start, heads + r" \\ \hline", " \\\\\n".join(cells), r"\end{array}$"])
 
 
 def counted(count: int, noun: str) -> str:

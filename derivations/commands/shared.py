@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, MissingLibraryError
 from force_diffusion.numeric.figures.names import KINDS
-from force_diffusion.numeric.tables import csv_bytes
+from force_diffusion.numeric.tables import Answered, csv_bytes
 
 from ..export import answers
 from ..export.answers import Format
@@ -60,7 +60,7 @@ def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[st
 
 
 def show(
-    results: Sequence[answers.Answered],
+    results: Sequence[Answered],
     about: dict[str, Any],
     lines: Iterable[str],
     *,
@@ -75,7 +75,7 @@ def show(
     for answer in results if not written else ():
         if len(results) > 1:
             print(f"# {answer.quantity}")
-        count = answers.rows_of(answer)
+        count = answer.count
         rows = count if quiet else FEW
         _print(csv_bytes({name: text[:rows] for name, text in answer.text.items()}))
         if count > rows:

@@ -9,28 +9,15 @@ schema under ``force-diffusion``.
 import io
 import json
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
+from typing import Any, Literal, get_args
 
 import numpy as np
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.numeric.arithmetic.systems import Array
-from force_diffusion.numeric.tables import csv_bytes, json_rows
-
-if TYPE_CHECKING:
-    from force_diffusion.numeric.ensemble.result import Ensemble
-    from force_diffusion.numeric.run.outcome import Result
-
-Answered: TypeAlias = "Result | Ensemble"
-"""What has been answered: a run of a scene, or an ensemble."""
-
+from force_diffusion.numeric.tables import Answered, csv_bytes, json_rows
 
 Format = Literal["csv", "npz", "parquet"]
 """How the rows of an answer are written."""
-
-
-def rows_of(answer: Answered) -> int:
-    """Count the rows."""
-    return len(next(iter(answer.arrays.values()), ()))
 
 
 def check(written: Format) -> None:
@@ -55,8 +42,7 @@ def files_of(
         return {"result.json": json_bytes(answers, about), **tables}
     about = about | {
         "results": {
-            answer.quantity: {"file": name, "rows": rows_of(answer)}
-            for name, answer in files.items()
+            answer.quantity: {"file": name, "rows": answer.count} for name, answer in files.items()
         }
     }
     text = json.dumps(about, indent=2) + "\n"

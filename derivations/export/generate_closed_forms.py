@@ -96,7 +96,6 @@ def _forms() -> Iterator[tuple[str, str, Iterable[Branch]]]:
     yield "response", "j l phi", _leading(eq16.PRINTED.rhs)
     yield "bead_response", "i j k l phi", _exact(16, "bead")
     yield "contact_response", "i j k l phi", _exact(16, "contact")
-    yield "leg_variance", "i j k l phi", _exact(16, "force")
 
 
 def source() -> str:

@@ -25,7 +25,7 @@ LEAST = 1e-300  # floats that are smaller have fewer digits
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Ensemble(tables.Tabled):
+class Ensemble(tables.Answered):
     """Statistics over N packings, for G groups of equivalent contacts.
 
     A group is a layer and branch of a profile, a single contact, or all contacts of a histogram.
@@ -236,11 +236,6 @@ class Ensemble(tables.Tabled):
         """The table's columns by name; an entry for each group, or for each bin of a histogram."""
         return self.bins or self._groups
 
-    @property
-    def rows(self) -> int:
-        """How many rows the table has."""
-        return len(next(iter(self.arrays.values())))
-
     @cached_property
     def text(self) -> dict[str, list[str]]:
         """The columns as text, to two digits beyond their standard errors."""
@@ -263,11 +258,6 @@ class Ensemble(tables.Tabled):
                 texts[name] = known_digits(column, 0.0, sampling)
         return texts
 
-    @property
-    def whole_numbers(self) -> list[str]:
-        """The names of columns of whole numbers: sites and counts."""
-        return _whole(self.arrays)
-
     @cached_property
     def source(self) -> dict[str, Any]:
         """Where it came from: program, version, scene, seed, and the SHA-256 of files read."""
@@ -281,7 +271,7 @@ class Ensemble(tables.Tabled):
         Without ``rows`` the list of results is empty, since it may have millions of rows.
         """
         m, known = self.measurement, math.isfinite(self.half_width)
-        written = tables.rows_of_text(self.text, self.whole_numbers) if rows else []
+        written = self.decimals() if rows else []
         data: dict[str, Any] = {
             "source": self.source,
             "ensemble": {
@@ -303,7 +293,7 @@ class Ensemble(tables.Tabled):
         }
         if self.bins:  # of all that was counted
             groups = self._groups
-            (data["statistics"],) = tables.rows_of_text(self._text_of(groups), _whole(groups))
+            (data["statistics"],) = tables.rows_of_text(self._text_of(groups), tables.whole(groups))
         return data
 
     def plot(self) -> "Figure":
@@ -324,7 +314,7 @@ class Ensemble(tables.Tabled):
 
     def __str__(self) -> str:
         """Say how many rows and packings there are, and how sure they are."""
-        rows = tables.counted(self.rows, "row")
+        rows = tables.counted(self.count, "row")
         lines = [f"{self.quantity}: {rows}, {self.realisations} packings"]
         if math.isfinite(self.half_width):
             lines.append(
@@ -341,19 +331,3 @@ class Ensemble(tables.Tabled):
         return "\n".join(lines + [f"skipped: {'; '.join(skipped)}"] * bool(skipped))
 
     __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        """Show the first rows as a table in a notebook."""
-        return tables.html_table(tables.rows_of(self._first), str(self).splitlines(), self.rows)
-
-    def _repr_latex_(self) -> str:
-        """Show the first rows as a table in LaTeX."""
-        return tables.latex_table(tables.rows_of(self._first))
-
-    @property
-    def _first(self) -> dict[str, Array]:
-        return {name: column[: tables.SHOWN] for name, column in self.arrays.items()}
-
-
-def _whole(columns: dict[str, Array]) -> list[str]:
-    return [name for name, column in columns.items() if column.dtype.kind == "i"]

@@ -86,13 +86,14 @@ class Comparison:
     band: Band
     theory: Array
 
-    def deviation(self, theory: Array | None = None) -> float:
-        """Largest deviation of this theory or another one, in half-widths: inside is ≤ 1."""
-        return self.band.deviation(self.theory if theory is None else theory)
+    @property
+    def deviation(self) -> float:
+        """Largest deviation of theory, in half-widths: inside is ≤ 1."""
+        return self.band.deviation(self.theory)
 
     def verdict(self) -> str:
         """Say whether theory lies inside of the band."""
-        return f"{self.of} {self.band.verdict(self.deviation())}"
+        return f"{self.of} {self.band.verdict(self.deviation)}"
 
     @property
     def bars(self) -> Array:
@@ -128,7 +129,7 @@ def compared(
     }
     table = {**rows, **{key: np.concatenate(parts) for key, parts in columns.items()}}
     verdicts = [
-        {"of": c.of, "inside": c.deviation() <= 1, "deviation_in_half_widths": c.deviation()}
+        {"of": c.of, "inside": c.deviation <= 1, "deviation_in_half_widths": c.deviation}
         for c in cases
     ]
     facts = {**parameters, "realisations": o.realisations, "level": LEVEL, "comparisons": verdicts}

@@ -93,7 +93,7 @@ def _problem(
     single = quantities[0].single and bool(ordered or effects.geometry == "first-order")
     beads = 5 * scene.packing.height
     if not single:
-        beads = max(quantity.layers_beads for quantity in quantities)
+        beads = max(quantity.fewest_beads for quantity in quantities)
     swept = not ordered or scene.packing.dimension > 2
     refuse_beads(quantities, beads * swept, limit, text=text)
 

@@ -127,13 +127,22 @@ class Quantity(ABC):
         return self.scene.ask.at is not None and not self.by_layers
 
     @property
-    def layers_beads(self) -> int:
-        """How many beads whole layers have, where these are solved; else 0."""
-        return (self.top + 1) * (self.width or 0) if self.by_layers else 0
+    def fewest_beads(self) -> int:
+        """Bound from below how many beads are solved, before any are listed."""
+        layers, load, contact = self.top + 1, self.scene.load, self.scene.contact
+        if self.by_layers:
+            return layers * (self.width or 0)
+        if self.width is not None or load.kind == "file":
+            return 0
+        if load.at is not None and contact is not None:
+            (i, j), (across, top) = contact.upper, load.at
+            if abs(across - i) > top - j:  # no load reaches it
+                return 0
+        return layers * (layers + 1) // 2  # the triangle below a bead of the highest layer
 
     @property
     def top(self) -> int:
-        """The highest layer that is solved where layers are whole: of the load, or as asked."""
+        """The highest layer that is solved: of the load, or as asked."""
         if self.scene.effects.contacts == "unilateral":
             return self.height
         at = self.scene.load.at if self.needs_forces else self.scene.ask.at

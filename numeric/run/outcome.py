@@ -17,7 +17,7 @@ from ..quantities.answer import Answer
 from ..quantities.base import Table
 from ..scene.scene import source_of
 from ..statistics import bins
-from ..tables import SHOWN, Row, Tabled, html_table, rows_of, rows_of_text, text_of
+from ..tables import Answered, text_of
 from ..unilateral.network import Network
 
 if TYPE_CHECKING:
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class Result(Tabled):
+class Result(Answered):
     """The answer to one question, of a ``plan`` that asks it first.
 
     ``table`` holds the numbers in the arithmetic of the run.
@@ -69,18 +69,9 @@ class Result(Tabled):
                 columns[f"{name}_error"] = table.errors[name]
         return columns
 
-    def rows(self) -> list[Row]:
-        """The answer row by row, ready for a data frame; numbers as Python's int and float."""
-        return rows_of(self.arrays)
-
-    @property
-    def count(self) -> int:
-        """How many rows there are."""
-        return len(next(iter(self.arrays.values()), ()))
-
     @cached_property
     def text(self) -> dict[str, list[str]]:
-        """The columns of the answer as text, see ``numeric.tables``: decimals with known digits."""
+        """The columns of the answer as text: decimals with the digits that are known."""
         if self.table.bins is not None:
             return bins.printed(self.table.bins)
         system, table = self.plan.system, self.table
@@ -88,15 +79,6 @@ class Result(Tabled):
             # a tolerance asks for the digits of these very packings
             numbers = printed(table, self.accuracy, system, sampled=self.plan.tolerance is None)
         return {name: text_of(column) for name, column in table.index.items()} | numbers
-
-    @property
-    def whole_numbers(self) -> list[str]:
-        """The names of columns of whole numbers: sites and counts."""
-        return [name for name in self.text if self.arrays[name].dtype.kind == "i"]
-
-    def decimals(self) -> list[Row]:
-        """The answer row by row, numbers as decimal strings with the digits that are known."""
-        return rows_of_text(self.text, self.whole_numbers)
 
     @property
     def sampling_error(self) -> float | None:
@@ -190,12 +172,6 @@ class Outcome(Result):
         return "\n".join([*outcome_lines(self.data(rows=False)), *notes])
 
     __repr__ = __str__
-
-    def _repr_html_(self) -> str:
-        """Show the first rows as a table in a notebook."""
-        first = {name: text[:SHOWN] for name, text in self.text.items()}
-        lines = outcome_lines(self.data(rows=False))
-        return html_table(rows_of_text(first, self.whole_numbers), lines, self.count)
 
 
 def outcome_of(

@@ -10,12 +10,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 
-from .. import closed_forms
+from .. import generated
 
 # A typical packing has tension: the chance of none, exp(−number), is below one half.
 TYPICAL = math.log(2)
-# Layers that are looked at, spread evenly, of packings that are higher.
-LAYERS = 400
+# Of higher packings about so many layers are looked at, in the middle of as many equal parts.
+LAYERS = 50
+# In place of an ordered force that is zero: its square is lost beside that of the other contact.
+NO_FORCE = 1e-30
 HIGHEST = 10_000_000
 
 
@@ -49,20 +51,16 @@ def stds_of_contacts(
     """
     bulk = load == "bulk"
     if len(components) > 2:
-        form = closed_forms.surface_variance_of_spheres
+        form = generated.surface_variance_of_spheres
         if bulk:
-            form = closed_forms.bulk_variance_of_spheres
-        return tuple(math.sqrt(float(form(M, j, phi, 1, 1))) * own for own in components)
-    plus, minus = components
-    tilted = closed_forms.bulk_variance_at_angle if bulk else closed_forms.surface_variance_at_angle
-    # own² times a polynomial of degree 2 in t = other/own, where own may vanish
-    none, one, turned = (float(tilted(M, j, t, phi, 1, 1)) for t in (0, 1, -1))
-    mixed, last = (one - turned) / 2, (one + turned) / 2 - none
-
-    def std_of(own: float, other: float) -> float:
-        return math.sqrt(max(0.0, none * own**2 + mixed * own * other + last * other**2))
-
-    return std_of(plus, minus), std_of(minus, plus)
+            form = generated.bulk_variance_of_spheres
+        return tuple(math.sqrt(form(M, j, M - j, phi)) * own for own in components)
+    tilted = generated.bulk_variance_at_angle if bulk else generated.surface_variance_at_angle
+    stds = []
+    for own, other in (components, components[::-1]):
+        size = own or NO_FORCE
+        stds.append(abs(size) * math.sqrt(max(0.0, tilted(M, j, M - j, other / size, phi))))
+    return tuple(stds)
 
 
 @dataclass(frozen=True)
@@ -110,9 +108,8 @@ def expected_tension(
         )
 
     def contacts(M: int) -> float:
-        layers = min(M, LAYERS)
-        chosen = ((2 * k + 1) * M // (2 * layers) for k in range(layers))
-        return beads * M / layers * sum(pulling(M, j) for j in chosen)
+        part = 2 * (M // (2 * LAYERS)) + 1  # odd: it has a layer in its middle
+        return beads * part * sum(pulling(M, j) for j in range(part // 2, M, part))
 
     low, high = 0, 1
     while contacts(high) < 1:

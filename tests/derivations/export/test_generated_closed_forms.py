@@ -34,7 +34,6 @@ OF_CONTACTS = {
 BELOW_LOAD = {
     "bead_response": (16, "bead"),
     "contact_response": (16, "contact"),
-    "leg_variance": (16, "force"),
 }
 LEADING = {
     "surface_diffusion": (13, "surface_variance"),
@@ -58,8 +57,8 @@ def places(name: str) -> Iterator[dict[str, Any]]:
     top = range(1, 7)
     if name in BELOW_LOAD:
         for l, j in product(top, top):  # noqa: E741
-            lefts = [j - l] if name == "leg_variance" else range(j - l, l - j + 1, 2)
-            yield from ({"i": i + l % 2, "j": j, "k": l % 2, "l": l} for i in lefts if j < l)
+            lefts = range(j - l, l - j + 1, 2)  # none above the load
+            yield from ({"i": i + l % 2, "j": j, "k": l % 2, "l": l} for i in lefts)
         return
     counts = top if name.endswith("mean_variance") else [1]
     ratios = [ONE / 3, ONE * 2] if name.endswith("at_angle") else [ONE]
@@ -172,7 +171,6 @@ REFUSED: list[tuple[str, tuple[Any, ...], str]] = [
     ("contact_response", (0, 0, float("nan"), 4, "+"), "k = nan"),
     ("contact_response", (0, 0, 0, None, "+"), "l = None"),
     ("contact_response", (0, 0, 0, 4, 1), "branch = 1: '\\+' or '-' is allowed"),
-    ("leg_variance", (4, 4), "0 <= j < l = 4 is allowed"),
 ]
 
 

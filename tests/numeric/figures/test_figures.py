@@ -137,7 +137,7 @@ def test_figure_4_does_not_depend_on_the_horizontal_position() -> None:
             assert (np.diff(single) < -0.5).all()
     for j in range(point_load.APEX):  # each layer bears the whole load in every packing
         assert on_layer(table["mean_simulated"], j).sum() == pytest.approx(1, rel=1e-13)
-    assert cuts.deviation() <= 1
+    assert cuts.deviation <= 1
     off = np.abs(table["mean_simulated"] - 0.5)[point_load.LEG]
     assert (off < 5 * table["mean_standard_error"][point_load.LEG]).all()
 
@@ -175,8 +175,8 @@ def test_goodness_of_fit_rejects_what_it_should() -> None:
 def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory() -> None:
     s, usual = Fraction(12, 5), Fraction(3)
     one = comparison.simulated(6, Options(realisations=300, spacing=s, relative_std=1e-3))
-    assert one.deviation() <= 1
-    assert one.deviation(comparison.curves(6)[0]) > 1
+    assert one.deviation <= 1
+    assert one.band.deviation(comparison.curves(6)[0]) > 1
     assert one.deviation(comparison.curves(6, Medium(std=1e-3))[0]) > 1
     narrow, paper = (
         point_load.simulated(Options(realisations=300, spacing=spacing))[1]

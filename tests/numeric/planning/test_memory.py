@@ -4,7 +4,9 @@ import json
 import re
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
+from typing import Any
 
 import pytest
 from force_diffusion.numeric.planning.planner import plan
@@ -83,6 +85,16 @@ def test_what_is_too_large_is_named(sizes: dict[str, int], key: str) -> None:
     sections["packing"]["allow_images"] = True
     with pytest.raises(SceneError, match=f"{key}: this scene would need about .* of memory"):
         planned(sections)
+
+
+@pytest.mark.parametrize("load", [{}, {"load": {"kind": "point", "at": [0, 10_000_000]}}])
+def test_too_high_a_slab_is_refused_before_its_layers_are_listed(load: dict[str, Any]) -> None:
+    sections = basic(10_000_000, None, quantity="contact", at=[0, 0, "+"]) | load
+    tracemalloc.start()
+    with pytest.raises(SceneError, match="of memory"):
+        planned(sections)
+    assert tracemalloc.get_traced_memory()[1] < 10_000_000  # bytes, one for each layer
+    tracemalloc.stop()
 
 
 def test_the_memory_that_may_be_used_is_an_argument() -> None:

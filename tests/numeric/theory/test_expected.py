@@ -50,9 +50,9 @@ def test_exact_packings_have_as_many(
 
 @pytest.mark.long(sample=9)
 @pytest.mark.parametrize("load", ["surface", "bulk"])
-@pytest.mark.parametrize("height", [1, 3, 40, 399, 400, 401, 2000])
+@pytest.mark.parametrize("height", [1, 3, 40, 99, 100, 101, 399, 2000])
 def test_the_number_is_the_fraction_times_the_contacts(load: str, height: int) -> None:
-    """From 400 layers on not every layer is looked at: the sum is good to a thousandth."""
+    """From 100 layers on not every layer is looked at: the sum is good to a thousandth."""
     std = 0.8 * height**-1.5
     form = closed_forms.bulk_variance if load == "bulk" else closed_forms.surface_variance
     tails = [NormalDist().cdf(-(form(height, j, PHI, std, 1) ** -0.5)) for j in range(height)]
