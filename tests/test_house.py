@@ -18,8 +18,8 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_187,
-    "derivations": 7_788,
-    "numeric": 9_540,
+    "derivations": 7_780,
+    "numeric": 9_494,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,

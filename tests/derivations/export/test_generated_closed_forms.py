@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from fractions import Fraction
 from inspect import signature
-from itertools import product
+from itertools import combinations, product
 from typing import Any
 
 import flint
@@ -56,8 +56,8 @@ def places(name: str) -> Iterator[dict[str, Any]]:
     """All contacts of small packings, or those below a loaded bead."""
     top = range(1, 7)
     if name in BELOW_LOAD:
-        for l, j in product(top, top):  # noqa: E741
-            lefts = range(j - l, l - j + 1, 2)  # none above the load
+        for j, l in combinations(top, 2):  # noqa: E741
+            lefts = range(j - l, l - j + 1, 2)
             yield from ({"i": i + l % 2, "j": j, "k": l % 2, "l": l} for i in lefts)
         return
     counts = top if name.endswith("mean_variance") else [1]

@@ -61,13 +61,7 @@ def test_no_run_takes_more_than_its_plan_says_nor_much_less(name: str, tmp_path:
 
 
 def test_a_plan_says_gigabytes_where_it_takes_some() -> None:
-    found = planned(
-        {
-            "packing": {"height": 5, "width": 10},
-            "disorder": {"kind": "uniform", "relative_std": 1e-3},
-            "ask": {"quantity": "histogram", "bins": 1_000_000},
-        }
-    )
+    found = planned(basic(quantity="histogram", bins=1_000_000))
     assert re.search(r"Memory: about 1\.\d+ GB", str(found))
 
 
