@@ -310,15 +310,27 @@ class ClosedForm:
         2*M**3*sigma**2*(1 - z)**2*(2*z + 1)/(r**2*(1 - phi**2)**2)
 
         Raises:
-            ArgumentError: it doesn't depend on the height M or the layer j.
+            ArgumentError: it doesn't depend on the height M or the layer j, or the powers depend on
+                other indices.
         """
         if not isinstance(orders, Integral) or not 1 <= orders <= _ORDERS:
             raise ArgumentError(f"orders = {quoted(orders)}: a whole number from 1 to {_ORDERS}")
-        piece = next((piece for piece in self.pieces if any(map(_is_inside, piece.where))), None)
-        if piece is None or not {sy.M, sy.j} <= self._needed:
+        pieces = [piece for piece in self.pieces if any(map(_reaches_inside, piece.where))]
+        if not pieces or not {sy.M, sy.j} <= self._needed:
             raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
         height, z = FIELD.generator(sy.M), FIELD.generator(sy.z)
-        return sympy.Add(*_highest(piece.value.substitute({sy.j: z * height}), orders))
+        powers = {
+            piece: list(_highest(piece.value.substitute({sy.j: z * height}), orders))
+            for piece in pieces
+        }
+        first = pieces[0]
+        other = next((piece for piece in pieces if powers[piece] != powers[first]), None)
+        if other:
+            raise ArgumentError(
+                f"its leading orders differ, as for {first.domain}, and for {other.domain}: "
+                "on(…) has the formula of one part"
+            )
+        return sympy.Add(*powers[first])
 
     # how it is written
 
@@ -574,13 +586,13 @@ def _number(value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rationa
     return sympy.Rational(int(quotient.p), int(quotient.q))
 
 
-def _is_inside(part: Iterable[sympy.Basic]) -> bool:
-    """Whether a part holds all of M → ∞ at fixed z = j/M, 0 < z < 1."""
+def _reaches_inside(part: Iterable[sympy.Basic]) -> bool:
+    """Whether M → ∞ at fixed z = j/M, 0 < z < 1, stays in a part for some other indices."""
     for relation in part:
         form, equation = sets.condition(relation)
         at_base, at_surface = (form[0].get(sy.M, 0) + z * form[0].get(sy.j, 0) for z in (0, 1))
-        grows = min(at_base, at_surface) >= 0 and max(at_base, at_surface) > 0
-        if equation or not (grows or at_base == at_surface == 0):
+        is_fixed = at_base == at_surface == 0
+        if not is_fixed and (equation or min(at_base, at_surface) < 0):
             return False
     return True
 

@@ -7,6 +7,7 @@ from typing import Any
 
 import sympy
 from force_diffusion.symbolic.algebra.exact import NotAStatementError
+from force_diffusion.symbolic.forms import SUMMATION
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
@@ -55,6 +56,8 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
         return undecided(reason)
     if isinstance(candidate, sympy.Basic) and candidate.has(sympy.Lambda, sympy.MatrixExpr):
         return not_a_statement("it holds a function or a matrix, and numbers and vectors are read")
+    if isinstance(candidate, sympy.Basic):
+        candidate = _over_read_indices(candidate)
     if isinstance(candidate, sympy.Eq):
         parts = [n for n, line in enumerate(lines) if line.lhs == candidate.lhs]
         rulings = [rule_on(part, candidate) for part in parts or range(len(lines))]
@@ -67,6 +70,14 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
         advice = "Where SymPy made it of an Eq: write Eq(left, right, evaluate=False)"
         kind = f"{candidate}. {advice}"
     return not_a_statement(f"a SymPy Eq or expression is needed, and this is {kind}")
+
+
+def _over_read_indices(candidate: sympy.Basic) -> sympy.Basic:
+    """The same, with sums over indices that are read, whatever the user calls them."""
+    bound = {index for series in candidate.atoms(sympy.Sum) for index, *_ in series.limits}
+    unread = by_name(bound - {*SUMMATION} - candidate.free_symbols)
+    unused = [index for index in SUMMATION if not candidate.has(index)]
+    return candidate.xreplace(dict(zip(unread, unused, strict=False)))
 
 
 def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:

@@ -74,6 +74,15 @@ def test_a_closed_form_is_compared_in_a_limit() -> None:
     assert fd.equation(14).decide(form).verdict is Verdict.REFUTED
 
 
+@pytest.mark.parametrize("index", [sy.k, sympy.Symbol("m"), sympy.Symbol("s", integer=True)])
+def test_a_sum_runs_over_any_index(index: sympy.Symbol) -> None:
+    unit = (sy.sigma / sy.r) ** 2 / (1 - sy.phi**2) ** 2
+    weights = sympy.Sum(12 * index * (sy.M - index), (index, sy.j + 1, sy.M))
+    assert fd.equation(13).decide(unit * weights).verdict is Verdict.PROVED
+    assert fd.equation(13).decide(unit * weights / 2).verdict is Verdict.REFUTED
+    assert not fd.equation(13).decide(unit * weights * index).verdict.is_proved
+
+
 @pytest.mark.parametrize("number", [7, 8, 15])
 def test_lines_that_are_left_out_are_not_proved(number: int | str) -> None:
     eq = fd.equation(number)

@@ -24,6 +24,7 @@ from force_diffusion.symbols import (
     f_plus,
     i,
     j,
+    k,
     l,
     m_g,
     n_y,
@@ -95,6 +96,13 @@ def test_a_constant_in_source_leading_orders_and_candidates() -> None:
     assert str(doubled) == "refuted: at j = 0, M = 1: the sides differ by −2 a"
     assert str(mean.decide(sympy.Symbol("a"))).startswith("not a statement: this a is not that of")
     assert str(mean.decide(sympy.Symbol("b"))).startswith("not a statement: b is not a symbol of")
+
+
+def test_leading_orders_that_depend_on_other_indices_are_refused() -> None:
+    first, second = fd.variance(f_plus(i, j)), fd.covariance(f_plus(i, j), f_plus(k, j))
+    assert sympy.simplify(second.on(sympy.Eq(k, i), j >= 2, j <= M - 2) - first.pieces[0].expr) == 0
+    with pytest.raises(fd.ForceDiffusionError, match="its leading orders differ, as for"):
+        second.leading()
 
 
 def test_six_constants_and_no_more() -> None:
