@@ -34,12 +34,12 @@ def eliminated(
     image, names = _named(unknowns)
     named = (equation(*(side.xreplace(image) for side in row.args)) for row in rows)
     system = [part for row in named for part in forms(row)]
-    held = [name for quantity in unknowns for name in names[quantity]]
-    if len(system) != len(held):
-        raise NotExactError(f"{len(system)} equations for {len(held)} unknown numbers")
-    matrix = [[_slope(row, name, held) for name in held] for row in system]
-    columns = [held.index(name) for name in names[unknown]]
-    cofactors = [[_cofactor(matrix, n, column) for n in range(len(held))] for column in columns]
+    involved = [name for quantity in unknowns for name in names[quantity]]
+    if len(system) != len(involved):
+        raise NotExactError(f"{len(system)} equations for {len(involved)} unknown numbers")
+    matrix = [[_slope(row, name, involved) for name in involved] for row in system]
+    columns = [involved.index(name) for name in names[unknown]]
+    cofactors = [[_cofactor(matrix, n, column) for n in range(len(involved))] for column in columns]
     return _determinant(matrix), cofactors
 
 

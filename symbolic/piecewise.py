@@ -101,8 +101,8 @@ class PiecewiseFunction:
     @cached_property
     def domain(self) -> Relations:
         """The fewest relations that say where it holds, beside what is even."""
-        (found,) = self.relations(self.points, sets.EVERYTHING)
-        return found
+        (relations,) = self.relations(self.points, sets.EVERYTHING)
+        return relations
 
     @cached_property
     def pieces(self) -> tuple[Piece, ...]:
@@ -145,10 +145,10 @@ class PiecewiseFunction:
     @cached_property
     def indices(self) -> set[sympy.Symbol]:
         """The indices on which it depends."""
-        held = set().union(
+        symbols = set().union(
             *(row.free_symbols for piece in self.pieces for part in piece.where for row in part)
         )
-        return held | {s for s in sy.INDICES if any(piece.value.holds(s) for piece in self.pieces)}
+        return symbols | {s for piece in self.pieces for s in sy.INDICES if piece.value.holds(s)}
 
     def relations(self, whole: sets.Set, context: sets.Set | None = None) -> tuple[Relations, ...]:
         """Relations of indices, those of any of several parts, of a set within the domain."""
@@ -164,8 +164,8 @@ class PiecewiseFunction:
     def _formula(self, whole: sets.Set, value: RationalFunction) -> RationalFunction:
         """A value in the old indices, without those that the equations of its part give."""
         value = value.substitute({s: FIELD.from_sympy(x) for s, x in self.straight.back.items()})
-        held = (sympy.Eq(self._whole(form), 0, evaluate=False) for form in sets.equations(whole))
-        given = {fixed.lhs: FIELD.from_sympy(fixed.rhs) for fixed in words.equations(held)}
+        equations = (sympy.Eq(self._whole(row), 0, evaluate=False) for row in sets.equations(whole))
+        given = {fixed.lhs: FIELD.from_sympy(fixed.rhs) for fixed in words.equations(equations)}
         with suppress(NotExactError):  # a divisor vanishes there
             value = value.substitute(given)
         value = value.reduced()

@@ -66,10 +66,10 @@ def row(form: sympy.Expr) -> Row:
 def constraint(form: Row, equation: bool) -> Any:
     """What isl takes for a form that is 0, or at least 0."""
     make = isl.Constraint.equality_alloc if equation else isl.Constraint.inequality_alloc
-    found = make(_LOCAL).set_constant_val(isl.Val(form[1]))
+    row = make(_LOCAL).set_constant_val(isl.Val(form[1]))
     for symbol, factor in form[0].items():
-        found = found.set_coefficient_val(_DIM, _PLACE[symbol], isl.Val(factor))
-    return found
+        row = row.set_coefficient_val(_DIM, _PLACE[symbol], isl.Val(factor))
+    return row
 
 
 @lru_cache(maxsize=4096)
@@ -94,14 +94,14 @@ def where(*relations: sympy.Basic) -> Set:
     Raises:
         NotExactError: one of them is not affine.
     """
-    found = isl.BasicSet.universe(_SPACE)
+    basic = isl.BasicSet.universe(_SPACE)
     for relation in relations:
         if relation == sympy.true:
             continue
         if relation == sympy.false:
             return NOTHING
-        found = found.add_constraint(constraint(*condition(relation)))
-    return found.to_set()
+        basic = basic.add_constraint(constraint(*condition(relation)))
+    return basic.to_set()
 
 
 def even(form: sympy.Expr) -> Set:
@@ -130,17 +130,17 @@ def at(points: Set, image: Mapping[sympy.Symbol, sympy.Expr]) -> Set:
 
 @lru_cache(maxsize=1024)
 def _map(image: tuple[tuple[sympy.Symbol, sympy.Expr], ...]) -> Any:
-    found = isl.MultiAff.identity(_SPACE.map_from_set())
+    mapping = isl.MultiAff.identity(_SPACE.map_from_set())
     for symbol, value in image:
-        found = found.set_aff(_PLACE[symbol], _affine(row(value)))
-    return found
+        mapping = mapping.set_aff(_PLACE[symbol], _affine(row(value)))
+    return mapping
 
 
 def _affine(form: Row) -> Any:
-    found = isl.Aff.zero_on_domain(_LOCAL).set_constant_val(isl.Val(form[1]))
+    affine = isl.Aff.zero_on_domain(_LOCAL).set_constant_val(isl.Val(form[1]))
     for symbol, factor in form[0].items():
-        found = found.set_coefficient_val(isl.dim_type.in_, _PLACE[symbol], isl.Val(factor))
-    return found
+        affine = affine.set_coefficient_val(isl.dim_type.in_, _PLACE[symbol], isl.Val(factor))
+    return affine
 
 
 # what a set is made of
@@ -148,8 +148,8 @@ def _affine(form: Row) -> Any:
 
 def parts(points: Set) -> list[Set]:
     """Convex parts of a set, no two of which share a point."""
-    found = (part.to_set() for part in points.make_disjoint().get_basic_sets())
-    return [part for part in found if not part.is_empty()]
+    convex = (part.to_set() for part in points.make_disjoint().get_basic_sets())
+    return [part for part in convex if not part.is_empty()]
 
 
 def rows(part: Set) -> tuple[list[Row], list[Row]]:
@@ -159,24 +159,24 @@ def rows(part: Set) -> tuple[list[Row], list[Row]]:
         OpenSumError: the set holds a condition on remainders.
     """
     (basic,) = part.get_basic_sets()
-    found: tuple[list[Row], list[Row]] = ([], [])
-    for one, form in _forms(basic):
+    by_kind: tuple[list[Row], list[Row]] = ([], [])
+    for relation, form in _forms(basic):
         if form is None:
             raise OpenSumError(f"{part} holds a remainder")
-        found[0 if one.is_equality() else 1].append(form)
-    return found
+        by_kind[0 if relation.is_equality() else 1].append(form)
+    return by_kind
 
 
 def _forms(part: Any) -> Iterator[tuple[Any, Row | None]]:
     """The constraints of a convex set, each with its form; None where it holds a remainder."""
-    held = [(symbol, n) for symbol, n in _PLACE.items() if part.involves_dims(_DIM, n, 1)]
-    for one in part.get_constraints():
-        if one.involves_dims(isl.dim_type.div, 0, one.dim(isl.dim_type.div)):
-            yield one, None
+    places = [(symbol, n) for symbol, n in _PLACE.items() if part.involves_dims(_DIM, n, 1)]
+    for relation in part.get_constraints():
+        if relation.involves_dims(isl.dim_type.div, 0, relation.dim(isl.dim_type.div)):
+            yield relation, None
             continue
-        involved = (pair for pair in held if one.involves_dims(_DIM, pair[1], 1))
-        factors = {s: _number(one.get_coefficient_val(_DIM, n)) for s, n in involved}
-        yield one, (factors, _number(one.get_constant_val()))
+        involved = (pair for pair in places if relation.involves_dims(_DIM, pair[1], 1))
+        factors = {s: _number(relation.get_coefficient_val(_DIM, n)) for s, n in involved}
+        yield relation, (factors, _number(relation.get_constant_val()))
 
 
 def _number(value: Any) -> int:
@@ -229,10 +229,10 @@ def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
         for number, conditions in left:
             if cell.is_disjoint(parts[number]):
                 continue
-            for one in conditions:
-                if one not in parting:
-                    parting[one] = not cell.is_disjoint(_half(_negated(one)))
-            if rest := [one for one in conditions if parting[one]]:
+            for condition in conditions:
+                if condition not in parting:
+                    parting[condition] = not cell.is_disjoint(_half(_negated(condition)))
+            if rest := [condition for condition in conditions if parting[condition]]:
                 still_open.append((number, rest))
             else:
                 inside = [*inside, number]
@@ -240,13 +240,14 @@ def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
             ((number, _),) = still_open
             yield cell & parts[number], [number]
         elif still_open:
-            cut, _ = Counter(one for _, rest in still_open for one in rest).most_common(1)[0]
+            frequency = Counter(condition for _, rest in still_open for condition in rest)
+            cut, _ = frequency.most_common(1)[0]
             for side in (cut, _negated(cut)):
                 yield from halved(cell & _half(side), still_open, inside)
         elif inside:
             yield cell, inside
 
-    yield from halved(EVERYTHING, [(n, [*_conditions(one)]) for n, one in enumerate(parts)], [])
+    yield from halved(EVERYTHING, [(n, [*_conditions(part)]) for n, part in enumerate(parts)], [])
 
 
 def least(symbol: sympy.Symbol, points: Set) -> int | None:
@@ -258,7 +259,7 @@ def least(symbol: sympy.Symbol, points: Set) -> int | None:
 def equations(points: Set) -> list[Row]:
     """Forms that are 0 on all of a set; remainders are left out."""
     forms = _forms(points.affine_hull())
-    return [form for one, form in forms if form is not None and one.is_equality()]
+    return [form for relation, form in forms if form is not None and relation.is_equality()]
 
 
 def fixed(points: Set, first: Sequence[sympy.Symbol] = ()) -> dict[sympy.Symbol, RationalFunction]:
@@ -279,11 +280,11 @@ def fixed(points: Set, first: Sequence[sympy.Symbol] = ()) -> dict[sympy.Symbol,
     table = [[*(factors.get(s, 0) for s in symbols), constant] for factors, constant in forms]
     solved: dict[sympy.Symbol, RationalFunction] = {}
     for numbers in fmpq_mat(table).rref()[0].tolist():
-        held = {s: -n for s, n in zip(symbols, numbers, strict=False) if n}
-        if held:
-            pivot = next(iter(held))
-            del held[pivot]
-            solved[pivot] = polynomial((held, -numbers[-1]))
+        others = {s: -n for s, n in zip(symbols, numbers, strict=False) if n}
+        if others:
+            pivot = next(iter(others))
+            del others[pivot]
+            solved[pivot] = polynomial((others, -numbers[-1]))
     return solved
 
 
@@ -306,9 +307,9 @@ def ranges(points: Set, symbol: sympy.Symbol) -> Iterator[Range]:
     for part in parts(points):
         equations, inequalities = rows(part)
         shadow = without(part, symbol)
-        held = next((form for form in equations if symbol in form[0]), None)
-        if held is not None:
-            value = _bound(held, symbol, 0)
+        equation = next((form for form in equations if symbol in form[0]), None)
+        if equation is not None:
+            value = _bound(equation, symbol, 0)
             yield shadow, value, value
             continue
         lows, highs = (list(_bounds(part, shadow, inequalities, symbol, sign)) for sign in (1, -1))
@@ -324,9 +325,9 @@ def given(part: Set, symbol: sympy.Symbol) -> RationalFunction | None:
     Raises:
         OpenSumError: the symbol matters, and is not given by the others.
     """
-    held = next((form for form in rows(part)[0] if symbol in form[0]), None)
-    if held is not None:
-        return _bound(held, symbol, 0)
+    equation = next((form for form in rows(part)[0] if symbol in form[0]), None)
+    if equation is not None:
+        return _bound(equation, symbol, 0)
     if not without(part, symbol).is_subset(part):
         raise OpenSumError(f"{symbol} is not given by the others")
     return None

@@ -22,9 +22,9 @@ def joined(pieces: Sequence[Set]) -> Set:
     before = [part.to_set() for part in union(pieces).get_basic_sets()]
     known = set().union(*map(_steep, before))
     return union(
-        kept
+        shorter
         for part in several
-        for kept in ([part] if _steep(part) <= known else (part & other for other in before))
+        for shorter in ([part] if _steep(part) <= known else (part & other for other in before))
     )
 
 
@@ -52,17 +52,17 @@ def conditions(whole: Set, context: Set) -> list[Conditions]:
     for part in parts(whole & context):
         if part.is_disjoint(left):
             continue
-        held = _needed(sorted(equations(part), key=_length), context)
-        forms = [*sorted(rows(part)[1], key=_length, reverse=True), *reversed(held)]
+        needed = _needed(sorted(equations(part), key=_length), context)
+        forms = [*sorted(rows(part)[1], key=_length, reverse=True), *reversed(needed)]
         for row in tuple(forms):
             fewer = [form for form in forms if form is not row]
-            if _inside(context, fewer, held).is_subset(whole):
+            if _inside(context, fewer, needed).is_subset(whole):
                 forms = fewer
-        left = left - _inside(context, forms, held)
+        left = left - _inside(context, forms, needed)
         choices.append(
             (
-                [form for form in held if form in forms],
-                [form for form in reversed(forms) if form not in held],
+                [form for form in needed if form in forms],
+                [form for form in reversed(forms) if form not in needed],
             )
         )
     sets = (_inside(context, (*equal, *bounds), equal) for equal, bounds in choices)

@@ -55,12 +55,12 @@ def sign(
 
 def _of_factor(factor: Polynomial, points: sets.Set, positive: Symbols, dimension: int) -> int:
     expression = RationalFunction(FIELD, factor, FIELD.one.numerator).to_sympy()
-    held = expression.free_symbols
-    if held <= _WHOLE and (result := _of_whole_numbers(expression, points)):
+    symbols = expression.free_symbols
+    if symbols <= _WHOLE and (result := _of_whole_numbers(expression, points)):
         return result
-    if held <= {n_x, n_y, phi} and dimension == 2 and (result := _of_cosines(expression)):
+    if symbols <= {n_x, n_y, phi} and dimension == 2 and (result := _of_cosines(expression)):
         return result
-    least = {symbol: _least(symbol, points) for symbol in held & _WHOLE}
+    least = {symbol: _least(symbol, points) for symbol in symbols & _WHOLE}
     return _of_terms(expression, least, positive, sympy.Rational(-1, dimension))
 
 
@@ -118,14 +118,14 @@ def _of_terms(
         s == z or s in positive or least.get(s, 0 if s.is_positive else -1) >= 0 for s in symbols
     ):
         return 0
-    found, strict = set(), False
+    signs_of_terms, strict = set(), False
     whole = sympy.Poly(factor, *symbols, phi).as_expr()
     for powers, c in sympy.Poly(whole, *symbols).terms() if symbols else (((), whole),):
         own, never = _in_phi(c, lowest)
-        found.add(own)
-        held = {symbol for symbol, power in zip(symbols, powers, strict=True) if power}
-        strict = strict or (never and not may_vanish & held)
-    return found.pop() if strict and len(found) == 1 else 0
+        signs_of_terms.add(own)
+        involved = {symbol for symbol, power in zip(symbols, powers, strict=True) if power}
+        strict = strict or (never and not may_vanish & involved)
+    return signs_of_terms.pop() if strict and len(signs_of_terms) == 1 else 0
 
 
 def _in_phi(factor: sympy.Expr, lowest: sympy.Rational) -> tuple[int, bool]:

@@ -42,10 +42,10 @@ class Weights:
         return cls(((sets.where(*relations), value),))
 
     def __add__(self, other: "Weights") -> "Weights":
-        found: dict[Set, RationalFunction] = {}
+        summed: dict[Set, RationalFunction] = {}
         for points, value in (*self.pieces, *other.pieces):
-            found[points] = found[points] + value if points in found else value
-        return Weights(tuple(piece for piece in found.items() if not piece[1].is_zero()))
+            summed[points] = summed[points] + value if points in summed else value
+        return Weights(tuple(piece for piece in summed.items() if not piece[1].is_zero()))
 
     def __sub__(self, other: "Weights") -> "Weights":
         return self + other.scaled(FIELD.constant(-1))
@@ -62,9 +62,9 @@ class Weights:
 
     def times(self, other: "Weights") -> "Weights":
         """The product at each point."""
-        for one, rest in ((self, other), (other, self)):
-            if len(one.pieces) == 1 and one.pieces[0][0] is sets.EVERYTHING:
-                return rest.scaled(one.pieces[0][1])
+        for first, rest in ((self, other), (other, self)):
+            if len(first.pieces) == 1 and first.pieces[0][0] is sets.EVERYTHING:
+                return rest.scaled(first.pieces[0][1])
         return Weights(
             tuple(
                 (both, value * factor)
@@ -76,8 +76,8 @@ class Weights:
 
     def on(self, points: Set) -> "Weights":
         """The same on a set, and 0 elsewhere."""
-        found = ((there & points, value) for there, value in self.pieces)
-        return Weights(tuple((there, value) for there, value in found if not there.is_empty()))
+        pieces = ((there & points, value) for there, value in self.pieces)
+        return Weights(tuple((there, value) for there, value in pieces if not there.is_empty()))
 
     def at(self, image: Mapping[sympy.Symbol, sympy.Expr]) -> "Weights":
         """The same at other indices.
@@ -87,7 +87,7 @@ class Weights:
         """
         if M in image and any(value.holds(H_M) for _, value in self.pieces):
             raise NotExactError("H_M is that of the height M alone")
-        numbers = {symbol: sets.polynomial(sets.row(one)) for symbol, one in image.items()}
+        numbers = {symbol: sets.polynomial(sets.row(form)) for symbol, form in image.items()}
         return Weights(
             tuple(
                 (sets.at(points, image), value.substitute(numbers)) for points, value in self.pieces
@@ -117,26 +117,26 @@ class Weights:
         """
         pieces = self.pieces
         for symbol in symbols:
-            found = []
+            expressed = []
             for points, value in pieces:
                 for part in sets.parts(points):
                     at = sets.given(part, symbol)
                     if at is None and value.holds(symbol):
                         raise sets.OpenSumError(f"{symbol} is not given by the others")
-                    held = {} if at is None else {symbol: at}
-                    found.append((sets.without(part, symbol), value.substitute(held)))
-            pieces = tuple(found)
+                    solved = {} if at is None else {symbol: at}
+                    expressed.append((sets.without(part, symbol), value.substitute(solved)))
+            pieces = tuple(expressed)
         return Weights(pieces)
 
     def cells(self) -> "Weights":
         """The same in convex pieces that share no point."""
         pieces = [(part, value) for points, value in self.pieces for part in sets.parts(points)]
-        found = []
+        nonzero = []
         for cell, inside in sets.arrangement([part for part, _ in pieces]):
             value = FIELD.total(pieces[number][1] for number in inside)
             if not value.is_zero():
-                found.append((cell, value))
-        return Weights(tuple(found))
+                nonzero.append((cell, value))
+        return Weights(tuple(nonzero))
 
     def merged(self) -> "Weights":
         """The same in few convex pieces that share no point, none of which is 0.
@@ -152,18 +152,18 @@ class Weights:
         cells = [(sets.fixed(part), part, value) for part, value in self.cells().pieces]
         cells.sort(key=lambda cell: len(cell[0]))
         groups: list[tuple[RationalFunction, list[Set]]] = [(FIELD.zero, [])]
-        for held, part, value in cells:
+        for fixed, part, value in cells:
             numbers = [*{**_NUMBERS, **sets.sample(part)}.values()]
             own, divisor = value.numerator(*numbers), value.denominator(*numbers)
             for other, parts in groups:
                 same = other.denominator == value.denominator
                 scale = divisor if same else other.denominator(*numbers)
                 alike = other.numerator(*numbers) * divisor == own * scale
-                if alike and _agree(other, value, held):
+                if alike and _agree(other, value, fixed):
                     parts.append(part)
                     break
             else:
-                groups.append((value.substitute(held), [part]))
+                groups.append((value.substitute(fixed), [part]))
         return [(_joined(parts), value) for value, parts in groups[1:]]
 
     def is_zero(self) -> bool:
@@ -174,13 +174,13 @@ class Weights:
 
 def _joined(parts: list[Set]) -> Set:
     """The union of sets, in few convex parts if these are found."""
-    whole, found = sets.union(parts), joined(parts)
-    return found if found == whole else whole
+    whole, shortened = sets.union(parts), joined(parts)
+    return shortened if shortened == whole else whole
 
 
-def _agree(one: RationalFunction, other: RationalFunction, held: Fixed) -> bool:
+def _agree(value: RationalFunction, other: RationalFunction, fixed: Fixed) -> bool:
     """Whether two functions are the same where some symbols are given by the others."""
     try:
-        return (one - other).substitute(held).is_zero()
+        return (value - other).substitute(fixed).is_zero()
     except NotExactError:  # a divisor vanishes there
         return False

@@ -19,8 +19,8 @@ _ALONE = (N, p, q, n, m, i, site_r, j, k, site_s, l, M)
 def alone(form: sympy.Expr) -> tuple[sympy.Symbol, sympy.Expr, int]:
     """A symbol of a form c·symbol + rest with c = ±1, −rest/c, and c; any c where there is none."""
     factors = sympy.expand(form).as_coefficients_dict()
-    held = [symbol for symbol in _ALONE if factors.get(symbol)]
-    symbol = next((symbol for symbol in held if abs(factors[symbol]) == 1), held[0])
+    alone = [symbol for symbol in _ALONE if factors.get(symbol)]
+    symbol = next((symbol for symbol in alone if abs(factors[symbol]) == 1), alone[0])
     factor = factors[symbol]
     return symbol, sympy.expand(symbol - form / factor), 1 if factor > 0 else -1
 

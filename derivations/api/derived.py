@@ -60,13 +60,9 @@ class Derived:
 
         The fragments fit text of one column and of two.
         """
-        return {
-            **{
-                fragment_name(outcome.derivation.number): statement_latex(outcome.derivation)
-                for outcome in self.in_order
-            },
-            DOCUMENT: document(self.in_order),
-        }
+        statements = [outcome.derivation for outcome in self.in_order]
+        fragments = {fragment_name(each.number): statement_latex(each) for each in statements}
+        return {**fragments, DOCUMENT: document(self.in_order)}
 
     @property
     def in_order(self) -> list[ProofOutcome]:

@@ -152,10 +152,9 @@ def _outside(failure: OSError) -> int:
             os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     if failure.errno != errno.EPIPE:
         where = f"'{failure.filename}'" if failure.filename else "standard output"
-        remedy = {
-            errno.ENOSPC: "Free some space, or write to another place.",
-            errno.EDQUOT: "Free some space, or write to another place.",
-        }.get(failure.errno or 0, "Choose a place that can be written to.")
+        remedy = "Choose a place that can be written to."
+        if failure.errno in (errno.ENOSPC, errno.EDQUOT):
+            remedy = "Free some space, or write to another place."
         reason = failure.strerror or str(failure)
         tell(f"writing to {where} failed: {reason}. {remedy}")
     return FAILED_OUTSIDE

@@ -53,10 +53,8 @@ def files_of(
 
 def names_of(quantities: Iterable[str]) -> list[str]:
     """Name all files that answers to these questions may have."""
-    return [
-        "result.json",
-        *(f"{name}.{written}" for name in quantities for written in get_args(Format)),
-    ]
+    tables = (f"{name}.{written}" for name in quantities for written in get_args(Format))
+    return ["result.json", *tables]
 
 
 def json_bytes(answers: Sequence[Answered], about: dict[str, Any]) -> bytes:

@@ -73,9 +73,9 @@ def _exact(number: Number, name: str | None = None) -> Iterator[Branch]:
         value = piece.expr
         if {M, j} <= value.free_symbols:
             value = sympy.expand(value.xreplace({M: j + k}))
-        held = [symbol for symbol in (j, k, l, *INDICES) if symbol in value.free_symbols]
+        symbols = [symbol for symbol in (j, k, l, *INDICES) if symbol in value.free_symbols]
         test = "" if piece is form.pieces[0] else " or ".join(parts)
-        yield test, _code(value, *dict.fromkeys(held))
+        yield test, _code(value, *dict.fromkeys(symbols))
 
 
 def _forms() -> Iterator[tuple[str, str, Iterable[Branch]]]:

@@ -3,6 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from dataclasses import asdict
 from textwrap import fill
 from typing import Any
 
@@ -176,14 +177,7 @@ def outcomes_data(outcomes: Iterable[ProofOutcome], *, timed: bool = True) -> di
             "verdict": str(outcome.verdict),
             "assuming": list(outcome.assuming),
             "checks": [
-                {
-                    "kind": check.kind,
-                    "name": check.name,
-                    "verdict": str(check.verdict),
-                    "note": check.note,
-                    "assuming": list(check.assuming),
-                }
-                for check in outcome.checks
+                {**asdict(check), "verdict": str(check.verdict)} for check in outcome.checks
             ],
             "refuted as expected": len(outcome.refuted),
             **({"seconds": round(outcome.seconds, 6)} if timed else {}),

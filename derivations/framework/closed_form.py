@@ -217,11 +217,12 @@ class ClosedForm:
     @cached_property
     def _needed(self) -> set[sympy.Symbol]:
         """The symbols on which its value, and whether it has one, depend."""
-        held = set().union(*(piece.expr.free_symbols for piece in self.pieces))
-        held |= self.function.indices.union(*(each.free_symbols for each in self.function.domain))
-        cosine = {sy.phi} if held & {sy.n_x, sy.n_y} else set()
-        height = {sy.M} if sy.H_M in held else set()
-        return held - {sy.n_x, sy.n_y, sy.H_M} | cosine | height
+        symbols = set().union(*(piece.expr.free_symbols for piece in self.pieces))
+        symbols |= self.function.indices
+        symbols = symbols.union(*(each.free_symbols for each in self.function.domain))
+        cosine = {sy.phi} if symbols & {sy.n_x, sy.n_y} else set()
+        height = {sy.M} if sy.H_M in symbols else set()
+        return symbols - {sy.n_x, sy.n_y, sy.H_M} | cosine | height
 
     @property
     def symbols(self) -> dict[str, sympy.Symbol]:
@@ -319,18 +320,16 @@ class ClosedForm:
         if not pieces or not {sy.M, sy.j} <= self._needed:
             raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
         height, z = FIELD.generator(sy.M), FIELD.generator(sy.z)
-        powers = {
-            piece: list(_highest(piece.value.substitute({sy.j: z * height}), orders))
-            for piece in pieces
+        domains = {
+            tuple(_highest(piece.value.substitute({sy.j: z * height}), orders)): piece.domain
+            for piece in reversed(pieces)
         }
-        first = pieces[0]
-        other = next((piece for piece in pieces if powers[piece] != powers[first]), None)
-        if other:
+        if len(domains) > 1:
+            several = ", and for ".join([*domains.values()][:2])
             raise ArgumentError(
-                f"its leading orders differ, as for {first.domain}, and for {other.domain}: "
-                "on(…) has the formula of one part"
+                f"its leading orders differ, as for {several}: on(…) has the formula of one part"
             )
-        return sympy.Add(*powers[first])
+        return sympy.Add(*next(iter(domains)))
 
     # how it is written
 

@@ -48,15 +48,15 @@ def _common(formulas: Iterable[sympy.Expr]) -> sympy.Expr:
     numbers, powers = [], []
     for number, rest in (formula.as_coeff_Mul() for formula in formulas if formula != 0):
         numbers.append(number)
-        held = rest.as_powers_dict()
-        if square := held.pop(1 - sy.phi**2, 0):
+        powers_of_rest = rest.as_powers_dict()
+        if square := powers_of_rest.pop(1 - sy.phi**2, 0):
             for base in (1 - sy.phi, 1 + sy.phi):
-                held[base] = held.get(base, 0) + square
-        powers.append(held)
+                powers_of_rest[base] = powers_of_rest.get(base, 0) + square
+        powers.append(powers_of_rest)
     above, below = (number.p for number in numbers), (number.q for number in numbers)
     factor = sympy.Rational(sympy.igcd(0, *above), sympy.ilcm(1, *below))
     for base in set().union(*powers):
-        exponents = [held.get(base, 0) for held in powers]
+        exponents = [powers_of_rest.get(base, 0) for powers_of_rest in powers]
         if max(exponents) < 0 and base.free_symbols & {*sy.INDICES}:
             factor *= base ** max(exponents)
         elif min(exponents) > 0 or not base.free_symbols & {*sy.INDICES}:

@@ -69,8 +69,8 @@ class Row(Statement):
     def symbols(self) -> tuple[tuple[sympy.Basic, str], ...]:  # type: ignore[override]
         """Each symbol with its meaning."""
         values = (piece.expr for form in self.exact_forms.values() for piece in form.pieces)
-        held = set().union(*(value.free_symbols for value in values)) - {*dict(self.quantities)}
-        return (*self.quantities, *usual(*by_name(held)))
+        symbols = set().union(*(value.free_symbols for value in values)) - {*dict(self.quantities)}
+        return (*self.quantities, *usual(*by_name(symbols)))
 
     @property
     def assumptions(self) -> tuple[str, ...]:  # type: ignore[override]
@@ -217,8 +217,8 @@ def is_free_of(name: str, symbol: sympy.Symbol) -> Decide:
     """No formula holds a symbol."""
 
     def decide(forms: Forms) -> Ruling:
-        held = any(piece.expr.has(symbol) for piece in forms[name].pieces)
-        return ruled(not held, f"a formula holds {text(symbol)}")
+        depends = any(piece.expr.has(symbol) for piece in forms[name].pieces)
+        return ruled(not depends, f"a formula holds {text(symbol)}")
 
     return decide
 

@@ -123,14 +123,14 @@ class Field:
 
     def total(self, values: Iterable["RationalFunction"]) -> "RationalFunction":
         """The sum of elements; what has one denominator is brought to lowest terms once."""
-        found: list[list[Polynomial]] = []  # numerators and denominators; flint's have no hash
+        sums: list[list[Polynomial]] = []  # numerators and denominators; flint's have no hash
         for value in values:
-            same = next((part for part in found if part[1] == value.denominator), None)
+            same = next((part for part in sums if part[1] == value.denominator), None)
             if same is None:
-                found.append([value.numerator, value.denominator])
+                sums.append([value.numerator, value.denominator])
             else:
                 same[0] = same[0] + value.numerator
-        return sum((RationalFunction(self, *part) for part in found), self.zero)
+        return sum((RationalFunction(self, *part) for part in sums), self.zero)
 
 
 _MOST_TERMS = 20_000
@@ -152,26 +152,26 @@ def _not_exact(expression: sympy.Expr) -> NotExactError:
 _NO_NUMBERS = sympy.oo, -sympy.oo, sympy.zoo, sympy.nan
 
 
-def _product(one: Polynomial, other: Polynomial) -> Polynomial:
+def _product(first: Polynomial, other: Polynomial) -> Polynomial:
     """The product, unless it may have too many terms.
 
     Raises:
         NotExactError: it may.
     """
-    number = len(one) * len(other)
+    number = len(first) * len(other)
     if number > _MOST_TERMS:
-        degrees = zip(one.degrees(), other.degrees(), strict=True)
+        degrees = zip(first.degrees(), other.degrees(), strict=True)
         _refuse_more_terms(min(number, prod(int(a + b) + 1 for a, b in degrees)))
-    return one * other
+    return first * other
 
 
-def _power(one: Polynomial, exponent: int) -> Polynomial:
+def _power(base: Polynomial, exponent: int) -> Polynomial:
     """The same of a power."""
-    number = comb(max(len(one) + exponent - 1, 0), exponent)
+    number = comb(max(len(base) + exponent - 1, 0), exponent)
     if number > _MOST_TERMS:
-        degrees = (exponent * max(int(degree), 0) + 1 for degree in one.degrees())
+        degrees = (exponent * max(int(degree), 0) + 1 for degree in base.degrees())
         _refuse_more_terms(min(number, prod(degrees)))
-    return one**exponent
+    return base**exponent
 
 
 def _refuse_more_terms(number: int) -> None:
@@ -233,9 +233,9 @@ class RationalFunction:
         return self + (-other)
 
     def __mul__(self, other: Self) -> Self:
-        for one, scale in ((self, other), (other, self)):
+        for first, scale in ((self, other), (other, self)):
             if scale.numerator == 1 and scale.denominator == 1:
-                return one
+                return first
         return self._same(
             _product(self.numerator, other.numerator),
             _product(self.denominator, other.denominator),
@@ -251,8 +251,8 @@ class RationalFunction:
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
-            one = self._same(self.denominator, self.denominator)
-            return (one / self) ** -exponent
+            unit = self._same(self.denominator, self.denominator)
+            return (unit / self) ** -exponent
         return self._same(_power(self.numerator, exponent), _power(self.denominator, exponent))
 
     def is_zero(self) -> bool:
@@ -274,11 +274,11 @@ class RationalFunction:
         )
 
     def _on_circle(self, polynomial: Polynomial) -> Polynomial:
-        one, cosine = self.domain.context.constant(1), self.domain.generator(phi).numerator
-        squares = {n_x: (one - cosine) / 2, n_y: (one + cosine) / 2}
+        unit, cosine = self.domain.context.constant(1), self.domain.generator(phi).numerator
+        squares = {n_x: (unit - cosine) / 2, n_y: (unit + cosine) / 2}
         total = self.domain.context.constant(0)
         for powers, part in self.domain.coefficients(polynomial, squares).items():
-            scale = one
+            scale = unit
             for (symbol, square), power in zip(squares.items(), powers, strict=True):
                 odd = self.domain.generator(symbol).numerator ** (power % 2)
                 scale = scale * odd * square ** (power // 2)
@@ -334,10 +334,10 @@ class RationalFunction:
 
     def coefficients(self, symbol: sympy.Expr) -> list["RationalFunction"]:
         """Coefficients of powers 0, 1, … of ``symbol``."""
-        found = [self.domain.zero] * (self.degree(symbol) + 1)
+        parts = [self.domain.zero] * (self.degree(symbol) + 1)
         for (power,), part in self.domain.coefficients(self.numerator, [symbol]).items():
-            found[power] = self._same(part, self.denominator)
-        return found
+            parts[power] = self._same(part, self.denominator)
+        return parts
 
     def to_sympy(self) -> sympy.Expr:
         """The same element as a SymPy quotient, multiplied out."""
@@ -395,7 +395,7 @@ def sum_over(
     place = f.domain.position[symbol]
     if not f.denominator.degrees()[place]:
         return sum_polynomial(f, symbol, low, high)
-    divisors = [(one, e) for one, e in f.denominator.factor()[1] if one.degrees()[place] > 0]
+    divisors = [(d, e) for d, e in f.denominator.factor()[1] if d.degrees()[place] > 0]
     divisor = f.domain.polynomial(divisors[0][0])
     if divisor.coefficients(M)[-1] == -f.domain.one:  # M − n, not n − M
         divisor = -divisor
@@ -414,7 +414,7 @@ def sum_over(
 def _harmonic(last: RationalFunction) -> RationalFunction:
     """Σ 1/k for 1 ≤ k ≤ last, a number or near M."""
     field = last.domain
-    found = field.generator(H_M) if last.holds(M) else field.zero
+    total = field.generator(H_M) if last.holds(M) else field.zero
     offset = (last - field.generator(M) if last.holds(M) else last).numerator
     if not offset.is_constant() or abs(offset.leading_coefficient()) > _NEAR:
         raise NotExactError("a harmonic sum ends neither at a number nor near M")
@@ -423,7 +423,7 @@ def _harmonic(last: RationalFunction) -> RationalFunction:
         between = range(min(number, 0), max(number, 0))
         steps = [field.generator(M) + field.constant(k) for k in between]
         inverse = [field.one / (step + field.one) for step in steps]
-        return sum(inverse, found) if number > 0 else found - sum(inverse, field.zero)
+        return sum(inverse, total) if number > 0 else total - sum(inverse, field.zero)
     if number < 0:
         raise NotExactError("a harmonic sum starts below 1")
     return field.constant(sum((Fraction(1, k) for k in range(1, number + 1)), Fraction(0)))

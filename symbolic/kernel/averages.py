@@ -40,8 +40,8 @@ def power_law(*groups: Group) -> Rule:
         ratio = _whole_power([*left, *((base, -power) for base, power in right)]).reduced()
         if relation == "=" and not (ratio - FIELD.one).is_zero():
             raise FalseStatementError(f"a power of left over right goes to {shown(ratio)}, not 1")
-        held = [s for s in FIELD.generators if ratio.holds(s) and s not in (sy.phi, sy.n_x, sy.n_y)]
-        if held:
+        cosines = sy.phi, sy.n_x, sy.n_y
+        if any(ratio.holds(s) for s in FIELD.generators if s not in cosines):
             raise FalseStatementError(f"a power of left over right varies as {shown(ratio)}")
         return made(formula, domain, "comparing powers", flat(groups))
 

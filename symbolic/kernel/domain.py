@@ -195,11 +195,9 @@ class Domain:
     def __post_init__(self) -> None:
         if self.dimension not in (2, 3):
             raise ValueError(f"dimension {self.dimension}: 2 and 3 are allowed")
-        held = set().union(*(relation.free_symbols for relation in self.relations))
-        held |= set().union(
-            *(coordinate.free_symbols for bead in self.beads for coordinate in bead)
-        )
-        if not held <= {*self.indices} or not {*self.indices} <= {*sy.INDICES}:
+        symbols = set().union(*(relation.free_symbols for relation in self.relations))
+        symbols = symbols.union(*(x.free_symbols for bead in self.beads for x in bead))
+        if not symbols <= {*self.indices} or not {*self.indices} <= {*sy.INDICES}:
             raise ValueError("a domain is one of the paper's indices, all of which it names")
 
     @classmethod
@@ -220,14 +218,14 @@ class Domain:
         Raises:
             ValueError: the dimension is neither 2 nor 3.
         """
-        held = {*indices}.union(*(relation.free_symbols for relation in relations))
-        held |= loading.fixed if loading else set()
-        by_default = (bead for bead in LATTICE if held & {*bead})
+        symbols = {*indices}.union(*(relation.free_symbols for relation in relations))
+        symbols |= loading.fixed if loading else set()
+        by_default = (bead for bead in LATTICE if symbols & {*bead})
         places = tuple(by_default if beads is None else beads)
-        held |= set().union(*(coordinate.free_symbols for place in places for coordinate in place))
-        ordered = tuple(symbol for symbol in sy.INDICES if symbol in held)
-        kept = tuple(relation for relation in dict.fromkeys(relations) if relation != sympy.true)
-        return cls(ordered, kept, loading, tuple(dict.fromkeys(places)), dimension, limit)
+        symbols = symbols.union(*(x.free_symbols for place in places for x in place))
+        ordered = tuple(symbol for symbol in sy.INDICES if symbol in symbols)
+        conditions = tuple(each for each in dict.fromkeys(relations) if each != sympy.true)
+        return cls(ordered, conditions, loading, tuple(dict.fromkeys(places)), dimension, limit)
 
     def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Domain":
         """The part of it where further relations hold, in further indices."""
@@ -252,11 +250,11 @@ class Domain:
 
     def put_in(self, image: Image) -> "Domain":
         """The domain of other indices, in terms of which these are given."""
-        held = {*self.indices} - {*image}
-        held |= set().union(*(image[s].free_symbols for s in self.indices if s in image))
+        symbols = {*self.indices} - {*image}
+        symbols |= set().union(*(image[s].free_symbols for s in self.indices if s in image))
         positive = (image[s] for s in self.indices if s in image and s.is_positive)
         return Domain(
-            tuple(symbol for symbol in sy.INDICES if symbol in held),
+            tuple(symbol for symbol in sy.INDICES if symbol in symbols),
             (
                 *(_at(relation, image) for relation in self.relations),
                 *(

@@ -213,8 +213,8 @@ def _in_radii(expression: sympy.Expr, groups: Groups, domain: Domain) -> Form:
         NotProvedError: they are not given, or that place does matter.
     """
     finite = _late(domain)
-    held = set().union(*(relation.free_symbols for relation in domain.relations))
-    free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - held
+    symbols = set().union(*(relation.free_symbols for relation in domain.relations))
+    free = {sy.i, sy.k, sy.site_r} & {*domain.indices} - symbols
     form = MomentReader.on(finite, groups).in_radii(written_out(expression, domain))
     if free:  # a step to the right, of the bead and of all sites
         step = {s: s - 1 if s in finite.straight.back else s + 2 for s in free}
@@ -296,13 +296,13 @@ def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
     if sy.z in formula.free_symbols and not {sy.j, sy.M} <= {*domain.indices}:
         raise NotProvedError(f"{text(sy.z)} neither grows nor is fixed")
-    held = {
+    symbols = {
         s
         for expression in limit.positive
         for s in expression.xreplace(domain.straight.image).free_symbols
     }
     late = large(domain, limit)
-    if not late.is_subset(sets.without(domain.points, *_not_in(held))):
+    if not late.is_subset(sets.without(domain.points, *_not_in(symbols))):
         raise NotProvedError(f"its domain does not hold all of {limit.words}")
     return limit
 
@@ -364,9 +364,9 @@ def _degrees(polynomial: Polynomial, growing: Sequence[sympy.Symbol]) -> list[in
 
 def _top(polynomial: Polynomial, limit: Limit) -> RationalFunction:
     degrees = _degrees(polynomial, limit.growing)
-    kept = {
+    highest = {
         powers: c
         for (powers, c), degree in zip(polynomial.to_dict().items(), degrees, strict=True)
         if degree == max(degrees)
     }
-    return FIELD.polynomial(FIELD.context.from_dict(kept))
+    return FIELD.polynomial(FIELD.context.from_dict(highest))

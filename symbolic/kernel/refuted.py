@@ -63,12 +63,12 @@ def _witness(
             part, [generator for generator in FIELD.generators if value.holds(generator)]
         ):
             numbers = {symbol: sympy.Integer(number) for symbol, number in at.items()}
-            held = {s: FIELD.constant(number) for s, number in numbers.items() if value.holds(s)}
+            constants = {s: FIELD.constant(n) for s, n in numbers.items() if value.holds(s)}
             straight = domain.straight.image
             if value.holds(sy.H_M):
                 height = straight.get(sy.M, sy.M).xreplace(numbers)
-                held[sy.H_M] = FIELD.constant(sympy.harmonic(height))
-            there = value.substitute(held)
+                constants[sy.H_M] = FIELD.constant(sympy.harmonic(height))
+            there = value.substitute(constants)
             if not there.is_zero():
                 indices = {
                     index: straight.get(index, index).xreplace(numbers)

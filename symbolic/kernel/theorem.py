@@ -264,11 +264,11 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
     there = theorem.domain.put_in(image)
     known_here = there.loading is None or (domain.loading and domain.loading.implies(there.loading))
     same = known_here and (there.dimension, there.limit) == (domain.dimension, domain.limit)
-    held = set().union(*(value.free_symbols for value in image.values())) & {*sy.INDICES}
+    symbols = set().union(*(value.free_symbols for value in image.values())) & {*sy.INDICES}
     if (
         not same
         or theorem.fixed & {*image}
-        or not held <= {*domain.indices}
+        or not symbols <= {*domain.indices}
         or not domain.lies_in(there)
     ):
         raise NotProvedError(f"{text(theorem.formula.lhs)} is not known there")

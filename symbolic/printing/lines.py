@@ -267,10 +267,10 @@ class _Pieces:
 
     def of(self, expr: Basic, room: float) -> list[tuple[str, float]]:
         """Signed terms; a term that alone is too wide is broken within its last bracket."""
-        found: list[str] = []
+        written: list[str] = []
         terms = in_order(expr) if isinstance(expr, Add) else [expr]
         for (sign, body), term in zip(self.printer.terms(expr), terms, strict=True):
-            whole = f"{sign} {body}" if found else f"{sign}{body}"
+            whole = f"{sign} {body}" if written else f"{sign}{body}"
             inner = self._inside(term)
             if self.size(whole) > room and inner is not None:
                 before, last = inner
@@ -278,10 +278,10 @@ class _Pieces:
                 nested = [f"{s} {b}".strip() for s, b in self.printer.terms(last)]
                 nested[0] = f"{head} {nested[0]}"
                 nested[-1] = f"{nested[-1]} {self.closing}"
-                found += nested
+                written += nested
             else:
-                found.append(whole)
-        return [(piece, float(self.size(piece)) + 1) for piece in found]
+                written.append(whole)
+        return [(piece, float(self.size(piece)) + 1) for piece in written]
 
     def _inside(self, term: Basic) -> tuple[str, Expr] | None:
         """What ends in a bracketed sum: all before the bracket, and the sum."""

@@ -44,12 +44,12 @@ _MANY = 4  # terms of a polynomial that is put in order
 def _by_degree(expr: Expr) -> tuple[Expr, ...]:
     """The terms of a polynomial in indices: the highest degree first, each part factored."""
     terms = expr.as_ordered_terms()
-    held = [symbol for symbol in (*sy.INDICES, sy.H_M) if expr.has(symbol)]
-    if len(terms) < _MANY or not held or not expr.is_polynomial(*held):
+    symbols = [symbol for symbol in (*sy.INDICES, sy.H_M) if expr.has(symbol)]
+    if len(terms) < _MANY or not symbols or not expr.is_polynomial(*symbols):
         return tuple(terms)
     parts: dict[int, dict[Expr, list[Expr]]] = {}
     for term in terms:
-        rest, monomial = term.as_independent(*held, as_Add=False)
+        rest, monomial = term.as_independent(*symbols, as_Add=False)
         degree = sum(n for symbol, n in monomial.as_powers_dict().items() if symbol != sy.H_M)
         parts.setdefault(int(degree), {}).setdefault(monomial, []).append(rest)
     return tuple(factor for n in sorted(parts, reverse=True) for factor in _factored(parts[n]))
@@ -62,16 +62,16 @@ def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
         number, factors = _factors(whole)
         if sum(power for _, power in factors) > 1:
             return [_product(number, factors)]
-    found = []
+    expanded = []
     for monomial, terms in part.items():
         if len(terms) == 1 or monomial == 1:
-            found += [term * monomial for term in terms]
+            expanded += [term * monomial for term in terms]
         else:
             number, factors = _factors(Add(*terms))
             if len(factors) > 1:  # unlike (1 − φ)²
                 factors = [(Add(*(term / number for term in terms)), 1)]
-            found.append(_product(number, [*monomial.as_powers_dict().items(), *factors]))
-    return found
+            expanded.append(_product(number, [*monomial.as_powers_dict().items(), *factors]))
+    return expanded
 
 
 def _factors(whole: Expr) -> tuple[Expr, list[tuple[Expr, int]]]:
@@ -83,12 +83,12 @@ def _factors(whole: Expr) -> tuple[Expr, list[tuple[Expr, int]]]:
     if not polynomial.domain.is_ZZ:
         return sympy.S.One, [(whole, 1)]
     indices = [symbol for symbol in reversed(sy.INDICES) if symbol in polynomial.gens]
-    held = [*indices, *sorted({*polynomial.gens} - {*indices}, key=str)]
-    context = fmpz_mpoly_ctx.get([f"g{n}" for n in range(len(held))], Ordering.lex)
-    terms = {powers: int(c) for powers, c in polynomial.reorder(*held).terms()}
+    generators = [*indices, *sorted({*polynomial.gens} - {*indices}, key=str)]
+    context = fmpz_mpoly_ctx.get([f"g{n}" for n in range(len(generators))], Ordering.lex)
+    terms = {powers: int(c) for powers, c in polynomial.reorder(*generators).terms()}
     number, parts = context.from_dict(terms).factor()
     factors = [
-        (sympy.Poly({x: int(c) for x, c in part.to_dict().items()}, *held), power)
+        (sympy.Poly({x: int(c) for x, c in part.to_dict().items()}, *generators), power)
         for part, power in parts
     ]
     return int(number) / divisor, [(factor.as_expr(), int(power)) for factor, power in factors]
@@ -154,8 +154,8 @@ def without_sign(term: Expr) -> Expr:
         return -term
     first, *rest = term.args
     first = without_sign(first)
-    kept = rest if first == 1 else [first, *rest]
-    return kept[0] if len(kept) == 1 else Mul(*kept, evaluate=False)
+    factors = rest if first == 1 else [first, *rest]
+    return factors[0] if len(factors) == 1 else Mul(*factors, evaluate=False)
 
 
 @cache
@@ -224,7 +224,7 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
     def terms(self, expr: Expr) -> list[tuple[str, str]]:
         """The additive terms of an expression: the sign (``+``, ``-`` or nothing) and the rest."""
         pieces = in_order(expr) if isinstance(expr, Add) else [expr]
-        found = []
+        signed = []
         for place, term in enumerate(pieces):
             negative = is_negative(term)
             body = without_sign(term) if negative else term
@@ -232,8 +232,8 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
             if isinstance(body, Add):
                 text = self.set_brackets(text)
             sign = self.minus if negative else "+" if place else ""
-            found.append((sign, text))
-        return found
+            signed.append((sign, text))
+        return signed
 
     def _print_Add(self, expr: Expr, **_: Any) -> str:
         return self.joined(self.terms(expr))

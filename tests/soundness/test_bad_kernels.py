@@ -69,7 +69,7 @@ FAULTS = {
     "an order too many": ("kernel.limits", "asymptotic", "high - limit.orders", "high"),
     "leading orders that vanish": ("kernel.limits", "_vanishes_nowhere", "value.holds(sy.H_M) or value.is_zero()", "True: return True\n    if value.is_zero()"),
     "orders that are not uniform": ("kernel.limits", "_uniform", "grows and sum(", "False and sum("),
-    "limits beside the domain": ("kernel.limits", "limit_of", "not late.is_subset(sets.without(domain.points, *_not_in(held)))", "False"),
+    "limits beside the domain": ("kernel.limits", "limit_of", "not late.is_subset(sets.without(domain.points, *_not_in(symbols)))", "False"),
     "any order is negligible": ("kernel.limits", "negligible", "not order(dropped, limit) < order(kept, limit)", "False"),
     "other means are negligible": ("kernel.limits", "negligible", "not rest.parts.get(NUMBER, Weights()).is_zero()", "False"),
     "large shares": ("kernel.limits", "bounded", "2 * height > order(whole, limit)", "False"),
@@ -87,7 +87,7 @@ FAULTS = {
     # arithmetic
     "sums are off by one": ("algebra.exact", "sum_polynomial", "low - f.domain.one", "low"),
     "numbers of terms are off by one": ("algebra.exact", "sum_polynomial", "high - low + f.domain.one", "high - low"),
-    "another circle": ("algebra.exact", "RationalFunction._on_circle", "n_y: (one + cosine) / 2", "n_y: (one - cosine) / 2"),
+    "another circle": ("algebra.exact", "RationalFunction._on_circle", "n_y: (unit + cosine) / 2", "n_y: (unit - cosine) / 2"),
     "strict bounds": ("sets", "condition", "int(isinstance(relation, sympy.Gt))", "0"),
     "roots are not counted": ("signs", "_on_interval", "0 if inside else", "0 if False else"),
     "pieces are merged that differ": ("weights", "_agree", ".is_zero()", ".is_zero() or True"),
