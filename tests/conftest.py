@@ -2,10 +2,14 @@
 
 import signal
 from collections import defaultdict
+from collections.abc import Callable
 from typing import Any
 
 import pytest
 from hypothesis import HealthCheck, settings
+
+Call = Callable[..., tuple[int, str, str]]
+"""Calls a command: its status, what it prints, and what it says of errors."""
 
 # Each run draws anew; a failure is replayed from .hypothesis, or with what is printed beside it.
 # .ci/run says which seed it has drawn: with it, and the same profile, all examples are the same.
@@ -99,6 +103,19 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         left_out |= {item for place, item in enumerate(every) if place not in kept}
     config.hook.pytest_deselected(items=list(left_out))
     items[:] = [item for item in items if item not in left_out]
+
+
+@pytest.fixture
+def call(capsys: pytest.CaptureFixture[str]) -> Call:
+    """Call a command as a user does, in this process."""
+    from force_diffusion.__main__ import main
+
+    def called(*words: object) -> tuple[int, str, str]:
+        status = main([str(word) for word in words])
+        shown = capsys.readouterr()
+        return status, shown.out, shown.err
+
+    return called
 
 
 @pytest.fixture

@@ -1,9 +1,8 @@
 """Plant the faults of ``faults.md`` one by one, in a copy, and run the tests that should see each.
 
-Usage: python tests/faults.py [--commit COMMIT] [WORD…]: words of files and names.
+Usage: python tests/faults.py [WORD…]: words of files and names.
 """
 
-import argparse
 import io
 import os
 import re
@@ -39,16 +38,10 @@ def faults() -> list[Fault]:
     ]
 
 
-def copied(folder: Path, commit: str) -> None:
-    """Copy what is tracked, of a commit if one is given; the rooms lie below the package, too."""
-    if not commit:
-        stash = subprocess.run(
-            ["git", "stash", "create"], cwd=ROOT, check=True, capture_output=True, text=True
-        )
-        commit = stash.stdout.strip() or "HEAD"  # with what is not committed yet
-    archive = subprocess.run(
-        ["git", "archive", commit], cwd=ROOT, check=True, capture_output=True
-    ).stdout
+def copied(folder: Path) -> None:
+    """Copy what is tracked, with what is not committed yet; rooms lie below the package, too."""
+    commit = subprocess.check_output(["git", "stash", "create"], cwd=ROOT, text=True).strip()
+    archive = subprocess.check_output(["git", "archive", commit or "HEAD"], cwd=ROOT)
     with tarfile.open(fileobj=io.BytesIO(archive)) as tar:
         tar.extractall(folder, filter="data")
     for room in ROOMS:
@@ -61,12 +54,11 @@ def tried(folder: Path, fault: Fault) -> str:
     source = path.read_text(encoding="utf-8") if path.exists() else ""
     if source.count(fault.old) != 1:
         return "no longer applies"
-    tests = [one for one in fault.tests if (folder / one.partition("::")[0]).exists()]
     options = ["-x", "-q", "-n", "0", "-p", "no:cacheprovider"]
     # as by default, of tests that take long a sample
-    where = ["-o", f"testpaths={' '.join(tests)}"]
-    if any("::" in one for one in tests):
-        where = ["-m", "not long", *tests]
+    where = ["-o", f"testpaths={' '.join(fault.tests)}"]
+    if any("::" in test for test in fault.tests):
+        where = ["-m", "not long", *fault.tests]
     environment = {
         **os.environ,
         "PYTHONPATH": str(folder),
@@ -89,22 +81,17 @@ def tried(folder: Path, fault: Fault) -> str:
 
 def main() -> int:
     """Try the faults that are asked for; status 1 where one is not seen."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--commit", default="")
-    parser.add_argument("words", nargs="*")
-    given = parser.parse_args()
+    words = sys.argv[1:] or [""]
     wanted = [
-        one
-        for one in faults()
-        if not given.words or any(word in f"{one.file} {one.name}" for word in given.words)
+        fault for fault in faults() if any(word in f"{fault.file} {fault.name}" for word in words)
     ]
     unseen = 0
     with TemporaryDirectory() as folder:
-        copied(Path(folder), given.commit)
-        for one in wanted:
-            found = tried(Path(folder), one)
-            unseen += not found.startswith("seen")
-            print(f"{found:10} {one.file}: {one.name}", flush=True)
+        copied(Path(folder))
+        for fault in wanted:
+            fate = tried(Path(folder), fault)
+            unseen += not fate.startswith("seen")
+            print(f"{fate:10} {fault.file}: {fault.name}", flush=True)
     print(f"{len(wanted) - unseen} of {len(wanted)} are seen")
     return bool(unseen)
 

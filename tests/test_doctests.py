@@ -16,13 +16,10 @@ MODULES = ["force_diffusion"] + [
     )
 ]
 LONG = {
-    f"force_diffusion.{name}"
-    for name in (
-        "derivations.api.derived",
-        "derivations.api.equation",
-        "numeric.figures.catalogue",
-        "numeric.run.cost",
-    )
+    "force_diffusion.derivations.api.derived",
+    "force_diffusion.derivations.api.equation",
+    "force_diffusion.numeric.figures.catalogue",
+    "force_diffusion.numeric.run.cost",
 }
 
 

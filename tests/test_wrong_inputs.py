@@ -29,17 +29,16 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "a long tolerance": (lambda: fd.solve(R, tolerance=DIGITS), "between 0 and 1"),
     "a class": (lambda: fd.solve(R, load=fd.BulkLoad), r"BulkLoad\(\)"),  # type: ignore[arg-type]
     "equation 99": (lambda: fd.equation(99), "from 1 to 16, or B1 to B25"),
-    "a long equation": (lambda: fd.equation(LONG), "from 1 to 16"),
     "long words": (lambda: fd.equation(DIGITS), "from 1 to 16"),
     "columns": (lambda: fd.equation(13).latex(columns=3), "must be 1 or 2"),
-    "a truth": (lambda: fd.equation(13).latex(columns=True), "must be 1 or 2"),
     "columns of a form": (lambda: fd.equation(13).exact().latex(columns=LONG), "must be 1 or 2"),
     "a form": (lambda: fd.equation(13).exact(DIGITS), "It has layer"),
     "a long z": (lambda: fd.equation(13).at(M=9, z=LONG, phi=0, sigma=1, r=1), "0 ≤ z ≤ 1"),
-    "words for M": (lambda: fd.equation(13).at(M=DIGITS, z=0, phi=0, sigma=1, r=1), "one int"),
     "one number": (lambda: fd.derive(13), r"derive\(\[13\]\)"),  # type: ignore[arg-type]
     "Coq's number": (lambda: fd.certify(13), r"certify\(\[13\]\)"),  # type: ignore[arg-type]
     "no scene": (lambda: fd.run(3), "takes a scene, its path"),  # type: ignore[arg-type]
+    "an ensemble of none": (lambda: fd.ensemble(3), "takes a scene"),  # type: ignore[arg-type]
+    "a cost of none": (lambda: fd.cost(3), "takes a scene"),  # type: ignore[arg-type]
     "a table": (lambda: fd.run(SCENES / "radii.csv"), "is not a scene"),
     "no packings": (lambda: fd.ensemble(SCENES / "ensemble.toml", -3), "from 2 to"),
     "many packings": (lambda: fd.ensemble(SCENES / "ensemble.toml", LONG), "from 2 to"),
@@ -48,7 +47,8 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "no folder": (lambda: fd.solve(R).to_vtk("nowhere/a.vtk"), "can't be written"),
     "keys of images": (lambda: fd.Disorder(kind="file", y_down=True), "fd.read_radii"),  # type: ignore[call-arg]
     "figure 7": (lambda: fd.figure(7), "give 1, 2, 3"),
-    "a long figure": (lambda: fd.figure(LONG), "give 1, 2, 3"),
+    "a model": (lambda: fd.figure("3", beside=["double-y"]), "no model 'double-y' beside figure 3"),
+    "few packings": (lambda: fd.figure(4, realisations=3), "from 16 up"),
     "a kind": (lambda: fd.figure(3, kinds=("gif",)), "png, svg, pdf"),
     "seconds": (lambda: fd.cost(SCENE, "a"), "positive number"),  # type: ignore[arg-type]
     "a path": (lambda: fd.read_scene(3), "the path of a file"),  # type: ignore[arg-type]
@@ -58,7 +58,6 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "a quantity": (lambda: fd.Ask(quantity=DIGITS), '"profile"'),
     "an observable": (lambda: fd.variance("f_plus"), "symbols of force_diffusion.symbols"),  # type: ignore[arg-type]
     "a load": (lambda: fd.variance(f_plus(i, j), laod="bulk"), "did you mean load"),  # type: ignore[call-arg]
-    "a square": (lambda: fd.variance(f_plus(i, j) ** 2), "order=2"),
     "neighbours": (lambda: fd.mean_over(f_plus(i, j), LONG), "a whole number from 1 up"),
     "orders": (lambda: fd.variance(f_plus(i, j)).leading(LONG), "from 1 to 100"),
     "layers": (lambda: fd.variance(f_plus(i, j)).profile(M=LONG, phi=0, sigma=1, r=1), "at.j=…"),

@@ -17,7 +17,7 @@ from force_diffusion.numeric.scene.combinations import (
     refusal,
 )
 
-from force_diffusion.__main__ import main
+from tests.conftest import Call
 from tests.numeric.scenes import toml
 
 GUIDE = (Path(__file__).parents[2] / "scenes" / "README.md").read_text(encoding="utf-8")
@@ -30,7 +30,7 @@ OTHER_LOADS: dict[str, dict[str, Any]] = {
     "of a file": {"kind": "file", "file": "loads.csv"},
 }
 # What else a scene may say, as a section and its keys, and the features that these are.
-SAID: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
+SETTINGS: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
     "bins": ("ask", {"bins": 3}, {}),
     "layers": ("ask", {"layers": [0]}, {"layers": True}),
     "realisations": ("ask", {"realisations": 3}, {"several": True}),
@@ -42,7 +42,7 @@ SAID: dict[str, tuple[str, dict[str, Any], dict[str, Any]]] = {
 }
 
 
-def scene(quantity: str, kind: str, load: str = "", said: str = "") -> str:
+def scene(quantity: str, kind: str, load: str = "", setting: str = "") -> str:
     """A tiny packing, of which this is asked."""
     own = KINDS[kind]
     spheres = own.get("dimension") == 3
@@ -56,8 +56,8 @@ def scene(quantity: str, kind: str, load: str = "", said: str = "") -> str:
         "effects": {"contacts": own.get("contacts", "bilateral")},
         "ask": {"quantity": quantity, "at": "place" if quantity == "contact" else None},
     }
-    if said:
-        section, keys, _ = SAID[said]
+    if setting:
+        section, keys, _ = SETTINGS[setting]
         sections[section] = dict(keys) if section == "disorder" else sections[section] | keys
     places = {"top": top, "place": top if quantity == "positions" else contact}
     return toml(
@@ -87,25 +87,23 @@ def tables(folder: Path, kind: str) -> None:
 
 def options(command: str, quantity: str) -> list[str]:
     """Give the options of a command; formats of files have tests of their own."""
-    found = ["--out", "out", "--json"]
-    if command == "ensemble":
-        found += ["--realisations", "3", "--workers", "1"]
-        found += ["--reach", "0.9"] if quantity == "histogram" else []
-    return found
+    few = ["--realisations", "3", "--workers", "1"] if command == "ensemble" else []
+    reach = ["--reach", "0.9"] if few and quantity == "histogram" else []
+    return ["--out", "out", "--json", *few, *reach]
 
 
-def why_not(command: str, quantity: str, kind: str, load: str, said: str) -> str:
+def why_not(command: str, quantity: str, kind: str, load: str, setting: str) -> str:
     """Say what is refused of a cell, and see that the guide says the same."""
-    section, keys, features = SAID[said] if said else ("", {}, {})
+    section, keys, features = SETTINGS[setting] if setting else ("", {}, {})
     for need in NEEDS:
         here = need.other == "quantity" and need.key in {f"{section}.{key}" for key in keys}
         if here and quantity not in need.values:
             return f"needs quantity = {either(need.values)}"
-    found = {"at": quantity == "contact", **KINDS[kind], **features}
-    found["load"] = "point" if quantity == "response" else "surface"
+    features = {"at": quantity == "contact", **KINDS[kind], **features}
+    features["load"] = "point" if quantity == "response" else "surface"
     if load:
-        found["load"] = OTHER_LOADS[load]["kind"]
-    refused = refusal(command, quantity, **found)
+        features["load"] = OTHER_LOADS[load]["kind"]
+    refused = refusal(command, quantity, **features)
     if refused is None:
         return ""
     key, why = refused
@@ -124,34 +122,27 @@ CELLS += [
         ("figures", "histogram", "discs"),
         ("cost", "contact", "discs"),
     )
-    for pair in [*product(OTHER_LOADS, [""]), *product([""], SAID)]
+    for pair in [*product(OTHER_LOADS, [""]), *product([""], SETTINGS)]
 ]
-"""Each question of each kind, and each load and all else that may be said once for a command."""
+"""Each question of each kind, and each load and every other setting once for a command."""
 
 
 @pytest.mark.long(sample=12)
-@pytest.mark.parametrize(("command", "quantity", "kind", "load", "said"), CELLS)
+@pytest.mark.parametrize(("command", "quantity", "kind", "load", "setting"), CELLS)
 def test_a_cell_is_answered_or_refused_as_the_table_says(
-    command: str,
-    quantity: str,
-    kind: str,
-    load: str,
-    said: str,
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capsys: pytest.CaptureFixture[str],
-) -> None:
+    command: str, quantity: str, kind: str, load: str, setting: str,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: Call,
+) -> None:  # fmt: skip
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(cost, "SHORT", 0)  # each way is timed once
-    Path("scene.toml").write_text(scene(quantity, kind, load, said))
+    Path("scene.toml").write_text(scene(quantity, kind, load, setting))
     tables(tmp_path, kind)
-    status = main([command, "scene.toml", *options(command, quantity)])
-    shown = capsys.readouterr()
-    if refused := why_not(command, quantity, kind, load, said):
-        assert (status, refused in shown.err) == (2, True), shown.err
+    status, shown, err = call(command, "scene.toml", *options(command, quantity))
+    if refused := why_not(command, quantity, kind, load, setting):
+        assert (status, refused in err) == (2, True), err
     else:
-        assert status == 0, shown.err
-        assert json.loads(shown.out)
+        assert status == 0, err
+        assert json.loads(shown)
         assert len(list(Path("out").iterdir())) >= 2
 
 
@@ -167,11 +158,8 @@ def test_the_guide_says_which_command_answers_what() -> None:
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_the_help_says_what_the_table_does(
-    command: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main([command, "--help"]) == 0
-    shown = " ".join(capsys.readouterr().out.split())
+def test_the_help_says_what_the_table_does(command: str, call: Call) -> None:
+    shown = " ".join(call(command, "--help")[1].split())
     for quantity in QUANTITIES:
         assert (f'"{quantity}"' in shown) == (quantity in answered(command))
     limit = {
@@ -182,14 +170,12 @@ def test_the_help_says_what_the_table_does(
 
 
 @pytest.mark.parametrize("quantity", answered("ensemble"))
-def test_an_ensemble_of_anything_is_asked_until(
-    quantity: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_ensemble_of_anything_is_asked_until(quantity: str, tmp_path: Path, call: Call) -> None:
     path = tmp_path / "scene.toml"
     path.write_text(scene(quantity, "discs"))
-    words = [*options("ensemble", quantity), "--realisations", "40", "--until", "0.9"]
-    status = main(["ensemble", str(path), *words, "--out", str(tmp_path / "out")])
-    assert status == 0 or (status, "is known to" in capsys.readouterr().err) == (3, True)
+    words = [*options("ensemble", quantity), "--realisations", 40, "--until", 0.9]
+    status, _, err = call("ensemble", path, *words, "--out", tmp_path / "out")
+    assert status == 0 or (status, "is known to" in err) == (3, True)
 
 
 @pytest.mark.long(sample=2)
@@ -197,12 +183,9 @@ def test_an_ensemble_of_anything_is_asked_until(
     ("std", "bins"), [("0", 20), ("1e-320", 20), ("1e-200", 1), ("1e-17", 20), ("1e-15", 1)]
 )
 def test_a_figure_of_changes_that_are_alike(
-    std: str, bins: int, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    std: str, bins: int, tmp_path: Path, call: Call
 ) -> None:
     path = tmp_path / "scene.toml"
-    text = scene("histogram", "discs").replace("0.02", std)
-    path.write_text(text + f"bins = {bins}\n")
-    status = main(["figures", str(path), "--out", str(tmp_path / "out")])
-    said = capsys.readouterr().err
-    assert status in {0, 2}
-    assert status == 0 or said.startswith("force-diffusion: scene.toml: ")
+    path.write_text(scene("histogram", "discs").replace("0.02", std) + f"bins = {bins}\n")
+    status, _, err = call("figures", path, "--out", tmp_path / "out")
+    assert status == 0 or (status == 2 and err.startswith("force-diffusion: scene.toml: "))

@@ -40,23 +40,11 @@ def test_bash_completes_the_names_of_commands_with_what_it_is_given(tmp_path: Pa
     assert (done.stdout, done.stderr) == ("ensemble-status\n", "")
 
 
-@pytest.mark.parametrize("shell", ["zsh", "fish"])
-def test_another_shell_is_given_what_it_is_to_run(shell: str, tmp_path: Path) -> None:
-    done = called(shell, "force-diffusion --show-completion; exit $?", tmp_path)
-    assert done.returncode == 0
-    assert f"_FORCE_DIFFUSION_COMPLETE=complete_{shell}" in done.stdout
-
-
 @pytest.mark.parametrize(
-    ("line", "offered"),
-    [
-        ("force-diffusion expl", "explain"),
-        ("force-diffusion show --as s", "sympy steps"),
-        ("force-diffusion nonsense s", "show"),
-    ],
+    ("line", "offered"), [("show --as s", "sympy steps"), ("nonsense s", "show")]
 )
 def test_what_is_offered(line: str, offered: str, tmp_path: Path) -> None:
-    words = line.split()
+    words = ["force-diffusion", *line.split()]
     variables = {"COMP_WORDS": "\n".join(words), "COMP_CWORD": str(len(words) - 1)}
     done = subprocess.run(
         [PROGRAM],
@@ -66,9 +54,14 @@ def test_what_is_offered(line: str, offered: str, tmp_path: Path) -> None:
     assert (done.stdout.split(), done.stderr) == (offered.split(), "")
 
 
-@pytest.mark.parametrize("option", ["--show-completion", "--install-completion"])
-def test_a_shell_that_it_does_not_know(option: str, tmp_path: Path) -> None:
-    done = called("tcsh", f"force-diffusion {option}; exit $?", tmp_path)
-    assert done.returncode == 2
-    assert "bash, zsh or fish" in done.stderr
-    assert [path.name for path in tmp_path.iterdir()] == ["tcsh"]
+@pytest.mark.parametrize(
+    ("shell", "option", "status", "says"),
+    [
+        ("zsh", "--show-completion", 0, "_FORCE_DIFFUSION_COMPLETE=complete_zsh"),
+        ("tcsh", "--install-completion", 2, "bash, zsh or fish"),
+    ],
+)
+def test_other_shells(shell: str, option: str, status: int, says: str, tmp_path: Path) -> None:
+    done = called(shell, f"force-diffusion {option}; exit $?", tmp_path)
+    assert (done.returncode, says in done.stdout + done.stderr) == (status, True)
+    assert [path.name for path in tmp_path.iterdir()] == [shell]

@@ -4,13 +4,12 @@ import csv
 import hashlib
 import io
 import json
-import os
 from pathlib import Path
 
 import pytest
 from force_diffusion.numeric.run import cost as module
 
-from tests.cli.conftest import Call
+from tests.conftest import Call
 
 SCENE = """
 [packing]
@@ -22,7 +21,6 @@ relative_std = 1e-4
 [ask]
 quantity = "contact_forces"
 """
-PROFILE = SCENE.replace('"contact_forces"', '"profile"\nrealisations = 4')
 
 
 @pytest.fixture(autouse=True)
@@ -34,19 +32,6 @@ def written(folder: Path, text: str = SCENE) -> Path:
     path = folder / "scene.toml"
     path.write_text(text)
     return path
-
-
-@pytest.mark.long
-def test_scenes_of_any_name(tmp_path: Path, call: Call) -> None:
-    out = tmp_path / "out"
-    for name in ("$x^{$", os.fsdecode(b"\xff\x1b[2J")):
-        path = tmp_path / f"{name}.toml"
-        path.write_text(SCENE)
-        status, printed, err = call("cost", path, "--out", out, "--overwrite")
-        assert (status, err) == (0, "")
-        assert printed.replace("\n", "").isprintable()
-        assert (out / "cost.csv").read_text().replace("\n", "").isprintable()
-        assert (out / "cost.png").stat().st_size
 
 
 def test_json_and_files(tmp_path: Path, call: Call) -> None:
@@ -95,20 +80,3 @@ def test_without_matplotlib_only_the_plot_is_missing(tmp_path: Path, call: Call)
     assert "force-diffusion[plots]" in err
     names = sorted(path.name for path in out.iterdir())
     assert names == ["cost.csv", "cost.json"]
-
-
-@pytest.mark.parametrize(
-    ("text", "says"),
-    [
-        (SCENE.replace("1e-4", "0"), "exactly zero"),
-        (SCENE.replace("1e-4", "0.57"), ""),
-    ],
-)
-def test_wrong_scenes(text: str, says: str, tmp_path: Path, call: Call) -> None:
-    out = tmp_path / "out"
-    status, printed, err = call("cost", written(tmp_path, text), "--out", out, "--json")
-    assert (status, printed) == (2, "")
-    assert "scene.toml" in err
-    assert says in err
-    assert "Traceback" not in err
-    assert not out.exists()

@@ -2,10 +2,8 @@
 
 from pathlib import Path
 
-import pytest
-
 import force_diffusion as fd
-from force_diffusion.__main__ import main
+from tests.conftest import Call
 
 ROOT = Path(__file__).parents[2]
 SCENES = {
@@ -15,22 +13,13 @@ SCENES = {
 }
 
 
-def contents(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in folder.iterdir()}
-
-
-def test_all_are_copied_and_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_all_are_copied_and_named(tmp_path: Path, call: Call) -> None:
     out = tmp_path / "new" / "scenes"
     for options in ([], ["--overwrite"]):
-        assert main(["examples", str(out), *options]) == 0
-        assert contents(out) == SCENES
-        assert capsys.readouterr().out.splitlines() == [str(out / name) for name in sorted(SCENES)]
-    (out / "mine.toml").write_text("mine")
-    assert main(["examples", str(out), "--overwrite"]) == 2
-    assert "doesn't write, such as 'mine.toml'" in capsys.readouterr().err
-    assert contents(out) == {**SCENES, "mine.toml": b"mine"}
+        status, shown, _ = call("examples", out, *options)
+        assert {path.name: path.read_bytes() for path in out.iterdir()} == SCENES
+        assert (status, shown.splitlines()) == (0, [str(out / name) for name in sorted(SCENES)])
 
 
-def test_the_version_is_that_of_the_package(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["--version"]) == 0
-    assert capsys.readouterr().out == f"force-diffusion {fd.__version__}\n"
+def test_the_version_is_that_of_the_package(call: Call) -> None:
+    assert call("--version") == (0, f"force-diffusion {fd.__version__}\n", "")

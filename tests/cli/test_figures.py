@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 from PIL import Image
 
-from tests.cli.conftest import Call
+from tests.conftest import Call
 
 
 def check_images(folder: Path, name: str, command: str) -> None:
@@ -99,13 +99,13 @@ def test_a_scene_is_answered_and_drawn(tmp_path: Path, call: Call) -> None:
     )
     status, _, err = call("figures", scene, "--out", out)
     assert (status, err) == (0, "")
-    found = json.loads((out / "my $cene.json").read_text())
-    check_images(out, "my $cene", found["command"])
+    result = json.loads((out / "my $cene.json").read_text())
+    check_images(out, "my $cene", result["command"])
     hashed = hashlib.sha256(scene.read_bytes()).hexdigest()
-    source = found["answer"]["source"]
+    source = result["answer"]["source"]
     assert (source["seed"], source["sha256"]["scene"], source["file"]) == (4, hashed, scene.name)
     title, command, *rows = (out / "my $cene.csv").read_text().splitlines()
-    assert (title, command) == ("# my $cene: profile", f"# {found['command']}")
+    assert (title, command) == ("# my $cene: profile", f"# {result['command']}")
     assert len(list(csv.DictReader(rows))) == 8
     again = tmp_path / "other" / scene.name
     for words, says in (([scene, again], "the same files"), ([scene, "--seed", 5], "--seed")):

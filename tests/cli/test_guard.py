@@ -33,14 +33,11 @@ def shell(line: str) -> subprocess.CompletedProcess[str]:
 @pytest.mark.parametrize(
     ("line", "status", "says"),
     [
-        pytest.param(
-            "{} --help > /dev/full", 3, "output failed: No space left on device", marks=full
-        ),
-        ("{} --help >&-", 3, "output failed: Bad file descriptor"),
+        pytest.param("{} --help > /dev/full", 3, "No space left on device", marks=full),
         ('{} --help | true; exit "${{PIPESTATUS[0]}}"', None, ""),
         ("{} bogus 2>&-", 2, ""),
     ],
-    ids=["a full disk", "closed", "a reader that stops", "a message that nobody hears"],
+    ids=["a full disk", "a reader that stops", "a message that nobody hears"],
 )
 def test_a_stream_that_fails(program: str, line: str, status: int | None, says: str) -> None:
     done = shell(line.format(program))
@@ -58,10 +55,8 @@ def test_an_interrupt_while_modules_load(tmp_path: Path) -> None:
     with subprocess.Popen(
         [sys.executable, "-m", "force_diffusion"],
         env={**ENVIRONMENT, "PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"},
-        cwd=tmp_path,
-        text=True,
-        stderr=subprocess.PIPE,
-    ) as process:
+        cwd=tmp_path, text=True, stderr=subprocess.PIPE,
+    ) as process:  # fmt: skip
         assert process.stderr is not None
         assert process.stderr.readline() == "loading\n"
         process.send_signal(signal.SIGINT)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Call
+from tests.conftest import Call
 
 ROOT = Path(__file__).parents[2]
 DESCRIPTION = ROOT / "force_diffusion" / "README.md"  # of the wheel, shown far from all files
@@ -80,8 +80,8 @@ def _relative_links(page: Path) -> list[str]:
     """Links and images that are no whole addresses, whichever way they are written."""
     text = page.read_text(encoding="utf-8")
     ways = r"""(?:\]\(\s*|^\[[^]]+\]:\s*|(?:src|href)\s*=\s*["']?)([^)\s"'>]+)"""
-    found = re.findall(ways, text, re.MULTILINE)
-    return [target for target in found if not target.startswith("https://")]
+    links = re.findall(ways, text, re.MULTILINE)
+    return [target for target in links if not target.startswith("https://")]
 
 
 @pytest.mark.parametrize("page", [*PAGES, SCENES, *sorted(ROOT.glob("*.md"))], ids=_name)

@@ -12,7 +12,7 @@ import pytest
 from force_diffusion.derivations.commands.output import Output, OutputError
 
 import force_diffusion as fd
-from force_diffusion.__main__ import main
+from tests.conftest import Call
 
 NAMES = ["a", "b"]
 OLD, NEW = {"a": "old", "b": "old"}, {"a": "new"}
@@ -32,7 +32,7 @@ def write(out: str, files: dict[str, str], overwrite: bool = False) -> None:
     Output(Path(out), NAMES, overwrite).write(files)
 
 
-def found(folder: str | Path) -> dict[str, str]:
+def contents(folder: str | Path) -> dict[str, str]:
     return {path.name: path.read_text() for path in Path(folder).iterdir()}
 
 
@@ -44,7 +44,7 @@ def everything() -> list[str]:
 def test_a_new_folder_holds_the_files_and_nothing_is_beside_it(out: str) -> None:
     Path("a").mkdir()
     write(out, OLD)
-    assert found(out) == OLD
+    assert contents(out) == OLD
     assert not [path for path in everything() if ".new" in path or ".old" in path]
     Path("usual").mkdir()
     assert Path(out).stat().st_mode == Path("usual").stat().st_mode  # as the user's umask has it
@@ -54,9 +54,9 @@ def test_what_is_there_is_replaced_if_that_is_asked_for_and_it_is_ours_alone() -
     write("out", OLD)
     with pytest.raises(OutputError, match=r"^'out' exists already\. .* --overwrite\.$"):
         write("out", NEW)
-    assert found("out") == OLD
+    assert contents("out") == OLD
     write("out", NEW, overwrite=True)
-    assert found("out") == NEW
+    assert contents("out") == NEW
     assert everything() == ["out", "out/a"]
 
 
@@ -77,7 +77,7 @@ def test_what_others_put_there_is_never_replaced(put: Callable[[Path], object]) 
         Output(Path("out"), NAMES, True)
     with pytest.raises(OutputError, match=r"such as .* The results are in '(.*)'") as raised:
         before.write(OLD)
-    assert found(str(raised.value).split("'")[-2]) == OLD  # the answer is not lost either
+    assert contents(str(raised.value).split("'")[-2]) == OLD  # the answer is not lost either
     assert (Path("out") / "a").read_text() == "new"
     assert len(list(Path("out").iterdir())) == 2
 
@@ -118,18 +118,18 @@ def test_a_failed_write_leaves_what_was_there(
         if isinstance(raised.value, OSError):
             assert raised.value.filename == f"{folder}/b"
         assert everything() == before
-    assert found("deep/out") == OLD
+    assert contents("deep/out") == OLD
 
 
 def killed(calls: int) -> bool:
     """Replace a folder in a process that is killed at so many changes; say whether it was."""
     child = os.fork()
     if not child:
-        left = iter(range(calls))
+        remaining = iter(range(calls))
 
         def counted(real: Callable[..., Any]) -> Callable[..., Any]:
             def call(*arguments: Any, **more: Any) -> Any:
-                if next(left, None) is None:
+                if next(remaining, None) is None:
                     os.kill(os.getpid(), signal.SIGKILL)
                 return real(*arguments, **more)
 
@@ -154,7 +154,7 @@ def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is(
         write("out", OLD)
         if not killed(calls):
             break
-        there = {path.name: found(path) for path in Path().iterdir()}
+        there = {path.name: contents(path) for path in Path().iterdir()}
         whole = [name for name, files in there.items() if files == OLD]
         replaced = there.get("out") == {"a": "new", "b": "new"}
         if "out.old" in there:
@@ -162,12 +162,12 @@ def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is(
                 Output(Path("out"), NAMES, False)
         else:
             write("out", NEW, overwrite=True)
-            assert found("out") == NEW
+            assert contents("out") == NEW
         seen.add((*whole, replaced))
         for folder in Path().iterdir():
             shutil.rmtree(folder)
     assert seen == {("out", False), ("out.old", False), ("out.old", True), (True,)}
-    assert found("out") == {"a": "new", "b": "new"}
+    assert contents("out") == {"a": "new", "b": "new"}
     assert everything() == ["out", "out/a", "out/b"]
 
 
@@ -178,8 +178,8 @@ def test_of_two_that_found_the_place_free_the_second_has_its_answer_beside() -> 
         OutputError, match=r"exists already\. .* The results are in '(.*)'"
     ) as raised:
         second.write(NEW)
-    assert found("out") == OLD
-    assert found(str(raised.value).split("'")[-2]) == NEW
+    assert contents("out") == OLD
+    assert contents(str(raised.value).split("'")[-2]) == NEW
 
 
 @pytest.mark.parametrize(
@@ -196,7 +196,7 @@ def test_of_two_that_found_the_place_free_the_second_has_its_answer_beside() -> 
     ],
 )
 def test_every_command_refuses_before_it_solves(
-    command: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    command: str, monkeypatch: pytest.MonkeyPatch, call: Call
 ) -> None:
     for name in ("framework.runner.run", "commands.scenes._answer", "commands.figures._own"):
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
@@ -208,8 +208,7 @@ def test_every_command_refuses_before_it_solves(
     Path("paper").mkdir()
     before = everything()
     out = ["--out", "mine"] if "article" not in command else []
-    assert main([*command.split(), *out]) == 2
-    printed = capsys.readouterr()
-    assert printed.out == ""
-    assert "' exists already. Give another folder, or --overwrite." in printed.err
+    status, shown, err = call(*command.split(), *out)
+    assert (status, shown) == (2, "")
+    assert "' exists already. Give another folder, or --overwrite." in err
     assert everything() == before

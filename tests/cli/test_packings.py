@@ -3,42 +3,30 @@
 import json
 from pathlib import Path
 
-import pytest
-
-from force_diffusion.__main__ import main
-
-SCENE = """
-[packing]
-height = 6
-width = 12
-[disorder]
-kind = "uniform"
-relative_std = 0.03
-seed = 2
-[effects]
-contacts = "unilateral"
-[ask]
-quantity = "contact_forces"
-"""
+from tests.conftest import Call
+from tests.numeric.scenes import basic, toml
 
 
-def test_run_says_what_is_proved(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    scene, out = tmp_path / "scene.toml", tmp_path / "out"
-    scene.write_text(SCENE)
-    assert main(["run", str(scene), "--out", str(out)]) == 0
+def asked(folder: Path, **effects: int) -> Path:
+    sections = basic(6, 12)
+    sections["disorder"] |= {"relative_std": "=0.03", "seed": 2}
+    path = folder / "scene.toml"
+    path.write_text(toml(sections | {"effects": {"contacts": "unilateral", **effects}}))
+    return path
+
+
+def test_run_says_what_is_proved(tmp_path: Path, call: Call) -> None:
+    out = tmp_path / "out"
+    status, shown, _ = call("run", asked(tmp_path), "--out", out)
     rest = "a strict local minimum in the coordinates of beads that contacts hold"
-    assert f"the packing: {rest}; " in capsys.readouterr().out
-    found = json.loads((out / "result.json").read_text())["network"]
-    assert found["rest"] == rest
-    assert found["contacts"] == 2 * (6 * 12 - found["rattlers"])
-    assert found["programs"] > 0
+    assert (status, f"the packing: {rest}; " in shown) == (0, True)
+    network = json.loads((out / "result.json").read_text())["network"]
+    assert network["rest"] == rest
+    assert network["contacts"] == 2 * (6 * 12 - network["rattlers"])
+    assert network["programs"] > 0
 
 
-def test_no_packing_ends_in_words_with_status_3(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    scene = tmp_path / "scene.toml"
-    scene.write_text(SCENE.replace("[ask]", "most_programs = 1\n[ask]"))
-    assert main(["run", str(scene)]) == 3
-    said = capsys.readouterr().err
-    assert "no packing was found, though one may exist: beads still slide after 1 linear" in said
+def test_no_packing_ends_in_words_with_status_3(tmp_path: Path, call: Call) -> None:
+    status, _, err = call("run", asked(tmp_path, most_programs=1))
+    assert status == 3
+    assert "no packing was found, though one may exist: beads still slide after 1 linear" in err

@@ -1,4 +1,4 @@
-"""The scene reference: every key that a scene takes, and every column that an answer has."""
+"""The reference: every key that a scene takes, every column of an answer, all that Python has."""
 
 import csv
 import inspect
@@ -9,31 +9,26 @@ from pathlib import Path
 import pytest
 
 import force_diffusion as fd
-from force_diffusion.__main__ import main
+from tests.conftest import Call
 
 ROOT = Path(__file__).parents[2]
 REFERENCE = ROOT / "docs" / "reference"
 SCENES = ROOT / "scenes" / "README.md"
-STUDIES = REFERENCE / "answers.md"
 SECTIONS = ("packing", "disorder", "load", "effects", "ask")
 PACKING = "[packing]\nheight = 2\nwidth = 7\n[disorder]\nkind = 'uniform'\nrelative_std = 1e-3\n"
 POINT = "[load]\nkind = 'point'\nat = [0, 2]\n"
-ASKED = {
-    "contact": "quantity = 'contact'\nat = [0, 0, '+']\n",
-    "contact_forces": "quantity = 'contact_forces'\n",
-    "positions": "quantity = 'positions'\n",
-    "profile": "quantity = 'profile'\n",
-    "histogram": "quantity = 'histogram'\nbins = 2\n",
-    "response": "quantity = 'response'\n",
-}
+MORE = {"contact": "at = [0, 0, '+']\n", "histogram": "bins = 2\n"}
+QUANTITIES = ("contact", "contact_forces", "positions", "profile", "histogram", "response")
 
 
 def _part(page: Path, title: str) -> str:
-    """What stands below a heading, up to the next one."""
+    """What stands below a heading, up to the next one as high."""
     text = page.read_text(encoding="utf-8")
-    found = re.search(rf"^#+ {re.escape(title)}\n(.*?)(?=^#|\Z)", text, re.MULTILINE | re.DOTALL)
-    assert found, title
-    return found[1]
+    part = re.search(
+        rf"^(#+) {re.escape(title)}\n(.*?)(?=^\1 |^## |\Z)", text, re.MULTILINE | re.DOTALL
+    )
+    assert part, title
+    return part[2]
 
 
 def _first_cells(table: str) -> set[str]:
@@ -41,14 +36,20 @@ def _first_cells(table: str) -> set[str]:
     return {name for cell in cells for name in re.findall(r"`(\w+)`", cell)}
 
 
-def _scene(folder: Path, text: str) -> str:
+def _scene(folder: Path, text: str) -> Path:
     path = folder / "scene.toml"
     path.write_text(text, encoding="utf-8")
-    return str(path)
+    return path
+
+
+def _asking(folder: Path, quantity: str, realisations: int = 1, packing: str = PACKING) -> Path:
+    load = POINT if quantity == "response" else ""
+    asked = f"quantity = '{quantity}'\nrealisations = {realisations}\n{MORE.get(quantity, '')}"
+    return _scene(folder, f"{packing}{load}[ask]\n{asked}")
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_a_section_has_the_keys_that_are_told(section, tmp_path, capsys) -> None:
+def test_a_section_has_the_keys_that_are_named(section: str, tmp_path: Path, call: Call) -> None:
     whole = {
         "packing": "height = 2",
         "disorder": "kind = 'uniform'\nrelative_std = 1e-3",
@@ -58,69 +59,72 @@ def test_a_section_has_the_keys_that_are_told(section, tmp_path, capsys) -> None
     }
     whole[section] += "\nnonsense = 1"
     text = "\n".join(f"[{name}]\n{keys}" for name, keys in whole.items())
-    assert main(["explain", _scene(tmp_path, text)]) == 2
-    message = " ".join(capsys.readouterr().err.split())
-    found = re.search(rf"{section}\.nonsense.*allowed are ([\w, ]+)", message)
-    assert found, message
-    assert _first_cells(_part(SCENES, f"`[{section}]`")) == set(found[1].strip().split(", "))
+    status, _, err = call("explain", _scene(tmp_path, text))
+    allowed = re.search(rf"{section}\.nonsense.*allowed are ([\w, ]+)", " ".join(err.split()))
+    assert status == 2
+    assert allowed, err
+    assert _first_cells(_part(SCENES, f"`[{section}]`")) == set(allowed[1].strip().split(", "))
 
 
-def test_the_sections_are_told(tmp_path, capsys) -> None:
-    assert (
-        main(["explain", _scene(tmp_path, f"{PACKING}[nonsense]\n[ask]\n{ASKED['profile']}")]) == 2
-    )
-    message = " ".join(capsys.readouterr().err.split())
-    for section in SECTIONS:
-        assert section in message
-
-
-def test_the_quantities_are_told(tmp_path, capsys) -> None:
-    text = "[packing]\nheight = 2\n[ask]\nquantity = 'nonsense'\n"
-    assert main(["explain", _scene(tmp_path, text)]) == 2
-    message = " ".join(capsys.readouterr().err.split())
-    assert set(re.findall(r'"(\w+)"', message)) - {"nonsense"} == set(ASKED)
-    for quantity in ASKED:
+def test_the_sections_and_quantities_are_named(tmp_path: Path, call: Call) -> None:
+    _, _, err = call("explain", _scene(tmp_path, f"{PACKING}[nonsense]\n[ask]\nquantity = 'a'\n"))
+    assert {*SECTIONS} <= {*re.findall(r"\w+", err)}
+    _, _, err = call("explain", _asking(tmp_path, "nonsense"))
+    assert {*re.findall(r'"(\w+)"', err)} - {"nonsense"} == {*QUANTITIES}
+    for quantity in QUANTITIES:
         assert f'`"{quantity}"`' in _part(SCENES, "`[ask]`")
 
 
 @pytest.mark.parametrize("realisations", [1, 3])
-@pytest.mark.parametrize("quantity", list(ASKED))
-def test_an_answer_has_the_columns_that_are_told(quantity, realisations, tmp_path, capsys) -> None:
-    load = POINT if quantity == "response" else ""
-    text = f"{PACKING}{load}[ask]\nrealisations = {realisations}\n{ASKED[quantity]}"
-    assert main(["run", _scene(tmp_path, text)]) == 0
-    columns = capsys.readouterr().out.splitlines()[0].split(",")
+@pytest.mark.parametrize("quantity", QUANTITIES)
+def test_an_answer_has_the_columns_that_are_named(
+    quantity: str, realisations: int, tmp_path: Path, call: Call
+) -> None:
+    status, shown, _ = call("run", _asking(tmp_path, quantity, realisations))
+    assert status == 0
+    columns = set(shown.splitlines()[0].split(","))
     part = _part(SCENES, f"`{quantity}`")
     if quantity == "contact_forces":
         part += _part(SCENES, "`contact`")
-    told = set(re.findall(r"`(\w+)`", part)) | {"realisation"}
-    assert set(columns) <= told
+    assert columns <= set(re.findall(r"`(\w+)`", part)) | {"realisation"}
     if realisations == 1 and quantity != "response":  # whose columns follow the realisations
-        assert _first_cells(part) == set(columns)
-
-
-def test_an_ensemble_has_the_columns_that_are_told(tmp_path, capsys) -> None:
-    told = set(re.findall(r"`(\w+)`", _part(SCENES, "The JSON of `ensemble`")))
-    for quantity in ("profile", "histogram", "response"):
-        load = POINT if quantity == "response" else ""
-        scene = _scene(tmp_path, f"{PACKING}{load}[ask]\nrealisations = 40\n{ASKED[quantity]}")
-        assert main(["ensemble", scene, "--workers", "1"]) == 0
-        columns = capsys.readouterr().out.splitlines()[0].split(",")
-        assert set(columns) <= told
+        assert _first_cells(part) == columns
 
 
 @pytest.mark.long
-def test_a_study_of_costs_has_the_columns_that_are_told(tmp_path, capsys) -> None:
-    scene = _scene(tmp_path, f"{PACKING}[ask]\n{ASKED['contact']}")
-    assert main(["cost", scene, "--out", str(tmp_path / "cost")]) == 0
+def test_a_study_of_costs_has_the_columns_that_are_named(tmp_path: Path, call: Call) -> None:
+    assert call("cost", _asking(tmp_path, "contact"), "--out", tmp_path / "cost")[0] == 0
     with (tmp_path / "cost" / "cost.csv").open(newline="", encoding="utf-8") as file:
         columns = next(csv.reader(file))
-    assert _first_cells(_part(STUDIES, "`cost.csv`")) == set(columns)
+    assert _first_cells(_part(REFERENCE / "answers.md", "`cost.csv`")) == set(columns)
 
 
-def test_every_command_is_told(capsys) -> None:
-    assert main(["--help"]) == 0
-    listed = capsys.readouterr().out.partition("Commands:\n")[2].partition("\n\n")[0]
+def _keys(value: object) -> set[str]:
+    """All names of objects within JSON, but those of a scene."""
+    if isinstance(value, dict):
+        return set(value).union(*(_keys(v) for k, v in value.items() if k != "scene"))
+    return set().union(*map(_keys, value)) if isinstance(value, list) else set()
+
+
+def test_json_has_the_keys_that_are_named(tmp_path: Path, call: Call) -> None:
+    """Rows of an answer are in it, too, with the names of their columns."""
+    pulling = PACKING.replace("1e-3", "0.1").replace("height = 2", "height = 6")
+    columns = _part(SCENES, "`contact`") + _part(SCENES, "`contact_forces`")
+    commands = [
+        ("run", columns, "contact_forces", pulling),
+        ("run", columns, "contact", PACKING, "--tolerance", "1e-9"),
+        *(("ensemble", "", one, PACKING) for one in ("profile", "histogram", "response")),
+    ]
+    for command, more, quantity, packing, *words in commands:
+        scene = _asking(tmp_path, quantity, 40 if command == "ensemble" else 1, packing)
+        status, shown, _ = call(command, scene, "--json", *words)
+        assert status == 0
+        named = re.findall(r"\w+", _part(SCENES, f"The JSON of `{command}`") + more)
+        assert _keys(json.loads(shown)) <= {*named, *QUANTITIES}
+
+
+def test_every_command_is_named(call: Call) -> None:
+    listed = call("--help")[1].partition("Commands:\n")[2].partition("\n\n")[0]
     commands = set(re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE))
     page = (REFERENCE / "commands.md").read_text(encoding="utf-8")
     assert set(re.findall(r"^\| `(?!force-)([a-z][\w-]+)", page, re.MULTILINE)) == commands
@@ -159,39 +163,7 @@ def test_the_page_on_python_gives_members_and_arguments_as_they_are() -> None:
 @pytest.mark.parametrize(
     "section", [fd.Scene, fd.Packing, fd.Disorder, fd.Load, fd.Effects, fd.Ask]
 )
-def test_the_page_on_python_gives_the_fields_of_a_section(section) -> None:
-    fields = section.model_fields.items()
+def test_the_page_on_python_gives_the_fields_of_a_section(section: type[fd.Scene]) -> None:
     assert _optional(_described()[section.__name__]) == {
-        name: not field.is_required() for name, field in fields
+        name: not field.is_required() for name, field in section.model_fields.items()
     }
-
-
-def _keys(value: object) -> set[str]:
-    """All names of objects within JSON, but those of a scene."""
-    if isinstance(value, dict):
-        return set(value).union(*(_keys(v) for k, v in value.items() if k != "scene"))
-    return set().union(*map(_keys, value)) if isinstance(value, list) else set()
-
-
-def _answers(title: str) -> str:
-    text = SCENES.read_text(encoding="utf-8")
-    return text.partition(f"\n## {title}\n")[2].partition("\n## ")[0]
-
-
-def test_the_json_of_a_run_has_the_keys_that_are_told(tmp_path, capsys) -> None:
-    pulling = f"{PACKING}[ask]\n{ASKED['contact_forces']}".replace("1e-3", "0.1").replace(
-        "height = 2", "height = 6"
-    )
-    columns = _part(SCENES, "`contact`") + _part(SCENES, "`contact_forces`")
-    told = set(re.findall(r"\w+", _answers("The JSON of `run`") + columns))
-    told |= set(ASKED)
-    for text, *more in ((pulling,), (f"{PACKING}[ask]\n{ASKED['contact']}", "--tolerance", "1e-9")):
-        assert main(["run", _scene(tmp_path, text), "--json", *more]) == 0
-        assert _keys(json.loads(capsys.readouterr().out)) <= told
-
-
-def test_the_json_of_an_ensemble_has_the_keys_that_are_told(tmp_path, capsys) -> None:
-    scene = _scene(tmp_path, f"{PACKING}[ask]\nrealisations = 40\n{ASKED['histogram']}")
-    told = set(re.findall(r"\w+", _answers("The JSON of `ensemble`"))) | set(ASKED)
-    assert main(["ensemble", scene, "--json"]) == 0
-    assert _keys(json.loads(capsys.readouterr().out)) <= told

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.cli.conftest import Call
+from tests.conftest import Call
 
 SCENE = """
 packing = {height = 3, width = 6}
@@ -34,9 +34,9 @@ def test_a_value_is_that_of_a_changed_file(scene: Path, call: Call) -> None:
     status, plain, _ = call("run", changed, "--json")
     assert status == 0
     words = ("--set", "packing.height=4", "--set", "disorder.kind=normal", "--seed", 7)
-    status, found, _ = call("run", scene, *words, "--json")
+    status, changed_by_words, _ = call("run", scene, *words, "--json")
     assert status == 0
-    assert json.loads(found)["results"] == json.loads(plain)["results"]
+    assert json.loads(changed_by_words)["results"] == json.loads(plain)["results"]
 
 
 def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(

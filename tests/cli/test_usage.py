@@ -9,25 +9,20 @@ from pathlib import Path
 import pytest
 from force_diffusion.derivations.commands.cli import COMMANDS
 
-from force_diffusion.__main__ import main
-from tests.cli.conftest import Call
+from tests.conftest import Call
 
 MANY = "9" * 5000
 SEEDS = ",".join(map(str, range(1001)))
 USAGE = [
     ("derive 17", "'17' is not an equation"),
     ("derive ''", "'' is not an equation"),
-    ("derive 1_3", "'1_3' is not an equation"),
-    ("derive ١٣", "is not an equation"),
     ("derive 13,14", "Put spaces between several, as in derive 13 14"),
     (f"derive {MANY}", "is not an equation"),
     ('derive "__import__(\'os\').abort()"', "is not an equation"),
     ("derive --out", "--out"),
     ("derive --fast", "--fast"),
     ("derive 1 --out ''", "'' can't name a new folder"),
-    ("run scene.toml --out ''", "'' can't name a new folder"),
     ("show", "N"),
-    ("show 13 17", "'17' is not an equation"),
     ("show 13 --as pdf", "'--as': 'pdf' is not one of 'text', 'latex', 'sympy'"),
     ("show 13 --case base", "--case"),
     ("show 13 --exact --as steps", "steps"),
@@ -37,11 +32,7 @@ USAGE = [
     ("ensemble s.toml --realisations many", "--realisations"),
     ("run scene.toml --format xlsx", "'--format': 'xlsx' is not one of 'csv', 'npz'"),
     ("examples", "Missing argument 'DIR'"),
-    ("examples ''", "'' can't name a new folder"),
     ("examples .", "'.' can't name a new folder"),
-    ("examples a/..", "'a/..' can't name a new folder"),
-    ("examples a b", "b"),
-    ("examples --out a", "--out"),
     ("dervie 13", "no command 'dervie'; did you mean derive? Use derive, certify"),
     ("prove 13", "no command 'prove'. Use derive, certify, show, list, examples, run, explain, "
      "cost, ensemble, ensemble-status or figures"),
@@ -50,9 +41,7 @@ WRONG = [
     ("show 13 12 --exact", "Eq. 12 has no exact form at finite size; these have one: 13, 14"),
     ("figures 5", "no figure '5'"),
     ("figures 3 --heights 0", "1 to 10000"),
-    ("figures 3 --heights 8,8", "different"),
     ("figures 3 --heights 1,2,3,4,5,6,7", "up to 6"),
-    ("figures 3 --heights ³", "whole numbers"),
     ("figures 3 --realisations 15", "16"),
     ("figures 3 --seed -1", "--seed"),
     ("figures 1 --heights 8", "add 3"),
@@ -61,7 +50,6 @@ WRONG = [
     ("figures 3 --with double-y", "add 4"),
     ("figures 1 --spacing 2.5", "figures 2, 3, 4, pf, chains only"),
     ("figures 2 --spacing 3.5", "3.4641"),
-    ("figures 2 --spacing wide", "not a finite decimal"),
     ("figures chains --relative-std 0", "between 1e-09 and 0.5"),
     ("figures 3 --relative-std=-0.01", "must be at least 0"),
     ("figures 3 --spacing=5", "or beads of the ordered packing overlap"),
@@ -69,14 +57,11 @@ WRONG = [
     ("figures 3 --heights 10000", "memory"),
     ("run scene.toml --tolerance 0", "--tolerance"),
     ("run scene.toml --tolerance 1", "--tolerance"),
-    ("run scene.toml --tolerance ten", "--tolerance"),
     ("run scene.toml --tolerance 1e-9999999", "--tolerance"),
     ("run scene.toml --format npz", "--out"),
     ("run scene.toml --set height", "sets nothing"),
-    ("run scene.toml --set =3", "sets nothing"),
     ("run scene.toml --set packing.height=2 --set packing.height=3", "more than once"),
     ("run scene.toml --set height=3", "not a key of a section"),
-    ("run scene.toml --set a.b.c=3", "not a key of a section"),
     ("run scene.toml --set packing.hieght=3", 'did you mean "height"'),
     ("run scene.toml --set packing.height=3]", "is not a TOML value"),
     ("run scene.toml --set packing.height=", "is not a TOML value"),
@@ -90,7 +75,6 @@ WRONG = [
     ("ensemble scene.toml --realisations 1", "--realisations = 1"),
     ("ensemble scene.toml --realisations 10000000000", "from 2 to"),
     ("ensemble scene.toml --until 0", "--until = 0"),
-    ("ensemble scene.toml --until nan", "--until = nan"),
     ("ensemble scene.toml --confidence 1", "--confidence = 1"),
     ("ensemble scene.toml --workers 0", "--workers = 0"),
     ("ensemble scene.toml --workers 2 --scheduler tcp://x:1", "exclude each other"),
@@ -127,32 +111,23 @@ def test_wrong_words(
     assert Path("scene.toml").read_text() == SCENE
 
 
-def test_help_and_no_arguments(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["--help"]) == 0
-    shown = capsys.readouterr().out
-    for word in ("derive", "show", "list", "130"):
+def test_help_and_no_arguments(call: Call) -> None:
+    _, shown, _ = call("--help")
+    for word in (*COMMANDS, "130"):
         assert word in shown
-    assert main(["derive", "--help"]) == 0
-    assert "--json" in capsys.readouterr().out
     for name in ([], ["derive"], ["run"]):
-        assert main([*name, "--help"]) == 0
-        long = capsys.readouterr().out
-        assert main([*name, "-h"]) == 0
-        assert capsys.readouterr().out == long
-    assert main([]) == 2
-    shown = "".join(capsys.readouterr())
-    assert "Usage: force-diffusion" in shown
-    assert "Traceback" not in shown
+        assert call(*name, "--help") == call(*name, "-h")
+    status, shown, err = call()
+    assert status == 2
+    assert "Usage: force-diffusion" in shown + err
+    assert "Traceback" not in shown + err
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_the_list_of_commands_says_what_they_say(
-    name: str, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main([name, "--help"]) == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert said.startswith(f"Usage: force-diffusion {name} ")
-    assert f" {COMMANDS[name][1]} " in said
+def test_the_list_of_commands_says_what_they_say(name: str, call: Call) -> None:
+    shown = " ".join(call(name, "--help")[1].split())
+    assert shown.startswith(f"Usage: force-diffusion {name} ")
+    assert f" {COMMANDS[name][1]} " in shown
 
 
 def test_a_command_loads_no_other_command_s_module() -> None:
@@ -160,6 +135,4 @@ def test_a_command_loads_no_other_command_s_module() -> None:
         "import sys; from force_diffusion.__main__ import main; main(['list']); "
         "sys.exit('force_diffusion.derivations.commands.scenes' in sys.modules)"
     )
-    root = Path(__file__).parents[2]
-    done = subprocess.run([sys.executable, "-c", program], cwd=root, check=False)
-    assert done.returncode == 0
+    subprocess.run([sys.executable, "-c", program], check=True)

@@ -50,6 +50,7 @@ def by_taylor(height: int, layer: int, load: str) -> tuple[fmpq, fmpq]:
     return sum((w**2 for w in weights.values()), fmpq(0)), 2 * squares + third
 
 
+@pytest.mark.long(sample=2)
 @pytest.mark.parametrize("load", ["surface", "bulk"])
 @pytest.mark.parametrize(("height", "layer"), [(1, 0), (2, 0), (2, 1)])
 def test_floats_are_the_exact_coefficients(load: str, height: int, layer: int) -> None:
@@ -98,6 +99,7 @@ def test_the_leading_order_is_as_fitted_at_another_cosine(bulk: bool) -> None:
     assert highest == pytest.approx(expected, rel=1e-6)
 
 
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize(("bulk", "degree"), [(False, 3), (True, 5)])
 @pytest.mark.parametrize("layer", [0, 4])
 def test_what_other_laws_of_the_radii_add_grows_as_the_cube_of_the_height(

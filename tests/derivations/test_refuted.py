@@ -5,7 +5,6 @@ from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.api.derived import Derived
 from force_diffusion.derivations.api.proof import Proof
 from force_diffusion.derivations.export import terminal
-from force_diffusion.derivations.export.document import statement_latex
 from force_diffusion.derivations.framework import runner
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Steps
@@ -54,9 +53,3 @@ def test_all_that_is_said_of_the_run_counts_it() -> None:
     (reading,) = outcome.derivation.proof.refuted
     for document in (derived.latex()["equations.tex"], terminal.outcome_text(outcome)):
         assert reading.reading[1:] in " ".join(document.split())  # a sentence, or part of one
-
-
-def test_the_statement_for_one_contact_is_in_no_fragment() -> None:
-    """A fragment is to be pasted."""
-    assert "contact" not in statement_latex(load(16))
-    assert statement_latex(load(16)).count(r"\sim") == 1

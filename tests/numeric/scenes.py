@@ -77,7 +77,7 @@ def basic(height: int = 6, width: int | None = 14, **ask: Any) -> dict[str, dict
 
 
 def question(
-    quantity: Any, height: int, width: int, *, dimension: int = 2, radius: Any = 1,
+    quantity: Any, height: int, width: int | None, *, dimension: int = 2, radius: Any = 1,
     spacing: Any = 3, kind: Any = "uniform", std: float = 1e-3, seed: int = 1,
     radii: fd.Disorder | fd.GivenRadii | None = None, load: fd.Load | None = None,
     effects: dict[str, Any] | None = None, folder: Path = Path(), **ask: Any,

@@ -7,7 +7,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.numeric.scenes import scene
+from tests.numeric.scenes import question
 
 Bead = tuple[int, ...]
 
@@ -28,46 +28,27 @@ def asked(
     folder: Path, loads: set[Bead], width: int | None, height: int, quantity: str, **ask: Any
 ) -> fd.Scene:
     lines = [f"{i},{j},0.01,-1" for i, j in loads]
-    packing: dict[str, Any] = {"height": height}
     if width is None:
         lines.append(f"{80 + height % 2},{height},0,0")  # no load
-    else:
-        packing |= {"width": width, "allow_images": True}
     (folder / "loads.csv").write_text("\n".join(["i,j,fx,fy", *lines]) + "\n")
-    return scene(
-        {
-            "packing": packing,
-            "disorder": {"kind": "uniform", "relative_std": "=1e-3", "seed": 1},
-            "load": {"kind": "file", "file": "loads.csv"},
-            "ask": {"quantity": quantity, **ask},
-        },
-        folder,
-    )
+    load = fd.Load(kind="file", file="loads.csv")
+    return question(quantity, height, width, load=load, folder=folder, **ask)
 
 
-def count(scene: fd.Scene) -> int:
-    return int(sum(scene.run().arrays["count"]))
+def count(asked: fd.Scene) -> int:
+    return int(sum(asked.run().arrays["count"]))
 
 
 def test_two_loads_that_are_far_apart(tmp_path: Path) -> None:
     loads: set[Bead] = {(0, 4), (40, 4)}
     assert count(asked(tmp_path, loads, 60, 4, "histogram", layers=[3])) == 4
-    assert count(asked(tmp_path, loads, 60, 4, "histogram", realisations=3)) == 120
-    found = fd.ensemble(asked(tmp_path, loads, 60, 4, "histogram"), 4, reach=0.01)
-    assert found.samples == 160
+    assert fd.ensemble(asked(tmp_path, loads, 60, 4, "histogram"), 4, reach=0.01).samples == 160
 
 
 def test_a_point_load_on_spheres() -> None:
     """Its cone has 1, 3 and 6 beads; layers of 7 × 7 are solved."""
-    made = scene(
-        {
-            "packing": {"height": 3, "width": 7, "dimension": 3},
-            "disorder": {"kind": "uniform", "relative_std": "=1e-3", "seed": 1},
-            "load": {"kind": "point", "at": [5, 6, 3]},
-            "ask": {"quantity": "histogram"},
-        }
-    )
-    assert count(made) == 3 * (1 + 3 + 6)
+    load = fd.PointLoad(at=(5, 6, 3))
+    assert count(question("histogram", 3, 7, dimension=3, load=load)) == 3 * (1 + 3 + 6)
 
 
 @st.composite

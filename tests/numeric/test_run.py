@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -91,15 +90,14 @@ def test_forces_come_back_in_the_unit_of_the_load(quantity: str, tolerance: str 
 
 
 def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene() -> None:
-    sections = basic(4, 9, quantity="profile")
-    sections["packing"] |= {"radius": 4}
-    large = {**sections, "load": {"kind": "surface", "magnitude": 64}}
-    one, many = (fd.ensemble(scene(s), 40) for s in (sections, large))
+    def asked(radius: int, magnitude: int) -> fd.Scene:
+        load = fd.SurfaceLoad(magnitude=magnitude)
+        return question("profile", 4, 9, radius=radius, spacing=3 * radius, load=load)
+
+    one, many = (fd.ensemble(asked(4, magnitude), 40) for magnitude in (1, 64))
     for name in ("mean", "mean_change", "std", "std_error", "first_order_std"):
         assert (one.arrays[name] * 64 == many.arrays[name]).all()
-    wide, small = (
-        answer({**sections, "packing": {**sections["packing"], "radius": r}}) for r in (4, 1)
-    )
+    wide, small = (asked(radius, 1).run() for radius in (4, 1))
     gaps = [found.data()["physical"]["smallest_gap"] for found in (wide, small)]
     assert gaps[0] == 4 * gaps[1]
     for found, gap in zip((wide, small), gaps, strict=True):  # one name, one unit
@@ -133,19 +131,13 @@ def test_some_layers_of_a_response_are_those_of_the_whole(
             assert column.tobytes() == whole.arrays[name][kept].tobytes(), name
 
 
-@pytest.mark.parametrize(
-    ("dimension", "size", "std"), [(2, (24, 25), "=1e-2"), (3, (5, 7), "=2e-2")]
-)
+@pytest.mark.parametrize(("beads", "size", "std"), [("ij", (24, 25), 1e-2), ("pqj", (5, 7), 2e-2)])
 def test_contacts_that_pull_are_counted_and_the_first_is_named(
-    dimension: int, size: tuple[int, int], std: str
+    beads: str, size: tuple[int, int], std: float
 ) -> None:
-    sections = basic(*size, tolerance="=1e-12")
-    sections["packing"]["dimension"] = dimension
-    sections["disorder"]["relative_std"] = std
-    found = answer(sections)
-    beads = "ij" if dimension == 2 else "pqj"
+    found = question("contact_forces", *size, dimension=len(beads), std=std).run("1e-12")
     pulling = [
-        (*(row[name] for name in beads), row["branch"])
+        tuple(row[name] for name in (*beads, "branch"))
         for row in found.decimals()
         if Fraction(row["force"]) < 0
     ]
@@ -155,18 +147,12 @@ def test_contacts_that_pull_are_counted_and_the_first_is_named(
     assert tuple(found.physical.first_tensile.values()) in pulling
 
 
-def test_a_sign_that_no_precision_settles_stays_open(tmp_path: Path) -> None:
+def test_a_sign_that_no_precision_settles_stays_open() -> None:
     """Equal radii below a point load: inside its cone the forces are exactly zero."""
-    rows = [
-        f"{i},{j},{'0.02' if (i, j) == (31, 1) else '0.01'}"
-        for j in range(4)
-        for i in range(j % 2, 40, 2)
-    ]
-    (tmp_path / "radii.csv").write_text("\n".join(["i,j,delta_r", *rows]) + "\n")
-    radii = fd.Disorder(kind="file", file="radii.csv")
-    load = fd.PointLoad(at=(11, 3))
-    scene = question("contact_forces", 3, 20, radii=radii, load=load, folder=tmp_path)
-    found = scene.run(1e-12, certified=True)
+    delta = np.full((4, 20), 0.01)
+    delta[1, 15] = 0.02
+    radii, load = fd.GivenRadii(delta_r=delta), fd.PointLoad(at=(11, 3))
+    found = question("contact_forces", 3, 20, radii=radii, load=load).run(1e-12, certified=True)
     assert found.accuracy.certified
     assert found.physical is not None
     assert found.physical.undecided_signs > 0
@@ -196,15 +182,8 @@ def test_a_notebook_shows_the_first_rows_and_says_how_many_there_are() -> None:
 
 @pytest.mark.parametrize("power", [-400, 400])
 def test_a_profile_in_units_beyond_floats_is_that_in_others(power: int) -> None:
-    usual, other = (
-        answer(
-            {
-                **basic(4, 10, quantity="profile", tolerance="=1e-20"),
-                "load": {"magnitude": f"=1e{k}"},
-            }
-        ).decimals()
-        for k in (0, power)
-    )
+    loads = (fd.SurfaceLoad(magnitude=Fraction(10) ** k) for k in (0, power))
+    usual, other = (question("profile", 4, 10, load=one).run("1e-20").decimals() for one in loads)
     for one, two in zip(usual, other, strict=True):
         for name in ("first_order_std", "std", "mean"):
             shift = Fraction(one[name]) * Fraction(10) ** power / Fraction(two[name])
@@ -213,11 +192,10 @@ def test_a_profile_in_units_beyond_floats_is_that_in_others(power: int) -> None:
 
 def test_standard_errors_in_units_beyond_floats_are_not_known() -> None:
     """Some of the errors are 0 before they get their unit, as with radii that are drawn alike."""
-    sections = basic(1, 4, quantity="response", realisations=3)
-    sections["packing"]["dimension"] = 3
-    sections["disorder"] |= {"kind": "two-point", "relative_std": "=0.06", "seed": 556}
-    load = {"kind": "point", "at": [3, 3, 1], "magnitude": "=1e400"}
-    found = scene({**sections, "load": load}).run("1e-20")
+    found = question(
+        "response", 1, 4, dimension=3, kind="two-point", std=0.06, seed=556, realisations=3,
+        load=fd.PointLoad(at=(3, 3, 1), magnitude=Fraction(10) ** 400),
+    ).run("1e-20")  # fmt: skip
     assert not any(np.isfinite(error).any() for error in found.standard_errors.values())
 
 

@@ -17,13 +17,6 @@ from tests.numeric.scenes import question
 from tests.numeric.spheres import columns, scene
 
 
-def test_a_response_has_vertical_forces_that_sum_to_the_load() -> None:
-    load = fd.PointLoad(at=(1, 1, 3))
-    found = scene("response", height=3, width=5, load=load).run().arrays
-    for j in range(3):
-        assert found["vertical"][found["j"] == j].sum() == pytest.approx(1, abs=1e-14)
-
-
 def test_one_contact_and_one_bead_are_those_of_all() -> None:
     every = scene(height=3, width=4).run()
     for p, q, j, branch, change in columns(every, "p", "q", "j", "branch", "change"):
@@ -36,9 +29,9 @@ def test_one_contact_and_one_bead_are_those_of_all() -> None:
     assert one.rows()[0] in beads.rows()
 
 
-@pytest.mark.long(sample=2)
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("quantity", ["profile", "positions"])
-@pytest.mark.parametrize(("geometry", "M"), [("exact", 2), ("first-order", 3)])
+@pytest.mark.parametrize(("geometry", "M"), [("first-order", 3), ("exact", 2)])
 def test_images_are_seen_where_a_wider_packing_differs(
     quantity: str, geometry: str, M: int
 ) -> None:
@@ -73,16 +66,6 @@ def test_images_are_seen_where_a_wider_packing_differs(
         sees = any(len(home) < len(beads) for home, beads in zip(homes, matter, strict=True))
         plan = scene(quantity, height=M, width=width, geometry=geometry).explain()
         assert plan.sees_images == sees, width
-
-
-@pytest.mark.parametrize(("dimension", "ends"), [(3, "is meant"), (2, "for the infinite slab")])
-def test_the_slab_is_advice_in_two_dimensions_alone(dimension: Any, ends: str) -> None:
-    with pytest.raises(fd.SceneError, match=f"allow_images = true.*{ends}$"):
-        fd.Scene(
-            packing=fd.Packing(height=2, width=2, dimension=dimension),
-            disorder=fd.Disorder(kind="uniform", relative_std=1e-3),
-            ask=fd.Ask(quantity="profile"),
-        )
 
 
 def test_a_profile_and_a_histogram_are_drawn() -> None:
@@ -181,20 +164,15 @@ def test_radii_of_ones_own_have_many_forms(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
-    ("lines", "says"),
+    ("text", "says"),
     [
-        (["i,j,delta_r"], "the first line must name the columns p,q,j,delta_r or p,q,j,r"),
-        (
-            ["p,q,j,r", "0,2,1,1"],
-            r"line 2: bead \(0, 2, 1\) lies outside .*0 <= p, q < 2, 0 <= j <= 1",
-        ),
-        (["p,q,j,r", "0,0,0,1", "0,1,0,1", "1,1,0,1"], r"bead \(1, 0, 0\) is missing"),
+        ("i,j,delta_r", "the first line must name the columns p,q,j,delta_r or p,q,j,r"),
+        ("p,q,j,r\n0,2,1,1", r"line 2: bead \(0, 2, 1\) .*outside .*0 <= p, q < 2, 0 <= j <= 1"),
+        ("p,q,j,r\n0,0,0,1\n0,1,0,1\n1,1,0,1", r"bead \(1, 0, 0\) is missing"),
     ],
 )
-def test_what_is_wrong_in_a_list_of_radii_is_named(
-    lines: list[str], says: str, tmp_path: Path
-) -> None:
-    (tmp_path / "radii.csv").write_text("\n".join(lines))
+def test_what_is_wrong_in_a_list_of_radii_is_named(text: str, says: str, tmp_path: Path) -> None:
+    (tmp_path / "radii.csv").write_text(text)
     asked = scene("profile", height=1, width=2).model_copy(
         update={"disorder": fd.Disorder(kind="file", file="radii.csv"), "folder": tmp_path}
     )
@@ -202,19 +180,13 @@ def test_what_is_wrong_in_a_list_of_radii_is_named(
         asked.run()
 
 
-@pytest.mark.parametrize(
-    ("quantity", "at"),
-    [("contact_forces", None), ("profile", None), ("histogram", None),
-     ("contact", (1, 1, 1, "1"))],
-)  # fmt: skip
-@pytest.mark.parametrize("geometry", ["exact", "first-order"])
-def test_a_file_without_loads_is_known_to_load_nothing(
-    quantity: str, at: Any, geometry: str, tmp_path: Path
-) -> None:
+@pytest.mark.parametrize("quantity", ["contact_forces", "profile", "histogram", "contact"])
+def test_a_file_without_loads_is_known_to_load_nothing(quantity: str, tmp_path: Path) -> None:
     """As in two dimensions: certified zeros, and why."""
     (tmp_path / "loads.csv").write_text("p,q,j,fx,fy,fz\n")
     load = fd.Load(kind="file", file="loads.csv")
-    asked = scene(quantity, height=3, width=4, load=load, geometry=geometry, at=at)
+    at = (1, 1, 1, "1") if quantity == "contact" else None
+    asked = scene(quantity, height=3, width=4, load=load, at=at)
     found = asked.model_copy(update={"folder": tmp_path}).run()
     reasons = [*found.plan.skipped.values()]
     assert "no load reaches what is asked for: the forces are exactly zero" in reasons

@@ -11,7 +11,6 @@ from typing import Any
 import flint
 import numpy as np
 import pytest
-from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.arithmetic.errors import UndecidedError
 from force_diffusion.numeric.arithmetic.systems import Balls
 from force_diffusion.numeric.mechanics import engine
@@ -184,17 +183,3 @@ def test_beyond_it_balls_lose_exponentially() -> None:
     beyond = (lost(64, 1e-2) - lost(32, 1e-2)) / 32
     below = (lost(64, 1e-8) - lost(32, 1e-8)) / 32
     assert beyond > 0.5 > 10 * below
-
-
-@pytest.mark.parametrize(
-    "name", ["surface_variance", "bulk_variance", "surface_diffusion", "bulk_diffusion"]
-)
-@pytest.mark.parametrize("height", [10, 1000, 10**6, 10**9])
-def test_closed_forms_in_float64(name: str, height: int) -> None:
-    """Eqs. 13 and 14 against fractions: a few roundings each, also where terms cancel."""
-    form, phi = getattr(closed_forms, name), Fraction(1) - 2 * Fraction(3, 4) ** 2
-    for j in {0, 1, 2, height // 2, height - 2, height - 1}:
-        at = j if name.endswith("variance") else j / height
-        exact = form(Fraction(height), Fraction(at), phi, Fraction(1), Fraction(1))
-        rounded = form(float(height), float(at), float(phi), 1.0, 1.0)
-        assert abs(Fraction(rounded) - exact) < 16 * Fraction(UNIT) * exact

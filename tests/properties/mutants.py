@@ -79,15 +79,12 @@ def _changes(node: sympy.Basic) -> Iterator[Change]:
 def _here(node: sympy.Basic) -> Iterator[Change]:
     if isinstance(node, sympy.Add):
         for number, term in enumerate(node.args):
-            others = (*node.args[:number], *node.args[number + 1 :])
-            yield (
-                f"sign of {_brief(term)} flipped",
-                node.func(*node.args[:number], -term, *node.args[number + 1 :], evaluate=False),
-            )
-            yield (
-                f"{_brief(term)} dropped",
-                (others[0] if len(others) == 1 else node.func(*others, evaluate=False)),
-            )
+            before, after = node.args[:number], node.args[number + 1 :]
+            flipped = node.func(*before, -term, *after, evaluate=False)
+            yield f"sign of {_brief(term)} flipped", flipped
+            others = (*before, *after)
+            left = others[0] if len(others) == 1 else node.func(*others, evaluate=False)
+            yield f"{_brief(term)} dropped", left
     elif isinstance(node, sympy.Integer) and node not in (sympy.S.Zero, sympy.S.NegativeOne):
         yield f"{node} changed to {node + 1}", node + 1
     elif isinstance(node, sympy.Rational) and not isinstance(node, sympy.Integer):
@@ -105,10 +102,8 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
     elif isinstance(node, sy.Braces):
         first, second, index, last = node.args
         for by in (1, -1):
-            yield (
-                f"case {index} ≤ {_brief(last)} shifted to {_brief(last + by)}",
-                node.func(first, second, index, last + by),
-            )
+            changed = node.func(first, second, index, last + by)
+            yield f"case {index} ≤ {_brief(last)} shifted to {_brief(last + by)}", changed
     elif isinstance(node, sympy.Sum | sy.Dot):
         yield f"sign of {_brief(node)} flipped", sympy.Mul(-1, node, evaluate=False)
 
@@ -131,14 +126,12 @@ def _shifted_indices(node: sy.SiteFunction) -> Iterator[Change]:
 def _shifted_bounds(node: sympy.Sum) -> Iterator[Change]:
     index, low, high = node.limits[0]
     for by in (1, -1):
-        yield (
-            f"lower bound {index} = {_brief(low)} shifted to {_brief(low + by)}",
-            sympy.Sum(node.function, (index, low + by, high)),
-        )
-        yield (
-            f"upper bound {index} = {_brief(high)} shifted to {_brief(high + by)}",
-            sympy.Sum(node.function, (index, low, high + by)),
-        )
+        for name, bound, limits in (
+            ("lower", low, (index, low + by, high)),
+            ("upper", high, (index, low, high + by)),
+        ):
+            words = f"{name} bound {index} = {_brief(bound)} shifted to {_brief(bound + by)}"
+            yield words, sympy.Sum(node.function, limits)
 
 
 def _brief(node: sympy.Basic) -> str:

@@ -5,7 +5,7 @@ nodes of an expression are called.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, reduce
 from operator import mul
 from typing import Any
@@ -14,17 +14,8 @@ import sympy
 from force_diffusion.symbolic import symbols as sy
 
 from tests.properties.packing import (
-    Contact,
-    Number,
-    Packing,
-    Site,
-    Vector,
-    dot,
-    minus,
-    mp,
-    plus,
-    times,
-)
+    Contact, Number, Packing, Site, Vector, dot, minus, mp, plus, times,
+)  # fmt: skip
 
 Value = Any
 """A whole number, a number of mpmath's, or a vector of these."""
@@ -148,7 +139,7 @@ class Plane:
             AbsentError: it speaks of a bead or contact that is not there.
             NonsenseError: it has no value.
         """
-        return _Reading(self, {**self.symbols, **at}, origin).value(expression)
+        return Reading(self, {**self.symbols, **at}, origin).value(expression)
 
     def rest(self, equation: sympy.Eq, at: Mapping[sympy.Symbol, Value]) -> Value:
         """The left-hand side less the right-hand side."""
@@ -157,17 +148,25 @@ class Plane:
 
 
 @dataclass(frozen=True)
-class _Reading:
-    plane: Plane
+class Reading:
+    """What expressions are in a packing.
+
+    Attributes:
+        plane: a ``Plane``, or what has ``quantity`` or ``along``, too.
+        symbols: what they stand for.
+        origin: where places are counted from, in steps.
+    """
+
+    plane: Any
     symbols: Mapping[sympy.Symbol, Value]
-    origin: Site
+    origin: Site = (0, 0)
 
     def value(self, expression: sympy.Basic) -> Value:
         match expression:
             case sympy.Integer():
                 return int(expression)
             case sympy.Rational():
-                return mp.mpf(expression.p) / expression.q
+                return self.fraction(expression)
             case sympy.Symbol():
                 return self.symbols[expression]
             case sympy.Add():
@@ -179,7 +178,7 @@ class _Reading:
             case sympy.Sum():
                 (index, low, high) = expression.limits[0]
                 layers = range(self.index(low), self.index(high) + 1)
-                return _sum([self.having(index, m).value(expression.function) for m in layers])
+                return _sum([self.having({index: m}).value(expression.function) for m in layers])
             case sy.SecondDifference():
                 r, s = map(self.index, expression.args)
                 one, two, three = (self.quantity("DeltaR", r + by, s) for by in (-2, 0, 2))
@@ -193,11 +192,12 @@ class _Reading:
                 vertical = isinstance(expression, sy.VerticalAlong)
                 return self.plane.along(axis, bead, vertical=vertical)
             case sy.MeanOver():
-                quantity, count, index = expression.args
-                places = range(self.index(count))
-                first = self.symbols[index]
-                values = [self.having(index, first + 2 * n).value(quantity) for n in places]
-                return _sum(values) / len(values)
+                quantity, count, *indices = expression.args
+                moved = [
+                    self.having({one: self.symbols[one] + 2 * n for one in indices})
+                    for n in range(self.index(count))
+                ]
+                return _sum([neighbour.value(quantity) for neighbour in moved]) / len(moved)
             case sy.Braces():
                 first, second, index, last = expression.args
                 return self.value(first if self.index(index) <= self.index(last) else second)
@@ -228,8 +228,11 @@ class _Reading:
     def quantity(self, name: str, i: int, j: int) -> Value:
         return self.plane.quantity(name, i, j, self.origin)
 
-    def having(self, index: sympy.Symbol, value: int) -> "_Reading":
-        return _Reading(self.plane, {**self.symbols, index: value}, self.origin)
+    def fraction(self, value: sympy.Rational) -> Value:
+        return mp.mpf(value.p) / value.q
+
+    def having(self, symbols: Mapping[sympy.Symbol, Value]) -> "Reading":
+        return replace(self, symbols={**self.symbols, **symbols})
 
 
 def _sum(parts: list[Value]) -> Value:
@@ -253,4 +256,4 @@ def _product(parts: list[Value]) -> Value:
 def _power(base: Value, exponent: Value) -> Value:
     if base == 0 and exponent < 0:
         raise NonsenseError("a division by zero")
-    return mp.mpf(base) ** exponent
+    return (mp.mpf(base) if isinstance(base, int) else base) ** exponent

@@ -10,19 +10,9 @@ from hypothesis import strategies as st
 from tests.properties.drawn import exactly
 from tests.properties.orders import ROUNDING
 from tests.properties.packing import (
-    DIGITS,
-    FallsThroughError,
-    Packing,
-    Site,
-    Vector,
-    determinant,
-    dot,
-    minus,
-    mp,
-    plus,
-    step,
+    DIGITS, FallsThroughError, Packing, Site, Vector, determinant, dot, minus, mp, plus, step,
     times,
-)
+)  # fmt: skip
 
 
 def every(packing: Packing, first: int = 0) -> list[Site]:

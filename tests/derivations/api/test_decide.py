@@ -13,7 +13,14 @@ from force_diffusion.derivations.framework.catalogue import modules, paper
 from force_diffusion.derivations.framework.proof import Steps
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import times
-from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, proved
+from force_diffusion.symbolic.kernel.decisions import (
+    Ruling,
+    Verdict,
+    all_of,
+    proved,
+    refuted,
+    undecided,
+)  # fmt: skip
 from sympy import Eq, Rational, Tuple
 
 import force_diffusion as fd
@@ -36,13 +43,10 @@ def test_all_lines_at_once(number: int | str) -> None:
     for whole in (eq.expr, eq.rhs, tuple(lines), list(eq.rhs), Tuple(*reversed(lines))):
         assert eq.decide(whole).verdict is Verdict.PROVED, whole
     last = lines[-1]
-    wrong = equal(last.lhs, -last.rhs)
-    found = eq.decide(Tuple(*lines[:-1], wrong))
-    assert found.verdict is Verdict.REFUTED
-    assert eq.decide((*lines[:-1], -last.rhs)).verdict is Verdict.REFUTED
+    for wrong in (equal(last.lhs, -last.rhs), -last.rhs):
+        assert eq.decide((*lines[:-1], wrong)).verdict is Verdict.REFUTED
     for line in lines:
         assert eq.decide(line.rhs).verdict is Verdict.PROVED
-    assert eq.decide(-lines[0].rhs).verdict is Verdict.REFUTED
 
 
 IN_CASES = {
@@ -65,13 +69,6 @@ def test_of_several_cases_a_limit_sees_the_one_that_holds_in_all_of_it(
 ) -> None:
     eq = fd.equation(13)
     assert eq.decide(sympy.Piecewise(*cases(eq.rhs))).verdict is verdict
-
-
-def test_a_closed_form_is_compared_in_a_limit() -> None:
-    form = fd.equation(13).exact()
-    assert fd.equation(13).decide(form).verdict is Verdict.PROVED
-    assert fd.equation(13).decide(2 * form.expr).verdict is Verdict.REFUTED
-    assert fd.equation(14).decide(form).verdict is Verdict.REFUTED
 
 
 @pytest.mark.parametrize("index", [sy.k, sympy.Symbol("m"), sympy.Symbol("s", integer=True)])
@@ -147,13 +144,8 @@ def over_itself(one: sympy.Expr, side: sympy.Expr) -> sympy.Expr:
 NO_STATEMENTS: list[tuple[int | str, str, Callable[[sympy.Eq], Any]]] = [
     (3, "may be zero", lambda eq: equal(eq.lhs, over_itself(sy.j - 3, eq.rhs))),
     (13, "may be zero", lambda eq: equal(eq.lhs, over_itself(3 * sy.z - 1, eq.rhs))),
-    (3, "does not say what l is", lambda eq: equal(eq.lhs, sy.l * eq.rhs)),
-    (11, "there may be no bead at", lambda eq: equal(eq.lhs.xreplace({sy.i: sy.i + 1}), eq.rhs)),
     (11, "more than one", lambda eq: equal(eq.lhs, over_itself(_TOO_LOW, eq.rhs))),
-    (12, "no agreed value", lambda eq: equal(eq.lhs, eq.rhs + sympy.Sum(1, (sy.n, sy.j, 1)))),
-    (10, "a sum over n", lambda eq: equal(eq.lhs, eq.rhs + sympy.Sum(sy.n, (sy.n, 1, 2)))),
     (3, "a number", lambda eq: equal(eq.lhs, eq.rhs + 1)),
-    (3, "a number", lambda eq: equal(eq.lhs, sy.r)),
     (13, "not a number", lambda eq: sympy.oo),
     (13, "may be zero", lambda eq: sympy.Pow(0, -1, evaluate=False)),
     (13, "this M is not that of the equation", lambda eq: eq.rhs * sympy.Symbol("M") / sy.M),
@@ -252,11 +244,12 @@ def test_one_formula_is_refuted_at_a_place_that_tells_it_apart() -> None:
 
 def test_the_printed_form_is_not_the_exact_one() -> None:
     """Eq. 13 is proved with its own sign, ∼, and refuted with "="."""
-    eq = fd.equation(13)
-    assert eq.decide(eq.rhs).verdict is Verdict.PROVED
-    assert eq.exact().decide(eq.rhs).verdict is Verdict.REFUTED
-    for piece in eq.exact().pieces[:1]:
-        assert eq.decide(piece.expr).verdict is Verdict.PROVED
+    eq, form = fd.equation(13), fd.equation(13).exact()
+    assert form.decide(eq.rhs).verdict is Verdict.REFUTED
+    for same in (eq.rhs, form, form.pieces[0].expr):
+        assert eq.decide(same).verdict is Verdict.PROVED
+    for other in (2 * form.expr, fd.equation(14).exact()):
+        assert eq.decide(other).verdict is Verdict.REFUTED
 
 
 def test_a_leading_order_is_that_of_the_exact_form() -> None:
@@ -324,12 +317,10 @@ def _guess(steps: Steps) -> None:
 def test_assumptions_add_up() -> None:
     both = all_of(proved("a", ("one",)), proved("b", ("two", "one")), proved("c"))
     assert both.words == "proved, assuming one and two"
-    assert all_of(proved("a"), proved("b")).verdict is Verdict.PROVED
-    for verdict, assuming in (
-        (Verdict.PROVED, ("x",)),
-        (Verdict.ASSUMING, ()),
-        (Verdict.REFUTED, ("x",)),
-    ):
+    assert all_of(proved("a"), proved("b"), proved("a")) == proved("a; b")
+    assert all_of(proved("a"), undecided("b")) == undecided("b")
+    assert all_of(proved("a"), undecided("b"), refuted("c")) == refuted("c")
+    for verdict, assuming in ((Verdict.PROVED, ("x",)), (Verdict.ASSUMING, ())):
         with pytest.raises(ValueError, match="assumptions"):
             Ruling(verdict, "", assuming)
 

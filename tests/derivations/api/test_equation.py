@@ -1,9 +1,6 @@
 """``equation``: SymPy objects with the right symbols, numbers, proofs and verdicts."""
 
 import re
-import subprocess
-import sys
-from typing import Any
 
 import pytest
 import sympy
@@ -17,15 +14,6 @@ import force_diffusion as fd
 from tests.derivations.rows import each
 
 every_equation = pytest.mark.parametrize("number", each(modules()))
-
-
-def test_the_package_is_light_until_it_is_used() -> None:
-    program = (
-        "import sys, force_diffusion as fd; dir(fd); import force_diffusion.numeric; "
-        "heavy = {'sympy', 'numpy', 'flint'}; assert not heavy & set(sys.modules); "
-        "fd.equation; assert 'sympy' in sys.modules"
-    )
-    subprocess.run([sys.executable, "-c", program], check=True, timeout=600)
 
 
 @every_equation
@@ -86,12 +74,6 @@ def test_the_lines_of_exact_forms_fit(number: Number, columns: int) -> None:
     for form in map(eq.exact, eq.forms):
         for line in form.latex(columns).splitlines():
             assert width(line) <= COLUMNS[columns] + 12, line  # 12: of &
-
-
-@pytest.mark.parametrize("number", [0, 17, -1, "thirteen", 13.5, None, [13], True])
-def test_no_such_equation(number: Any) -> None:
-    with pytest.raises(ForceDiffusionError, match="from 1 to 16, or B1 to B"):
-        fd.equation(number)
 
 
 def test_no_such_exact_form() -> None:

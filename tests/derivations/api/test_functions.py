@@ -117,19 +117,12 @@ def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same() -> Non
         ({"z": ["a", 1]}, r"element \[0\]: z = 'a'"),
         ({"z": [[0.1], [0.1, 0.2]]}, r"element \[0\]: z = \[0.1\]"),
         ({"z": "0.5"}, "^z = '0.5': one int, Fraction"),
-        ({"z": {0.5}}, r"^z = {0.5}: one int"),
-        ({"z": {0.5: 1}}, r"^z = {0.5: 1}: one int"),
         ({"z": np.ma.masked_array([0.1, 0.2], [0, 1])}, "z is a masked array"),
         ({"z": np.zeros(3), "M": [4, 5]}, r"M of shape \(2,\) and z of shape \(3,\) do not"),
-        ({"z": np.zeros(2) + 1j}, r"element \[0\]: z = 1j"),
         ({"M": np.array([4, 4.5]), "z": 0}, r"element \[1\]: M = 4.5: a whole number"),
         ({"M": 0, "z": 0}, "M = 0: a whole number from 1 up is allowed"),
-        ({"M": "10", "z": 0}, "M = '10': one int, Fraction, SymPy Rational, Decimal or finite"),
-        ({"j": -1}, "j = -1: a whole number from 0 up is allowed"),
         ({"j": 10}, "j = 10, M = 10: 0 ≤ j < M is allowed"),
         ({"j": 3, "phi": Fraction(-1, 2)}, "phi = .*: −1/2 < φ < 1/2 is allowed"),
-        ({"j": 3, "phi": sympy.oo}, "phi = oo: one int"),
-        ({"j": 3, "sigma": -1}, "sigma = -1: a number from 0 up is allowed"),
         ({"j": 3, "r": 0}, "r = 0: a number above 0 is allowed"),
         ({"j": 3, "z": 0}, "z and j are given, and z is j/M: leave one of them out"),
         ({"j": 3, "x": 1, "width": 2}, "Eq. 13 has no x or width: Eq. 13 takes M, j, phi, si"),
@@ -137,18 +130,7 @@ def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same() -> Non
         ({"j": 3, "sigma": 1e300, "r": 1e-300}, "beyond the range of floats"),
         *(
             ({"j": 3, "sigma": sigma}, "sigma = .*allowed|sigma: .*allowed")
-            for sigma in (
-                mpmath.mpf("0.1"),
-                sympy.Float("0.1", 50),
-                np.longdouble("0.1"),
-                mpmath.iv.mpf([0.1, 0.2]),
-                [mpmath.mpf(1)],
-                Decimal("1E+9999999"),
-                Decimal("NaN"),
-                Decimal("1E-9999999"),
-                1j,
-                None,
-            )
+            for sigma in (mpmath.mpf("0.1"), [mpmath.mpf(1)], Decimal("1E-9999999"), -1, 1j, None)
         ),
     ],
 )  # fmt: skip
@@ -165,7 +147,6 @@ def test_what_is_not_allowed_is_named(change: dict[str, Any], says: str) -> None
     [
         (13, {"M": 10, "z": 0.5}, "has no z"),
         (13, {}, "a profile needs a form that depends on the layer j, and M or l"),
-        (13, {"M": 0}, "M = 0"),
         (13, {"M": 10, "phi": 0.7}, "phi = 0.7: −1/2 < φ < 1/2"),
         (15, {"M": 10}, "a profile needs a form that depends on the layer j"),
     ],
@@ -226,12 +207,9 @@ def test_a_function_takes_numbers_of_any_kind(kind: Any) -> None:
     ("given", "says"),
     [
         ({"z": [0.5, 1.5]}, r"element \[1\]: z = 1.5: 0 ≤ z ≤ 1 is allowed"),
-        ({"z": np.nan}, "z = nan"),
         ({"M": 0}, "M = 0: a whole number from 1 up"),
-        ({"M": [4, 2.5]}, r"element \[1\]: M = 2.5: a whole number"),
         ({"phi": 0.5}, "phi = 0.5: −1/2 < φ < 1/2"),
         ({"r": "1"}, "r = '1': numbers are allowed"),
-        ({"r": 1j}, "r = 1j: numbers are allowed"),
         ({"r": np.array(["1"], dtype=object)}, "numbers are allowed"),
         ({"r": np.ma.masked_array([1.0, 2.0], [0, 1])}, "without a mask"),
         ({"sigma": 1e200}, "beyond the range of floats"),

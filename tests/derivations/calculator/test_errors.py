@@ -9,7 +9,7 @@ import pytest
 import sympy
 from force_diffusion.derivations.calculator.loads import ObservableError
 from force_diffusion.numeric.arithmetic.errors import ArgumentError, WrongTypeError
-from force_diffusion.symbolic.symbols import Position, m, n, z
+from force_diffusion.symbolic.symbols import Position, n, z
 
 import force_diffusion as fd
 from force_diffusion.symbols import M, N, delta_x, f_along, f_minus, f_plus, i, j, k, l, p, phi, t
@@ -26,32 +26,25 @@ OBSERVABLES = [
     (FORCE / f_minus(i, j), "divides by a quantity that depends on the radii"),
     (sympy.sin(FORCE), r"sin\(f⁺_ij\) is not linear"),
     (sympy.exp(phi) * FORCE, r"exp\(φ\) can't be used: .* a symbol of your own"),
-    (sympy.sqrt(2) * FORCE, "can't be used"),
     (0.5 * FORCE, r"is a float: write a fraction, such as Rational\(1, 2\)"),
-    (sympy.nan * FORCE, "nan can't be used"),
     (sympy.oo * FORCE, "oo can't be used"),
     (own("phi") * FORCE, "phi is not the phi of force_diffusion.symbols: import"),
     (f_plus(own("i"), j), "i is not the i of force_diffusion.symbols"),
     (own("a") * own("a", real=True) * FORCE, "two symbols have the name a"),
     (own("a b") * FORCE, "a b: a constant has to be commutative, and its name has to be"),
-    (own("lambda") * FORCE, "lambda: a constant has to be commutative"),
     (own("A", commutative=False) * FORCE, "A: a constant has to be commutative"),
     (z * FORCE, "z can't be used in an observable: write j/M"),
     (f_plus(i + 2 * n, j), "n can't be used in an observable"),
-    (m * FORCE, "m can't be used in an observable"),
     (f_plus(own("a"), j), "f⁺_aj is at a: only whole numbers and i, j, k, l, p, q, M, N, times"),
     (f_plus(i + sympy.Rational(1, 2), j), r"is at i \+ 1/2: only whole numbers"),
-    (f_plus(i, j**2), "is at j²: only whole numbers"),
     (f_plus(i + 2**70, j), "whole numbers"),
     (FORCE + f_plus(i + 1, j), r"i \+ j must be even for each bead \(i, j\)"),
     (FORCE - f_plus(i + p, j) + f_plus(i + p + 1, j), "no packing has these beads"),
     (f_plus(1, -1) + FORCE, "no packing has these beads: a layer is too low or too high"),
-    (f_plus(i, M), "no packing has these beads: a layer is too low or too high"),
     (IN_SPACE, "is a force between spheres: give dimension=3"),
     (Position(i, j), "x_ij does not depend on the radii, or is not known"),
     (delta_x(i, j), r"δx_ij is a vector: take a component, such as dot\(e_y, …\)"),
     (delta_x(i, j) ** 2, "δx_ij is a vector, which has no powers"),
-    ("f_plus(i, j)", "is text: write it with the symbols of force_diffusion.symbols"),
     ([FORCE], "is not a SymPy expression"),
     (sympy.eye(2), "can't be used"),
     (f_plus, r"needs a place, as in f_plus\(i, j\)"),
@@ -105,21 +98,18 @@ def test_calls(ask: Callable[[Any], Any], given: Any, says: str) -> None:
         ask(given)
 
 
-@pytest.mark.parametrize("wrapped", [str, lambda code: [code], Exception])
-@pytest.mark.parametrize(
-    "ask",
-    [
+def test_text_is_never_evaluated(tmp_path: Path) -> None:
+    code = f"__import__('pathlib').Path({str(tmp_path / 'evaluated')!r}).touch()"
+    for ask in (
         fd.leaning,
         fd.variance,
         lambda text: fd.mean_over(text, 2),
-        lambda text: fd.mean_over(f_plus(i, j), text),
-        lambda text: fd.variance(f_plus(i, j), where=text),
-    ],
-)
-def test_text_is_never_evaluated(ask: Any, wrapped: Any, tmp_path: Path) -> None:
-    code = f"__import__('pathlib').Path({str(tmp_path / 'evaluated')!r}).touch()"
-    with pytest.raises(ObservableError):
-        ask(wrapped(code))
+        lambda text: fd.mean_over(FORCE, text),
+        lambda text: fd.variance(FORCE, where=text),
+    ):
+        for given in (code, [code], Exception(code)):
+            with pytest.raises(ObservableError):
+                ask(given)
     assert not list(tmp_path.iterdir())
 
 
@@ -134,9 +124,7 @@ HERE = {"M": 6, "j": 2, "phi": 0, "sigma": 1, "r": 1}
         ({"j": 6}, r"var\(f⁺_ij\) is for 0 ≤ j ≤ M − 1, not for j = 6, M = 6"),
         ({"j": -1}, "not for j = −1, M = 6"),
         ({"M": -1, "j": -3}, "not for j = −3, M = −1"),
-        ({"j": 0.5}, "j = 1/2: a whole number is allowed"),
         ({"M": np.float64(6.5)}, "M = 13/2: a whole number is allowed"),
-        ({"phi": 0.5}, "phi = 0.5: −1/2 < φ < 1/2 is allowed"),
         ({"x": 1}, r"has no x: var\(f⁺_ij\) takes M, j, phi, sigma, r"),
         ({"j": [0, 6]}, r"element \[1\]: .*not for j = 6"),
     ],

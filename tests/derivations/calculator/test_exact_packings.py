@@ -21,9 +21,9 @@ from hypothesis import strategies as st
 
 import force_diffusion as fd
 from force_diffusion.symbols import N, f_minus, f_plus, i, j, k, l, p, t
+from tests.properties.reading import AbsentError
 from tests.soundness.witnesses.moments import (
     DIRECTIONS,
-    AbsentError,
     Packing,
     Value,
     covariance,
@@ -54,9 +54,13 @@ class Term:
 
     def value(self, packing: Packing, bead: Bead) -> Value:
         """The same in a packing."""
-        name = "ForcePlus" if self.branch == "+" else "ForceMinus"
-        force = packing.quantity(name, bead[0] + self.across, bead[1] + self.up)
+        force = self.bare(packing, bead)
         return force.scaled(self.factor / force.ordered)
+
+    def bare(self, packing: Packing, bead: Bead) -> Value:
+        """The contact's force."""
+        name = "ForcePlus" if self.branch == "+" else "ForceMinus"
+        return packing.quantity(name, bead[0] + self.across, bead[1] + self.up)
 
 
 Terms = tuple[Term, ...]
@@ -141,9 +145,8 @@ def compare(
             except AbsentError:
                 with pytest.raises(ArgumentError, match=r" is for .*, not for "):
                     form.at(**at, **numbers)
-                continue
-            found = form.at(**at, **numbers)
-            assert exact(found) == expected, (height, at)
+            else:
+                assert exact(form.at(**at, **numbers)) == expected, (height, at)
 
 
 LAYERS = range(-2, HIGHEST + 3)
@@ -225,17 +228,11 @@ def test_below_one_loaded_bead(terms: Terms, n: tuple[Fraction, Fraction]) -> No
         packing = Packing(level, n, "point", at={k: level % 2}, order=1)
         for layer, column in product(range(-2, level + 3), range(-level - 5, level + 7)):
             at = {"i": column, "j": layer, "k": level % 2, "l": level, "phi": cosine}
+            here = (column, layer)
             try:
-                whole = reduce(add, (
-                    packing.quantity(
-                        "ForcePlus" if term.branch == "+" else "ForceMinus",
-                        column + term.across, layer + term.up,
-                    ).scaled(fmpq(term.factor))
-                    for term in terms
-                ))  # fmt: skip
+                whole = reduce(add, (one.bare(packing, here).scaled(one.factor) for one in terms))
             except AbsentError:
                 with pytest.raises(ArgumentError, match=r" is for .*, not for "):
                     form.at(**at, sigma=1, r=1)
-                continue
-            found = form.at(**at, sigma=1, r=1)
-            assert exact(found) == covariance(whole, whole), at
+            else:
+                assert exact(form.at(**at, sigma=1, r=1)) == covariance(whole, whole), at

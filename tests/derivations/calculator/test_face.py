@@ -11,27 +11,8 @@ from force_diffusion.derivations.calculator.observables import INDICES, NAMED
 import force_diffusion as fd
 from force_diffusion import symbols
 from force_diffusion.symbols import (
-    M,
-    N,
-    delta_n_plus,
-    delta_r,
-    delta_x,
-    dot,
-    e_x,
-    e_y,
-    f_load,
-    f_minus,
-    f_plus,
-    i,
-    j,
-    k,
-    l,
-    m_g,
-    n_y,
-    p_plus,
-    phi,
-    r,
-    sigma,
+    M, N, delta_n_plus, delta_r, delta_x, dot, e_x, e_y, f_load, f_minus, f_plus, i, j, k, l,
+    m_g, n_y, p_plus, phi, r, sigma,
 )  # fmt: skip
 
 _CALLS = """

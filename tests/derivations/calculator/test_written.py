@@ -13,21 +13,7 @@ from force_diffusion.numeric.arithmetic.errors import ArgumentError
 
 import force_diffusion as fd
 from force_diffusion.symbols import (
-    M,
-    N,
-    delta_x,
-    dot,
-    e_y,
-    f_along,
-    f_minus,
-    f_plus,
-    i,
-    j,
-    k,
-    l,
-    p,
-    p_plus,
-    t,
+    M, N, delta_x, dot, e_y, f_along, f_minus, f_plus, i, j, k, l, p, p_plus, t,
 )  # fmt: skip
 
 a = sympy.Symbol("a")

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import pytest
 from force_diffusion.derivations.coq.files import theory_hash
-from force_diffusion.derivations.coq.record import Certificate, record
+from force_diffusion.derivations.coq.record import record
 from force_diffusion.derivations.coq.statements import recorded, statements
 from force_diffusion.derivations.export.document import document
 from force_diffusion.derivations.framework.catalogue import paper
@@ -13,7 +13,7 @@ from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.trees import equation
 
 import force_diffusion as fd
-from force_diffusion.__main__ import main
+from tests.conftest import Call
 
 
 def test_the_record_is_up_to_date() -> None:
@@ -36,16 +36,7 @@ def test_only_what_was_accepted_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     assert recorded(load(1)) == "not on record"
 
 
-def test_lists_and_documents_say_so(capsys: pytest.CaptureFixture[str]) -> None:
-    def shown(*command: str) -> str:
-        assert main(list(command)) == 0
-        return capsys.readouterr().out
-
+def test_lists_and_documents_say_so(call: Call) -> None:
     assert "& proved & accepted" in document([run(load(13))])
-    assert "accepted by Coq 8.16.1" in shown("show", "13")
+    assert "accepted by Coq 8.16.1" in call("show", 13)[1]
     assert fd.equation(13).coq == "accepted by Coq 8.16.1"
-
-
-def test_verdicts_in_words() -> None:
-    said = [str(Certificate(1, accepted, "Coq 8.16.1", {})) for accepted in (True, False)]
-    assert said == ["accepted by Coq 8.16.1", "not accepted by Coq 8.16.1"]

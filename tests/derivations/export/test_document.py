@@ -57,13 +57,6 @@ def test_a_step_that_gives_the_printed_equation_refers_to_it() -> None:
     assert text.count(r"\Delta_{ij} = ") == 1
 
 
-def test_symbols_are_explained_once() -> None:
-    told = r"$\delta r_{ij}$: deviation of a radius, 100 \% made up \& simple"
-    assert told in section_latex(run(fakes.PREMISE))
-    assert told not in section_latex(run(fakes.PREMISE), r"as $\delta r_{ij}$ is known")
-    assert told not in written()  # the notation has it
-
-
 def test_the_margin_names_what_a_step_rests_on() -> None:
     text = section_latex(run(load(13)))
     assert r"\step{4}{1, 3, (12)}" in text
@@ -76,23 +69,12 @@ def test_cases_of_a_quantity_are_in_one_display() -> None:
     assert r"j = M - 1,\; M \geq 3" in text
 
 
-def test_results_beyond_the_paper_are_in_the_table_alone() -> None:
-    text = document([run(load("B5"))])
-    assert "(B5) & Mean contact force" in text
-    assert r"\heading{Eq." not in text
-
-
 def test_errata_stand_with_their_equation() -> None:
     assert "Erratum: the printed formula is for $j" in section_latex(run(load(3)))
 
 
 def test_names_and_labels_have_two_digits() -> None:
-    assert [fragment_name(one) for one in (3, 13, "B5", "B13")] == [
-        "eq03.tex",
-        "eq13.tex",
-        "eqB05.tex",
-        "eqB13.tex",
-    ]
+    assert [*map(fragment_name, (3, "B5", "B13"))] == ["eq03.tex", "eqB05.tex", "eqB13.tex"]
     assert r"\label{eq:fd03}" in statement_latex(load(3))
 
 

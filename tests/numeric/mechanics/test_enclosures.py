@@ -94,6 +94,7 @@ def test_the_limit_of_tolerances_is_said_as_it_is() -> None:
         answer(sections)
     assert "tried" not in str(caught.value)
     assert "M*" not in str(caught.value)
+    assert caught.value.exit_status == 3
     least = str(caught.value).split("about ")[1].split()[0]
     sections["ask"]["tolerance"] = f"={least}"
     assert answer(sections).accuracy.error_bound <= Fraction(least)

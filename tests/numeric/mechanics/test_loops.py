@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.carried import CARRYING, Carried
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, Balls, as_floats
+from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, as_floats
 from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError
 from force_diffusion.numeric.lattice.branch import Branch, Contact
 from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
@@ -56,11 +56,6 @@ def solved(
             return packing, sweep.sweep_down(packing, rows, F)
         except (sweep.UnbuildableError, sweep.NotStandingError):
             return None
-
-
-def near(ours: Array, theirs: Array, room: float) -> bool:
-    """Whether numbers are alike but for so much of the largest."""
-    return bool(np.abs(ours - theirs).max(initial=0) <= room * np.abs(theirs).max(initial=0))
 
 
 @given(

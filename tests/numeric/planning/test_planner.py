@@ -40,6 +40,17 @@ def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(
     assert plan.beads == count
 
 
+@given(contacts, st.sampled_from(["exact", "first-order"]))
+def test_below_a_point_load_a_plan_counts_the_beads_that_are_read(
+    where: tuple[int, int, int, str], geometry: str
+) -> None:
+    M, j, column, branch = where
+    sections = basic(M, None, quantity="contact", at=[2 * column + j % 2, j, branch])
+    sections |= {"effects": {"geometry": geometry}, "load": {"kind": "point", "at": [M % 2, M]}}
+    plan = planned(sections)
+    assert plan.beads == len(radii_read(plan)[1])
+
+
 def test_without_disorder_nothing_is_swept() -> None:
     for quantity in ("contact_forces", "profile", "positions", "histogram"):
         sections = basic(quantity=quantity)

@@ -23,50 +23,35 @@ WRONG: list[tuple[Sections, str]] = [
     ({"packing": {"height": "=2.0"}}, "whole number"),
     ({"packing": {"width": 6}}, "allow_images"),
     ({"packing": {"spacing": "=2.0"}}, "strictly between"),
-    ({"packing": {"spacing": "=3.4641016151378"}}, "strictly between"),
     ({"packing": {"spacing": "=nan"}}, "finite"),
     ({"packing": {"spacing": "three"}}, "must be a number"),
     ({"packing": {"radius": 0}}, "greater than 0"),
-    ({"packing": {"radius": "=1e999999"}}, "exponent"),
     ({"packing": {"hieght": 4}}, 'did you mean "height"'),
     ({"disorder": {"kind": "unifrom"}}, 'did you mean "uniform"'),
-    ({"disorder": {"kind": "gaussian"}}, 'did you mean "normal"'),
     ({"disorder": {"relative_std": "=-1e-3"}}, "at least 0"),
     ({"disorder": {"relative_std": "=0.58"}}, "radius ≤ 0"),
-    ({"disorder": {"seed": -1}}, "at least 0"),
     ({"disorder": {"seed": 2**64}}, "less than"),
     ({"disorder": {"file": "radii.csv"}}, 'needs kind = "file"'),
     ({"load": {"magnitude": 0}}, "greater than 0"),
     ({"load": {"angle_deg": 181}}, "from -90 to 90"),
     ({"load": {"at": "+"}}, "a bead, [i, j]"),
-    ({"load": {"at": [1, 1]}}, 'needs kind = "point"'),
     ({"effects": {"most_programs": 0}}, "at least 1"),
     ({"effects": {"most_seconds": "=1.50"}}, 'contacts = "unilateral"'),
-    ({"ask": {"quantity": "forces"}}, "must be one of"),
     ({"ask": {"tolerance": 0}}, "greater than 0"),
-    ({"ask": {"tolerance": 1}}, "less than 1"),
     ({"ask": {"realisations": 0}}, "from 1 to 1000000000"),
     ({"ask": {"bins": 5}}, 'needs quantity = "histogram"'),
-    ({"ask": {"layers": [0]}}, 'needs quantity = "response"'),
     ({"ask": {"layers": [0.5]}}, "a list of layers"),
     ({"ask": {"at": [0, 0, "+"]}}, 'needs quantity = "contact", "histogram" or "positions"'),
-    ({"ask": CONTACT | {"at": [0, 0]}}, "must be a contact"),
     ({"ask": CONTACT | {"at": [0, 0, "x"]}}, "must be a contact"),
     ({"ask": CONTACT | {"at": [0, 1, "+"]}}, "even"),
     ({"ask": CONTACT | {"at": [0, 6, "+"]}}, "j must be from 0 to 5"),
-    ({"ask": CONTACT | {"at": [28, 0, "+"]}}, "i must be from 0 to 27"),
     ({"packing": SPHERES | {"spacing": "=3.3"}}, "must lie strictly"),
     ({"packing": SPHERES, "load": {"kind": "point", "at": [1, 1]}}, "[p, q, j]"),
-    ({"packing": SPHERES, "load": {"kind": "point", "at": [14, 1, 1]}}, "must be from 0 to 13"),
-    ({"packing": SPHERES, "ask": CONTACT | {"at": [1, 1, "+"]}}, "must be a contact"),
     ({"packing": SPHERES, "ask": CONTACT | {"at": [1, 1, 6, "1"]}}, "j must be from 0 to 5"),
     ({"packing": SPHERES, "ask": {"quantity": "positions", "at": [1, 1]}}, "must be a bead"),
-    ({"packing": SPHERES, "ask": {"quantity": "profile", "at": [1, 1, 1, "1"]}}, "needs"),
     ({"ask": {"quantity": []}}, "one quantity, or several, each once"),
-    ({"ask": {"quantity": ["profile", "profile"]}}, "one quantity, or several, each once"),
     ({"ask": {"quantity": ["profile", "postions"]}}, 'did you mean "positions"'),
     ({"ask": {"quantity": ["histogram", "positions"], "at": [0, 0, "+"]}}, "asks for one place"),
-    ({"ask": {"quantity": ["profile", "positions"], "bins": 3}}, 'needs quantity = "histogram"'),
 ]
 
 
@@ -118,8 +103,6 @@ HUGE, LONG = 10**6000, "9" * 5000
         (fd.Packing, {"height": 4, "radius": LONG}),
         (fd.Load, {"at": [[HUGE] * 50] * 50}),
         (fd.Ask, {"quantity": HUGE}),
-        (fd.Ask, {"quantity": {"a": HUGE}}),
-        (fd.Ask, {"quantity": [LONG]}),
         (fd.Ask, {"quantity": "profile", LONG: 1}),
         (fd.Ask, {"quntity": LONG}),
     ],
@@ -150,10 +133,8 @@ def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path: Path) -> None:
         sections = basic(3, 8, quantity=quantity)
         sections["packing"].update(packing)
         sections["disorder"]["relative_std"] = std
-        for geometry in ("exact", "first-order"):
-            sections["effects"] = {"geometry": geometry}
-            assert "float64 can't hold" in planned(sections).reason
         outcome = answer(sections)
+        assert "float64 can't hold" in outcome.plan.reason
         assert outcome.accuracy.certified
         assert 0 < outcome.accuracy.error_bound <= 1e-15
         name = {"positions": "dx", "profile": "std"}.get(quantity, "change")
@@ -190,10 +171,8 @@ GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
         (GOOD[:3], r"bead \(3, 1\) is missing"),
         ([*GOOD, GOOD[0]], r"bead \(0, 0\) is named twice"),
         ([*GOOD[:3], "3,1,-1.0"], r"bead \(3, 1\).*no positive radius"),
-        ([*GOOD[:3], "3,1,nan"], r"bead \(3, 1\).*not a finite decimal"),
         ([*GOOD[:3], "3,1,1e9999999999"], r"bead \(3, 1\)"),
         ([*GOOD[:3], "3,2,0"], r"\(3, 2\).*even"),
-        ([*GOOD, "5,1,0"], r"\(5, 1\) lies outside"),
         ([*GOOD[:3], "3,1"], "2 values where 3"),
         ([*GOOD[:3], "0_3,1,0"], "i = '0_3' must be a whole number"),
         ([*GOOD[:3], '"3,1,0'], "CSV"),

@@ -12,6 +12,7 @@ import force_diffusion as fd
 from tests.numeric.scenes import question
 
 
+@pytest.mark.long(sample=5)
 @pytest.mark.parametrize(("dimension", "width"), [(2, 32), (3, 6)])
 @pytest.mark.parametrize("layers", [None, [2], [0, 2]])
 @pytest.mark.parametrize(("bins", "tolerance"), [(1, None), (100, None), (7, "1e-30")])
@@ -86,7 +87,6 @@ def test_it_is_drawn_with_the_gaussians_of_these_layers() -> None:
     ("more", "says"),
     [
         ({"layers": [6]}, "must be layers of lower beads below the load, from 0 to 5"),
-        ({"layers": []}, "one layer or several"),
         ({"layers": [1, 1]}, "each once"),
         ({"layers": [0], "at": (0, 0, "+")}, "asks for one place"),
         ({"layers": [4], "load": fd.PointLoad(at=(0, 4))}, "from 0 to 3"),

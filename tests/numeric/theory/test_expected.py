@@ -7,7 +7,7 @@ from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.theory.expected import expected_tension
 
 import force_diffusion as fd
-from force_diffusion.__main__ import main
+from tests.conftest import Call
 from tests.numeric.scenes import question
 
 PHI = 1 - 2 * 0.75**2  # s = 3 r
@@ -71,15 +71,15 @@ def test_the_height_of_one_is_where_the_number_passes_one(load: str) -> None:
     assert expected_tension(4, W, PHI, 1e-30, load).height_of_one is None
 
 
-def test_a_scene_whose_packings_have_tension_is_told(tmp_path, capsys) -> None:
+def test_a_scene_whose_packings_have_tension_is_named(tmp_path, call: Call) -> None:
     path = tmp_path / "scene.toml"
-    for std, told in ((0.0026, False), (0.0055, True)):
+    for std, has_tension in ((0.0026, False), (0.0055, True)):
         path.write_text(
             f"packing = {{height = {M}, width = {W}}}\nask = {{quantity = 'profile'}}\n"
             f"disorder = {{kind = 'uniform', relative_std = {std}}}\n"
         )
         for command in (["run"], ["explain"], ["ensemble", "--realisations", "3"]):
-            assert main([*command, str(path)]) == 0
-            shown = capsys.readouterr()
-            assert ("a typical packing of this scene has tension" in shown.err) == told
+            status, _, err = call(*command, path)
+            words = "a typical packing of this scene has tension"
+            assert (status, words in err) == (0, has_tension)
     assert scene(fd.SurfaceLoad(), 0.0055).explain().data()["tension"]["height_of_one"] == 14

@@ -2,8 +2,7 @@
 
 One bead after the other is enlarged in a packing that is nothing but contacts and balances. What a
 force, a direction or a displacement does at orders ε¹ and ε² gives its weights and the shift of its
-mean, as fractions. Of the symbolic part of the package this takes only what the nodes of an
-expression are called.
+mean, as fractions. Expressions are read as on packings of mpmath's numbers.
 """
 
 from collections import defaultdict
@@ -23,6 +22,7 @@ from force_diffusion.symbolic import symbols as sy
 
 from tests.numeric.mechanics import taylor
 from tests.numeric.mechanics.taylor import exact
+from tests.properties.reading import AbsentError, Reading
 from tests.soundness.witnesses import dimensions
 
 Direction = tuple[Fraction, Fraction]
@@ -39,10 +39,6 @@ Site = tuple[int, ...]
 ZERO, ONE = fmpq(0), fmpq(1)
 
 
-class AbsentError(LookupError):
-    """An expression names a bead or a contact that a packing does not have."""
-
-
 @dataclass(frozen=True)
 class Value:
     """A number of a packing.
@@ -57,16 +53,29 @@ class Value:
     weights: Mapping[Site, fmpq] = field(default_factory=dict)
     shift: fmpq = ZERO
 
-    def __add__(self, other: "Value") -> "Value":
+    def __add__(self, other: "Value | fmpq | int") -> "Value":
+        if not isinstance(other, Value):
+            return replace(self, ordered=self.ordered + other)
         total = dict(self.weights)
         for site, weight in other.weights.items():
             total[site] = total.get(site, ZERO) + weight
         return Value(self.ordered + other.ordered, total, self.shift + other.shift)
 
-    def __mul__(self, other: "Value") -> "Value":
+    def __mul__(self, other: "Value | fmpq | int") -> "Value":
+        if not isinstance(other, Value):
+            return self.scaled(fmpq(other))
         shift = self.ordered * other.shift + other.ordered * self.shift + covariance(self, other)
         first = self.scaled(other.ordered) + other.scaled(self.ordered)
         return Value(self.ordered * other.ordered, first.weights, shift)
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __truediv__(self, number: int) -> "Value":
+        return self.scaled(fmpq(1, number))
+
+    def __pow__(self, exponent: int) -> "Value":
+        assert exponent > 0
+        return reduce(mul, [self] * exponent)
 
     def scaled(self, factor: fmpq) -> "Value":
         """The same, times a number."""
@@ -180,7 +189,6 @@ def below_one(level: int, n: Direction, order: int) -> Mapping[tuple[str, Site],
     return sums.values
 
 
-Vector = tuple[Value, Value]
 Numbers = Mapping[sympy.Symbol, Any]
 
 
@@ -205,10 +213,12 @@ class Packing:
     order: int = 2
 
     def symbols(self) -> dict[sympy.Symbol, Any]:
-        """Numbers of the paper's symbols."""
+        """Numbers of the paper's symbols, and vectors."""
         n_x, n_y = map(exact, self.n)
         return {
             sy.n_x: n_x, sy.n_y: n_y, sy.phi: n_y**2 - n_x**2, sy.r: ONE, sy.sigma: ONE,
+            sy.n_plus: (n_x, n_y), sy.n_minus: (-n_x, n_y), sy.e_y: (ZERO, ONE),
+            sy.b_plus: (1 / (2 * n_x), 1 / (2 * n_y)), sy.b_minus: (-1 / (2 * n_x), 1 / (2 * n_y)),
             sy.f_load: 2 * n_y, sy.m_g: 2 * n_y, sy.L_plus: ONE, sy.t: exact(self.ratio),
             sy.M: self.height, sy.l: self.height, **self.at,
         }  # fmt: skip
@@ -219,7 +229,7 @@ class Packing:
         Raises:
             AbsentError: it names a bead or a contact that is not there.
         """
-        return _Reading(self, self.symbols()).moment(expression)
+        return _Reading(self, exactly(self.symbols())).moment(expression)
 
     def quantity(self, name: str, i: int, j: int, axis: str = "") -> Value:
         """A force, a displacement or a direction by the name of its function, or a component."""
@@ -230,7 +240,7 @@ class Packing:
         if name == "DeltaR":
             return Value(ZERO, {(i, j): ONE})
         if name.startswith("Force") and self.load == "point":
-            across = self.symbols()[sy.k]
+            across = int(self.symbols()[sy.k])
             found = below_one(self.height, self.n, self.order).get((name, (i - across, j)), Value())
             return found.at(across, 0)
         load = "surface" if self.load == "point" else self.load
@@ -239,10 +249,13 @@ class Packing:
         )
 
 
-@dataclass(frozen=True)
-class _Reading:
-    packing: Any  # of discs or of spheres
-    symbols: Numbers
+def exactly(symbols: Numbers) -> Numbers:
+    """The same, with fractions for whole numbers."""
+    return {one: n if isinstance(n, tuple) else fmpq(n) for one, n in symbols.items()}
+
+
+class _Reading(Reading):
+    """What expressions are in a packing, as ``Value`` or as a fraction."""
 
     def moment(self, expression: sympy.Basic) -> fmpq:
         match expression:
@@ -263,82 +276,20 @@ class _Reading:
         return self._number(expression).ordered
 
     def _number(self, expression: sympy.Basic) -> Value:
-        value = self.value(expression)
-        assert isinstance(value, Value), expression
-        return value
+        return Value() + self.value(expression)
 
-    def value(self, expression: sympy.Basic) -> Value | Vector:
-        """A number, or the Cartesian components of a vector."""
-        match expression:
-            case sympy.Rational():
-                return Value(exact(expression))
-            case sympy.Symbol():
-                return self._symbol(expression)
-            case sympy.Add():
-                return reduce(_sum, map(self.value, expression.args))
-            case sympy.Mul():
-                return reduce(_product, map(self.value, expression.args))
-            case sympy.Pow():
-                return self._power(expression.base, int(expression.exp))
-            case sy.Dot():
-                (a, b), (c, d) = map(self.value, expression.args)  # type: ignore[misc]
-                return a * c + b * d
-            case sy.MeanOver():
-                return self._average(*expression.args)
-            case sy.VerticalPlus() | sy.VerticalMinus():
-                return self._vertical(type(expression).__name__, *expression.args)
-            case sy.ForceAlong():
-                axis, *bead = map(self.index, expression.args)
-                vertical = isinstance(expression, sy.VerticalAlong)
-                return self.packing.along(axis, tuple(bead), vertical=vertical)
-            case sy.SiteFunction():
-                return self._quantity(type(expression).__name__, *expression.args)
-        raise NotImplementedError(f"{expression} is not read here")
+    def fraction(self, value: sympy.Rational) -> fmpq:
+        return exact(value)
 
-    def _symbol(self, symbol: sympy.Symbol) -> Value | Vector:
-        if symbol not in sy.VECTORS:
-            return Value(fmpq(self.symbols[symbol]))
-        n_x, n_y = map(exact, self.packing.n)
-        vectors = {
-            sy.n_plus: (n_x, n_y), sy.n_minus: (-n_x, n_y), sy.e_y: (ZERO, ONE),
-            sy.b_plus: (1 / (2 * n_x), 1 / (2 * n_y)),
-            sy.b_minus: (-1 / (2 * n_x), 1 / (2 * n_y)),
-        }  # fmt: skip
-        x, y = vectors[symbol]
-        return Value(x), Value(y)
-
-    def _power(self, base: sympy.Expr, exponent: int) -> Value:
-        value = self._number(base)
-        if exponent < 0:
-            assert not value.weights, base
-            value, exponent = Value(1 / value.ordered), -exponent
-        return reduce(mul, [value] * exponent)
-
-    def index(self, expression: sympy.Basic) -> int:
-        value = self._number(expression).ordered
-        assert value.q == 1, expression
-        return int(value.p)
-
-    def _quantity(self, name: str, across: sympy.Expr, layer: sympy.Expr) -> Value | Vector:
-        packing = replace(self.packing, at=self.symbols)
-        place = self.index(across), self.index(layer)
+    def quantity(self, name: str, i: int, j: int) -> Value | tuple[Value, Value]:
+        packing = replace(self.plane, at=self.symbols)
         if name in ("DeltaX", "DeltaNPlus", "DeltaNMinus"):
-            return packing.quantity(name, *place, "0"), packing.quantity(name, *place, "1")
-        return packing.quantity(name, *place)
-
-    def _vertical(self, name: str, *place: sympy.Expr) -> Value:
-        """(n_y + δn_y) f of a contact."""
-        branch = name.removeprefix("Vertical")
-        _, turn = self._quantity(f"DeltaN{branch}", *place)  # type: ignore[misc]
-        force = self._quantity(f"Force{branch}", *place)
-        return (Value(exact(self.packing.n[1])) + turn) * force  # type: ignore[operator]
-
-    def _average(self, expression: sympy.Expr, count: sympy.Expr, *across: sympy.Symbol) -> Value:
-        number, total = self.index(count), Value()
-        for place in range(number):
-            moved = {symbol: self.symbols[symbol] + 2 * place for symbol in across}
-            total = total + _Reading(self.packing, {**self.symbols, **moved})._number(expression)
-        return total.scaled(fmpq(1, number))
+            return packing.quantity(name, i, j, "0"), packing.quantity(name, i, j, "1")
+        if name.startswith("Vertical"):
+            branch = name.removeprefix("Vertical")
+            turn = packing.quantity(f"DeltaN{branch}", i, j, "1")
+            return (turn + exact(packing.n[1])) * packing.quantity(f"Force{branch}", i, j)
+        return packing.quantity(name, i, j)
 
 
 # packings of spheres
@@ -417,7 +368,7 @@ class Spheres:
         Raises:
             AbsentError: it names a contact that is not there.
         """
-        return _Reading(self, self.symbols()).moment(expression)
+        return _Reading(self, exactly(self.symbols())).moment(expression)
 
     def along(self, axis: int, bead: Site, *, vertical: bool) -> Value:
         """A force along a base vector; with a point load over that of the ordered legs."""
@@ -433,17 +384,3 @@ class Spheres:
         )
         on_leg = min(down) >= 0 and sum(down) == down[axis - 1]
         return Value(fmpq(int(on_leg)), {at: exact(w) for at, w in weights.items() if w})
-
-
-def _sum(one: Any, other: Any) -> Any:
-    if isinstance(one, tuple):
-        return tuple(map(add, one, other))
-    return one + other
-
-
-def _product(one: Any, other: Any) -> Any:
-    if isinstance(one, tuple):
-        return tuple(part * other for part in one)
-    if isinstance(other, tuple):
-        return tuple(part * one for part in other)
-    return one * other
