@@ -1,6 +1,7 @@
 """Results as rows, as tables to be looked at, and as columns of text."""
 
 import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
 from html import escape
@@ -95,7 +96,7 @@ class Answered(Tabled):
         raise NotImplementedError
 
     @property
-    def count(self) -> int:
+    def number_of_rows(self) -> int:
         """How many rows there are."""
         return len(next(iter(self.arrays.values()), ()))
 
@@ -103,10 +104,6 @@ class Answered(Tabled):
     def whole_numbers(self) -> list[str]:
         """The names of columns of whole numbers: sites and counts."""
         return whole(self.arrays)
-
-    def rows(self) -> list[Row]:
-        """The table row by row, ready for a data frame; numbers as Python's int and float."""
-        return rows_of(self.arrays)
 
     def decimals(self) -> list[Row]:
         """The table row by row, numbers as decimal strings with the digits that are known."""
@@ -116,7 +113,7 @@ class Answered(Tabled):
         """Show the first rows as a table in a notebook."""
         first = {name: text[:SHOWN] for name, text in self.text.items()}
         rows = rows_of_text(first, self.whole_numbers)
-        return html_table(rows, str(self).splitlines(), self.count)
+        return html_table(rows, str(self).splitlines(), self.number_of_rows)
 
 
 def whole(columns: Mapping[str, Array]) -> list[str]:
@@ -153,6 +150,31 @@ def _cell(value: Any) -> str:
     if value is None:
         return ""
     return escape(f"{value:.6g}" if isinstance(value, float) else str(value))
+
+
+def latex_table(rows: Sequence[Mapping[str, Any]]) -> str:
+    r"""Show rows as an array in LaTeX, which MathJax reads, too.
+
+    >>> print(latex_table([{"j": 0, "component": "force", "std_error": 2.5e-7}]))
+    $\displaystyle\begin{array}{rrr}
+    \mathrm{j} & \mathrm{component} & \mathrm{std\_error} \\ \hline
+    0 & \mathrm{force} & 2.5\times10^{-7}
+    \end{array}$
+    """
+
+    def line(words: Iterable[str]) -> str:
+        return " & ".join(words).replace("_", r"\_")
+
+    def cell(value: Any) -> str:
+        text = f"{value:.3g}" if isinstance(value, float) else str(value)
+        if text[:1].isalpha():
+            return rf"\mathrm{{{text}}}"
+        return re.sub(r"e([+-])0*(\d+)$", r"\\times10^{\1\2}", text)
+
+    heads = line(rf"\mathrm{{{name}}}" for name in rows[0])
+    cells = (line(map(cell, row.values())) for row in rows)
+    start = rf"$\displaystyle\begin{{array}}{{{'r' * len(rows[0])}}}"
+    return "\n".join([start, heads + r" \\ \hline", " \\\\\n".join(cells), r"\end{array}$"])
 
 
 def counted(count: int, noun: str) -> str:

@@ -18,8 +18,8 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_186,
-    "derivations": 7_779,
-    "numeric": 9_494,
+    "derivations": 7_781,
+    "numeric": 9_513,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,

@@ -127,7 +127,8 @@ def _answer(
     about["source"] = sourced(about["source"], scene, command_line())
     if folder:
         folder.write(files_of(answers, about, written))
-    rows = ", ".join(f"{answer.quantity}: {counted(answer.count, 'row')}" for answer in answers)
+    counts = ((answer.quantity, counted(answer.number_of_rows, "row")) for answer in answers)
+    rows = ", ".join(f"{quantity}: {count}" for quantity, count in counts)
     lines = [rows, *outcome_lines(about)]
     show(answers, about, lines, as_json=as_json, quiet=quiet, written=folder is not None)
 

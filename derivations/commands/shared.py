@@ -75,7 +75,7 @@ def show(
     for answer in results if not written else ():
         if len(results) > 1:
             print(f"# {answer.quantity}")
-        count = answer.count
+        count = answer.number_of_rows
         rows = count if quiet else FEW
         _print(csv_bytes({name: text[:rows] for name, text in answer.text.items()}))
         if count > rows:

@@ -42,7 +42,8 @@ def files_of(
         return {"result.json": json_bytes(answers, about), **tables}
     about = about | {
         "results": {
-            answer.quantity: {"file": name, "rows": answer.count} for name, answer in files.items()
+            answer.quantity: {"file": name, "rows": answer.number_of_rows}
+            for name, answer in files.items()
         }
     }
     text = json.dumps(about, indent=2) + "\n"

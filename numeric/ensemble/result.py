@@ -236,6 +236,11 @@ class Ensemble(tables.Answered):
         """The table's columns by name; an entry for each group, or for each bin of a histogram."""
         return self.bins or self._groups
 
+    @property
+    def rows(self) -> int:
+        """How many rows the table has."""
+        return self.number_of_rows
+
     @cached_property
     def text(self) -> dict[str, list[str]]:
         """The columns as text, to two digits beyond their standard errors."""
@@ -314,7 +319,7 @@ class Ensemble(tables.Answered):
 
     def __str__(self) -> str:
         """Say how many rows and packings there are, and how sure they are."""
-        rows = tables.counted(self.count, "row")
+        rows = tables.counted(self.rows, "row")
         lines = [f"{self.quantity}: {rows}, {self.realisations} packings"]
         if math.isfinite(self.half_width):
             lines.append(
@@ -331,3 +336,8 @@ class Ensemble(tables.Answered):
         return "\n".join(lines + [f"skipped: {'; '.join(skipped)}"] * bool(skipped))
 
     __repr__ = __str__
+
+    def _repr_latex_(self) -> str:
+        """Show the first rows as a table in LaTeX."""
+        first = {name: column[: tables.SHOWN] for name, column in self.arrays.items()}
+        return tables.latex_table(tables.rows_of(first))

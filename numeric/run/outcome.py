@@ -17,7 +17,7 @@ from ..quantities.answer import Answer
 from ..quantities.base import Table
 from ..scene.scene import source_of
 from ..statistics import bins
-from ..tables import Answered, text_of
+from ..tables import Answered, Row, rows_of, text_of
 from ..unilateral.network import Network
 
 if TYPE_CHECKING:
@@ -68,6 +68,10 @@ class Result(Answered):
             if name in table.errors:
                 columns[f"{name}_error"] = table.errors[name]
         return columns
+
+    def rows(self) -> list[Row]:
+        """The answer row by row, ready for a data frame; numbers as Python's int and float."""
+        return rows_of(self.arrays)
 
     @cached_property
     def text(self) -> dict[str, list[str]]:

@@ -6,6 +6,7 @@ import math
 import pytest
 from force_diffusion.numeric.arithmetic.errors import ArgumentError
 from force_diffusion.numeric.ensemble import ensemble as module
+from force_diffusion.numeric.tables import rows_of
 
 import force_diffusion as fd
 from tests.numeric.ensemble.cases import CASES, PROFILE
@@ -21,8 +22,8 @@ def test_arrays_rows_and_data_say_the_same(name: str) -> None:
         assert array.shape == (groups,)
     assert found.mean_square == pytest.approx(found.std**2 + found.mean_change**2, rel=1e-9)
     data = json.loads(json.dumps(found.data()))
-    rows = found.rows()
-    assert found.count == len(rows) == len(data["results"][found.quantity])
+    rows = rows_of(found.arrays)
+    assert found.rows == len(rows) == len(data["results"][found.quantity])
     for row, printed in zip(rows, data["results"][found.quantity], strict=True):
         assert list(row) == list(printed)
         for key, value in row.items():
@@ -42,6 +43,7 @@ def test_arrays_rows_and_data_say_the_same(name: str) -> None:
                 assert float(printed[key]) == value or abs(float(printed[key]) - value) <= allowed
     assert 2 <= len(repr(found).splitlines()) <= 6
     assert found._repr_html_().count("<tr>") == 1 + min(len(rows), 20)
+    assert found._repr_latex_().count(" & ") == (len(rows[0]) - 1) * (1 + min(len(rows), 20))
 
 
 def test_layers_of_both_branches() -> None:

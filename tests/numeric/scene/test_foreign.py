@@ -79,7 +79,7 @@ def test_all_real_arrays_of_numpy_are_read(values: Any, tmp_path: Path) -> None:
     found = read_numbers(path)
     assert found.dtype == values.dtype
     assert (found == values).all()
-    assert read(path).count == 2 * WIDTH * (LAYERS - 1)
+    assert read(path).number_of_rows == 2 * WIDTH * (LAYERS - 1)
 
 
 @given(data=st.data())
