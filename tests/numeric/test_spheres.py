@@ -1,14 +1,13 @@
 """Scenes in three dimensions: what they answer, and what they refuse."""
 
 from fractions import Fraction
-from itertools import product
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic.decimals import decimal_string
-from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array
+from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
@@ -37,30 +36,25 @@ def test_images_are_seen_where_a_wider_packing_differs(
 ) -> None:
     """Which beads matter is tried one by one; images matter where two of them are W apart."""
     wide = 4 * M + 1
-    rng = np.random.default_rng(1)
-    rho = [1e-3 * rng.uniform(-1, 1, (wide, wide)) for _ in range(M + 1)]
-    phi, linear = Fraction(1, 5), geometry == "first-order"
-
-    def asked(rows: list[Array]) -> Array:
-        """Rows of the answer that tell most, by what they depend on."""
-        region = whole(wide**2, M, dimension=3)
-        with FLOAT64.active():
-            flat = np.concatenate(rows).reshape(1, -1)
-            placed = deposit(phi, region, flat, FLOAT64, linear=linear)
-            if quantity == "positions":
-                return np.asarray([sum(abs(placed.c(a, M)[0, 0]) for a in range(3))])
+    region, linear = whole(wide**2, M, dimension=3), geometry == "first-order"
+    rho = 1e-3 * np.random.default_rng(1).uniform(-1, 1, region.beads)
+    # the last packing is as it was, in each other one bead is larger
+    packings = rho + 1e-4 * np.eye(region.beads + 1, region.beads)
+    with FLOAT64.active():
+        placed = deposit(Fraction(1, 5), region, packings, FLOAT64, linear=linear)
+        if quantity == "positions":
+            answers = [sum(abs(placed.c(a, M)[:, 0]) for a in range(3))]
+        else:
             forces = sweep_down(placed, region.rows, np.ones((3, M * wide**2)), linear=linear)
-            return np.asarray([forces.change(a, 1)[0, 0] for a in range(3)])
-
-    before = asked(rho)
-    matter: list[set[tuple[int, int, int]]] = [set() for _ in before]
-    for j, p, q in product(range(M + 1), range(wide), range(wide)):
-        rows = [row.copy() for row in rho]
-        rows[j][p, q] += 1e-4
-        unwrapped = (p if p <= wide // 2 else p - wide, q if q <= wide // 2 else q - wide, j)
-        for beads, off in zip(matter, np.abs(asked(rows) - before), strict=True):
-            if off > 1e-15:
-                beads.add(unwrapped)
+            answers = [forces.change(a, 1)[:, 0] for a in range(3)]
+    middle = wide // 2
+    matter = []
+    for values in answers:
+        j, p, q = np.unravel_index(
+            np.flatnonzero(np.abs(values[:-1] - values[-1]) > 1e-15), (M + 1, wide, wide)
+        )
+        unwrapped = ((one + middle) % wide - middle for one in (p, q))
+        matter.append({*zip(*(one.tolist() for one in (*unwrapped, j)), strict=True)})
     for width in range(1, 2 * M + 2):
         homes = [{(p % width, q % width, j) for p, q, j in beads} for beads in matter]
         sees = any(len(home) < len(beads) for home, beads in zip(homes, matter, strict=True))

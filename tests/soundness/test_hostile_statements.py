@@ -16,6 +16,7 @@ from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.trees import equation
 from sympy import Add, Integer, Mul, Pow, Rational, Sum
 
+from tests.derivations.rows import late
 from tests.properties.mutants import EQUIVALENT, mutants
 from tests.properties.packing import Packing, mp
 from tests.properties.reading import AbsentError, NonsenseError, Plane
@@ -171,17 +172,7 @@ def judged(number: int | str) -> Iterator[tuple[str, bool | None, Ruling]]:
             yield name, true, candidate_for(derivation, part, candidate)
 
 
-QUICK = {1, 13}
-"""Equations of which all variations are decided within seconds."""
-
-
-@pytest.mark.parametrize(
-    "number",
-    [
-        pytest.param(number, marks=() if number in QUICK else pytest.mark.long(share=6))
-        for number in (*ON_PACKINGS, 13, 14, 16)
-    ],
-)
+@pytest.mark.parametrize("number", [13, *late((*ON_PACKINGS, 14, 16), share=6)])
 def test_what_is_decided_is_as_it_is(number: int) -> None:
     found: Counter[Verdict] = Counter()
     for name, true, ruling in judged(number):

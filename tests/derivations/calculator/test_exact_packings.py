@@ -189,6 +189,7 @@ def mean(terms: Terms, packing: Packing, bead: Bead, count: int) -> Value:
     return reduce(add, several).scaled(fmpq(1, count))
 
 
+@pytest.mark.long
 @FEW
 @given(_terms(1), loads)
 def test_any_number_of_neighbours(terms: Terms, drawn: Drawn) -> None:

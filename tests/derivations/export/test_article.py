@@ -264,6 +264,7 @@ def test_numbers_of_steel_balls() -> None:
 # how it is written
 
 
+@pytest.mark.long
 def test_figures_and_references_are_in_the_order_of_the_text(whole: str) -> None:
     drawn = re.findall(r"\\renewcommand\{\\thefigure\}\{(\w+)\}", whole)
     assert drawn == figures_of(TEXT)
@@ -273,6 +274,7 @@ def test_figures_and_references_are_in_the_order_of_the_text(whole: str) -> None
     assert list(map(str, dict.fromkeys(cited))) == listed
 
 
+@pytest.mark.long
 def test_nothing_is_left_of_the_source(whole: str) -> None:
     assert "{{" not in whole.replace("{{\\", "")
     assert "```" not in whole

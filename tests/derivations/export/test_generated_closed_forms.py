@@ -67,6 +67,7 @@ def places(name: str) -> Iterator[dict[str, Any]]:
             yield {"M": M, "j": j - 1, "N": N, "t": t}
 
 
+@pytest.mark.long(sample=7)
 @pytest.mark.parametrize("name", OF_CONTACTS | BELOW_LOAD)
 def test_they_are_the_exact_forms(name: str) -> None:
     number, of = (OF_CONTACTS | BELOW_LOAD)[name]

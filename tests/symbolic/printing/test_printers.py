@@ -26,6 +26,8 @@ from force_diffusion.symbolic.trees import equation
 from hypothesis import given
 from hypothesis import strategies as st
 
+from tests.derivations.rows import each
+
 HALF = sympy.Rational(1, 2)
 
 
@@ -177,9 +179,8 @@ def test_a_broken_product_keeps_its_first_factor(
         assert "GAP" not in " ".join(lines)  # which stands in for a fraction while it is broken
 
 
-@pytest.mark.long(sample=10, share=2)
 @pytest.mark.parametrize("room", [120, 222, 330])
-@pytest.mark.parametrize("number", list(modules()))
+@pytest.mark.parametrize("number", each(modules(), share=2))
 def test_lines_put_together_are_the_formula(number: int | str, room: float) -> None:
     """Nothing is lost or doubled, and a line that was broken fits."""
     derivation = load(number)
@@ -197,8 +198,7 @@ def test_lines_put_together_are_the_formula(number: int | str, room: float) -> N
         assert all(part.count(r"\left") == part.count(r"\right") for part in lines)
 
 
-@pytest.mark.long(sample=10)
-@pytest.mark.parametrize("number", list(modules()))
+@pytest.mark.parametrize("number", each(modules()))
 def test_a_polynomial_in_order_is_the_same(number: int | str) -> None:
     """Its parts are factored, each with its sign, and add up to it."""
     for form in load(number).exact_forms.values():
