@@ -57,7 +57,9 @@ def tried(folder: Path, fault: Fault) -> str:
     options = ["-x", "-q", "-n", "0", "-p", "no:cacheprovider"]
     # as by default, of tests that take long a sample
     where = ["-o", f"testpaths={' '.join(fault.tests)}"]
-    if any("::" in test for test in fault.tests):
+    if any("[" in test for test in fault.tests):  # but for a case that is named
+        where = [*fault.tests]
+    elif any("::" in test for test in fault.tests):
         where = ["-m", "not long", *fault.tests]
     environment = {
         **os.environ,
