@@ -26,7 +26,7 @@ LONG = {
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=pytest.mark.long if name in LONG else ()) for name in MODULES]
 )
-def test_examples(name: str) -> None:
+def test_examples(name):
     try:
         module = import_module(name)
     except ModuleNotFoundError as missing:

@@ -120,12 +120,12 @@ def modules(folder: str) -> dict[str, set[str]]:
 
 
 @pytest.mark.parametrize("folder", LIMITS)
-def test_no_folder_grows(folder: str) -> None:
+def test_no_folder_grows(folder):
     found = sum(map(lines_of_code, (ROOT / folder).rglob("*.py")))
     assert found <= LIMITS[folder], f"{folder}: lines of code, {over(found, LIMITS[folder])}"
 
 
-def test_lines_of_code_are_neither_blank_nor_comments_nor_docstrings(tmp_path: Path) -> None:
+def test_lines_of_code_are_neither_blank_nor_comments_nor_docstrings(tmp_path):
     source = '''"""Of a module,
 
 of three lines."""
@@ -150,17 +150,17 @@ and no more"""
 
 
 @pytest.mark.parametrize("folder", ["numeric", "symbolic", "derivations"])
-def test_no_room_is_in_a_circle(folder: str) -> None:
+def test_no_room_is_in_a_circle(folder):
     assert floors(rooms(folder))
 
 
 @pytest.mark.parametrize("folder", ["numeric", "symbolic", "derivations"])
-def test_no_file_is_in_a_circle(folder: str) -> None:
+def test_no_file_is_in_a_circle(folder):
     """Imports within functions and for types are imports, too."""
     assert floors(modules(folder))
 
 
-def test_the_rooms_of_numeric_are_few_floors_high() -> None:
+def test_the_rooms_of_numeric_are_few_floors_high():
     graph = rooms("numeric")
     high, arrows = max(floors(graph).values()), sum(map(len, graph.values()))
     assert high <= FLOORS, f"floors, {over(high, FLOORS)}"
@@ -174,13 +174,13 @@ def test_the_rooms_of_numeric_are_few_floors_high() -> None:
         ("symbolic", ("force_diffusion.numeric", "force_diffusion.derivations")),
     ],
 )
-def test_rooms_on_the_ground_floor_are_blind(folder: str, never: tuple[str, ...]) -> None:
+def test_rooms_on_the_ground_floor_are_blind(folder, never):
     for path in (ROOT / folder).rglob("*.py"):
         for name in imported(path):
             assert not any(name == one or name.startswith(f"{one}.") for one in never), path
 
 
-def test_nothing_imports_a_room_by_its_folder() -> None:
+def test_nothing_imports_a_room_by_its_folder():
     """In the checkout ``numeric`` can be imported from the current folder; installed it can't."""
     by_folder = re.compile(r"^ *(from|import) (numeric|symbolic|derivations)\b", re.MULTILINE)
     for folder in (*LIMITS, "docs"):
@@ -189,7 +189,7 @@ def test_nothing_imports_a_room_by_its_folder() -> None:
 
 
 @pytest.mark.parametrize("folder", ["numeric", "symbolic", "derivations"])
-def test_imports_within_a_folder_are_relative(folder: str) -> None:
+def test_imports_within_a_folder_are_relative(folder):
     """Tools that don't know below which name the folders are installed follow these, too.
 
     Files that also run as scripts, one for each equation and theorem, import by full names; so
@@ -204,7 +204,7 @@ def test_imports_within_a_folder_are_relative(folder: str) -> None:
                 assert node.level or parts[:2] != ["force_diffusion", folder], path
 
 
-def test_every_room_is_on_the_map() -> None:
+def test_every_room_is_on_the_map():
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     for folder in ("numeric", "symbolic", "derivations"):
         part = text.partition(f"### {folder}/")[2].partition("\n#")[0]

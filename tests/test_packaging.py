@@ -10,7 +10,7 @@ CITATION, CHANGES = ((ROOT / name).read_text("utf-8") for name in ("CITATION.cff
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
 
-def test_every_folder_of_the_rooms_is_a_package() -> None:
+def test_every_folder_of_the_rooms_is_a_package():
     setuptools = PROJECT["tool"]["setuptools"]
     found = []
     for name, room in setuptools["package-dir"].items():
@@ -20,7 +20,7 @@ def test_every_folder_of_the_rooms_is_a_package() -> None:
     assert sorted(setuptools["packages"]) == sorted(set(found))
 
 
-def test_one_version_everywhere() -> None:
+def test_one_version_everywhere():
     assert f"\nversion: {fd.__version__}\n" in CITATION
     newest = next(line for line in CHANGES.splitlines() if line.startswith("## "))
     assert newest.removeprefix("## ").split(",")[0] == fd.__version__

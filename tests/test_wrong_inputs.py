@@ -65,7 +65,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
 
 
 @pytest.mark.parametrize("name", WRONG)
-def test_a_wrong_input_is_answered_in_three_lines(name: str) -> None:
+def test_a_wrong_input_is_answered_in_three_lines(name):
     call, allowed = WRONG[name]
     with pytest.raises(fd.ForceDiffusionError, match=allowed) as raised:
         call()
@@ -74,18 +74,18 @@ def test_a_wrong_input_is_answered_in_three_lines(name: str) -> None:
     assert len(message) < LONGEST + 300
 
 
-def test_attributes_say_what_was_meant() -> None:
+def test_attributes_say_what_was_meant():
     with pytest.raises(AttributeError, match=r"did you mean fd\.solve\?"):
         fd.slove  # noqa: B018
     assert re.fullmatch(r"\d+\.\d+\.\d+", fd.__version__)
 
 
 @pytest.mark.parametrize("word", ["eq13", "Eq. 13", "(13)", "Eq. (13)", "equation 13", " 13 "])
-def test_equations_answer_to_how_papers_call_them(word: str) -> None:
+def test_equations_answer_to_how_papers_call_them(word):
     assert fd.equation(word).number == 13
 
 
-def test_errors_that_docstrings_name_are_there() -> None:
+def test_errors_that_docstrings_name_are_there():
     """Of functions that users call, and of methods of their results."""
     for name in fd.__all__:
         told = [getattr(fd, name)]

@@ -17,7 +17,6 @@ from force_diffusion.numeric.scene.combinations import (
     refusal,
 )
 
-from tests.conftest import Call
 from tests.numeric.scenes import toml
 
 GUIDE = (Path(__file__).parents[2] / "scenes" / "README.md").read_text(encoding="utf-8")
@@ -130,9 +129,9 @@ CELLS += [
 @pytest.mark.long(sample=9)
 @pytest.mark.parametrize(("command", "quantity", "kind", "load", "setting"), CELLS)
 def test_a_cell_is_answered_or_refused_as_the_table_says(
-    command: str, quantity: str, kind: str, load: str, setting: str,
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: Call,
-) -> None:  # fmt: skip
+    command, quantity, kind, load, setting,
+    tmp_path, monkeypatch, call
+):  # fmt: skip
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(cost, "SHORT", 0)  # each way is timed once
     Path("scene.toml").write_text(scene(quantity, kind, load, setting))
@@ -146,7 +145,7 @@ def test_a_cell_is_answered_or_refused_as_the_table_says(
         assert len(list(Path("out").iterdir())) >= 2
 
 
-def test_the_guide_says_which_command_answers_what() -> None:
+def test_the_guide_says_which_command_answers_what():
     for quantity in QUANTITIES:
         cells = [
             ", ".join(kind for kind, own in KINDS.items() if quantity in answered(command, **own))
@@ -158,7 +157,7 @@ def test_the_guide_says_which_command_answers_what() -> None:
 
 
 @pytest.mark.parametrize("command", COMMANDS)
-def test_the_help_says_what_the_table_does(command: str, call: Call) -> None:
+def test_the_help_says_what_the_table_does(command, call):
     shown = " ".join(call(command, "--help")[1].split())
     for quantity in QUANTITIES:
         assert (f'"{quantity}"' in shown) == (quantity in answered(command))
@@ -170,7 +169,7 @@ def test_the_help_says_what_the_table_does(command: str, call: Call) -> None:
 
 
 @pytest.mark.parametrize("quantity", answered("ensemble"))
-def test_an_ensemble_of_anything_is_asked_until(quantity: str, tmp_path: Path, call: Call) -> None:
+def test_an_ensemble_of_anything_is_asked_until(quantity, tmp_path, call):
     path = tmp_path / "scene.toml"
     path.write_text(scene(quantity, "discs"))
     words = [*options("ensemble", quantity), "--realisations", 40, "--until", 0.9]
@@ -182,9 +181,7 @@ def test_an_ensemble_of_anything_is_asked_until(quantity: str, tmp_path: Path, c
 @pytest.mark.parametrize(
     ("std", "bins"), [("0", 20), ("1e-320", 20), ("1e-200", 1), ("1e-17", 20), ("1e-15", 1)]
 )
-def test_a_figure_of_changes_that_are_alike(
-    std: str, bins: int, tmp_path: Path, call: Call
-) -> None:
+def test_a_figure_of_changes_that_are_alike(std, bins, tmp_path, call):
     path = tmp_path / "scene.toml"
     path.write_text(scene("histogram", "discs").replace("0.02", std) + f"bins = {bins}\n")
     status, _, err = call("figures", path, "--out", tmp_path / "out")

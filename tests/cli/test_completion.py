@@ -35,7 +35,7 @@ echo "${COMPREPLY[@]}"
 """
 
 
-def test_bash_completes_the_names_of_commands_with_what_it_is_given(tmp_path: Path) -> None:
+def test_bash_completes_the_names_of_commands_with_what_it_is_given(tmp_path):
     done = called("bash", COMPLETED, tmp_path)
     assert (done.stdout, done.stderr) == ("ensemble-status\n", "")
 
@@ -43,7 +43,7 @@ def test_bash_completes_the_names_of_commands_with_what_it_is_given(tmp_path: Pa
 @pytest.mark.parametrize(
     ("line", "offered"), [("show --as s", "sympy steps"), ("nonsense s", "show")]
 )
-def test_what_is_offered(line: str, offered: str, tmp_path: Path) -> None:
+def test_what_is_offered(line, offered, tmp_path):
     words = ["force-diffusion", *line.split()]
     variables = {"COMP_WORDS": "\n".join(words), "COMP_CWORD": str(len(words) - 1)}
     done = subprocess.run(
@@ -61,7 +61,7 @@ def test_what_is_offered(line: str, offered: str, tmp_path: Path) -> None:
         ("tcsh", "--install-completion", 2, "bash, zsh or fish"),
     ],
 )
-def test_other_shells(shell: str, option: str, status: int, says: str, tmp_path: Path) -> None:
+def test_other_shells(shell, option, status, says, tmp_path):
     done = called(shell, f"force-diffusion {option}; exit $?", tmp_path)
     assert (done.returncode, says in done.stdout + done.stderr) == (status, True)
     assert [path.name for path in tmp_path.iterdir()] == [shell]

@@ -9,8 +9,6 @@ from pathlib import Path
 import pytest
 from force_diffusion.numeric.run import cost as module
 
-from tests.conftest import Call
-
 SCENE = """
 [packing]
 height = 3
@@ -34,7 +32,7 @@ def written(folder: Path, text: str = SCENE) -> Path:
     return path
 
 
-def test_json_and_files(tmp_path: Path, call: Call) -> None:
+def test_json_and_files(tmp_path, call):
     out, scene = tmp_path / "out", written(tmp_path)
     status, printed, err = call("cost", scene, "--out", out, "--json")
     assert (status, err) == (0, "")
@@ -56,7 +54,7 @@ def test_json_and_files(tmp_path: Path, call: Call) -> None:
     assert data["command"] in svg
 
 
-def test_the_table(tmp_path: Path, call: Call) -> None:
+def test_the_table(tmp_path, call):
     status, out, err = call("cost", written(tmp_path))
     assert (status, err) == (0, "")
     lines = out.splitlines()
@@ -72,7 +70,7 @@ def test_the_table(tmp_path: Path, call: Call) -> None:
 
 
 @pytest.mark.usefixtures("without_matplotlib")
-def test_without_matplotlib_only_the_plot_is_missing(tmp_path: Path, call: Call) -> None:
+def test_without_matplotlib_only_the_plot_is_missing(tmp_path, call):
     out = tmp_path / "out"
     status, printed, err = call("cost", written(tmp_path), "--out", out, "--json")
     assert status == 0

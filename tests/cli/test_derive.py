@@ -7,7 +7,6 @@ import re
 import subprocess
 import sys
 from importlib.metadata import version
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -16,7 +15,6 @@ from force_diffusion.derivations.framework import loading
 from force_diffusion.numeric.figures.catalogue import PaperFigure
 from force_diffusion.numeric.figures.names import FIGURES
 
-from tests.conftest import Call
 from tests.derivations import fakes
 
 
@@ -29,7 +27,7 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
     return table
 
 
-def test_premises_are_proved_first(made_up, call: Call) -> None:
+def test_premises_are_proved_first(made_up, call):
     status, shown, _ = call("derive", 2, 1)
     *lines, last = shown.splitlines()
     assert [line.split()[:2] for line in lines] == [["1", "proved"], ["2", "proved"]]
@@ -37,7 +35,7 @@ def test_premises_are_proved_first(made_up, call: Call) -> None:
     assert (status, last) == (0, "2 proved.")
 
 
-def test_of_a_single_equation_all_steps_and_claims_are_printed(made_up, call: Call) -> None:
+def test_of_a_single_equation_all_steps_and_claims_are_printed(made_up, call):
     made_up[2] = fakes.with_claim(fakes.guessed)
     status, shown, _ = call("derive", 2)
     premise, blank, *lines = shown.splitlines()
@@ -52,7 +50,7 @@ def test_of_a_single_equation_all_steps_and_claims_are_printed(made_up, call: Ca
     assert lines[-1] == f"1 proved; 1 proved assuming {fakes.GUESS}."
 
 
-def test_status_1_says_what_is_wrong(made_up, call: Call) -> None:
+def test_status_1_says_what_is_wrong(made_up, call):
     made_up[2] = fakes.with_claim(fakes.baffled)
     status, shown, _ = call("derive", 1, 2)
     assert status == 1
@@ -60,7 +58,7 @@ def test_status_1_says_what_is_wrong(made_up, call: Call) -> None:
     assert "1 proved; 1 undecided." in shown
 
 
-def test_json_follows_its_schema(made_up, call: Call) -> None:
+def test_json_follows_its_schema(made_up, call):
     made_up[2] = fakes.with_claim(fakes.baffled)
     status, shown, err = call("derive", 2, 1, 1, "--json")
     assert (status, err) == (1, "")
@@ -78,7 +76,7 @@ def test_json_follows_its_schema(made_up, call: Call) -> None:
             assert check["verdict"] in ("proved", "undecided")
 
 
-def test_the_output_folder_twice(made_up, tmp_path: Path, call: Call) -> None:
+def test_the_output_folder_twice(made_up, tmp_path, call):
     out = tmp_path / "out"
     assert call("derive", "--out", out, 2)[0] == 0
     first = {path.name: path.read_bytes() for path in out.iterdir()}
@@ -112,9 +110,7 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.long
-def test_the_article_says_what_was_derived(
-    made_up, drawn, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, call: Call
-) -> None:
+def test_the_article_says_what_was_derived(made_up, drawn, tmp_path, monkeypatch, call):
     out, paper = tmp_path / "out", tmp_path / "paper"
     monkeypatch.setattr("force_diffusion.derivations.export.supplement.modules", lambda: ["B2"])
     command = ["derive", 2, "--out", out, "--article", paper]
@@ -131,18 +127,14 @@ def test_the_article_says_what_was_derived(
     assert {path.name: path.read_bytes() for path in paper.iterdir()} == first
 
 
-def test_an_article_that_can_not_be_written_costs_no_proof(
-    made_up, drawn, tmp_path: Path, call: Call
-) -> None:
+def test_an_article_that_can_not_be_written_costs_no_proof(made_up, drawn, tmp_path, call):
     """That a folder is there already is refused by every command: ``test_output``."""
     out = tmp_path / "out"
     status, shown, err = call("derive", 2, "--article", out, "--out", out)
     assert (status, shown, "is also the folder of --out" in err) == (2, "", True)
 
 
-def test_an_article_without_what_draws_costs_no_proof(
-    made_up, without_matplotlib, tmp_path: Path, call: Call
-) -> None:
+def test_an_article_without_what_draws_costs_no_proof(made_up, without_matplotlib, tmp_path, call):
     status, shown, err = call("derive", 2, "--article", tmp_path / "new")
     assert (status, shown, "force-diffusion[plots]" in err) == (3, "", True)
     assert not (tmp_path / "new").exists()
@@ -151,7 +143,7 @@ def test_an_article_without_what_draws_costs_no_proof(
 @pytest.mark.parametrize(
     ("number", "says"), [(errno.ENOSPC, "Free some space"), (errno.EROFS, "Choose a place")]
 )
-def test_a_disk_that_fails(made_up, tmp_path: Path, monkeypatch, call: Call, number, says) -> None:
+def test_a_disk_that_fails(made_up, tmp_path, monkeypatch, call, number, says):
     out = tmp_path / "out"
 
     def failing(self: Output, files: object) -> None:
@@ -165,7 +157,7 @@ def test_a_disk_that_fails(made_up, tmp_path: Path, monkeypatch, call: Call, num
     assert not out.exists()
 
 
-def test_a_terminal_that_knows_only_ascii() -> None:
+def test_a_terminal_that_knows_only_ascii():
     environment = {**os.environ, "PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     command = [sys.executable, "-m", "force_diffusion", "show", "4"]
     shown = subprocess.run(command, env=environment, capture_output=True, text=True, check=True)

@@ -13,8 +13,6 @@ from typing import Any
 import pytest
 from force_diffusion.numeric.ensemble import ensemble as module
 
-from tests.conftest import Call
-
 ROOT = Path(__file__).parents[2]
 SCENE = ROOT / "scenes" / "ensemble.toml"
 ENVIRONMENT = {**os.environ, "PYTHONPATH": str(ROOT)}
@@ -36,7 +34,7 @@ def small(tmp_path: Path) -> Path:
     return path
 
 
-def test_kept_in_a_file_and_written_out(small: Path, tmp_path: Path, call: Call) -> None:
+def test_kept_in_a_file_and_written_out(small, tmp_path, call):
     store, out = tmp_path / "ensemble.fd", tmp_path / "out"
     arguments = [small, "--store", store, "--out", out, "--json"]
     status, shown, err = call("ensemble", *arguments)
@@ -59,7 +57,7 @@ def test_kept_in_a_file_and_written_out(small: Path, tmp_path: Path, call: Call)
     assert held["ensemble"]["disorder"]["seed"] == 1
 
 
-def test_more_are_added_and_a_rule_stops_early(small: Path, tmp_path: Path, call: Call) -> None:
+def test_more_are_added_and_a_rule_stops_early(small, tmp_path, call):
     store = tmp_path / "ensemble.fd"
     assert call("ensemble", small, "--store", store)[0] == 0
     status, shown, _ = call(
@@ -76,7 +74,7 @@ def test_more_are_added_and_a_rule_stops_early(small: Path, tmp_path: Path, call
     assert alone == data
 
 
-def test_a_rule_that_is_not_met_is_status_three(small: Path, call: Call) -> None:
+def test_a_rule_that_is_not_met_is_status_three(small, call):
     status, shown, err = call("ensemble", small, "--until", "0.001", "--confidence", "0.99")
     assert status == 3
     assert "6 rows, 40 packings" in shown
@@ -84,7 +82,7 @@ def test_a_rule_that_is_not_met_is_status_three(small: Path, call: Call) -> None
     assert re.search(r"about \d.* realisations may do", err)
 
 
-def test_scenes_without_an_ensemble(tmp_path: Path, call: Call) -> None:
+def test_scenes_without_an_ensemble(tmp_path, call):
     for name, says in (
         ("measured", "must be left out in an ensemble"),
         ("settled", 'ask.quantity = "positions"'),
@@ -105,9 +103,7 @@ def test_scenes_without_an_ensemble(tmp_path: Path, call: Call) -> None:
     assert call("ensemble-status", tmp_path / "none")[0] == 2
 
 
-def test_without_dask_it_says_what_to_install(
-    small: Path, monkeypatch: pytest.MonkeyPatch, call: Call
-) -> None:
+def test_without_dask_it_says_what_to_install(small, monkeypatch, call):
     monkeypatch.setitem(sys.modules, "distributed", None)
     status, _, err = call("ensemble", small, "--scheduler", "tcp://x:1")
     assert status == 2
@@ -123,7 +119,7 @@ if "--multiprocessing-fork" in sys.argv:
 """
 
 
-def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
+def test_an_interrupt_while_workers_load(tmp_path):
     """As a terminal does, it comes to all of them."""
     (tmp_path / "sitecustomize.py").write_text(LOADING)
     with subprocess.Popen(
@@ -145,9 +141,7 @@ def test_an_interrupt_while_workers_load(tmp_path: Path) -> None:
     ]
 
 
-def test_an_interrupt_says_how_to_go_on(
-    small: Path, tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_an_interrupt_says_how_to_go_on(small, tmp_path, call, monkeypatch):
     def interrupted(m: Any, first: int, stop: int) -> Any:
         if first:
             raise KeyboardInterrupt

@@ -3,7 +3,6 @@
 from pathlib import Path
 
 import force_diffusion as fd
-from tests.conftest import Call
 
 ROOT = Path(__file__).parents[2]
 SCENES = {
@@ -13,7 +12,7 @@ SCENES = {
 }
 
 
-def test_all_are_copied_and_named(tmp_path: Path, call: Call) -> None:
+def test_all_are_copied_and_named(tmp_path, call):
     out = tmp_path / "new" / "scenes"
     for options in ([], ["--overwrite"]):
         status, shown, _ = call("examples", out, *options)
@@ -21,5 +20,5 @@ def test_all_are_copied_and_named(tmp_path: Path, call: Call) -> None:
         assert (status, shown.splitlines()) == (0, [str(out / name) for name in sorted(SCENES)])
 
 
-def test_the_version_is_that_of_the_package(call: Call) -> None:
+def test_the_version_is_that_of_the_package(call):
     assert call("--version") == (0, f"force-diffusion {fd.__version__}\n", "")

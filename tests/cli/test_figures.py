@@ -10,8 +10,6 @@ from xml.etree import ElementTree
 import pytest
 from PIL import Image
 
-from tests.conftest import Call
-
 
 def check_images(folder: Path, name: str, command: str) -> None:
     with Image.open(folder / f"{name}.png") as image:
@@ -33,8 +31,8 @@ def check_images(folder: Path, name: str, command: str) -> None:
 
 @pytest.mark.long
 def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
-    tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
+    tmp_path, call, monkeypatch
+):
     words = ["1", "2", "3", "--heights", "2,4", "--realisations", "16", "--out", "out"]
     contents = []
     for folder in ("a", "b"):
@@ -60,7 +58,7 @@ def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
     assert [row["of"].partition(":")[0] for row in one["comparisons"]] == ["M = 2", "M = 4"]
 
 
-def test_heights_that_cannot_be_built(tmp_path: Path, call: Call) -> None:
+def test_heights_that_cannot_be_built(tmp_path, call):
     """Far above M* beads no longer find a rest."""
     out, few = tmp_path / "out", ("--realisations", 16)
     rough = "--heights", "40", "--relative-std", "0.3"
@@ -72,7 +70,7 @@ def test_heights_that_cannot_be_built(tmp_path: Path, call: Call) -> None:
 
 
 @pytest.mark.usefixtures("without_matplotlib")
-def test_without_matplotlib(tmp_path: Path, call: Call) -> None:
+def test_without_matplotlib(tmp_path, call):
     status, printed, err = call("figures", "1", "--out", tmp_path / "out")
     assert (status, printed) == (3, "")
     assert "need matplotlib" in err
@@ -81,7 +79,7 @@ def test_without_matplotlib(tmp_path: Path, call: Call) -> None:
 
 
 @pytest.mark.long
-def test_simpler_models_are_drawn_and_leave_with_their_figures(tmp_path: Path, call: Call) -> None:
+def test_simpler_models_are_drawn_and_leave_with_their_figures(tmp_path, call):
     out, models = tmp_path / "out", ["--with", "q-model", "--with", "double-y"]
     words = [3, 4, "--heights", "3", "--realisations", 32, *models, "--out", out]
     assert call("figures", *words)[0] == 0
@@ -90,7 +88,7 @@ def test_simpler_models_are_drawn_and_leave_with_their_figures(tmp_path: Path, c
     assert {path.stem for path in out.iterdir()} == {"figure1"}
 
 
-def test_a_scene_is_answered_and_drawn(tmp_path: Path, call: Call) -> None:
+def test_a_scene_is_answered_and_drawn(tmp_path, call):
     scene, out = tmp_path / "my $cene.toml", tmp_path / "out"
     scene.write_text(
         "packing = {height = 4, width = 9, spacing = 2.6}\n"

@@ -39,7 +39,7 @@ def shell(line: str) -> subprocess.CompletedProcess[str]:
     ],
     ids=["a full disk", "a reader that stops", "a message that nobody hears"],
 )
-def test_a_stream_that_fails(program: str, line: str, status: int | None, says: str) -> None:
+def test_a_stream_that_fails(program, line, status, says):
     done = shell(line.format(program))
     # where a reader ends early it may be 0, if all was written before
     assert done.returncode == status or (status is None and done.returncode in (0, 3))
@@ -48,7 +48,7 @@ def test_a_stream_that_fails(program: str, line: str, status: int | None, says: 
     assert status != 2 or not done.stdout
 
 
-def test_an_interrupt_while_modules_load(tmp_path: Path) -> None:
+def test_an_interrupt_while_modules_load(tmp_path):
     (tmp_path / "typer.py").write_text(
         "import sys, time\nprint('loading', file=sys.stderr, flush=True)\ntime.sleep(60)\n"
     )
@@ -92,7 +92,7 @@ def waiting(seconds: float, *before: str) -> subprocess.Popen[str]:
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_all_that_ends_a_program_ends_it_alike(how: signal.Signals) -> None:
+def test_all_that_ends_a_program_ends_it_alike(how):
     with waiting(60) as process:
         process.send_signal(how)
         _, errors = process.communicate(timeout=600)
@@ -100,7 +100,7 @@ def test_all_that_ends_a_program_ends_it_alike(how: signal.Signals) -> None:
     assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
 
 
-def test_what_a_program_was_started_to_ignore_is_ignored() -> None:
+def test_what_a_program_was_started_to_ignore_is_ignored():
     with waiting(0.5, "nohup") as process:
         process.send_signal(signal.SIGHUP)
         process.communicate(timeout=600)
@@ -125,9 +125,7 @@ OUT_OF_RANGE = "a number left the range of the arithmetic (too large)"
         (ZeroDivisionError("too large"), 3, OUT_OF_RANGE),
     ],
 )
-def test_an_error_is_told_once_with_what_it_is_about(
-    error: Exception, status: int, says: str, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_an_error_is_told_once_with_what_it_is_about(error, status, says, capsys):
     def program() -> int:
         with about("file"), about("part"), in_range():
             raise error
@@ -137,7 +135,7 @@ def test_an_error_is_told_once_with_what_it_is_about(
     assert (printed.out, printed.err) == ("", f"force-diffusion: file: part: {says}\n")
 
 
-def test_a_mistake_in_the_program_keeps_its_traceback() -> None:
+def test_a_mistake_in_the_program_keeps_its_traceback():
     def program() -> int:
         raise ZeroDivisionError
 

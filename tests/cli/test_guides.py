@@ -7,8 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.conftest import Call
-
 ROOT = Path(__file__).parents[2]
 DESCRIPTION = ROOT / "force_diffusion" / "README.md"  # of the wheel, shown far from all files
 SCENES = ROOT / "scenes" / "README.md"  # copied by "examples"
@@ -51,7 +49,7 @@ def _commands(page: Path) -> list[str]:
 
 @pytest.mark.long
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "sh")], ids=_name)
-def test_its_commands_run_as_written(page: Path, folder: Path, call: Call) -> None:
+def test_its_commands_run_as_written(page, folder, call):
     _save_files(page, folder)
     if "force-diffusion examples scenes" in _commands(page):
         shutil.rmtree(folder / "scenes")
@@ -65,12 +63,12 @@ def test_its_commands_run_as_written(page: Path, folder: Path, call: Call) -> No
 
 @pytest.mark.long
 @pytest.mark.parametrize("page", [p for p in PAGES if _blocks(p, "python")], ids=_name)
-def test_its_python_runs_as_written(page: Path, folder: Path) -> None:
+def test_its_python_runs_as_written(page, folder):
     _save_files(page, folder)
     exec("\n".join(_blocks(page, "python")), {})
 
 
-def test_the_guides_have_commands_that_are_run() -> None:
+def test_the_guides_have_commands_that_are_run():
     guides = [page for page in PAGES if page.parent.name == "guides" and page.stem != "index"]
     assert len(guides) >= 5
     assert all(_blocks(guide, "sh") for guide in guides)
@@ -85,11 +83,11 @@ def _relative_links(page: Path) -> list[str]:
 
 
 @pytest.mark.parametrize("page", [*PAGES, SCENES, *sorted(ROOT.glob("*.md"))], ids=_name)
-def test_its_links_lead_somewhere(page: Path) -> None:
+def test_its_links_lead_somewhere(page):
     for target in _relative_links(page):
         assert (page.parent / target.split("#")[0]).exists(), target
 
 
 @pytest.mark.parametrize("page", [DESCRIPTION, SCENES], ids=_name)
-def test_what_is_read_elsewhere_has_no_links_into_the_repository(page: Path) -> None:
+def test_what_is_read_elsewhere_has_no_links_into_the_repository(page):
     assert _relative_links(page) == []

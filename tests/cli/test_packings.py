@@ -3,7 +3,6 @@
 import json
 from pathlib import Path
 
-from tests.conftest import Call
 from tests.numeric.scenes import basic, toml
 
 
@@ -15,7 +14,7 @@ def asked(folder: Path, **effects: int) -> Path:
     return path
 
 
-def test_run_says_what_is_proved(tmp_path: Path, call: Call) -> None:
+def test_run_says_what_is_proved(tmp_path, call):
     out = tmp_path / "out"
     status, shown, _ = call("run", asked(tmp_path), "--out", out)
     rest = "a strict local minimum in the coordinates of beads that contacts hold"
@@ -26,7 +25,7 @@ def test_run_says_what_is_proved(tmp_path: Path, call: Call) -> None:
     assert network["programs"] > 0
 
 
-def test_no_packing_ends_in_words_with_status_3(tmp_path: Path, call: Call) -> None:
+def test_no_packing_ends_in_words_with_status_3(tmp_path, call):
     status, _, err = call("run", asked(tmp_path, most_programs=1))
     assert status == 3
     assert "no packing was found, though one may exist: beads still slide after 1 linear" in err

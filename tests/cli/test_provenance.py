@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import force_diffusion as fd
-from tests.conftest import Call
 
 SCENES = Path(__file__).parents[2] / "scenes"
 
@@ -41,9 +40,7 @@ def npz_of(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
 
 @pytest.mark.parametrize("command", ["run", "ensemble"])
 @pytest.mark.parametrize("written", ["csv", "npz", "parquet"])
-def test_an_answer_says_where_it_came_from(
-    command: str, written: str, tmp_path: Path, call: Call
-) -> None:
+def test_an_answer_says_where_it_came_from(command, written, tmp_path, call):
     scene = SCENES / ("measured.toml" if command == "run" else "figure3.toml")
     out = tmp_path / "out"
     status, shown, err = call(command, scene, "--out", out, "--format", written, "--quiet")
@@ -79,9 +76,7 @@ def test_an_answer_says_where_it_came_from(
 
 
 @pytest.mark.parametrize("written", ["npz", "parquet"])
-def test_numbers_of_longer_arithmetics_are_decimals(
-    written: str, tmp_path: Path, call: Call
-) -> None:
+def test_numbers_of_longer_arithmetics_are_decimals(written, tmp_path, call):
     scene = SCENES / "one_contact.toml"
     out = tmp_path / "out"
     assert call("run", scene, "--out", out, "--format", written, "-q")[0] == 0
@@ -90,7 +85,7 @@ def test_numbers_of_longer_arithmetics_are_decimals(
     assert columns == {name: [value] for name, value in row.items()}
 
 
-def test_rows_are_printed_or_written_and_quiet_is_quiet(tmp_path: Path, call: Call) -> None:
+def test_rows_are_printed_or_written_and_quiet_is_quiet(tmp_path, call):
     scene = SCENES / "measured.toml"
     _, whole, _ = call("run", scene)
     first = [line for line in whole.splitlines() if not line.startswith("#")]
@@ -106,9 +101,7 @@ def test_rows_are_printed_or_written_and_quiet_is_quiet(tmp_path: Path, call: Ca
     assert call("run", scene, "--out", tmp_path / "b", "-q")[1] == ""
 
 
-def test_a_format_needs_its_library(
-    tmp_path: Path, call: Call, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_format_needs_its_library(tmp_path, call, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     arguments = ("run", SCENES / "measured.toml", "--out", tmp_path / "x", "--format", "parquet")
     status, _, err = call(*arguments)
@@ -117,7 +110,7 @@ def test_a_format_needs_its_library(
     assert not (tmp_path / "x").exists()
 
 
-def test_an_array_of_ones_own_is_known_by_its_hash() -> None:
+def test_an_array_of_ones_own_is_known_by_its_hash():
     radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (5, 12))
     source = fd.solve(radii).forces.source
     assert source["sha256"] == {"disorder.radii": hashlib.sha256(radii.tobytes()).hexdigest()}

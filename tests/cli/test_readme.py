@@ -10,8 +10,6 @@ from pathlib import Path
 import pytest
 from force_diffusion.derivations.commands.cli import STATUSES
 
-from tests.conftest import Call
-
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 REFERENCE = (ROOT / "docs" / "reference" / "commands.md").read_text(encoding="utf-8")
@@ -19,24 +17,24 @@ COMMANDS = re.findall(r"^```sh\n(.*?)\n```$", README, re.MULTILINE | re.DOTALL)
 USES = re.findall(r"^\| `((?!force-)[a-z][^`]*)` \|", README, re.MULTILINE)
 
 
-def test_it_is_short() -> None:
+def test_it_is_short():
     assert README.count("\n") <= 90
 
 
-def test_exactly_two_commands_of_one_line() -> None:
+def test_exactly_two_commands_of_one_line():
     assert README.count("```sh") == 2
     assert [command.count("\n") for command in COMMANDS] == [0, 0]
     assert "force-diffusion derive" in COMMANDS[0]
     assert COMMANDS[1].endswith("pytest")
 
 
-def test_the_extras_it_installs_exist() -> None:
+def test_the_extras_it_installs_exist():
     project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
     for extra in re.findall(r"'\.\[(\w+)\]'", README):
         assert extra in project["optional-dependencies"]
 
 
-def test_its_python_prints_what_it_says() -> None:
+def test_its_python_prints_what_it_says():
     (block,) = re.findall(r"^```python\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
     example = doctest.DocTestParser().get_doctest(block, {}, "README", "README.md", 0)
     assert not doctest.DocTestRunner().run(example).failed
@@ -44,7 +42,7 @@ def test_its_python_prints_what_it_says() -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("use", USES)
-def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, call: Call) -> None:
+def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, call):
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
     monkeypatch.chdir(tmp_path)
     few = ["--heights", 4, "--realisations", 16] if use.startswith("figures") else []
@@ -52,11 +50,11 @@ def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, call:
     assert (status, shown != "") == (0, True)
 
 
-def test_there_are_five_uses() -> None:
+def test_there_are_five_uses():
     assert len(USES) == 5
 
 
-def test_the_equations_that_the_reference_shows_are_shown(call: Call) -> None:
+def test_the_equations_that_the_reference_shows_are_shown(call):
     rows = re.findall(r"^\| `(show[^`]*|list)` \|", REFERENCE, re.MULTILINE)
     assert len(rows) >= 4
     for row in rows:
@@ -64,19 +62,19 @@ def test_the_equations_that_the_reference_shows_are_shown(call: Call) -> None:
         assert (status, shown != "") == (0, True)
 
 
-def test_it_leads_to_a_guide_for_each_of_the_tasks() -> None:
+def test_it_leads_to_a_guide_for_each_of_the_tasks():
     """Each guide is run by ``test_guides``."""
     tasks = README.partition("## What would you like to do?\n")[2].partition("\n\nMore")[0]
     guides = re.findall(r"\(docs/(guides/\w+\.md)\)", tasks)
     assert guides == [f"guides/{n}.md" for n in ("ask", "profile", "radii", "conjecture")]
 
 
-def test_every_exit_status_is_told() -> None:
+def test_every_exit_status_is_told():
     for status in re.findall(r"\d+", STATUSES):
         assert f"\n| {status} |" in REFERENCE
 
 
-def test_continuous_integration_takes_the_readme_s_test_command() -> None:
+def test_continuous_integration_takes_the_readme_s_test_command():
     script = ROOT / ".ci" / "run"
     assert script.stat().st_mode & 0o111
     extract = "sed -n '/^```sh$/,/^```$/{/^```/d;p}' README.md"

@@ -9,7 +9,6 @@ from pathlib import Path
 import pytest
 
 import force_diffusion as fd
-from tests.conftest import Call
 
 ROOT = Path(__file__).parents[2]
 REFERENCE = ROOT / "docs" / "reference"
@@ -49,7 +48,7 @@ def _asking(folder: Path, quantity: str, realisations: int = 1, packing: str = P
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_a_section_has_the_keys_that_are_named(section: str, tmp_path: Path, call: Call) -> None:
+def test_a_section_has_the_keys_that_are_named(section, tmp_path, call):
     whole = {
         "packing": "height = 2",
         "disorder": "kind = 'uniform'\nrelative_std = 1e-3",
@@ -66,7 +65,7 @@ def test_a_section_has_the_keys_that_are_named(section: str, tmp_path: Path, cal
     assert _first_cells(_part(SCENES, f"`[{section}]`")) == set(allowed[1].strip().split(", "))
 
 
-def test_the_sections_and_quantities_are_named(tmp_path: Path, call: Call) -> None:
+def test_the_sections_and_quantities_are_named(tmp_path, call):
     _, _, err = call("explain", _scene(tmp_path, f"{PACKING}[nonsense]\n[ask]\nquantity = 'a'\n"))
     assert {*SECTIONS} <= {*re.findall(r"\w+", err)}
     _, _, err = call("explain", _asking(tmp_path, "nonsense"))
@@ -77,9 +76,7 @@ def test_the_sections_and_quantities_are_named(tmp_path: Path, call: Call) -> No
 
 @pytest.mark.parametrize("realisations", [1, 3])
 @pytest.mark.parametrize("quantity", QUANTITIES)
-def test_an_answer_has_the_columns_that_are_named(
-    quantity: str, realisations: int, tmp_path: Path, call: Call
-) -> None:
+def test_an_answer_has_the_columns_that_are_named(quantity, realisations, tmp_path, call):
     status, shown, _ = call("run", _asking(tmp_path, quantity, realisations))
     assert status == 0
     columns = set(shown.splitlines()[0].split(","))
@@ -92,7 +89,7 @@ def test_an_answer_has_the_columns_that_are_named(
 
 
 @pytest.mark.long
-def test_a_study_of_costs_has_the_columns_that_are_named(tmp_path: Path, call: Call) -> None:
+def test_a_study_of_costs_has_the_columns_that_are_named(tmp_path, call):
     assert call("cost", _asking(tmp_path, "contact"), "--out", tmp_path / "cost")[0] == 0
     with (tmp_path / "cost" / "cost.csv").open(newline="", encoding="utf-8") as file:
         columns = next(csv.reader(file))
@@ -106,7 +103,7 @@ def _keys(value: object) -> set[str]:
     return set().union(*map(_keys, value)) if isinstance(value, list) else set()
 
 
-def test_json_has_the_keys_that_are_named(tmp_path: Path, call: Call) -> None:
+def test_json_has_the_keys_that_are_named(tmp_path, call):
     """Rows of an answer are in it, too, with the names of their columns."""
     pulling = PACKING.replace("1e-3", "0.1").replace("height = 2", "height = 6")
     columns = _part(SCENES, "`contact`") + _part(SCENES, "`contact_forces`")
@@ -123,7 +120,7 @@ def test_json_has_the_keys_that_are_named(tmp_path: Path, call: Call) -> None:
         assert _keys(json.loads(shown)) <= {*named, *QUANTITIES}
 
 
-def test_every_command_is_named(call: Call) -> None:
+def test_every_command_is_named(call):
     listed = call("--help")[1].partition("Commands:\n")[2].partition("\n\n")[0]
     commands = set(re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE))
     page = (REFERENCE / "commands.md").read_text(encoding="utf-8")
@@ -143,11 +140,11 @@ def _optional(arguments: str) -> dict[str, bool]:
     return {name: p.default is not p.empty for name, p in parameters.items()}
 
 
-def test_the_page_on_python_names_what_the_package_gives() -> None:
+def test_the_page_on_python_names_what_the_package_gives():
     assert {name for name in _described() if hasattr(fd, name)} == set(fd.__all__)
 
 
-def test_the_page_on_python_gives_members_and_arguments_as_they_are() -> None:
+def test_the_page_on_python_gives_members_and_arguments_as_they_are():
     for name, arguments in _described().items():
         owner, _, member = name.partition(".")
         fields = getattr(getattr(fd, owner, None), "__dataclass_fields__", {})
@@ -163,7 +160,7 @@ def test_the_page_on_python_gives_members_and_arguments_as_they_are() -> None:
 @pytest.mark.parametrize(
     "section", [fd.Scene, fd.Packing, fd.Disorder, fd.Load, fd.Effects, fd.Ask]
 )
-def test_the_page_on_python_gives_the_fields_of_a_section(section: type[fd.Scene]) -> None:
+def test_the_page_on_python_gives_the_fields_of_a_section(section):
     assert _optional(_described()[section.__name__]) == {
         name: not field.is_required() for name, field in section.model_fields.items()
     }

@@ -5,14 +5,12 @@ from pathlib import Path
 
 import pytest
 
-from tests.conftest import Call
-
 SCENES = Path(__file__).parents[2] / "scenes"
 
 
 @pytest.mark.long(sample=5)
 @pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda p: p.stem)
-def test_the_examples_work(path: Path, call: Call) -> None:
+def test_the_examples_work(path, call):
     status, out, err = call("run", path, "--json")
     assert status == 0
     data = json.loads(out)
@@ -26,7 +24,7 @@ def test_the_examples_work(path: Path, call: Call) -> None:
     assert json.loads(explained) == {key: data[key] for key in json.loads(explained)}
 
 
-def test_text_output_says_what_was_done(call: Call) -> None:
+def test_text_output_says_what_was_done(call):
     status, out, _ = call("run", SCENES / "one_contact.toml")
     assert status == 0
     assert "certified" in out

@@ -32,13 +32,13 @@ def show(call: Call) -> Show:
     return shown
 
 
-def test_several_are_printed_one_below_the_other(show: Show) -> None:
+def test_several_are_printed_one_below_the_other(show):
     each = [show(number, "--as", "latex") for number in (13, "B5")]
     assert show(13, "B5", "--as", "latex") == "\n".join(each)
 
 
 @pytest.mark.parametrize("arguments", [["--help"], ["show", "--help"], ["show", "99"]])
-def test_sympy_is_not_imported(arguments: list[str]) -> None:
+def test_sympy_is_not_imported(arguments):
     program = (
         "import sys; from force_diffusion.__main__ import main; "
         "main(sys.argv[1:]); sys.exit(any(m in sys.modules for m in ('sympy', 'numpy', 'flint')))"
@@ -46,7 +46,7 @@ def test_sympy_is_not_imported(arguments: list[str]) -> None:
     subprocess.run([sys.executable, "-c", program, *arguments], check=True, capture_output=True)
 
 
-def test_list_names_every_equation(call: Call) -> None:
+def test_list_names_every_equation(call):
     lines = call("list")[1].splitlines()
     assert [line.split()[0] for line in lines] == [str(number) for number in NUMBERS]
     assert "surface_diffusion" in lines[12]
@@ -54,11 +54,11 @@ def test_list_names_every_equation(call: Call) -> None:
 
 @pytest.mark.parametrize("number", each(NUMBERS, share=4))
 @pytest.mark.parametrize("form", ["text", "latex", "sympy", "python", "steps"])
-def test_every_form_of_every_equation(show: Show, number: int, form: str) -> None:
+def test_every_form_of_every_equation(show, number, form):
     assert show(number, "--as", form).strip()
 
 
-def test_the_right_hand_side_of_13_in_one_line(show: Show) -> None:
+def test_the_right_hand_side_of_13_in_one_line(show):
     text = show(13, "--as", "sympy")
     assert text.count("\n") == 1
     assert set(re.findall(r"[A-Za-z_]+", text)) == {"M", "z", "phi", "sigma", "r"}
@@ -69,7 +69,7 @@ def test_the_right_hand_side_of_13_in_one_line(show: Show) -> None:
 
 
 @pytest.mark.parametrize("number", each([13, 14, 15, 16, *BEYOND], share=3))
-def test_exact_forms(show: Show, number: int | str) -> None:
+def test_exact_forms(show, number):
     """SymPy source, JSON and text are those of the closed forms, and the Python runs."""
     forms = load(number).exact_forms
     names = {**vars(sympy), **vars(sy)}

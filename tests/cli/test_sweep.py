@@ -7,8 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.conftest import Call
-
 SCENE = """
 packing = {height = 3, width = 6}
 disorder = {kind = "uniform", relative_std = 1e-3}
@@ -27,7 +25,7 @@ def rows(text: str) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(text)))
 
 
-def test_a_value_is_that_of_a_changed_file(scene: Path, call: Call) -> None:
+def test_a_value_is_that_of_a_changed_file(scene, call):
     changed = scene.with_name("changed.toml")
     text = SCENE.replace("height = 3", "height = 4")
     changed.write_text(text.replace('"uniform"', '"normal", seed = 7'))
@@ -39,9 +37,7 @@ def test_a_value_is_that_of_a_changed_file(scene: Path, call: Call) -> None:
     assert json.loads(changed_by_words)["results"] == json.loads(plain)["results"]
 
 
-def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(
-    scene: Path, tmp_path: Path, call: Call
-) -> None:
+def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(scene, tmp_path, call):
     out = tmp_path / "out"
     words = ("--set", "packing.height=2,3,4", "--set", "disorder.seed=0,1", "--out", out)
     status, _, err = call("run", scene, *words, "--set", "load.kind=bulk")
@@ -58,7 +54,7 @@ def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(
     assert "# packing.height = 3\n" in printed
 
 
-def test_json_of_a_sweep_is_one_list(scene: Path, call: Call) -> None:
+def test_json_of_a_sweep_is_one_list(scene, call):
     status, printed, _ = call("run", scene, "--set", "packing.height=2,3", "--json")
     assert status == 0
     for height, answer in zip((2, 3), json.loads(printed), strict=True):

@@ -35,7 +35,7 @@ def on_a_terminal(*arguments: str, term: str = "xterm-256color") -> tuple[int, s
 
 
 @pytest.mark.long
-def test_what_is_proved_is_named_and_a_line_left_for_each_equation() -> None:
+def test_what_is_proved_is_named_and_a_line_left_for_each_equation():
     status, shown = on_a_terminal("derive", "1", "2")
     assert status == 0
     assert "\x1b[KEq. 2\r\x1b[K" in shown
@@ -45,7 +45,7 @@ def test_what_is_proved_is_named_and_a_line_left_for_each_equation() -> None:
 
 
 @pytest.mark.long
-def test_a_dumb_terminal_gets_plain_lines() -> None:
+def test_a_dumb_terminal_gets_plain_lines():
     status, shown = on_a_terminal("derive", "1", term="dumb")
     assert status == 0
     assert "\x1b" not in shown

@@ -9,8 +9,6 @@ from pathlib import Path
 import pytest
 from force_diffusion.derivations.commands.cli import COMMANDS
 
-from tests.conftest import Call
-
 MANY = "9" * 5000
 SEEDS = ",".join(map(str, range(1001)))
 USAGE = [
@@ -95,9 +93,7 @@ ask = {quantity = "profile", realisations = 40}
     ("words", "says", "hint"),
     [*((*row, "--help|requires an argument") for row in USAGE), *((*row, "") for row in WRONG)],
 )
-def test_wrong_words(
-    words: str, says: str, hint: str, call: Call, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_wrong_words(words, says, hint, call, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr("force_diffusion.numeric.planning.planner.free_memory", lambda: 10**9)
     Path("scene.toml").write_text(SCENE)
@@ -111,7 +107,7 @@ def test_wrong_words(
     assert Path("scene.toml").read_text() == SCENE
 
 
-def test_help_and_no_arguments(call: Call) -> None:
+def test_help_and_no_arguments(call):
     _, shown, _ = call("--help")
     for word in (*COMMANDS, "130"):
         assert word in shown
@@ -124,13 +120,13 @@ def test_help_and_no_arguments(call: Call) -> None:
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_the_list_of_commands_says_what_they_say(name: str, call: Call) -> None:
+def test_the_list_of_commands_says_what_they_say(name, call):
     shown = " ".join(call(name, "--help")[1].split())
     assert shown.startswith(f"Usage: force-diffusion {name} ")
     assert f" {COMMANDS[name][1]} " in shown
 
 
-def test_a_command_loads_no_other_command_s_module() -> None:
+def test_a_command_loads_no_other_command_s_module():
     program = (
         "import sys; from force_diffusion.__main__ import main; main(['list']); "
         "sys.exit('force_diffusion.derivations.commands.scenes' in sys.modules)"

@@ -23,7 +23,7 @@ def run(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
 
 @pytest.mark.long(sample=1, share=4)
 @pytest.mark.parametrize("number", paper())
-def test_each_is_a_script_that_prints_its_steps_and_claims(number: int) -> None:
+def test_each_is_a_script_that_prints_its_steps_and_claims(number):
     done = run(FOLDER.parent, f"derivations/{modules()[number]}.py")
     assert (done.returncode, done.stderr) == (0, "")
     whole = " ".join(done.stdout.split())
@@ -39,7 +39,7 @@ def test_each_is_a_script_that_prints_its_steps_and_claims(number: int) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("how", [[str(SCRIPT)], MODULE])
-def test_from_elsewhere(how: list[str], tmp_path: Path) -> None:
+def test_from_elsewhere(how, tmp_path):
     """Beside folders and files that have the names of the package's rooms."""
     (tmp_path / "numeric").mkdir()
     (tmp_path / "symbolic.py").write_text("raise SystemExit('this is not the package')")
@@ -48,7 +48,7 @@ def test_from_elsewhere(how: list[str], tmp_path: Path) -> None:
     assert "Eq. 2 is proved" in done.stdout
 
 
-def test_its_arguments_are_those_of_derive(tmp_path: Path) -> None:
+def test_its_arguments_are_those_of_derive(tmp_path):
     done = run(tmp_path, str(FOLDER / "eq01_ordered_positions.py"), "--fast")
     assert done.returncode == 2
     assert "No such option: --fast" in done.stderr

@@ -18,7 +18,7 @@ from tests.derivations.rows import each
 
 
 @pytest.mark.parametrize("number", each(modules()))
-def test_proved(number: Number) -> None:
+def test_proved(number):
     outcome = run(load(number))
     assert outcome.assuming == ((GAUSSIAN_FORCES,) if number == 15 else ())
     assert outcome.verdict is (Verdict.ASSUMING if number == 15 else Verdict.PROVED)
@@ -38,7 +38,7 @@ def test_proved(number: Number) -> None:
         *((number, sy.M) for number in (14, 15, 16)),
     ],
 )
-def test_a_wrong_left_hand_side_is_not_proved(number: int, left: sympy.Expr) -> None:
+def test_a_wrong_left_hand_side_is_not_proved(number, left):
     wrong = sympy.Eq(left, load(number).printed[0].rhs, evaluate=False)
     ruling = candidate_for(load(number), 0, wrong)
     assert not ruling.verdict.is_proved
@@ -46,7 +46,7 @@ def test_a_wrong_left_hand_side_is_not_proved(number: int, left: sympy.Expr) -> 
 
 
 @pytest.mark.parametrize("stranger", [sy.M, sy.i, sy.n])
-def test_a_term_that_is_not_of_the_cone_is_not_proved(stranger: sympy.Symbol) -> None:
+def test_a_term_that_is_not_of_the_cone_is_not_proved(stranger):
     derivation = load(16)
     left, right = derivation.printed[0].args
     wrong = sympy.Eq(left, right + stranger * (sy.sigma / sy.r) ** 2, evaluate=False)
@@ -82,7 +82,7 @@ def _rests_on(step: Step) -> set[Number]:
 
 
 @pytest.mark.parametrize("number", paper())
-def test_what_a_step_follows_from_is_among_its_premises(number: int) -> None:
+def test_what_a_step_follows_from_is_among_its_premises(number):
     for step in load(number).proof:
         found = _rests_on(step)
         assert {*step.equations_used} <= found
@@ -90,7 +90,7 @@ def test_what_a_step_follows_from_is_among_its_premises(number: int) -> None:
         assert {*_named(step.reason)} <= found
 
 
-def test_the_kurtosis_of_the_forces_of_a_packing() -> None:
+def test_the_kurtosis_of_the_forces_of_a_packing():
     """The remark on Eq. 13: 3 ⟨P²⟩/⟨P⟩², P being the profile."""
     profile = (1 - sy.z) ** 2 * (2 * sy.z + 1)
     first, second = (sympy.integrate(profile**power, (sy.z, 0, 1)) for power in (1, 2))

@@ -18,7 +18,7 @@ NAMED = [
 ]
 
 
-def test_every_item_names_a_claim() -> None:
+def test_every_item_names_a_claim():
     assert len(NAMED) == len(re.findall(r"^- ", ERRATA, re.MULTILINE)) >= 10
 
 
@@ -26,7 +26,7 @@ def test_every_item_names_a_claim() -> None:
     ("number", "name"),
     [pytest.param(*named, marks=[pytest.mark.long] * (named[0] not in SOON)) for named in NAMED],
 )
-def test_the_claim_is_decided_as_it_says(number: int | str, name: str) -> None:
+def test_the_claim_is_decided_as_it_says(number, name):
     statement = load(number)
     if name in {step.reason for step in statement.proof}:  # which is proved, or there were none
         return
@@ -35,7 +35,7 @@ def test_the_claim_is_decided_as_it_says(number: int | str, name: str) -> None:
     assert checks[name].verdict is expected
 
 
-def test_the_files_and_tests_that_it_points_to_exist() -> None:
+def test_the_files_and_tests_that_it_points_to_exist():
     pointers = re.findall(r"`([\w/]+\.py)(?:::(\w+))?`", ERRATA)
     assert len(pointers) >= 5
     for path, test in pointers:

@@ -53,14 +53,14 @@ def by_taylor(height: int, layer: int, load: str) -> tuple[fmpq, fmpq]:
 @pytest.mark.long(sample=2)
 @pytest.mark.parametrize("load", ["surface", "bulk"])
 @pytest.mark.parametrize(("height", "layer"), [(1, 0), (2, 0), (2, 1)])
-def test_floats_are_the_exact_coefficients(load: str, height: int, layer: int) -> None:
+def test_floats_are_the_exact_coefficients(load, height, layer):
     found = variances(height, float(PHI), load == "bulk")[layer]
     exact = by_taylor(height, layer, load)
     assert found == pytest.approx(tuple(map(float, exact)), rel=1e-11)  # a few hundred roundings
 
 
 @pytest.mark.parametrize(("number", "bulk"), [(13, False), (14, True)])
-def test_the_first_order_is_that_of_the_equations(number: int, bulk: bool) -> None:
+def test_the_first_order_is_that_of_the_equations(number, bulk):
     stated = fd.equation(number).exact().profile(M=6, phi=0.3, sigma=1, r=1)
     found = [second for second, _ in variances(6, 0.3, bulk)]
     assert found == pytest.approx([float(one) for one in stated], rel=1e-11)
@@ -68,7 +68,7 @@ def test_the_first_order_is_that_of_the_equations(number: int, bulk: bool) -> No
 
 @pytest.mark.long
 @pytest.mark.parametrize("bulk", [False, True])
-def test_the_leading_order_is_as_fitted_at_another_cosine(bulk: bool) -> None:
+def test_the_leading_order_is_as_fitted_at_another_cosine(bulk):
     """From the fourth layer to the third below the surface it is one polynomial, of degree 4.
 
     Under a bulk load it is so times (M − j)², of degree 6, and has few of the powers.
@@ -102,9 +102,7 @@ def test_the_leading_order_is_as_fitted_at_another_cosine(bulk: bool) -> None:
 @pytest.mark.long(sample=1)
 @pytest.mark.parametrize(("bulk", "degree"), [(False, 3), (True, 5)])
 @pytest.mark.parametrize("layer", [0, 4])
-def test_what_other_laws_of_the_radii_add_grows_as_the_cube_of_the_height(
-    bulk: bool, degree: int, layer: int
-) -> None:
+def test_what_other_laws_of_the_radii_add_grows_as_the_cube_of_the_height(bulk, degree, layer):
     """In a fixed layer it is a polynomial in M, under a bulk load over (M − j)²."""
     heights = np.arange(7, 9 + degree)
     values = np.array([other_laws(height, float(PHI), bulk)[layer] for height in heights])

@@ -15,7 +15,7 @@ from force_diffusion.symbolic.kernel.limits import asymptotic
 from force_diffusion.symbolic.trees import equation
 
 
-def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure() -> None:
+def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure():
     derivation = load(16)
     (reading,) = derivation.proof.refuted
     assert reading.formula.rhs == derivation.printed[0].rhs
@@ -23,7 +23,7 @@ def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure() -> No
     assert "goes to (j + p)/(2 j + p + q), not to 1" in reading.reason
 
 
-def test_what_holds_for_one_contact_is_not_refuted() -> None:
+def test_what_holds_for_one_contact_is_not_refuted():
     proof = Steps(16, eq16.CONE, eq16.MEANING)
     (of_contact,) = (
         one.formula.rhs
@@ -36,7 +36,7 @@ def test_what_holds_for_one_contact_is_not_refuted() -> None:
             proof.refute("true", equation(eq16.ONE_CONTACT, rhs), rule, eq16.CONE)
 
 
-def test_all_that_is_said_of_the_run_counts_it() -> None:
+def test_all_that_is_said_of_the_run_counts_it():
     outcome = runner.run(load(16))
     words = "1 printed statement refuted, as expected (see ERRATA)"
     derived, proof = Derived((outcome,)), Proof((outcome,))

@@ -2,7 +2,7 @@
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.catalogue import Number, modules
+from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Step
 from force_diffusion.derivations.framework.rows import Row
@@ -119,7 +119,7 @@ def is_the_same(shown: sympy.Eq, mutant: sympy.Eq, domain: Domain) -> bool:
 
 
 @pytest.mark.parametrize("number", each(modules()))
-def test_the_steps_show_what_is_printed(number: Number) -> None:
+def test_the_steps_show_what_is_printed(number):
     statement = load(number)
     shown = {one for step in statement.proof for one in step.equations}
     assert [step.number for step in statement.proof] == [*range(1, len(statement.proof) + 1)]
@@ -142,7 +142,7 @@ def proves(step: Step, part: int, candidate: sympy.Eq) -> bool:
 
 @pytest.mark.long(share=6)
 @pytest.mark.parametrize("number", modules())
-def test_a_changed_step_is_not_proved(number: Number) -> None:
+def test_a_changed_step_is_not_proved(number):
     statement = load(number)
     for step in statement.proof:
         if all(one in statement.printed for one in step.equations):

@@ -29,7 +29,7 @@ SOLVED = {
 
 
 @pytest.mark.parametrize("name", SOLVED)
-def test_beads_touch_and_stand(name: str) -> None:
+def test_beads_touch_and_stand(name):
     """From first principles: centres are two radii apart, and each bead's forces add up to 0."""
     solution = SOLVED[name]()
     contacts, beads = solution.contacts, solution.beads
@@ -75,7 +75,7 @@ STEEP = np.sin(np.radians(70)), 0, np.cos(np.radians(70))
         (None, {(0, 1, 1): (-0.5, 0.25, 1), (2, 2, 0): (1, -2, -0.125)}),
     ],
 )
-def test_spheres_bear_any_load(load: fd.Load | None, forces: Any, tmp_path: Path) -> None:
+def test_spheres_bear_any_load(load, forces, tmp_path):
     """Against the load, by column and by layer above the base; without one, they are in a file."""
     lines, expected = ["p,q,j,fx,fy,fz"], np.zeros((3, 6, 6, 3))
     for (p, q, j), (x, y, z) in forces.items():
@@ -87,7 +87,7 @@ def test_spheres_bear_any_load(load: fd.Load | None, forces: Any, tmp_path: Path
     assert found == pytest.approx(expected.reshape(-1, 3), abs=100 * ROUNDING)
 
 
-def test_columns_stand_side_by_side_with_the_lattice() -> None:
+def test_columns_stand_side_by_side_with_the_lattice():
     for name in ("discs", "spheres", "packings"):
         solution = SOLVED[name]()
         data, d = solution.to_xarray(), solution.position.shape[-1]
@@ -103,7 +103,7 @@ def test_columns_stand_side_by_side_with_the_lattice() -> None:
         assert np.array_equal(frame["force"], scene.to_dataframe()["force"])
 
 
-def test_contact_forces_say_where_contacts_are() -> None:
+def test_contact_forces_say_where_contacts_are():
     """Places are those of positions; beads that the answer doesn't depend on have none."""
     found = question(["contact_forces", "positions"], 4, 9, std=1e-2).run().results
     places = {(r["i"], r["j"]): (r["x"], r["y"]) for r in found["positions"].rows()}
@@ -121,7 +121,7 @@ def test_contact_forces_say_where_contacts_are() -> None:
     assert {cone.text["upper_x"][k] for k in np.flatnonzero(unreached)} == {""}
 
 
-def test_profiles_and_histograms_become_tables() -> None:
+def test_profiles_and_histograms_become_tables():
     for quantity, sizes in (("profile", {"layer": 4, "branch": 2}), ("histogram", None)):
         scene = question(quantity, 4, 10, kind="normal", realisations=3)
         for found in (scene.run(), fd.ensemble(scene, 3)):
@@ -132,7 +132,7 @@ def test_profiles_and_histograms_become_tables() -> None:
     assert data["count"].values.tolist() == found.arrays["count"].tolist()
 
 
-def test_without_the_libraries_tables_say_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_the_libraries_tables_say_what_to_install(monkeypatch):
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(fd.ForceDiffusionError, match=r"pip install 'force-diffusion\[tables\]'"):
         SOLVED["discs"]().to_dataframe()
@@ -153,7 +153,7 @@ def vtk_of(path: Path) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("name", ["discs", "spheres", "packings"])
-def test_vtk_has_lines_as_long_as_two_radii(name: str, tmp_path: Path) -> None:
+def test_vtk_has_lines_as_long_as_two_radii(name, tmp_path):
     solution, packing = SOLVED[name](), 2 if name == "packings" else 0
     solution.to_vtk(tmp_path / "a.vtk", packing=packing)
     columns = vtk_of(tmp_path / "a.vtk")
@@ -182,7 +182,7 @@ def dumped(path: Path, item: str) -> tuple[list[list[float]], dict[str, Any]]:
 
 
 @pytest.mark.parametrize("name", ["discs", "spheres"])
-def test_dumps_of_beads_and_contacts_fit_together(name: str, tmp_path: Path) -> None:
+def test_dumps_of_beads_and_contacts_fit_together(name, tmp_path):
     """Numbers of beads are those of the other file; periods make all contacts two radii long."""
     solution = SOLVED[name]()
     solution.to_dump(tmp_path / "beads")
@@ -208,7 +208,7 @@ def test_dumps_of_beads_and_contacts_fit_together(name: str, tmp_path: Path) -> 
     assert np.allclose(force, contacts["force"][:, None] * apart / both[:, None])
 
 
-def test_a_plot_has_a_line_for_each_contact_that_bears_enough() -> None:
+def test_a_plot_has_a_line_for_each_contact_that_bears_enough():
     plt = pytest.importorskip("matplotlib.pyplot")
     from matplotlib.collections import LineCollection
 

@@ -35,7 +35,7 @@ SCENES: dict[str, dict[str, dict[str, Any]]] = {
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_errors_are_those_of_the_digits(name: str) -> None:
+def test_errors_are_those_of_the_digits(name):
     asked = scene(SCENES[name])
     found = fd.cost(asked)
     assert names(found) == EVERY
@@ -49,7 +49,7 @@ def test_errors_are_those_of_the_digits(name: str) -> None:
         assert max(map(len, str(way).splitlines())) <= 80
 
 
-def test_the_error_of_float64_is_that_of_its_numbers() -> None:
+def test_the_error_of_float64_is_that_of_its_numbers():
     """Beside 100 digits; balls of the row's reference are closer than its last digit."""
     asked = scene(basic(5, 12))
     true = asked.run(Fraction(1, 10**100), certified=True)
@@ -61,7 +61,7 @@ def test_the_error_of_float64_is_that_of_its_numbers() -> None:
     assert float(fd.cost(asked).ways[0].error) == pytest.approx(meant, rel=1e-3)
 
 
-def test_what_takes_too_long_is_extrapolated_by_its_beads(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_takes_too_long_is_extrapolated_by_its_beads(monkeypatch):
     asked = scene(basic(40, 12) | {"packing": {"height": 40, "width": 12, "allow_images": True}})
     layers: list[int] = []
 
@@ -87,7 +87,7 @@ def test_what_takes_too_long_is_extrapolated_by_its_beads(monkeypatch: pytest.Mo
     assert set(layers) == {4, 40}
 
 
-def test_where_balls_take_too_long_the_error_of_float64_is_stated(monkeypatch) -> None:
+def test_where_balls_take_too_long_the_error_of_float64_is_stated(monkeypatch):
     taken = module._Study._timed
 
     def slow_balls(study: Any, name: str, digits: int, allowed: float) -> Any:
@@ -100,14 +100,14 @@ def test_where_balls_take_too_long_the_error_of_float64_is_stated(monkeypatch) -
     assert float(found.ways[0].error) == asked.run().accuracy.error_bound
 
 
-def test_without_any_change_there_is_nothing_to_measure() -> None:
+def test_without_any_change_there_is_nothing_to_measure():
     beside = basic(quantity="contact", at=[21, 1, "+"]) | {"load": {"kind": "point", "at": [1, 3]}}
     for sections in (basic() | {"effects": {"geometry": "ordered"}}, beside):
         with pytest.raises(SceneError, match="exactly zero"):
             fd.cost(scene(sections))
 
 
-def test_disorder_that_float64_can_not_hold() -> None:
+def test_disorder_that_float64_can_not_hold():
     sections = basic(3, 8)
     sections["disorder"] |= {"relative_std": "=1e-400"}
     found = fd.cost(scene(sections))
@@ -118,7 +118,7 @@ def test_disorder_that_float64_can_not_hold() -> None:
 
 
 @pytest.mark.parametrize("std", ["1e-200", "1e-5"])
-def test_rows_and_tables_say_the_same(std: str) -> None:
+def test_rows_and_tables_say_the_same(std):
     sections = basic(3, 8)
     sections["disorder"] |= {"relative_std": f"={std}"}
     seen: list[Way] = []
@@ -131,7 +131,7 @@ def test_rows_and_tables_say_the_same(std: str) -> None:
     assert found._repr_html_().count("<tr>") == 1 + len(found.ways)
 
 
-def test_the_plot_shows_every_way() -> None:
+def test_the_plot_shows_every_way():
     pytest.importorskip("matplotlib")
     ways = (
         Way("float64", 16, 1e-16, "measured", 0.01, 1, False),

@@ -154,7 +154,7 @@ def enclosed(outcome: fd.Outcome, names: tuple[str, str], found: list[tuple[Any,
 @pytest.mark.parametrize("geometry", GEOMETRIES)
 @settings(max_examples=settings.default.max_examples // 2)
 @given(strips())
-def test_every_question_about_a_strip(geometry: str, drawn: Drawn) -> None:
+def test_every_question_about_a_strip(geometry, drawn):
     beads = [(i, j) for j in range(drawn.height + 1) for i in range(j % 2, 2 * drawn.width, 2)]
     every = [(i, j, branch) for i, j in beads for branch in "+-" if j < drawn.height]
 

@@ -121,12 +121,12 @@ spheres = radii(st.integers(2, 4), st.integers(1, 3), st.just(0))
 
 
 @given(discs, SPACINGS)
-def test_discs(delta: Array, spacing: float) -> None:
+def test_discs(delta, spacing):
     agree(delta, spacing)
 
 
 @pytest.mark.long
 @settings(max_examples=settings.default.max_examples // 2)
 @given(spheres, st.sampled_from([2.03, 2.4, 2.9, 3.2]))
-def test_spheres(delta: Array, spacing: float) -> None:
+def test_spheres(delta, spacing):
     agree(delta, spacing)

@@ -39,13 +39,13 @@ def count(asked: fd.Scene) -> int:
     return int(sum(asked.run().arrays["count"]))
 
 
-def test_two_loads_that_are_far_apart(tmp_path: Path) -> None:
+def test_two_loads_that_are_far_apart(tmp_path):
     loads: set[Bead] = {(0, 4), (40, 4)}
     assert count(asked(tmp_path, loads, 60, 4, "histogram", layers=[3])) == 4
     assert fd.ensemble(asked(tmp_path, loads, 60, 4, "histogram"), 4, reach=0.01).samples == 160
 
 
-def test_a_point_load_on_spheres() -> None:
+def test_a_point_load_on_spheres():
     """Its cone has 1, 3 and 6 beads; layers of 7 × 7 are solved."""
     load = fd.PointLoad(at=(5, 6, 3))
     assert count(question("histogram", 3, 7, dimension=3, load=load)) == 3 * (1 + 3 + 6)
@@ -67,9 +67,7 @@ def loaded(draw: st.DrawFn) -> tuple[set[Bead], int | None, int]:
     suppress_health_check=[HealthCheck.function_scoped_fixture],
 )
 @given(loaded())
-def test_contacts_are_those_below_loads(
-    tmp_path: Path, drawn: tuple[set[Bead], int | None, int]
-) -> None:
+def test_contacts_are_those_below_loads(tmp_path, drawn):
     loads, width, height = drawn
     expected = below(loads, width)
     found = asked(tmp_path, loads, width, height, "contact_forces").run().arrays

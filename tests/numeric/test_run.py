@@ -2,7 +2,6 @@
 
 from collections.abc import Iterator
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import pytest
@@ -33,7 +32,7 @@ def numbers(outcome: Outcome, small_only: bool = False) -> Iterator[tuple[str, s
                 yield key, value
 
 
-def test_statistics_have_standard_errors_and_no_digits_beyond_them() -> None:
+def test_statistics_have_standard_errors_and_no_digits_beyond_them():
     found = answer(basic(4, 9, quantity="profile", realisations=50))
     for row, printed in zip(found.rows(), found.decimals(), strict=True):
         for name, error in (
@@ -54,7 +53,7 @@ def test_statistics_have_standard_errors_and_no_digits_beyond_them() -> None:
     assert {row["std_error"] for row in alone.decimals()} == {""}
 
 
-def test_a_profile_under_a_point_load_keeps_the_digits_of_its_changes() -> None:
+def test_a_profile_under_a_point_load_keeps_the_digits_of_its_changes():
     """The spread of the ordered forces, of order one, stays out of changes of order 1e-30."""
     sections = basic(4, 9, quantity="profile")
     sections["disorder"]["relative_std"] = "=1e-30"
@@ -67,7 +66,7 @@ def test_a_profile_under_a_point_load_keeps_the_digits_of_its_changes() -> None:
     "quantity", ["contact_forces", "profile", "histogram", "response", "contact"]
 )
 @pytest.mark.parametrize("tolerance", [None, "=1e-25", "=1e-40"])
-def test_forces_come_back_in_the_unit_of_the_load(quantity: str, tolerance: str | None) -> None:
+def test_forces_come_back_in_the_unit_of_the_load(quantity, tolerance):
     """A power of two as magnitude: every number is multiplied, and not a bit is lost."""
     sections = basic(4, 9, quantity=quantity)
     if tolerance:
@@ -89,7 +88,7 @@ def test_forces_come_back_in_the_unit_of_the_load(quantity: str, tolerance: str 
     assert float(one.accuracy.error_bound) == pytest.approx(float(many.accuracy.error_bound))
 
 
-def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene() -> None:
+def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene():
     def asked(radius: int, magnitude: int) -> fd.Scene:
         load = fd.SurfaceLoad(magnitude=magnitude)
         return question("profile", 4, 9, radius=radius, spacing=3 * radius, load=load)
@@ -110,9 +109,7 @@ def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene() -> None:
     ("dimension", "effects"), [(2, "exact"), (2, "first-order"), (3, "exact"), (3, "ordered")]
 )
 @pytest.mark.parametrize("more", [{}, {"realisations": 3}, {"tolerance": "=1e-25"}])
-def test_some_layers_of_a_response_are_those_of_the_whole(
-    dimension: int, effects: str, more: dict[str, Any]
-) -> None:
+def test_some_layers_of_a_response_are_those_of_the_whole(dimension, effects, more):
     """Layers may come in any order; with a tolerance, within twice of it."""
     sections = basic(5, 7, **{"quantity": "response", **more})
     at = [2, 4] if dimension == 2 else [1, 2, 4]
@@ -132,9 +129,7 @@ def test_some_layers_of_a_response_are_those_of_the_whole(
 
 
 @pytest.mark.parametrize(("beads", "size", "std"), [("ij", (24, 25), 1e-2), ("pqj", (5, 7), 2e-2)])
-def test_contacts_that_pull_are_counted_and_the_first_is_named(
-    beads: str, size: tuple[int, int], std: float
-) -> None:
+def test_contacts_that_pull_are_counted_and_the_first_is_named(beads, size, std):
     found = question("contact_forces", *size, dimension=len(beads), std=std).run("1e-12")
     pulling = [
         tuple(row[name] for name in (*beads, "branch"))
@@ -147,7 +142,7 @@ def test_contacts_that_pull_are_counted_and_the_first_is_named(
     assert tuple(found.physical.first_tensile.values()) in pulling
 
 
-def test_a_sign_that_no_precision_settles_stays_open() -> None:
+def test_a_sign_that_no_precision_settles_stays_open():
     """Equal radii below a point load: inside its cone the forces are exactly zero."""
     delta = np.full((4, 20), 0.01)
     delta[1, 15] = 0.02
@@ -160,7 +155,7 @@ def test_a_sign_that_no_precision_settles_stays_open() -> None:
     assert "open whether it is physical" in str(found)
 
 
-def test_a_realisation_that_can_not_be_built_is_named() -> None:
+def test_a_realisation_that_can_not_be_built_is_named():
     sections = basic(6, 8, quantity="contact_forces")
     sections["disorder"] |= {"kind": "normal", "relative_std": "=0.08"}
     sections["ask"]["realisations"] = 30
@@ -173,7 +168,7 @@ def test_a_realisation_that_can_not_be_built_is_named() -> None:
     assert len(answer(sections).rows()) == k * 6 * 8 * 2  # those before it can
 
 
-def test_a_notebook_shows_the_first_rows_and_says_how_many_there_are() -> None:
+def test_a_notebook_shows_the_first_rows_and_says_how_many_there_are():
     shown = answer(basic(6, 14))._repr_html_()
     assert shown.count("<tr>") == 21
     assert "and 148 more rows" in shown
@@ -181,7 +176,7 @@ def test_a_notebook_shows_the_first_rows_and_says_how_many_there_are() -> None:
 
 
 @pytest.mark.parametrize("power", [-400, 400])
-def test_a_profile_in_units_beyond_floats_is_that_in_others(power: int) -> None:
+def test_a_profile_in_units_beyond_floats_is_that_in_others(power):
     loads = (fd.SurfaceLoad(magnitude=Fraction(10) ** k) for k in (0, power))
     usual, other = (question("profile", 4, 10, load=one).run("1e-20").decimals() for one in loads)
     for one, two in zip(usual, other, strict=True):
@@ -190,7 +185,7 @@ def test_a_profile_in_units_beyond_floats_is_that_in_others(power: int) -> None:
             assert abs(shift - 1) < Fraction(1, 10**10), name
 
 
-def test_standard_errors_in_units_beyond_floats_are_not_known() -> None:
+def test_standard_errors_in_units_beyond_floats_are_not_known():
     """Some of the errors are 0 before they get their unit, as with radii that are drawn alike."""
     found = question(
         "response", 1, 4, dimension=3, kind="two-point", std=0.06, seed=556, realisations=3,
@@ -199,9 +194,7 @@ def test_standard_errors_in_units_beyond_floats_are_not_known() -> None:
     assert not any(np.isfinite(error).any() for error in found.standard_errors.values())
 
 
-def test_progress_is_shown(
-    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_progress_is_shown(capsys, monkeypatch):
     monkeypatch.setenv("FORCE_COLOR", "1")  # as on a terminal
     fd.run(scene(basic(4, 9, realisations=30)), progress=True)
     shown = capsys.readouterr().err

@@ -14,7 +14,7 @@ from numpy.testing import assert_array_equal
 import force_diffusion as fd
 
 
-def test_radii_and_their_deviations_are_the_same_packing() -> None:
+def test_radii_and_their_deviations_are_the_same_packing():
     delta = np.random.default_rng(3).normal(0, 1e-3, (5, 12))
     radii = 2 + delta  # rounded: what is solved are these doubles
     one = fd.solve(radii, radius=2, spacing=6)
@@ -24,7 +24,7 @@ def test_radii_and_their_deviations_are_the_same_packing() -> None:
 
 
 @pytest.mark.parametrize(("shape", "dimension"), [((3, 4, 7), None), ((2, 3, 4, 4), 3)])
-def test_a_batch_is_its_packings(shape: tuple[int, ...], dimension: int | None) -> None:
+def test_a_batch_is_its_packings(shape, dimension):
     """Four axes can only be spheres."""
     batch = 1 + np.random.default_rng(4).uniform(-1e-4, 1e-4, shape)
     together = fd.solve(batch, radius=1)
@@ -37,7 +37,7 @@ def test_a_batch_is_its_packings(shape: tuple[int, ...], dimension: int | None) 
             assert np.array_equal(getattr(together, name)[k], getattr(alone, name))
 
 
-def test_equal_radii_are_the_ordered_packing() -> None:
+def test_equal_radii_are_the_ordered_packing():
     solution = fd.solve(np.ones((4, 6)))
     assert solution.change.astype(float).tolist() == np.zeros((2, 3, 6)).tolist()
     n_y = math.sqrt(1 - (3 / 4) ** 2)
@@ -77,7 +77,7 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
 
 
 @pytest.mark.parametrize(("arguments", "says"), REFUSED, ids=range(len(REFUSED)))
-def test_what_is_refused(arguments: dict[str, Any], says: str) -> None:
+def test_what_is_refused(arguments, says):
     with pytest.raises(fd.SceneError, match=says) as refused:
         fd.solve(**arguments)
     assert refused.value.exit_status == 2
@@ -86,7 +86,7 @@ def test_what_is_refused(arguments: dict[str, Any], says: str) -> None:
 @pytest.mark.parametrize(
     ("shape", "remedy"), [((13, 4), "radii.T"), ((2, 13, 4), "radii.swapaxes(-1, -2)")]
 )
-def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...], remedy: str) -> None:
+def test_an_array_that_may_be_transposed_is_refused(shape, remedy):
     with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True") as told:
         fd.solve(np.ones(shape))
     assert f"if transposed, give {remedy};" in str(told.value)
@@ -94,7 +94,7 @@ def test_an_array_that_may_be_transposed_is_refused(shape: tuple[int, ...], reme
 
 
 @pytest.mark.parametrize("shape", [(13, 24, 24), (2, 3, 3)])
-def test_a_stack_of_squares_needs_its_dimension(shape: tuple[int, ...]) -> None:
+def test_a_stack_of_squares_needs_its_dimension(shape):
     """It is one packing of spheres or several of discs; nobody is to get the other one unawares."""
     layers, side = shape[0], shape[-1]
     with pytest.raises(fd.SceneError, match=r"dimension=3.*dimension=2") as told:
@@ -109,9 +109,7 @@ def test_a_stack_of_squares_needs_its_dimension(shape: tuple[int, ...]) -> None:
 
 @pytest.mark.parametrize("how", [{}, {"tolerance": "1e-20"}])
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_of_a_bead_that_no_supports_hold_it_is_said_why(
-    dimension: int, how: dict[str, Any]
-) -> None:
+def test_of_a_bead_that_no_supports_hold_it_is_said_why(dimension, how):
     """A bead of 0.2 r falls through a gap of r; one on a disc of 3.5 r misses that beside it."""
     radii = np.ones((2, 6, 6)[:dimension])
     place = (2,) * (dimension - 1)
@@ -132,7 +130,7 @@ def test_of_a_bead_that_no_supports_hold_it_is_said_why(
 
 
 @pytest.mark.parametrize("angle", [90.5, -180])
-def test_a_load_that_pulls_upwards_is_refused(angle: float) -> None:
+def test_a_load_that_pulls_upwards_is_refused(angle):
     assert fd.SurfaceLoad(angle_deg=89).angle_deg == 89
     with pytest.raises(fd.SceneError, match=r"angle_deg = .*must be from -90 to 90"):
         fd.solve(np.ones((3, 4)), load=fd.SurfaceLoad(angle_deg=angle))
@@ -141,7 +139,7 @@ def test_a_load_that_pulls_upwards_is_refused(angle: float) -> None:
 @pytest.mark.parametrize("how", [{}, {"tolerance": "1e-20"}])
 @pytest.mark.parametrize("power", [-330, -130, 130, 330])
 @pytest.mark.parametrize("name", ["radii", "delta_r"])
-def test_units_of_length_change_no_digit(name: str, power: int, how: dict[str, Any]) -> None:
+def test_units_of_length_change_no_digit(name, power, how):
     """Powers of two. Beside 1e-300 r errors of δr/r were lost: 12 digits, where 16 were stated."""
     deviations = 1e-12 * np.random.default_rng(0).uniform(-1, 1, (4, 6))
     given = 1 + deviations if name == "radii" else 7 * deviations
@@ -154,7 +152,7 @@ def test_units_of_length_change_no_digit(name: str, power: int, how: dict[str, A
 
 
 @pytest.mark.parametrize("power", [-980, 990])
-def test_units_in_which_errors_would_vanish_are_solved_in_balls(power: int) -> None:
+def test_units_in_which_errors_would_vanish_are_solved_in_balls(power):
     given = 1 + 1e-12 * np.random.default_rng(0).uniform(-1, 1, (4, 6))
     found = fd.solve(np.ldexp(given, power), radius=Fraction(2) ** power)
     usual = fd.solve(given, radius=1, tolerance="1e-20")
@@ -169,9 +167,7 @@ def test_units_in_which_errors_would_vanish_are_solved_in_balls(power: int) -> N
     st.sampled_from([fd.SurfaceLoad(), fd.BulkLoad(magnitude=2.5)]), st.integers(0, 2**32),
     st.sampled_from([1e-9, 1e-4, 3e-2]), st.sampled_from([1, 0.25]),
 )  # fmt: skip
-def test_forces_are_those_of_the_scene(
-    shape: tuple[int, ...], load: fd.Load, seed: int, size: float, radius: float
-) -> None:
+def test_forces_are_those_of_the_scene(shape, load, seed, size, radius):
     drawn = np.random.default_rng(seed).uniform(-size, size, shape)
     dimension = 3 if shape in {(3, 4, 4), (2, 3, 5, 5)} else 2
     try:

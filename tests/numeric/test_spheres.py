@@ -1,7 +1,6 @@
 """Scenes in three dimensions: what they answer, and what they refuse."""
 
 from fractions import Fraction
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,7 +15,7 @@ from tests.numeric.scenes import question
 from tests.numeric.spheres import columns, scene
 
 
-def test_one_contact_and_one_bead_are_those_of_all() -> None:
+def test_one_contact_and_one_bead_are_those_of_all():
     every = scene(height=3, width=4).run()
     for p, q, j, branch, change in columns(every, "p", "q", "j", "branch", "change"):
         if (p + 2 * q + j) % 11 == 0:
@@ -31,9 +30,7 @@ def test_one_contact_and_one_bead_are_those_of_all() -> None:
 @pytest.mark.long(sample=1)
 @pytest.mark.parametrize("quantity", ["profile", "positions"])
 @pytest.mark.parametrize(("geometry", "M"), [("first-order", 3), ("exact", 2)])
-def test_images_are_seen_where_a_wider_packing_differs(
-    quantity: str, geometry: str, M: int
-) -> None:
+def test_images_are_seen_where_a_wider_packing_differs(quantity, geometry, M):
     """Which beads matter is tried one by one; images matter where two of them are W apart."""
     wide = 4 * M + 1
     region, linear = whole(wide**2, M, dimension=3), geometry == "first-order"
@@ -62,7 +59,7 @@ def test_images_are_seen_where_a_wider_packing_differs(
         assert plan.sees_images == sees, width
 
 
-def test_a_profile_and_a_histogram_are_drawn() -> None:
+def test_a_profile_and_a_histogram_are_drawn():
     profile = scene("profile", height=2, width=6)
     axes = profile.run().plot().axes[0]
     names = axes.get_legend_handles_labels()[1]
@@ -72,7 +69,7 @@ def test_a_profile_and_a_histogram_are_drawn() -> None:
 
 
 @pytest.mark.parametrize("load", [fd.SurfaceLoad(), fd.BulkLoad(magnitude=2)])
-def test_an_ensemble_has_the_width_of_theory(load: fd.Load) -> None:
+def test_an_ensemble_has_the_width_of_theory(load):
     """With 400 packings σ_f is known to 1 %. Where images are seen there is no theory."""
     asked = scene("profile", height=4, width=6, std=1e-4, load=load)
     found = fd.ensemble(asked, 400)
@@ -84,7 +81,7 @@ def test_an_ensemble_has_the_width_of_theory(load: fd.Load) -> None:
     assert fd.ensemble(scene("profile", height=4, width=5, load=load), 4).first_order_std is None
 
 
-def test_an_array_of_another_shape_is_refused(tmp_path: Path) -> None:
+def test_an_array_of_another_shape_is_refused(tmp_path):
     asked = {
         "packing": fd.Packing(height=3, width=5, dimension=3),
         "ask": fd.Ask(quantity="profile"),
@@ -98,7 +95,7 @@ def test_an_array_of_another_shape_is_refused(tmp_path: Path) -> None:
         fd.Scene(disorder=given, folder=tmp_path, **asked).run()
 
 
-def test_a_plan_says_that_spheres_are_swept_whole_and_names_the_width_that_takes_memory() -> None:
+def test_a_plan_says_that_spheres_are_swept_whole_and_names_the_width_that_takes_memory():
     asked = scene("contact", height=3, width=9, at=(5, 5, 0, "1"))
     assert asked.explain().beads == 4 * 81
     wide = scene("contact", height=3, width=10**6, at=(5, 5, 0, "1"))
@@ -106,7 +103,7 @@ def test_a_plan_says_that_spheres_are_swept_whole_and_names_the_width_that_takes
         wide.explain()
 
 
-def test_what_no_load_reaches_is_not_solved_and_bears_nothing() -> None:
+def test_what_no_load_reaches_is_not_solved_and_bears_nothing():
     load = fd.PointLoad(at=(1, 1, 2))
     asked = scene("contact", height=5, width=6, at=(1, 1, 3, "1"), load=load)
     assert asked.explain().problem.region.top == 2
@@ -116,9 +113,7 @@ def test_what_no_load_reaches_is_not_solved_and_bears_nothing() -> None:
 
 @pytest.mark.parametrize("height", [2, 3])
 @pytest.mark.parametrize("width", [1, 2, 3, 4])
-def test_the_response_to_a_point_load_sees_images_where_its_cone_meets_itself(
-    height: int, width: int
-) -> None:
+def test_the_response_to_a_point_load_sees_images_where_its_cone_meets_itself(height, width):
     """All radii of a wide packing matter to some contact; images where two are W apart."""
     wide = 2 * height + 2
     apart = range(-height, 1)
@@ -132,7 +127,7 @@ def test_the_response_to_a_point_load_sees_images_where_its_cone_meets_itself(
     assert not scene("response", height=height, width=wide, load=load).explain().sees_images
 
 
-def test_radii_of_ones_own_have_many_forms(tmp_path: Path) -> None:
+def test_radii_of_ones_own_have_many_forms(tmp_path):
     """As an array, in a file, or listed in any order: as δr, or in another unit."""
     radii = 1 + 1e-2 * np.random.default_rng(5).uniform(-1, 1, (4, 4, 4))
 
@@ -165,7 +160,7 @@ def test_radii_of_ones_own_have_many_forms(tmp_path: Path) -> None:
         ("p,q,j,r\n0,0,0,1\n0,1,0,1\n1,1,0,1", r"bead \(1, 0, 0\) is missing"),
     ],
 )
-def test_what_is_wrong_in_a_list_of_radii_is_named(text: str, says: str, tmp_path: Path) -> None:
+def test_what_is_wrong_in_a_list_of_radii_is_named(text, says, tmp_path):
     (tmp_path / "radii.csv").write_text(text)
     asked = scene("profile", height=1, width=2).model_copy(
         update={"disorder": fd.Disorder(kind="file", file="radii.csv"), "folder": tmp_path}
@@ -175,7 +170,7 @@ def test_what_is_wrong_in_a_list_of_radii_is_named(text: str, says: str, tmp_pat
 
 
 @pytest.mark.parametrize("quantity", ["contact_forces", "profile", "histogram", "contact"])
-def test_a_file_without_loads_is_known_to_load_nothing(quantity: str, tmp_path: Path) -> None:
+def test_a_file_without_loads_is_known_to_load_nothing(quantity, tmp_path):
     """As in two dimensions: certified zeros, and why."""
     (tmp_path / "loads.csv").write_text("p,q,j,fx,fy,fz\n")
     load = fd.Load(kind="file", file="loads.csv")
@@ -189,14 +184,14 @@ def test_a_file_without_loads_is_known_to_load_nothing(quantity: str, tmp_path: 
         assert not any(float(f) for f in found.arrays.get(name, ()))
 
 
-def test_no_theory_is_said_of_loads_at_an_angle() -> None:
+def test_no_theory_is_said_of_loads_at_an_angle():
     asked = scene("profile", height=3, width=6, load=fd.SurfaceLoad(angle_deg=5))
     assert "first_order_std" not in asked.run().arrays
     assert asked.explain().tension is None
 
 
 @pytest.mark.parametrize("magnitude", ["1e-250", "1e300"])
-def test_a_load_beyond_float64_is_answered_in_balls(magnitude: str, tmp_path: Path) -> None:
+def test_a_load_beyond_float64_is_answered_in_balls(magnitude, tmp_path):
     (tmp_path / "loads.csv").write_text(f"p,q,j,fx,fy,fz\n1,2,2,0,{magnitude},0")
     asked = scene("profile", load=fd.Load(kind="file", file="loads.csv"), height=2, width=3,
                   std=1e-60)  # fmt: skip

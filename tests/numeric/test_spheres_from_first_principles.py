@@ -23,9 +23,9 @@ from tests.properties.packing import DIGITS, Packing, mp
     seed=st.integers(0, 2**32),
 )
 def test_the_stated_error_holds(
-    height: int, width: int, spacing: int, size: float, load: fd.Load,
-    tolerance: float | None, seed: int,
-) -> None:  # fmt: skip
+    height, width, spacing, size, load,
+    tolerance, seed
+):  # fmt: skip
     delta = np.random.default_rng(seed).uniform(-1, 1, (height + 1, width, width)) * 10**size
     try:
         solution = fd.solve(

@@ -91,9 +91,7 @@ def bits_lost(found: fd.Solution) -> float:
         *((M, 9, 1e-6, {"spacing": Fraction(9, 4), "dimension": 3}) for M in (2, 20)),
     ],
 )
-def test_digits_depend_on_neither_disorder_nor_load_nor_height(
-    height: int, width: int, std: float, more: dict[str, Any]
-) -> None:
+def test_digits_depend_on_neither_disorder_nor_load_nor_height(height, width, std, more):
     accurate(height, width, std, **more)
 
 
@@ -102,7 +100,7 @@ def test_digits_depend_on_neither_disorder_nor_load_nor_height(
     [Fraction(2) + Fraction(1, 10**k) for k in (6, 12, 13)] + [Fraction("3.464101615137")],
 )
 @pytest.mark.parametrize("std", [1e-6, 1e-14])
-def test_near_the_limits_of_the_spacing(spacing: Fraction, std: float) -> None:
+def test_near_the_limits_of_the_spacing(spacing, std):
     """Next to 2 r and 2√3 r: beads of a layer nearly touch, or those two layers apart."""
     found = accurate(16, 34, std, spacing=spacing)
     assert found.physical is not None
@@ -116,7 +114,7 @@ def test_near_the_limits_of_the_spacing(spacing: Fraction, std: float) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize("height", [16, 256, 1024])
-def test_very_tall_packings(height: int) -> None:
+def test_very_tall_packings(height):
     """Balls add up worst cases: M^(3/2) at most, and a constant from the operations of a bead."""
     _, found, balls = measured(height, 16, 1e-6)
     assert found.error <= 2.1 * ONCE
@@ -127,7 +125,7 @@ def test_very_tall_packings(height: int) -> None:
     ("height", "std", "load"),
     [(48, 0.006, "bulk"), (96, 0.003, "leaning bulk"), (96, 0.006, "surface")],
 )
-def test_beyond_the_critical_height(height: int, std: float, load: str) -> None:
+def test_beyond_the_critical_height(height, std, load):
     """Contacts pull there, and the packing is unstable: what is answered is as accurate."""
     assert height > critical_height(Fraction(str(std)))
     found = accurate(height, 16, std, load=load)
@@ -135,7 +133,7 @@ def test_beyond_the_critical_height(height: int, std: float, load: str) -> None:
     assert found.physical.tensile
 
 
-def test_fifty_digits_are_certified_beyond_it_too() -> None:
+def test_fifty_digits_are_certified_beyond_it_too():
     found = solved(96, 16, 0.006, tolerance="1e-50", certified=True)
     assert found.certified
     assert found.error <= 1e-50
@@ -146,13 +144,13 @@ def test_fifty_digits_are_certified_beyond_it_too() -> None:
             assert a.overlaps(b)
 
 
-def test_where_no_packing_exists_it_is_said() -> None:
+def test_where_no_packing_exists_it_is_said():
     for tolerance in (None, "1e-40"):
         with pytest.raises(UnbuildableError, match=r"^bead \(\d+, \d+\): its supports are too far"):
             solved(128, 16, 0.03, tolerance=tolerance)
 
 
-def test_balls_that_are_too_wide_are_undecided_not_unbuildable() -> None:
+def test_balls_that_are_too_wide_are_undecided_not_unbuildable():
     """128 layers at σ/r = 1e-2 stand, and lose more than the 60 bits of these balls."""
     problem = solved(128, 16, 0.01).forces.plan.problem
     system = Balls(60)
@@ -161,7 +159,7 @@ def test_balls_that_are_too_wide_are_undecided_not_unbuildable() -> None:
 
 
 @pytest.mark.parametrize(("low", "high"), [(4, 16), (16, 64), (64, 256)])
-def test_balls_lose_a_power_of_the_height(low: int, high: int) -> None:
+def test_balls_lose_a_power_of_the_height(low, high):
     """Far below M*, 2e5 layers here: M^(3/2) at most, which is 3 bits in 4 times the layers.
 
     One tenth of a bit is what the losses are rounded by, twice.
@@ -169,7 +167,7 @@ def test_balls_lose_a_power_of_the_height(low: int, high: int) -> None:
     assert lost(high, 1e-8) - lost(low, 1e-8) < 1.5 * 2 + 0.1
 
 
-def test_what_balls_lose_at_the_critical_height() -> None:
+def test_what_balls_lose_at_the_critical_height():
     """512 layers at σ/r = 1e-4, M* = 464: below 40 bits.
 
     23 bits are the power law's (8 + 1.5 · 10); the rest is room for the growth that sets in.
@@ -177,7 +175,7 @@ def test_what_balls_lose_at_the_critical_height() -> None:
     assert lost(512, 1e-4) < 40
 
 
-def test_beyond_it_balls_lose_exponentially() -> None:
+def test_beyond_it_balls_lose_exponentially():
     """The packing itself is unstable there: half a bit a layer and more at σ/r = 1e-2."""
     assert critical_height(Fraction(1, 100)) < 32
     beyond = (lost(64, 1e-2) - lost(32, 1e-2)) / 32

@@ -14,13 +14,13 @@ from hypothesis import strategies as st
 
 
 @given(st.floats(), st.integers(1, 17))
-def test_numbers_are_those_of_python(value: float, digits: int) -> None:
+def test_numbers_are_those_of_python(value, digits):
     (text,) = tables.significant(np.array([value]), np.array([digits]))
     assert text == ("" if math.isnan(value) else f"{value:.{digits}g}")
 
 
 @given(st.floats(-1e200, 1e200), st.floats(2.0**-52, 1e3))
-def test_printing_takes_half_of_the_stated_error(value: float, ratio: float) -> None:
+def test_printing_takes_half_of_the_stated_error(value, ratio):
     """Of a change: the other half is what the number itself may be off."""
     error = abs(value) * ratio
     assume(error > 1e-290)
@@ -29,7 +29,7 @@ def test_printing_takes_half_of_the_stated_error(value: float, ratio: float) -> 
 
 
 @given(st.lists(st.tuples(st.integers(-(10**12), 10**12), st.sampled_from("+-"), st.floats())))
-def test_rows_are_those_of_the_libraries(rows: list[tuple[int, str, float]]) -> None:
+def test_rows_are_those_of_the_libraries(rows):
     names = ["i", "branch", "force"]
     columns = {name: [row[n] for row in rows] for n, name in enumerate(names)}
     written = {

@@ -48,7 +48,7 @@ def said(number: int) -> Any:
 
 
 @pytest.mark.usefixtures("_often")
-def test_threads_give_what_one_gives() -> None:
+def test_threads_give_what_one_gives():
     alone = [said(number) for number in range(20)]
     for threads in (1, 4):
         with ThreadPoolExecutor(threads) as pool:
@@ -59,7 +59,7 @@ def test_threads_give_what_one_gives() -> None:
     middle=st.tuples(st.integers(-(2**400), 2**400), st.integers(-9000, 9000)),
     radius=st.tuples(st.integers(0, 2**30 - 1), st.integers(-9000, 9000)),
 )
-def test_a_ball_comes_back_hardly_wider(middle: tuple[int, int], radius: tuple[int, int]) -> None:
+def test_a_ball_comes_back_hardly_wider(middle, radius):
     arb = systems.flint().arb
     ball = arb(arb(middle), arb(radius))
     for again in (pickle.loads(pickle.dumps(ball)), copy.deepcopy(ball)):
@@ -67,12 +67,12 @@ def test_a_ball_comes_back_hardly_wider(middle: tuple[int, int], radius: tuple[i
         assert ball.rad() <= again.rad() <= ball.rad() * (1 + arb(2) ** -28)
 
 
-def test_a_ball_of_everything_comes_back_as_one() -> None:
+def test_a_ball_of_everything_comes_back_as_one():
     for word in ("inf", "nan", "1 +/- inf"):
         assert not pickle.loads(pickle.dumps(flint.arb(word))).is_finite()
 
 
-def test_there_is_one_system_of_doubles() -> None:
+def test_there_is_one_system_of_doubles():
     assert pickle.loads(pickle.dumps(FLOAT64)) is FLOAT64
     assert copy.deepcopy(FLOAT64) is FLOAT64
 
@@ -83,7 +83,7 @@ RADII = 1 + 0.001 * np.random.default_rng(1).standard_normal((5, 10))
 @pytest.mark.parametrize(
     "how", [{}, {"tolerance": "1e-30"}, {"tolerance": "1e-40", "certified": True}]
 )
-def test_solutions_can_be_pickled(how: dict[str, Any]) -> None:
+def test_solutions_can_be_pickled(how):
     found = fd.solve(RADII, **how)
     again = pickle.loads(pickle.dumps(found))
     assert again.error == found.error
@@ -99,11 +99,11 @@ def test_solutions_can_be_pickled(how: dict[str, Any]) -> None:
         *product(["contact_forces", "positions"], [{"contacts": "unilateral"}]),
     ],
 )
-def test_outcomes_can_be_pickled(quantity: str, effects: dict[str, Any]) -> None:
+def test_outcomes_can_be_pickled(quantity, effects):
     found = scene(quantity, **effects).run()
     assert pickle.loads(pickle.dumps(found)).data() == found.data()
 
 
-def test_ensembles_can_be_pickled() -> None:
+def test_ensembles_can_be_pickled():
     found = fd.ensemble(scene("profile"), 40)
     assert pickle.loads(pickle.dumps(found)).data() == found.data()

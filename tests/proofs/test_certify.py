@@ -54,7 +54,7 @@ def accepted(coq: CoqFolder, asked: dict[str, CoqStatement]) -> dict[str, Certif
     return {key: certificate(coq, 0, [one]) for key, one in named.items()}
 
 
-def test_every_equation_is_accepted(certified: Certification) -> None:
+def test_every_equation_is_accepted(certified):
     assert certified.passed
     assert [one.number for one in certified.equations] == paper()
     for one in certified.equations:
@@ -108,7 +108,7 @@ BESIDE = [
 """What is stated beside an equation, words in it, and others that make it false."""
 
 
-def test_what_is_false_is_not_accepted(coq: CoqFolder) -> None:
+def test_what_is_false_is_not_accepted(coq):
     asked = {f"Eq. {number}": wrong(number) for number in paper()}
     asked |= {f"the variance of Eq. {number}": wrong_variance(number) for number in (13, 14)}
     for name, true, false in BESIDE:
@@ -129,7 +129,7 @@ UNPROVED = {
 """Statements, what is said to prove them, and what is found."""
 
 
-def test_what_is_not_proved_is_not_accepted(coq: CoqFolder) -> None:
+def test_what_is_not_proved_is_not_accepted(coq):
     asked = {says: Planted("", (), says, proof) for says, (proof, _) in UNPROVED.items()}
     for says, found in accepted(coq, asked).items():
         assert not found.accepted
@@ -180,7 +180,7 @@ class Bent(CoqStatement):
         return {f"{self.module}_bent.v": source, **super().files}
 
 
-def test_no_file_of_the_theory_can_change_what_is_stated(coq: CoqFolder) -> None:
+def test_no_file_of_the_theory_can_change_what_is_stated(coq):
     """Twice the right side of Eq. 3, with a tactic that proves what is bent at once."""
     twice = {field.name: getattr(wrong(3), field.name) for field in fields(CoqStatement)}
     found = accepted(coq, {kind: Bent(**twice, bent=said) for kind, said in BENT.items()})
@@ -191,7 +191,7 @@ def test_no_file_of_the_theory_can_change_what_is_stated(coq: CoqFolder) -> None
         assert (kind == "an axiom") == (one.note == f"it rests on Asked_{number}_bent.trust_me")
 
 
-def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch):
     broken = {**theory(), "Model.v": "Definition r := ."}
     monkeypatch.setattr(certificates, "theory", lambda: broken)
     (one,) = certify([1]).equations
@@ -199,9 +199,7 @@ def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch: pytest.Monk
     assert "Model.v" in one.note
 
 
-def test_coqchk_finds_what_was_never_compiled(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_coqchk_finds_what_was_never_compiled(tmp_path, monkeypatch):
     """The real coqchk behind a coqc that says that all is well and writes nothing."""
     liar = tmp_path / "coqc"
     liar.write_text(

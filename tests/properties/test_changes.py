@@ -71,7 +71,7 @@ def passes(check: Check, equation: sympy.Eq, packing: object) -> bool:
 @pytest.mark.parametrize(
     "number", [pytest.param(n, marks=pytest.mark.long if n == 12 else ()) for n in CHECKS]
 )
-def test_each_change_of_what_is_printed_fails(number: int | str) -> None:
+def test_each_change_of_what_is_printed_fails(number):
     """But for those that say the same at the order that the equation keeps."""
     same = EQUIVALENT.get(number, {})
     every = list(changes(number))

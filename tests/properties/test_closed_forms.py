@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 import force_diffusion as fd
 from tests.derivations.rows import SOON, late
-from tests.properties.drawn import FEWER, Geometry, exactly, geometries, lengths
+from tests.properties.drawn import FEWER, exactly, geometries, lengths
 from tests.properties.moments import ACCURATE, At, Slab, moment, read
 from tests.properties.packing import Number, mp
 
@@ -109,9 +109,7 @@ FORMS = [
 )
 @FEWER
 @given(st.data(), geometries, lengths)
-def test_closed_forms_are_moments_of_packings(
-    form: Form, data: st.DataObject, geometry: Geometry, sd: Fraction
-) -> None:
+def test_closed_forms_are_moments_of_packings(form, data, geometry, sd):
     # forces of spheres are in units of the load's first component
     first = data.draw(lengths, "L⁺") if form.dimensions == 2 else Fraction(1)
     shares = [first] * form.dimensions

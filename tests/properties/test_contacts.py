@@ -22,21 +22,21 @@ CHECKS = {number: (of_each_contact, [fixed_packing("surface")]) for number in (4
 
 
 @given(packings())
-def test_eq_4_contacts_along_n_plus_turn(drawn: Drawn) -> None:
+def test_eq_4_contacts_along_n_plus_turn(drawn):
     """The direction from the centre of bead (i, j) to (i+1, j+1) is n⁺ + δn⁺."""
     for line in printed(4):
         of_each_contact(line, drawn)
 
 
 @given(packings())
-def test_eq_5_contacts_along_n_minus_turn(drawn: Drawn) -> None:
+def test_eq_5_contacts_along_n_minus_turn(drawn):
     """A similar expression applies for contacts from (i, j) to (i−1, j+1)."""
     for line in printed(5):
         of_each_contact(line, drawn)
 
 
 @given(packings())
-def test_the_change_of_a_direction_is_at_right_angles_to_it(drawn: Drawn) -> None:
+def test_the_change_of_a_direction_is_at_right_angles_to_it(drawn):
     """δn⁺·n⁺ = 0 ensures that n⁺ + δn⁺ is a unit vector to first order."""
     for a, b in drawn.contacts():
         for name, c in (("DeltaNPlus", 0), ("DeltaNMinus", 1)):
@@ -48,7 +48,7 @@ def test_the_change_of_a_direction_is_at_right_angles_to_it(drawn: Drawn) -> Non
 GUIDE = Path(__file__).parents[2] / "docs" / "guides" / "properties.md"
 
 
-def test_the_guide_shows_what_a_changed_sign_gives() -> None:
+def test_the_guide_shows_what_a_changed_sign_gives():
     (line,) = printed(4)
     (changed,) = (
         one.equation for one in mutants(line) if one.change == "sign of −δr_(i+j,0) flipped"

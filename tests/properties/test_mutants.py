@@ -17,7 +17,7 @@ EQUATION = equation(
 )
 
 
-def test_every_kind_occurs_and_nothing_twice() -> None:
+def test_every_kind_occurs_and_nothing_twice():
     found = list(mutants(EQUATION))
     words = " ".join(mutant.change for mutant in found)
     for kind in ("flipped", "dropped", "changed", "bound m", "case m", "δr_(i+2,j)", "replaced"):

@@ -23,13 +23,13 @@ CHECKS = {6: (balanced, [fixed_packing("point")]), 7: (split, [fixed_packing("po
 
 
 @given(LOADED)
-def test_eq_6_the_load_and_both_forces_are_in_balance(drawn: Drawn) -> None:
+def test_eq_6_the_load_and_both_forces_are_in_balance(drawn):
     for line in printed(6):
         balanced(line, drawn)
 
 
 @given(LOADED)
-def test_eq_7_the_load_is_shared_by_both_supports(drawn: Drawn) -> None:
+def test_eq_7_the_load_is_shared_by_both_supports(drawn):
     """The supporting forces can be evaluated to first order in the δn^±."""
     for line in printed(7):
         split(line, drawn)

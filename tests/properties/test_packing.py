@@ -48,7 +48,7 @@ def with_loads(draw: st.DrawFn) -> tuple[Packing, dict[Site, Vector]]:
 
 
 @given(disordered())
-def test_base_vectors_are_of_unit_length_and_have_one_cosine(packing: Packing) -> None:
+def test_base_vectors_are_of_unit_length_and_have_one_cosine(packing):
     for one, other in product(packing.base, repeat=2):
         cosine = 1 if one is other else packing.cosine
         assert abs(dot(one, other) - cosine) < ROUNDING
@@ -56,7 +56,7 @@ def test_base_vectors_are_of_unit_length_and_have_one_cosine(packing: Packing) -
 
 
 @given(disordered())
-def test_beads_lie_on_top_of_those_that_they_touch(packing: Packing) -> None:
+def test_beads_lie_on_top_of_those_that_they_touch(packing):
     for site in every(packing, 1):
         for c in range(packing.d):
             below = step(site, c, -1)
@@ -72,7 +72,7 @@ def test_beads_lie_on_top_of_those_that_they_touch(packing: Packing) -> None:
 
 
 @given(with_loads())
-def test_every_bead_is_in_balance(drawn: tuple[Packing, dict[Site, Vector]]) -> None:
+def test_every_bead_is_in_balance(drawn):
     packing, loads = drawn
     forces = packing.forces(loads)
     for site in every(packing, 1):
@@ -87,7 +87,7 @@ def test_every_bead_is_in_balance(drawn: tuple[Packing, dict[Site, Vector]]) -> 
 
 
 @given(disordered())
-def test_the_base_is_held_and_carries_all_loads(packing: Packing) -> None:
+def test_the_base_is_held_and_carries_all_loads(packing):
     weight = mp.mpf(3)
     for load, beads in (
         (packing.surface_load(weight), packing.width ** (packing.d - 1)),
@@ -104,9 +104,7 @@ def test_the_base_is_held_and_carries_all_loads(packing: Packing) -> None:
 
 
 @given(with_loads())
-def test_a_packing_of_twice_the_width_with_the_same_radii_is_the_same(
-    drawn: tuple[Packing, dict[Site, Vector]],
-) -> None:
+def test_a_packing_of_twice_the_width_with_the_same_radii_is_the_same(drawn):
     """So that it makes no difference where the seam is."""
     packing, loads = drawn
     wide = replace(packing, width=2 * packing.width)
@@ -121,9 +119,7 @@ def test_a_packing_of_twice_the_width_with_the_same_radii_is_the_same(
 
 
 @given(with_loads())
-def test_rounding_stays_below_what_is_allowed_for(
-    drawn: tuple[Packing, dict[Site, Vector]],
-) -> None:
+def test_rounding_stays_below_what_is_allowed_for(drawn):
     """Positions and forces do not change when they are found with twice the digits."""
     packing, loads = drawn
     centres = {site: packing.centre(site) for site in every(packing)}

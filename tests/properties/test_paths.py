@@ -54,26 +54,26 @@ CHECKS = {
 
 
 @given(ENTERING)
-def test_eq_8_a_force_that_comes_in_is_balanced_by_both_supports(drawn: Drawn) -> None:
+def test_eq_8_a_force_that_comes_in_is_balanced_by_both_supports(drawn):
     """The force f⁺_rs comes into bead (r, s) along −(n⁺ + δn⁺_rs)."""
     for line in printed(8):
         through_a_bead(line, drawn)
 
 
 @given(BELOW_ONE_LOAD)
-def test_eq_9_without_a_branch_only_the_ends_of_the_path_contribute(drawn: Drawn) -> None:
+def test_eq_9_without_a_branch_only_the_ends_of_the_path_contribute(drawn):
     for line in printed(9):
         down_a_line(line, drawn)
 
 
 @given(BELOW_ONE_LOAD)
-def test_eq_10_with_one_branch_the_branch_alone_contributes(drawn: Drawn) -> None:
+def test_eq_10_with_one_branch_the_branch_alone_contributes(drawn):
     for line in printed(10):
         round_a_corner(line, drawn)
 
 
 @given(packings("contact", cone=True, level=2))
-def test_all_other_contacts_receive_zero_contribution(drawn: Drawn) -> None:
+def test_all_other_contacts_receive_zero_contribution(drawn):
     """Of f⁺_(k−1,l−1), to first order: what takes two branches is of second order."""
     planes = [solved(drawn, epsilon) for epsilon in STRENGTHS]
     home = planes[0].packing.home

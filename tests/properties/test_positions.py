@@ -25,20 +25,20 @@ CHECKS = {
 
 
 @given(packings())
-def test_eq_1_beads_of_equal_radii_lie_on_the_lattice(drawn: Drawn) -> None:
+def test_eq_1_beads_of_equal_radii_lie_on_the_lattice(drawn):
     for line in printed(1):
         without_disorder(line, drawn)
 
 
 @given(packings())
-def test_eq_2_a_bead_rests_on_two_and_moves_with_them(drawn: Drawn) -> None:
+def test_eq_2_a_bead_rests_on_two_and_moves_with_them(drawn):
     """The distance to both supporting beads is the sum of the radii, to first order in the δr."""
     for line in printed(2):
         of_each_bead(line, drawn)
 
 
 @given(packings())
-def test_eq_3_displacements_are_sums_of_radii_along_two_diagonals(drawn: Drawn) -> None:
+def test_eq_3_displacements_are_sums_of_radii_along_two_diagonals(drawn):
     """By induction from the base, which is held, for slabs and for packings that repeat."""
     for line in printed(3):
         of_each_bead(line, drawn)

@@ -19,13 +19,13 @@ CHECKS = {
 
 
 @given(packings("surface"))
-def test_eq_11_the_force_is_the_sum_over_all_loads_and_paths(drawn: Drawn) -> None:
+def test_eq_11_the_force_is_the_sum_over_all_loads_and_paths(drawn):
     """One straight path, and M − j − 1 paths which branch once."""
     for line in printed(11):
         of_each_contact(line, drawn)
 
 
 @given(packings("leaning"))
-def test_eq_b1_the_same_for_loads_in_any_direction(drawn: Drawn) -> None:
+def test_eq_b1_the_same_for_loads_in_any_direction(drawn):
     for line in printed("B1"):
         of_each_contact(line, drawn)

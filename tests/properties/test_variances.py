@@ -69,15 +69,13 @@ OF_RESPONSE = is_the_leading_order(growth.deep_response, 1)
 
 @pytest.mark.parametrize("load", LOADS.values())
 @pytest.mark.parametrize("place", [(9, 2), (9, 5), (9, 7)])
-def test_small_packings_tell_the_variances_of_taller_ones(
-    load: str, place: tuple[int, int]
-) -> None:
+def test_small_packings_tell_the_variances_of_taller_ones(load, place):
     found = growth.variance(GEOMETRY, load, *place)
     assert abs(found / growth.tall_variance(GEOMETRY, load, *place) - 1) < ACCURATE
 
 
 @pytest.mark.parametrize("place", [(8, 3), (8, 4), (8, 5)])
-def test_small_packings_tell_the_responses_of_taller_ones(place: tuple[int, int]) -> None:
+def test_small_packings_tell_the_responses_of_taller_ones(place):
     found = growth.response(GEOMETRY, *place, across=place[1] % 2)
     assert abs(found / growth.deep_response(GEOMETRY, *place) - 1) < ACCURATE
 
@@ -132,7 +130,7 @@ def systems(cosine: Fraction, r: Fraction, other: Fraction) -> tuple[System, Sys
 
 @FEWER
 @given(deep)
-def test_eqs_13_to_15_are_the_leading_order_in_the_height(drawn: Deep) -> None:
+def test_eqs_13_to_15_are_the_leading_order_in_the_height(drawn):
     for number, check in OF_LAYERS.items():
         for equation in printed(number):
             check(equation, drawn)
@@ -146,14 +144,14 @@ def test_eqs_13_to_15_are_the_leading_order_in_the_height(drawn: Deep) -> None:
 
 @FEWER
 @given(deep)
-def test_eq_16_is_the_leading_order_in_the_heights(drawn: Deep) -> None:
+def test_eq_16_is_the_leading_order_in_the_heights(drawn):
     for equation in printed(16):
         OF_RESPONSE(equation, drawn)
 
 
 @FEWER
 @given(geometries)
-def test_inside_of_the_cone_the_response_depends_on_the_heights_alone(geometry: Geometry) -> None:
+def test_inside_of_the_cone_the_response_depends_on_the_heights_alone(geometry):
     """It is completely independent of the horizontal position."""
     inside = [growth.response(geometry, 7, 3, across) for across in (-2, 0, 2)]
     assert max(inside) / min(inside) - 1 < ACCURATE

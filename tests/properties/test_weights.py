@@ -67,6 +67,6 @@ CHECKS = {12: (leaves_out_order_two, FIXED)}
 
 @FEWER
 @given(lines)
-def test_eq_12_leaves_out_one_order_of_the_height(line: Line) -> None:
+def test_eq_12_leaves_out_one_order_of_the_height(line):
     for equation in printed(12):
         leaves_out_order_two(equation, line)

@@ -1,7 +1,7 @@
 """What is false is refused, in the right words; what is true beside it is proved."""
 
 
-def test_what_is_false_is_refused_and_what_is_true_is_proved() -> None:
+def test_what_is_false_is_refused_and_what_is_true_is_proved():
     from tests.soundness.attacks import ATTACKS, REFUSALS
 
     assert len(ATTACKS) > 130

@@ -188,13 +188,13 @@ def nothing_is_remembered() -> Iterator[None]:
 
 @pytest.mark.long
 @pytest.mark.usefixtures("nothing_is_remembered")
-def test_the_kernel_without_a_fault_is_right() -> None:
+def test_the_kernel_without_a_fault_is_right():
     assert not list(noticed())
 
 
 @pytest.mark.long(sample=3, share=2)
 @pytest.mark.usefixtures("nothing_is_remembered")
 @pytest.mark.parametrize("fault", FAULTS)
-def test_a_fault_is_noticed(monkeypatch: pytest.MonkeyPatch, fault: str) -> None:
+def test_a_fault_is_noticed(monkeypatch, fault):
     planted(monkeypatch, *FAULTS[fault])
     assert next(noticed(), None)

@@ -173,7 +173,7 @@ def judged(number: int | str) -> Iterator[tuple[str, bool | None, Ruling]]:
 
 
 @pytest.mark.parametrize("number", [13, *late((*ON_PACKINGS, 14, 16), share=6)])
-def test_what_is_decided_is_as_it_is(number: int) -> None:
+def test_what_is_decided_is_as_it_is(number):
     found: Counter[Verdict] = Counter()
     for name, true, ruling in judged(number):
         found[ruling.verdict] += 1

@@ -20,14 +20,14 @@ def equal(left: sympy.Expr, right: sympy.Expr) -> sympy.Eq:
     return sympy.Eq(left, right, evaluate=False)
 
 
-def test_z_is_the_height_of_one_layer() -> None:
+def test_z_is_the_height_of_one_layer():
     domain = Domain.of(j >= 1, j <= M - 1, l >= 0)
     theorem = rules.rewrite()(equal(z * M * sy.DeltaR(k, l), j * sy.DeltaR(k, l)), domain)
     with pytest.raises(NotProvedError, match="height of one layer"):
         rules.instance(theorem, {M: M + 1}, Domain.of(j >= 1, j <= M, l >= 0))
 
 
-def test_a_theorem_with_z_is_not_put_in_elsewhere() -> None:
+def test_a_theorem_with_z_is_not_put_in_elsewhere():
     surface, positions = axioms.SURFACE, load(1).theorem
     value = positions.formula.rhs + (z * M - j) * r * sy.n_plus
     domain = Domain.of(j >= 0, loading=surface)
@@ -38,14 +38,14 @@ def test_a_theorem_with_z_is_not_put_in_elsewhere() -> None:
 
 
 @pytest.mark.parametrize("height", [m, l])
-def test_no_sum_is_over_the_place_of_a_load(height: sympy.Symbol) -> None:
+def test_no_sum_is_over_the_place_of_a_load(height):
     surface = axioms.SURFACE.put_in({M: height})
     total = equal(sympy.Sum(sy.LoadForce(i, j), (height, 1, 3)), -f_load * e_y)
     with pytest.raises(NotAStatementError, match="place of the load"):
         rules.rewrite(axioms.loads(surface))(total, Domain.of(sympy.Eq(j, 1), loading=surface))
 
 
-def test_no_mean_is_over_the_place_of_a_load() -> None:
+def test_no_mean_is_over_the_place_of_a_load():
     surface = axioms.SURFACE.put_in({M: n})
     mean = equal(sy.Mean(sy.MeanOver(sy.Dot(e_y, sy.LoadForce(i, j)), 2, k)), -f_load / 2)
     domain = Domain.of(sympy.Eq(j, 0), loading=surface, indices=(k,))
@@ -66,11 +66,11 @@ DEVIATION = sqrt(2) * M ** Rational(3, 2) * sigma / r / (1 - phi**2)
         (13, equal(sqrt(VARIANCE), -DEVIATION * (1 - z) * sqrt(2 * z + 1))),
     ],
 )
-def test_roots_of_what_may_be_negative_are_not_squared(number: int, statement: sympy.Eq) -> None:
+def test_roots_of_what_may_be_negative_are_not_squared(number, statement):
     assert not candidate_for(load(number), 0, statement).verdict.is_proved
 
 
-def test_the_root_of_a_variance_is_decided() -> None:
+def test_the_root_of_a_variance_is_decided():
     right = DEVIATION * (1 - z) * sqrt(2 * z + 1)
     assert candidate_for(load(13), 0, equal(sqrt(VARIANCE), right)).verdict is Verdict.PROVED
     wrong = equal(sqrt(VARIANCE), 2 * right)
@@ -86,27 +86,27 @@ def test_the_root_of_a_variance_is_decided() -> None:
         (10, sy.ForcePlus(k - 3, l - 1)),
     ],
 )
-def test_forces_that_a_load_makes_zero_are_zero(number: int, force: sympy.Expr) -> None:
+def test_forces_that_a_load_makes_zero_are_zero(number, force):
     assert candidate_for(load(number), 0, equal(force, sympy.S.Zero)).verdict is Verdict.PROVED
 
 
-def test_nothing_lies_above_the_surface() -> None:
+def test_nothing_lies_above_the_surface():
     at = {M: sympy.Integer(3), j: sympy.Integer(2)}
     statement = equal(sy.ForcePlus(i + 1, j + 1), sympy.S.Zero)
     assert candidate_for(load(11), 0, statement, at).verdict is Verdict.PROVED
 
 
 @pytest.mark.parametrize("side", [sympy.Derivative(z**2, z), sympy.Integral(z, (z, 0, 1))], ids=str)
-def test_derivatives_and_integrals_by_z_are_undecided(side: sympy.Expr) -> None:
+def test_derivatives_and_integrals_by_z_are_undecided(side):
     assert fd.equation(13).decide(side).verdict is Verdict.UNDECIDED
 
 
-def test_a_case_that_never_holds_has_no_value() -> None:
+def test_a_case_that_never_holds_has_no_value():
     form = fd.variance(sy.ForcePlus(i, j))
     ruling = form.decide(sympy.Piecewise((1, False), evaluate=False))
     assert ruling.verdict is Verdict.NOT_A_STATEMENT
 
 
-def test_a_number_for_t_is_put_into_candidates() -> None:
+def test_a_number_for_t_is_put_into_candidates():
     form = fd.variance(sy.t * sy.ForcePlus(i, j), load=fd.leaning(Rational(1, 2)))
     assert form.decide(4 * sy.t**2 * form.expr).verdict is Verdict.PROVED

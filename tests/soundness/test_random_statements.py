@@ -69,14 +69,7 @@ HEIGHT, LAYER = 12, 4
     at_one_place=st.booleans(),
     elsewhere=st.integers(0, 1),
 )
-def test_multiples_of_closed_forms(
-    name: str,
-    ones: list[sympy.Expr],
-    terms: dict[sympy.Expr, sympy.Rational],
-    exponent: int,
-    at_one_place: bool,
-    elsewhere: int,
-) -> None:
+def test_multiples_of_closed_forms(name, ones, terms, exponent, at_one_place, elsewhere):
     """At one place, also times what vanishes there alone."""
     form = FORMS[name]()
     zero = (M - HEIGHT) ** elsewhere * (j - LAYER) ** (1 - elsewhere) if at_one_place else 1
@@ -102,14 +95,7 @@ NOT_UNIFORM = (M / (1 + M**2 * phi**2), 1 / (1 + M * phi**2), 1 / (1 + M * (phi 
     not_uniform=st.sampled_from([Integer(0), *NOT_UNIFORM[:2]]),
     inverse=st.booleans(),
 )
-def test_multiples_of_leading_orders(
-    number: int,
-    ones: list[sympy.Expr],
-    shrinking: dict[sympy.Expr, sympy.Rational],
-    lasting: dict[sympy.Expr, sympy.Rational],
-    not_uniform: sympy.Expr,
-    inverse: bool,
-) -> None:
+def test_multiples_of_leading_orders(number, ones, shrinking, lasting, not_uniform, inverse):
     derivation = load(number)
     left, right = derivation.printed[0].args
     factor = Add(1, total(shrinking), total(lasting), not_uniform)
@@ -132,12 +118,7 @@ def test_multiples_of_leading_orders(
     ),
     order=st.integers(0, 2),
 )
-def test_radii_that_are_added(
-    number: int,
-    one: sympy.Expr,
-    weights: dict[tuple[tuple[sympy.Expr, sympy.Expr], sympy.Expr], tuple[sympy.Expr, sympy.Expr]],
-    order: int,
-) -> None:
+def test_radii_that_are_added(number, one, weights, order):
     """Eq. 12 is one of leading orders: what it drops has weights of the order of M, or less."""
     derivation = load(number)
     left, right = derivation.printed[0].args

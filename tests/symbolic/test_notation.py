@@ -10,7 +10,7 @@ from force_diffusion.symbolic.notation import Symbol
 ALL = (*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)
 
 
-def test_symbols_are_told_apart_by_assumptions_and_by_forms() -> None:
+def test_symbols_are_told_apart_by_assumptions_and_by_forms():
     assert Symbol("x") == Symbol("x")
     assert len({Symbol("x"), Symbol("x", real=True), Symbol("x", r"\xi"), Symbol("x")}) == 3
     assert sy.site_r != sy.r
@@ -18,7 +18,7 @@ def test_symbols_are_told_apart_by_assumptions_and_by_forms() -> None:
 
 
 @pytest.mark.parametrize("symbol", ALL, ids=lambda symbol: symbol.in_code)
-def test_a_copy_is_the_same_symbol(symbol: Symbol) -> None:
+def test_a_copy_is_the_same_symbol(symbol):
     copy = pickle.loads(pickle.dumps(symbol))
     assert copy == symbol
     assert hash(copy) == hash(symbol)
@@ -37,7 +37,7 @@ def test_a_copy_is_the_same_symbol(symbol: Symbol) -> None:
         (sy.Braces(sy.M, sy.j, sy.m, sy.j), None),
     ],
 )
-def test_notebooks_show_the_notation_of_the_paper(expression: sympy.Expr, source: str) -> None:
+def test_notebooks_show_the_notation_of_the_paper(expression, source):
     shown = sympy.latex(expression)
     if source is not None:
         assert shown == source

@@ -145,7 +145,7 @@ def test_what_is_no_whole_affine_form_is_refused(form):
         sets.where(Ge(form, 0, evaluate=False))
 
 
-def test_points_far_apart_are_not_joined_to_a_line() -> None:
+def test_points_far_apart_are_not_joined_to_a_line():
     apart = [sets.where(sympy.Eq(i, n, evaluate=False), sympy.Eq(j, 3 * n, evaluate=False))
              for n in (0, 1)]  # fmt: skip
     together = [sets.where(sympy.Eq(i, n, evaluate=False), sympy.Eq(j, n, evaluate=False))

@@ -37,7 +37,7 @@ def equal(left: sympy.Expr, right: sympy.Expr) -> Eq:
 
 
 @pytest.mark.parametrize("number", [7, *late([8, 15])])
-def test_all_lines_at_once(number: int | str) -> None:
+def test_all_lines_at_once(number):
     eq = fd.equation(number)
     lines = list(eq.expr)
     for whole in (eq.expr, eq.rhs, tuple(lines), list(eq.rhs), Tuple(*reversed(lines))):
@@ -64,15 +64,13 @@ IN_CASES = {
 @pytest.mark.parametrize(
     ("verdict", "cases"), [(verdict, cases) for verdict in IN_CASES for cases in IN_CASES[verdict]]
 )
-def test_of_several_cases_a_limit_sees_the_one_that_holds_in_all_of_it(
-    verdict: Verdict, cases: Callable[[sympy.Expr], Any]
-) -> None:
+def test_of_several_cases_a_limit_sees_the_one_that_holds_in_all_of_it(verdict, cases):
     eq = fd.equation(13)
     assert eq.decide(sympy.Piecewise(*cases(eq.rhs))).verdict is verdict
 
 
 @pytest.mark.parametrize("index", [sy.k, sympy.Symbol("m"), sympy.Symbol("s", integer=True)])
-def test_a_sum_runs_over_any_index(index: sympy.Symbol) -> None:
+def test_a_sum_runs_over_any_index(index):
     unit = (sy.sigma / sy.r) ** 2 / (1 - sy.phi**2) ** 2
     weights = sympy.Sum(12 * index * (sy.M - index), (index, sy.j + 1, sy.M))
     assert fd.equation(13).decide(unit * weights).verdict is Verdict.PROVED
@@ -81,7 +79,7 @@ def test_a_sum_runs_over_any_index(index: sympy.Symbol) -> None:
 
 
 @pytest.mark.parametrize("number", [7, *late([8, 15])])
-def test_lines_that_are_left_out_are_not_proved(number: int | str) -> None:
+def test_lines_that_are_left_out_are_not_proved(number):
     eq = fd.equation(number)
     lines = list(eq.expr)
     for some in (lines[:1], [*lines, lines[0]], ()):
@@ -91,13 +89,13 @@ def test_lines_that_are_left_out_are_not_proved(number: int | str) -> None:
     assert not eq.decide([lines[0]] * len(lines)).verdict.is_proved
 
 
-def test_the_line_that_an_expression_is_proved_for_is_named() -> None:
+def test_the_line_that_an_expression_is_proved_for_is_named():
     first, second = fd.equation(7).expr
     assert "f⁺_(k−1,l−1)" in fd.equation(7).decide(first.rhs).note
     assert "f⁻_(k+1,l−1)" in fd.equation(7).decide(second.rhs).note
 
 
-def test_a_tuple_of_one_is_the_one_line() -> None:
+def test_a_tuple_of_one_is_the_one_line():
     eq = fd.equation(13)
     assert eq.decide(Tuple(eq.expr)).verdict is Verdict.PROVED
     assert eq.decide((eq.expr, eq.expr)).verdict is Verdict.NOT_A_STATEMENT
@@ -110,7 +108,7 @@ DIRECTIONS = (sy.e_x, *sy.VECTORS)
 @pytest.mark.long(sample=10)
 @pytest.mark.parametrize("number", OF_VECTORS)
 @pytest.mark.parametrize("vector", DIRECTIONS, ids=str)
-def test_a_component_of_an_equation_between_vectors(number: int, vector: sympy.Expr) -> None:
+def test_a_component_of_an_equation_between_vectors(number, vector):
     eq = fd.equation(number)
     left, right = eq.expr.args
     along = equal(sy.Dot(vector, left), sy.Dot(vector, right) if right else right)
@@ -124,7 +122,7 @@ def test_a_component_of_an_equation_between_vectors(number: int, vector: sympy.E
 
 @pytest.mark.long(sample=3)
 @pytest.mark.parametrize("number", OF_VECTORS)
-def test_one_component_is_not_another(number: int) -> None:
+def test_one_component_is_not_another(number):
     eq = fd.equation(number)
     left, right = eq.expr.args
     if right:
@@ -154,9 +152,7 @@ NO_STATEMENTS: list[tuple[int | str, str, Callable[[sympy.Eq], Any]]] = [
 
 
 @pytest.mark.parametrize(("number", "reason", "make"), NO_STATEMENTS)
-def test_what_has_no_value_is_not_a_statement(
-    number: int | str, reason: str, make: Callable[[sympy.Eq], Any]
-) -> None:
+def test_what_has_no_value_is_not_a_statement(number, reason, make):
     eq = fd.equation(number)
     line = eq.expr[0] if isinstance(eq.expr, Tuple) else eq.expr
     found = eq.decide(make(line))
@@ -177,7 +173,7 @@ NEVER_PROVED = [
 
 
 @pytest.mark.parametrize("number", [3, 13, 15, *late([12])])
-def test_what_is_not_read_is_undecided_with_the_reason(number: int) -> None:
+def test_what_is_not_read_is_undecided_with_the_reason(number):
     for candidate in NOT_READ + NEVER_PROVED:
         found = fd.equation(number).decide(candidate)
         assert found.note
@@ -185,7 +181,7 @@ def test_what_is_not_read_is_undecided_with_the_reason(number: int) -> None:
         assert found.verdict is Verdict.UNDECIDED or candidate in NEVER_PROVED, candidate
 
 
-def test_which_line_is_meant_is_asked() -> None:
+def test_which_line_is_meant_is_asked():
     first, second = fd.equation(7).expr
     assert fd.equation(7).decide(equal(first.lhs, second.rhs)).verdict is Verdict.REFUTED
     found = fd.equation(7).decide(sympy.sin(sy.phi))
@@ -202,7 +198,7 @@ NO_EQUATIONS = [
 
 
 @pytest.mark.parametrize(("given", "says"), NO_EQUATIONS)
-def test_what_is_no_equation_is_told_by_its_type(given: Any, says: str) -> None:
+def test_what_is_no_equation_is_told_by_its_type(given, says):
     for ask in (fd.equation(13).decide, fd.equation(13).exact().decide):
         ruling = ask(given)
         assert ruling.verdict is Verdict.NOT_A_STATEMENT
@@ -214,7 +210,7 @@ def test_what_is_no_equation_is_told_by_its_type(given: Any, says: str) -> None:
 
 
 @pytest.mark.parametrize("number", [13, 14, 15, *late((16, *BEYOND), share=3)])
-def test_exact_forms_are_decided_on_their_own(number: int | str) -> None:
+def test_exact_forms_are_decided_on_their_own(number):
     equation = fd.equation(number)
     for form in map(equation.exact, equation.forms):
         left, right = form.equation.args
@@ -232,7 +228,7 @@ def test_exact_forms_are_decided_on_their_own(number: int | str) -> None:
         assert form.decide(right + sympy.Symbol("y")).verdict is Verdict.NOT_A_STATEMENT
 
 
-def test_one_formula_is_refuted_at_a_place_that_tells_it_apart() -> None:
+def test_one_formula_is_refuted_at_a_place_that_tells_it_apart():
     form = fd.equation(13).exact()
     at = {"phi": Fraction(1, 7), "sigma": 1, "r": 1}
     for piece in form.pieces:
@@ -243,7 +239,7 @@ def test_one_formula_is_refuted_at_a_place_that_tells_it_apart() -> None:
         assert form.at(M=height, j=layer, **at) != piece.expr.xreplace(values)
 
 
-def test_the_printed_form_is_not_the_exact_one() -> None:
+def test_the_printed_form_is_not_the_exact_one():
     """Eq. 13 is proved with its own sign, ∼, and refuted with "="."""
     eq, form = fd.equation(13), fd.equation(13).exact()
     assert form.decide(eq.rhs).verdict is Verdict.REFUTED
@@ -253,7 +249,7 @@ def test_the_printed_form_is_not_the_exact_one() -> None:
         assert eq.decide(other).verdict is Verdict.REFUTED
 
 
-def test_a_leading_order_is_that_of_the_exact_form() -> None:
+def test_a_leading_order_is_that_of_the_exact_form():
     """By comparison with it, and not by a search: so without a root, which is not read."""
     eq = fd.equation(13)
     for factor, note in (
@@ -269,7 +265,7 @@ def test_a_leading_order_is_that_of_the_exact_form() -> None:
     assert "√2 is not a rational function" in found.note
 
 
-def test_a_divisor_must_not_vanish_anywhere_in_the_domain() -> None:
+def test_a_divisor_must_not_vanish_anywhere_in_the_domain():
     form = fd.equation(13).exact("layer")
     inside = form.pieces[0].expr
     for divisor, verdict in (
@@ -285,7 +281,7 @@ def test_a_divisor_must_not_vanish_anywhere_in_the_domain() -> None:
         assert form.decide(once).verdict is verdict, divisor
 
 
-def test_pieces_that_leave_a_part_of_the_domain_out_are_no_statement() -> None:
+def test_pieces_that_leave_a_part_of_the_domain_out_are_no_statement():
     form = fd.equation(13).exact()
     some = sympy.Piecewise(*form.expr.args[:-1], evaluate=False)
     found = form.decide(some)
@@ -293,7 +289,7 @@ def test_pieces_that_leave_a_part_of_the_domain_out_are_no_statement() -> None:
     assert found.note == "it has no value for M = 1"
 
 
-def test_z_stands_for_the_height_of_a_layer() -> None:
+def test_z_stands_for_the_height_of_a_layer():
     form = fd.equation(13).exact()
     in_z = form.pieces[0].expr.subs(sy.j, sy.z * sy.M)
     said = sympy.Piecewise((in_z, form.expr.args[0][1]), *form.expr.args[1:], evaluate=False)
@@ -303,7 +299,7 @@ def test_z_stands_for_the_height_of_a_layer() -> None:
 # what is assumed
 
 
-def test_what_is_assumed_is_said_wherever_it_is_used() -> None:
+def test_what_is_assumed_is_said_wherever_it_is_used():
     eq = Equation(replace(fakes.PREMISE, show_steps=_guess))
     found = eq.decide(eq.expr)
     assert found.verdict is Verdict.ASSUMING
@@ -315,7 +311,7 @@ def _guess(steps: Steps) -> None:
     steps.show("A guess:", fakes.PRINTED, fakes.guessed)
 
 
-def test_assumptions_add_up() -> None:
+def test_assumptions_add_up():
     both = all_of(proved("a", ("one",)), proved("b", ("two", "one")), proved("c"))
     assert both.words == "proved, assuming one and two"
     assert all_of(proved("a"), proved("b"), proved("a")) == proved("a; b")
@@ -326,7 +322,7 @@ def test_assumptions_add_up() -> None:
             Ruling(verdict, "", assuming)
 
 
-def test_what_can_not_be_read_is_told_with_what_to_write() -> None:
+def test_what_can_not_be_read_is_told_with_what_to_write():
     eq = fd.equation(13)
     M = eq.symbols["M"]
     for candidate, decimal in ((1.5 * M, 1.5), (M + 0.1, 0.1), (M**2.5, 2.5), (1e200 * M, 1e200)):

@@ -1,17 +1,15 @@
 """``derive`` and ``figure`` of the face: the commands print and write what these give."""
 
 import json
-from pathlib import Path
 
 import pytest
 from force_diffusion.derivations.api.equation import NoSuchFormError
 
 import force_diffusion as fd
-from tests.conftest import Call
 
 
 @pytest.mark.long
-def test_premises_come_first_and_callbacks_are_told() -> None:
+def test_premises_come_first_and_callbacks_are_told():
     notices: list[str] = []
     finished: list[int] = []
     found = fd.derive(
@@ -27,13 +25,13 @@ def test_premises_come_first_and_callbacks_are_told() -> None:
 
 
 @pytest.mark.parametrize("number", [0, 17, 5.5, "eleven", None, [11], True])
-def test_a_number_that_is_no_equation(number: object) -> None:
+def test_a_number_that_is_no_equation(number):
     for ask in (fd.equation, lambda one: fd.derive([one])):
         with pytest.raises(NoSuchFormError, match="from 1 to 16, or B1 to B"):
             ask(number)
 
 
-def test_one_number_in_place_of_several_is_told_in_words() -> None:
+def test_one_number_in_place_of_several_is_told_in_words():
     for given in (13, fd.equation(13)):
         with pytest.raises(TypeError, match=r"^derive takes a list: .*derive\(\[13\]\)$"):
             fd.derive(given)  # type: ignore[arg-type]
@@ -42,7 +40,7 @@ def test_one_number_in_place_of_several_is_told_in_words() -> None:
 
 
 @pytest.mark.long
-def test_the_command_prints_and_writes_what_derive_gives(tmp_path: Path, call: Call) -> None:
+def test_the_command_prints_and_writes_what_derive_gives(tmp_path, call):
     status, shown, _ = call("derive", 5, "--json", "--out", tmp_path / "out")
     assert status == 0
     found = fd.derive([5])

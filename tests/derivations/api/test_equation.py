@@ -4,7 +4,7 @@ import re
 
 import pytest
 import sympy
-from force_diffusion.derivations.framework.catalogue import Number, modules, paper
+from force_diffusion.derivations.framework.catalogue import modules, paper
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.printing.lines import COLUMNS, width
@@ -17,7 +17,7 @@ every_equation = pytest.mark.parametrize("number", each(modules()))
 
 
 @every_equation
-def test_expr_and_rhs(number: Number) -> None:
+def test_expr_and_rhs(number):
     eq = fd.equation(number)
     lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     sides = list(eq.rhs) if isinstance(eq.rhs, sympy.Tuple) else [eq.rhs]
@@ -27,7 +27,7 @@ def test_expr_and_rhs(number: Number) -> None:
 
 
 @every_equation
-def test_source_reads_back_with_its_own_symbols(number: Number) -> None:
+def test_source_reads_back_with_its_own_symbols(number):
     eq = fd.equation(number)
     lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     names = {**vars(sympy), **eq.symbols}
@@ -36,7 +36,7 @@ def test_source_reads_back_with_its_own_symbols(number: Number) -> None:
         assert rebuilt(sympy.sympify(eval(source, names))) == rebuilt(side)
 
 
-def test_a_symbol_by_its_name_is_the_one_in_the_formula() -> None:
+def test_a_symbol_by_its_name_is_the_one_in_the_formula():
     eq = fd.equation(13)
     assert eq.rhs.subs({eq.symbols["M"]: 10, eq.symbols["z"]: 1}) == 0
     assert {"M", "j", "z", "phi", "sigma", "r"} <= set(eq.symbols)
@@ -56,7 +56,7 @@ STANDARD = {
 
 
 @every_equation
-def test_notebooks_can_set_it(number: Number) -> None:
+def test_notebooks_can_set_it(number):
     eq = fd.equation(number)
     for formula in (eq, *map(eq.exact, eq.forms)):
         shown = formula._repr_latex_()
@@ -69,14 +69,14 @@ def test_notebooks_can_set_it(number: Number) -> None:
 
 @pytest.mark.parametrize("columns", [1, 2])
 @every_equation
-def test_the_lines_of_exact_forms_fit(number: Number, columns: int) -> None:
+def test_the_lines_of_exact_forms_fit(number, columns):
     eq = fd.equation(number)
     for form in map(eq.exact, eq.forms):
         for line in form.latex(columns).splitlines():
             assert width(line) <= COLUMNS[columns] + 12, line  # 12: of &
 
 
-def test_no_such_exact_form() -> None:
+def test_no_such_exact_form():
     with pytest.raises(ForceDiffusionError, match="13, 14, 15, 16, B2"):
         fd.equation(3).exact()
     with pytest.raises(ForceDiffusionError, match=r"'Layer'. It has layer"):
@@ -87,7 +87,7 @@ def test_no_such_exact_form() -> None:
 
 
 @pytest.mark.long
-def test_a_proof_runs_its_premises() -> None:
+def test_a_proof_runs_its_premises():
     proof = fd.equation(4).prove()
     assert [one.derivation.number for one in proof.outcomes] == [2, 3, 4]
     assert proof.verdict is Verdict.PROVED
@@ -96,7 +96,7 @@ def test_a_proof_runs_its_premises() -> None:
 
 
 @pytest.mark.long
-def test_a_table_of_checks_for_notebooks() -> None:
+def test_a_table_of_checks_for_notebooks():
     proof = fd.equation(1).prove()
     lines = proof._repr_markdown_().splitlines()
     table = [line for line in lines if line.startswith("|")]

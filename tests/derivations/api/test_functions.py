@@ -34,7 +34,7 @@ KINDS: list[tuple[Any, type]] = [
 
 
 @pytest.mark.parametrize(("z", "kind"), KINDS, ids=repr)
-def test_one_float_makes_floats_of_all_and_else_all_is_exact(z: Any, kind: type) -> None:
+def test_one_float_makes_floats_of_all_and_else_all_is_exact(z, kind):
     found = fd.equation(13).at(M=8, z=z, **EXACT)
     alone = [fd.equation(13).at(M=8, z=one, **EXACT) for one in (Fraction(1, 4), Fraction(1, 2))]
     assert all(isinstance(one, sympy.Rational) for one in alone)
@@ -44,7 +44,7 @@ def test_one_float_makes_floats_of_all_and_else_all_is_exact(z: Any, kind: type)
     )
 
 
-def test_a_layer_stands_for_its_height_and_whole_numbers_are_of_any_type() -> None:
+def test_a_layer_stands_for_its_height_and_whole_numbers_are_of_any_type():
     expected = fd.equation(13).at(M=8, z=Fraction(3, 8), **EXACT)
     for kind in (int, np.int64, np.int8, Fraction, sympy.Integer, fmpz, Decimal):
         assert fd.equation(13).at(M=kind(8), j=kind(3), **EXACT) == expected
@@ -54,7 +54,7 @@ def test_a_layer_stands_for_its_height_and_whole_numbers_are_of_any_type() -> No
 
 
 @given(st.integers(1, 10**6), st.floats(0, 1), st.floats(-0.49, 0.49), st.floats(1e-9, 1e-3))
-def test_a_float_is_rounded_once(height: int, z: float, phi: float, sigma: float) -> None:
+def test_a_float_is_rounded_once(height, z, phi, sigma):
     exact = fd.equation(13).at(
         M=height, z=Fraction(z), phi=Fraction(phi), sigma=Fraction(sigma), r=1
     )
@@ -63,7 +63,7 @@ def test_a_float_is_rounded_once(height: int, z: float, phi: float, sigma: float
     assert found == int(exact.p) / int(exact.q)
 
 
-def test_powers_that_are_no_fractions() -> None:
+def test_powers_that_are_no_fractions():
     deviation, height = fd.equation(15).at(M=2, sigma=Fraction(1, 10), r=1)
     assert (deviation, height) == (sympy.sqrt(2) / 5, 10 ** Rational(2, 3))
     deviation, height = fd.equation(15).at(M=2, sigma=0.1, r=1)
@@ -71,7 +71,7 @@ def test_powers_that_are_no_fractions() -> None:
     assert height == pytest.approx(10 ** (2 / 3), rel=4e-16)
 
 
-def test_numbers_of_thousands_of_digits_get_an_answer_or_a_sentence() -> None:
+def test_numbers_of_thousands_of_digits_get_an_answer_or_a_sentence():
     equation = fd.equation(13)
     form, huge = equation.exact(), 10**5000
     assert form.at(M=huge, j=3, phi=0, sigma=1, r=1) > huge
@@ -87,7 +87,7 @@ def test_numbers_of_thousands_of_digits_get_an_answer_or_a_sentence() -> None:
         assert len(str(raised.value)) < 200
 
 
-def test_arrays_are_broadcast() -> None:
+def test_arrays_are_broadcast():
     heights, z = np.array([[4], [8]]), np.linspace(0, 1, 3)
     found = fd.equation(13).at(M=heights, z=z, **FLOATS)
     assert found.shape == (2, 3)
@@ -95,13 +95,13 @@ def test_arrays_are_broadcast() -> None:
     assert found[1, 1] == fd.equation(13).at(M=8, z=0.5, **FLOATS)
 
 
-def test_two_lines_are_two_arrays() -> None:
+def test_two_lines_are_two_arrays():
     deviation, height = fd.equation(15).at(M=[1, 4], sigma=Fraction(1, 8), r=1)
     assert deviation.tolist() == [Fraction(1, 8), 1]
     assert height.tolist() == [4, 4]
 
 
-def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same() -> None:
+def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same():
     found = fd.equation(13).at(M=10, z=np.array([]), **FLOATS)
     assert found.shape == (0,)
     with pytest.raises(ArgumentError, match="has no x"):
@@ -134,7 +134,7 @@ def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same() -> Non
         ),
     ],
 )  # fmt: skip
-def test_what_is_not_allowed_is_named(change: dict[str, Any], says: str) -> None:
+def test_what_is_not_allowed_is_named(change, says):
     with pytest.raises(ArgumentError, match=says):
         fd.equation(13).at(**{"M": 10} | FLOATS | change)
 
@@ -151,7 +151,7 @@ def test_what_is_not_allowed_is_named(change: dict[str, Any], says: str) -> None
         (15, {"M": 10}, "a profile needs a form that depends on the layer j"),
     ],
 )
-def test_what_a_profile_does_not_take_is_named(number: int, given: Any, says: str) -> None:
+def test_what_a_profile_does_not_take_is_named(number, given, says):
     with pytest.raises(fd.ForceDiffusionError, match=says):
         fd.equation(number).exact().profile(**FLOATS | given)
 
@@ -159,7 +159,7 @@ def test_what_a_profile_does_not_take_is_named(number: int, given: Any, says: st
 # --- functions for NumPy
 
 
-def test_a_function_has_a_signature_and_says_what_it_is() -> None:
+def test_a_function_has_a_signature_and_says_what_it_is():
     function = fd.equation(13).function()
     assert str(inspect.signature(function)) == "(M, z, phi, sigma, r)"
     assert function.__name__ == "surface_diffusion"
@@ -170,7 +170,7 @@ def test_a_function_has_a_signature_and_says_what_it_is() -> None:
 
 
 @pytest.mark.parametrize("number", [13, 14, 15, 16])
-def test_a_function_is_the_formula_in_floats(number: int) -> None:
+def test_a_function_is_the_formula_in_floats(number):
     """A few dozen roundings."""
     formula = fd.equation(number)
     function = formula.function()
@@ -187,7 +187,7 @@ def test_a_function_is_the_formula_in_floats(number: int) -> None:
 
 
 @pytest.mark.parametrize("number", ["B5", "B13"])
-def test_a_closed_form_takes_arrays_itself(number: str) -> None:
+def test_a_closed_form_takes_arrays_itself(number):
     equation = fd.equation(number)
     with pytest.raises(ArgumentError, match=r"exact.*takes arrays"):
         equation.function()
@@ -196,7 +196,7 @@ def test_a_closed_form_takes_arrays_itself(number: str) -> None:
 
 
 @pytest.mark.parametrize("kind", [float, Fraction, Decimal, sympy.Rational, np.float32])
-def test_a_function_takes_numbers_of_any_kind(kind: Any) -> None:
+def test_a_function_takes_numbers_of_any_kind(kind):
     half = kind("0.5") if kind in (Decimal, sympy.Rational) else kind(0.5)
     found = fd.equation(13).function()(10**7, [half, 0], 0, half, r=1)  # M³ is no int64
     assert found == pytest.approx([2.5e20, 5e20], rel=1e-14)
@@ -217,7 +217,7 @@ def test_a_function_takes_numbers_of_any_kind(kind: Any) -> None:
         ({"M": [4, 5], "z": np.zeros(3)}, r"M of shape \(2,\) and z of shape \(3,\) do not"),
     ],
 )
-def test_a_function_keeps_to_its_domain(given: dict[str, Any], says: str) -> None:
+def test_a_function_keeps_to_its_domain(given, says):
     with pytest.raises(ArgumentError, match=says):
         fd.equation(13).function()(**{"M": 10, "z": 0.5} | FLOATS | given)
     with pytest.raises(ArgumentError, match=r"element \[1\]: j = 8, l = 7: 0 ≤ j ≤ l is allowed"):

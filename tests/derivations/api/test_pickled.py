@@ -19,7 +19,7 @@ def again(thing: Any) -> Any:
 
 
 @pytest.mark.parametrize("number", each(modules(), share=2))
-def test_every_equation(number: Any) -> None:
+def test_every_equation(number):
     found = fd.equation(number)
     assert str(again(found)) == str(found)
     assert again(found).latex() == found.latex()
@@ -29,7 +29,7 @@ def test_every_equation(number: Any) -> None:
         assert (str(copy), copy.latex()) == (str(form), form.latex())
 
 
-def test_proofs_and_steps() -> None:
+def test_proofs_and_steps():
     equation = fd.equation(2)
     proof = equation.prove()
     assert str(again(proof)) == str(proof)
@@ -41,7 +41,7 @@ def test_proofs_and_steps() -> None:
     assert again(form).decide(form.expr).verdict == "proved"
 
 
-def test_a_function_goes_to_other_processes() -> None:
+def test_a_function_goes_to_other_processes():
     equation = fd.equation(13)
     function = equation.function()
     found = again(function)

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-import sympy
 from force_diffusion.derivations.beyond import correlations
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.closed_form import ClosedForm
@@ -32,7 +31,7 @@ def row(number: str) -> Row:
 
 
 @pytest.mark.parametrize("number", each(ROWS, share=3))
-def test_formulas_are_those_on_record(number: str) -> None:
+def test_formulas_are_those_on_record(number):
     """To make the record anew write this text into the file, and look at what has changed."""
     forms = row(number).exact_forms.items()
     text = "".join(f"{name}: " + "\n".join([*form.lines(), ""]) for name, form in forms)
@@ -40,7 +39,7 @@ def test_formulas_are_those_on_record(number: str) -> None:
 
 
 @pytest.mark.parametrize("number", each(ROWS, share=3))
-def test_the_call_gives_the_first_form(number: str) -> None:
+def test_the_call_gives_the_first_form(number):
     names = {name: getattr(symbols, name) for name in symbols.__all__}
     names |= {name: getattr(fd, name) for name in CALLS}
     found = eval(row(number).call, {"__builtins__": {}}, names)
@@ -81,7 +80,7 @@ def refutations(decide: Any, forms: dict[str, ClosedForm]) -> Iterator[bool]:
 
 
 @pytest.mark.parametrize("number", each(ROWS, share=3))
-def test_claims_are_proved_and_false_of_other_forms(number: str) -> None:
+def test_claims_are_proved_and_false_of_other_forms(number):
     forms = row(number).exact_forms
     assert row(number).claimed
     for words, decide in row(number).claimed.items():
@@ -99,8 +98,6 @@ def test_claims_are_proved_and_false_of_other_forms(number: str) -> None:
         ((p >= 4, p <= l - j - 1), False),
     ],
 )
-def test_branches_are_correlated_nearer_to_where_diagonals_cross(
-    domain: tuple[sympy.Basic, ...], is_proved: bool
-) -> None:
+def test_branches_are_correlated_nearer_to_where_diagonals_cross(domain, is_proved):
     ruling = correlations.uncorrelated(domain)({})
     assert ruling.verdict.is_proved == is_proved

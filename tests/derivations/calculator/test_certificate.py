@@ -57,7 +57,7 @@ NUMBERS = {
 @pytest.mark.long(sample=4)
 @pytest.mark.parametrize("number", catalogue.modules())
 @pytest.mark.parametrize("part", range(PARTS))
-def test_exact_forms(number: int | str, part: int) -> None:
+def test_exact_forms(number, part):
     equation = fd.equation(number)
     for name in equation.forms:
         if (number, name) == TALL:
@@ -68,7 +68,7 @@ def test_exact_forms(number: int | str, part: int) -> None:
 
 @pytest.mark.long(share=TALL_PARTS)
 @pytest.mark.parametrize("part", range(TALL_PARTS))
-def test_the_form_that_needs_the_tallest_packings(part: int) -> None:
+def test_the_form_that_needs_the_tallest_packings(part):
     form = fd.equation(TALL[0]).exact(TALL[1])
     certify(TALL[1], form, form.pieces[part::TALL_PARTS])
 

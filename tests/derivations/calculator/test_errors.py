@@ -1,7 +1,6 @@
 """What is refused, and in which words."""
 
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -52,7 +51,7 @@ OBSERVABLES = [
 
 
 @pytest.mark.parametrize(("observable", "says"), OBSERVABLES)
-def test_observables(observable: Any, says: str) -> None:
+def test_observables(observable, says):
     for ask in (fd.variance, lambda one: fd.covariance(FORCE, one)):
         with pytest.raises(ObservableError, match=says):
             ask(observable)
@@ -93,12 +92,12 @@ CALLS: list[tuple[Callable[[Any], Any], tuple[Any, ...], str]] = [
 @pytest.mark.parametrize(
     ("ask", "given", "says"), [(ask, one, says) for ask, values, says in CALLS for one in values]
 )
-def test_calls(ask: Callable[[Any], Any], given: Any, says: str) -> None:
+def test_calls(ask, given, says):
     with pytest.raises(ObservableError, match=says):
         ask(given)
 
 
-def test_text_is_never_evaluated(tmp_path: Path) -> None:
+def test_text_is_never_evaluated(tmp_path):
     code = f"__import__('pathlib').Path({str(tmp_path / 'evaluated')!r}).touch()"
     for ask in (
         fd.leaning,
@@ -129,12 +128,12 @@ HERE = {"M": 6, "j": 2, "phi": 0, "sigma": 1, "r": 1}
         ({"j": [0, 6]}, r"element \[1\]: .*not for j = 6"),
     ],
 )
-def test_values(change: dict[str, Any], says: str) -> None:
+def test_values(change, says):
     with pytest.raises(ArgumentError, match=says):
         fd.variance(FORCE).at(**{**HERE, **change})
 
 
-def test_of_spheres_and_where_no_bead_is() -> None:
+def test_of_spheres_and_where_no_bead_is():
     in_space = fd.variance(IN_SPACE, dimension=3)
     with pytest.raises(ArgumentError, match="−1/3 < φ < 1/2 is allowed"):
         in_space.at(**{**HERE, "phi": -0.4, "i": 0, "k": 2})
@@ -146,7 +145,7 @@ def test_of_spheres_and_where_no_bead_is() -> None:
             below.at(**{**place, **change})
 
 
-def test_division_by_zero() -> None:
+def test_division_by_zero():
     assert fd.mean(FORCE / (M - 2 * j), where=2 * j <= M - 1).at(M=5, j=2) == 1
     form = fd.mean(FORCE / (own("a") - 1))
     assert form.at(M=5, j=2, a=3) == sympy.Rational(1, 2)
@@ -155,12 +154,12 @@ def test_division_by_zero() -> None:
 
 
 @pytest.mark.parametrize("number", [13, "B2"])
-def test_values_without_names(number: int | str) -> None:
+def test_values_without_names(number):
     with pytest.raises(WrongTypeError, match=r"^10 has no name: give values as at\(M=…, "):
         fd.equation(number).at(10)
 
 
-def test_a_long_form_says_how_to_see_all_of_it() -> None:
+def test_a_long_form_says_how_to_see_all_of_it():
     observable = FORCE - own("a") * f_minus(i, j) + own("b") * f_plus(i + 1, j + 1)
     form = fd.variance(observable, load=fd.leaning(t))
     for shown in (str(form), repr(form)):

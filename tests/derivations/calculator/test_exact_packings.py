@@ -159,7 +159,7 @@ def beads(form: fd.ClosedForm) -> Iterator[dict[str, int]]:
 
 @SOME
 @given(_terms(3), loads)
-def test_variances(terms: Terms, drawn: Drawn) -> None:
+def test_variances(terms, drawn):
     form = fd.variance(observable(terms, i, j), load=drawn.load)
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
@@ -172,7 +172,7 @@ def test_variances(terms: Terms, drawn: Drawn) -> None:
 @pytest.mark.long
 @FEW
 @given(_terms(1), _terms(1), loads, st.integers(-9, 8))
-def test_two_layers(one: Terms, other: Terms, drawn: Drawn, apart: int) -> None:
+def test_two_layers(one, other, drawn, apart):
     """At any distance; where the distance is of the wrong parity there is no bead."""
     form = fd.covariance(observable(one, i, j), observable(other, i + p, l), load=drawn.load)
 
@@ -192,7 +192,7 @@ def mean(terms: Terms, packing: Packing, bead: Bead, count: int) -> Value:
 @pytest.mark.long
 @FEW
 @given(_terms(1), loads)
-def test_any_number_of_neighbours(terms: Terms, drawn: Drawn) -> None:
+def test_any_number_of_neighbours(terms, drawn):
     form = fd.variance(fd.mean_over(observable(terms, i, j), N), load=drawn.load)
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
@@ -206,7 +206,7 @@ def test_any_number_of_neighbours(terms: Terms, drawn: Drawn) -> None:
 
 @FEW
 @given(_terms(2), st.sampled_from(TWO))
-def test_second_order_of_products(terms: Terms, n: tuple[Fraction, Fraction]) -> None:
+def test_second_order_of_products(terms, n):
     """The shift of the mean of the product of all terms."""
     drawn = Drawn("surface", Fraction(3, 5), True, n)
     forces = sympy.Mul(*(term.force(i, j) for term in terms))
@@ -221,7 +221,7 @@ def test_second_order_of_products(terms: Terms, n: tuple[Fraction, Fraction]) ->
 
 @FEW
 @given(_terms(2), st.sampled_from(TWO))
-def test_below_one_loaded_bead(terms: Terms, n: tuple[Fraction, Fraction]) -> None:
+def test_below_one_loaded_bead(terms, n):
     """Of forces over f_load/2n_y, as the ordered one is zero off the legs."""
     form = fd.variance(observable(terms, i, j), load=fd.point(k, l))
     cosine = n[1] ** 2 - n[0] ** 2

@@ -26,19 +26,19 @@ assert isinstance(fd.variance(f_plus(i, j) - f_minus(i, j), load="surface"), fd.
 HERE = {"M": 6, "j": 2, "phi": Fraction(1, 3), "sigma": 1, "r": 1}
 
 
-def test_calls_of_a_fresh_process() -> None:
+def test_calls_of_a_fresh_process():
     command = [sys.executable, "-c", _CALLS]
     done = subprocess.run(command, check=False, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
 
 
-def test_every_symbol_is_documented() -> None:
+def test_every_symbol_is_documented():
     words = symbols.__doc__ or ""
     for name in symbols.__all__:
         assert f"``{name}``" in words or f"``{name}(" in words, name
 
 
-def test_symbols_that_others_may_be_taken_for_are_those_of_the_module() -> None:
+def test_symbols_that_others_may_be_taken_for_are_those_of_the_module():
     given = {name: getattr(symbols, name) for name in symbols.__all__}
     assert {name: one for name, one in given.items() if isinstance(one, sympy.Symbol)} == NAMED
     assert {*INDICES} <= {*NAMED.values()}
@@ -47,7 +47,7 @@ def test_symbols_that_others_may_be_taken_for_are_those_of_the_module() -> None:
 # constants
 
 
-def test_a_constant_stands_in_the_answer_and_is_asked_for() -> None:
+def test_a_constant_stands_in_the_answer_and_is_asked_for():
     a, b = sympy.symbols("a b")
     form = fd.variance(a * f_plus(i, j) - b * f_minus(i, j))
     assert all(piece.expr.free_symbols >= {a, b} for piece in form.pieces)
@@ -58,7 +58,7 @@ def test_a_constant_stands_in_the_answer_and_is_asked_for() -> None:
         form.at(b=1, **HERE)
 
 
-def test_a_constant_in_source_leading_orders_and_candidates() -> None:
+def test_a_constant_in_source_leading_orders_and_candidates():
     a = sympy.Symbol("a", positive=True)
     form, plain = fd.variance(f_plus(i, j) / a), fd.variance(f_plus(i, j))
     names: dict[str, object] = {}
@@ -77,14 +77,14 @@ def test_a_constant_in_source_leading_orders_and_candidates() -> None:
     assert str(mean.decide(sympy.Symbol("b"))).startswith("not a statement: b is not a symbol of")
 
 
-def test_leading_orders_that_depend_on_other_indices_are_refused() -> None:
+def test_leading_orders_that_depend_on_other_indices_are_refused():
     first, second = fd.variance(f_plus(i, j)), fd.covariance(f_plus(i, j), f_plus(k, j))
     assert sympy.simplify(second.on(sympy.Eq(k, i), j >= 2, j <= M - 2) - first.pieces[0].expr) == 0
     with pytest.raises(fd.ForceDiffusionError, match="its leading orders differ, as for"):
         second.leading()
 
 
-def test_six_constants_and_no_more() -> None:
+def test_six_constants_and_no_more():
     several = sympy.symbols("a:7")
     six = fd.mean(sum(several[:6]) * f_plus(i, j))
     assert six.at(M=2, j=0, **{f"a{n}": n for n in range(6)}) == 15
@@ -107,9 +107,7 @@ def test_six_constants_and_no_more() -> None:
         (dot(e_x, delta_n_plus(i, j)), "bulk", sympy.S.One),
     ],
 )
-def test_the_bare_quantity_is_its_unit_times_the_relative_one(
-    observable: sympy.Expr, load: str, unit: sympy.Expr
-) -> None:
+def test_the_bare_quantity_is_its_unit_times_the_relative_one(observable, load, unit):
     bare = fd.variance(observable, load=load, relative=False)
     relative = fd.variance(observable, load=load)
     given = {f_load: 2, m_g: 3, r: 5, sigma: 7, phi: sympy.Rational(1, 3)}
@@ -123,7 +121,7 @@ def test_the_bare_quantity_is_its_unit_times_the_relative_one(
         assert at[0] == square * at[1]
 
 
-def test_the_ordered_forces_are_means() -> None:
+def test_the_ordered_forces_are_means():
     def only(form: fd.ClosedForm) -> sympy.Expr:
         (piece,) = form.pieces
         return piece.expr
@@ -151,11 +149,11 @@ def test_the_ordered_forces_are_means() -> None:
         (sigma, ""),
     ],
 )
-def test_domains_in_words(observable: sympy.Expr, words: str) -> None:
+def test_domains_in_words(observable, words):
     assert fd.variance(observable).domain == words
 
 
-def test_a_domain_of_ones_own() -> None:
+def test_a_domain_of_ones_own():
     whole, part = fd.variance(f_plus(i, j)), fd.variance(f_plus(i, j), where=(j >= 2, j <= M - 2))
     assert part.domain == "2 ≤ j ≤ M − 2"
     assert [one.expr for one in part.pieces] == [whole.pieces[0].expr]
@@ -163,7 +161,7 @@ def test_a_domain_of_ones_own() -> None:
     assert fd.variance(f_plus(i, j), where=j >= 0).domain == whole.domain
 
 
-def test_layers_are_those_of_the_contact_and_not_of_the_index() -> None:
+def test_layers_are_those_of_the_contact_and_not_of_the_index():
     moved = fd.variance(f_plus(i, j + 2))
     assert moved.domain == "−2 ≤ j ≤ M − 3"
     assert moved.at(**{**HERE, "j": -2}) == fd.variance(f_plus(i, j)).at(**{**HERE, "j": 0})
@@ -171,7 +169,7 @@ def test_layers_are_those_of_the_contact_and_not_of_the_index() -> None:
     assert right.at(**{**HERE, "j": 3, "l": 2}) == left.at(**{**HERE, "j": 2, "l": 3})
 
 
-def test_neighbours() -> None:
+def test_neighbours():
     form = fd.variance(fd.mean_over(f_plus(i, j), N))
     assert form.domain == "N ≥ 1, 0 ≤ j ≤ M − 1"
     one, two = (f_plus(i + 2 * n, j) for n in (0, 1))

@@ -71,7 +71,7 @@ def is_inside(form: fd.ClosedForm, at: dict[str, int]) -> bool:
     )
 
 
-def test_each_place_of_the_domain_is_in_one_piece(form: fd.ClosedForm) -> None:
+def test_each_place_of_the_domain_is_in_one_piece(form):
     tests = [
         [sympy.lambdify([*form.symbols.values()], sympy.And(*part), "math") for part in one.where]
         for one in form.pieces
@@ -86,7 +86,7 @@ def test_each_place_of_the_domain_is_in_one_piece(form: fd.ClosedForm) -> None:
     assert inside > 9 or form.symbols.keys() <= {"M", "phi", "sigma", "r"}
 
 
-def test_python_gives_the_same_and_refuses_the_same(form: fd.ClosedForm) -> None:
+def test_python_gives_the_same_and_refuses_the_same(form):
     names: dict[str, Any] = {}
     exec(form.python("function"), names)
     numbers, places = others(form), list(points(form))
@@ -108,7 +108,7 @@ def _fractions(given: dict[str, Any]) -> dict[str, Fraction]:
     return {name: Fraction(value) for name, value in given.items()}
 
 
-def test_latex_says_the_same(form: fd.ClosedForm) -> None:
+def test_latex_says_the_same(form):
     formulas = list(_formulas(form.latex()))
     assert len(formulas) == len(form.pieces)
     numbers = _fractions(NUMBERS) | {name: Fraction(7, n) for n, name in enumerate("MijklNp", 5)}

@@ -20,10 +20,9 @@ from force_diffusion.derivations.coq.folder import (
 )
 
 import force_diffusion as fd
-from tests.conftest import Call
 
 
-def test_assumptions_are_read_whole() -> None:
+def test_assumptions_are_read_whole():
     printed = "Axioms:\nA.b : Prop\nC.d\n  : forall x : nat,\n    x = x\n"
     assert axioms_in(printed) == ("A.b", "C.d")
     assert axioms_in("Closed under the global context\n") == ()
@@ -67,16 +66,14 @@ AXIOM = "Coq.Reals.ClassicalDedekindReals.sig_not_dec"
         (ROCQ, " Stdlib.", " Mine.Coq."),
     ],
 )
-def test_the_second_check_is_read_whole(summary: str, good: str, bad: str) -> None:
+def test_the_second_check_is_read_whole(summary, good, bad):
     assert unexpected(summary) == ""
     assert unexpected(NEWER) == ""
     assert good in summary
     assert unexpected(summary.replace(good, bad)) != ""
 
 
-def test_without_coq_it_is_said_how_to_have_it(
-    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, call: Call
-) -> None:
+def test_without_coq_it_is_said_how_to_have_it(monkeypatch, tmp_path, call):
     monkeypatch.setenv("PATH", "")
     status, shown, err = call("certify", "--out", tmp_path / "out")
     assert (status, shown) == (CoqAbsentError.exit_status, "")
@@ -84,7 +81,7 @@ def test_without_coq_it_is_said_how_to_have_it(
     assert not (tmp_path / "out").exists()
 
 
-def test_only_the_paper_s_equations_are_stated(call: Call) -> None:
+def test_only_the_paper_s_equations_are_stated(call):
     with pytest.raises(ValueError, match=r"Eq\. B5 is not stated for Coq: give a number from 1 to"):
         fd.certify([3, "B5"])
     with pytest.raises(TypeError, match="a list of numbers"):
@@ -122,9 +119,7 @@ def put(folder: Path, name: str, script: str) -> None:
         ("exec sleep 600", "no answer within"),
     ],
 )
-def test_a_program_that_checks_nothing_accepts_nothing(
-    programs: Path, script: str, trouble: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_program_that_checks_nothing_accepts_nothing(programs, script, trouble, monkeypatch):
     if "sleep" in script:
         monkeypatch.setattr(folder, "LIMIT", 2)  # a busy machine says its version within them
     put(programs, "coqc", VERSION + script)
@@ -133,14 +128,14 @@ def test_a_program_that_checks_nothing_accepts_nothing(
     assert trouble in found.equations[0].note
 
 
-def test_trouble_with_another_version_names_the_one_that_it_is_written_for(programs: Path) -> None:
+def test_trouble_with_another_version_names_the_one_that_it_is_written_for(programs):
     put(programs, "coqc", 'case $1 in --print-version) echo "9.1.0 5.2";; *) exit 1;; esac')
     found = fd.certify([1]).equations[0]
     assert str(found) == "not accepted by Coq 9.1.0"
     assert "written for Coq 8.16.1" in found.note
 
 
-def test_statements_and_verdicts_are_written(programs: Path, tmp_path: Path, call: Call) -> None:
+def test_statements_and_verdicts_are_written(programs, tmp_path, call):
     put(programs, "coqc", VERSION + "exit 1")
     out = tmp_path / "out"
     status, shown, _ = call("certify", 3, 7, "--out", out)
@@ -163,7 +158,7 @@ def test_statements_and_verdicts_are_written(programs: Path, tmp_path: Path, cal
 
 
 @pytest.mark.parametrize("script", ["exit 1", "exit 0", "echo coqc"])
-def test_a_program_without_a_version_is_no_coq(programs: Path, tmp_path: Path, script: str) -> None:
+def test_a_program_without_a_version_is_no_coq(programs, tmp_path, script):
     put(programs, "coqc", script)
     with pytest.raises(CoqAbsentError, match="apt-get install coq"):
         CoqFolder(tmp_path)
@@ -172,9 +167,7 @@ def test_a_program_without_a_version_is_no_coq(programs: Path, tmp_path: Path, s
 
 
 @pytest.mark.long
-def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(
-    programs: Path, tmp_path: Path
-) -> None:
+def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(programs, tmp_path):
     put(programs, "coqc", VERSION + f'echo $$ >> "{tmp_path}/started"\nexec sleep 600')
     out, scratch = tmp_path / "out", tmp_path / "scratch"
     scratch.mkdir()

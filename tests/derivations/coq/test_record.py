@@ -2,7 +2,6 @@
 
 from dataclasses import replace
 
-import pytest
 from force_diffusion.derivations.coq.files import theory_hash
 from force_diffusion.derivations.coq.record import record
 from force_diffusion.derivations.coq.statements import recorded, statements
@@ -13,10 +12,9 @@ from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.trees import equation
 
 import force_diffusion as fd
-from tests.conftest import Call
 
 
-def test_the_record_is_up_to_date() -> None:
+def test_the_record_is_up_to_date():
     """If this fails, ask Coq again: CONTRIBUTING.md says how."""
     assert [one["number"] for one in record()["equations"]] == paper()
     assert record()["theory"] == theory_hash()
@@ -25,7 +23,7 @@ def test_the_record_is_up_to_date() -> None:
         assert one["theorems"] == {made.name: made.hash for made in statements(load(one["number"]))}
 
 
-def test_only_what_was_accepted_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_only_what_was_accepted_counts(monkeypatch):
     (line,) = load(4).printed
     changed = replace(load(4), printed=(equation(line.lhs, -line.rhs),))
     assert recorded(changed) == "not asked since the equation changed"
@@ -36,7 +34,7 @@ def test_only_what_was_accepted_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     assert recorded(load(1)) == "not on record"
 
 
-def test_lists_and_documents_say_so(call: Call) -> None:
+def test_lists_and_documents_say_so(call):
     assert "& proved & accepted" in document([run(load(13))])
     assert "accepted by Coq 8.16.1" in call("show", 13)[1]
     assert fd.equation(13).coq == "accepted by Coq 8.16.1"

@@ -134,14 +134,14 @@ LAYER = {"bead": (1 - 2 * z) * l, "leg": (1 - z) * l}
 """j on a face, and on a leg, of spheres."""
 
 
-def test_every_display_is_looked_at() -> None:
+def test_every_display_is_looked_at():
     assert {*STATED} == {"13, 14", *EXACT, *LEADING, *GROWING}
     labels = {label for label in modules() if isinstance(label, str)}
     assert {*re.findall(r"\bB\d+\b", TEXT)} == labels
 
 
 @pytest.mark.parametrize("tag", each(EXACT))
-def test_exact_displays_are_the_closed_forms(tag: str) -> None:
+def test_exact_displays_are_the_closed_forms(tag):
     forms = load(tag).exact_forms
     for name, (relation, value) in zip(EXACT[tag], STATED[tag], strict=True):
         assert relation == "="
@@ -149,20 +149,20 @@ def test_exact_displays_are_the_closed_forms(tag: str) -> None:
 
 
 @pytest.mark.parametrize("tag", each(LEADING))
-def test_leading_orders_are_those_of_the_closed_forms(tag: str) -> None:
+def test_leading_orders_are_those_of_the_closed_forms(tag):
     for words, (relation, value) in zip(LEADING[tag], STATED[tag], strict=True):
         label, name = words.split()
         assert relation == r"\sim"
         assert sympy.cancel(load(label).exact_forms[name].leading(1) - value) == 0
 
 
-def test_those_of_the_paper() -> None:
+def test_those_of_the_paper():
     for number, (_, value) in zip((13, 14), STATED["13, 14"], strict=True):
         assert sympy.cancel(load(number).exact_forms["layer"].leading(1) - value) == 0
 
 
 @pytest.mark.parametrize("tag", each(GROWING))
-def test_limits_are_those_of_the_closed_forms(tag: str) -> None:
+def test_limits_are_those_of_the_closed_forms(tag):
     for (label, name, where, growing, at), (relation, value) in zip(
         GROWING[tag], STATED[tag], strict=True
     ):
@@ -173,12 +173,12 @@ def test_limits_are_those_of_the_closed_forms(tag: str) -> None:
 
 
 @pytest.mark.long
-def test_both_loads_turn_the_axes_alike() -> None:
+def test_both_loads_turn_the_axes_alike():
     forms = load("B18").exact_forms
     assert forms["axes_surface"].leading(1) == forms["axes_bulk"].leading(1)
 
 
-def test_the_force_under_a_leaning_load_is_the_printed_one() -> None:
+def test_the_force_under_a_leaning_load_is_the_printed_one():
     (body,) = re.findall(r"^\$\$\n((?:(?!\$\$).*\n)*?)\\tag\{B1\}", TEXT, re.M)
     body = re.sub(r"\\(begin|end)\{aligned\}|\\quad|\\\\|[&\s]", "", body)
     turn, own, of_other = (
@@ -200,7 +200,7 @@ def test_the_force_under_a_leaning_load_is_the_printed_one() -> None:
         (r"\tfrac{1}{2}(1-\phi)^4\,u/N", "B7", "mean", (j + 2 <= N, j >= 2, j + 2 <= M), N),
     ],
 )
-def test_formulas_within_sentences(words: str, label: str, name: str, where, at) -> None:
+def test_formulas_within_sentences(words, label, name, where, at):
     assert TEXT.count(f"${words}$") == 1
     decide = (
         equals(name, read(words), *where, at=at)
@@ -211,7 +211,7 @@ def test_formulas_within_sentences(words: str, label: str, name: str, where, at)
 
 
 @pytest.mark.long
-def test_averaging_over_loads_lowers_the_variance_by_less_than_a_third() -> None:
+def test_averaging_over_loads_lowers_the_variance_by_less_than_a_third():
     one, many = load(16).exact_forms["bead"], load("B22").exact_forms["loads"]
     for cosine in (Rational(-2, 5), Rational(0), Rational(2, 5)):
         given = {"phi": cosine, "sigma": 1, "r": 1}
@@ -223,7 +223,7 @@ def test_averaging_over_loads_lowers_the_variance_by_less_than_a_third() -> None
 
 
 @pytest.mark.long
-def test_numbers_of_steel_balls() -> None:
+def test_numbers_of_steel_balls():
     said = TEXT.partition("## Steel balls\n")[2].partition("\n## ")[0]
     radius, share, height, cosine = 2.5e-3, 1e-4, 100, -0.125
     at = {"M": height, "phi": cosine, "sigma": share, "r": 1.0}
@@ -265,7 +265,7 @@ def test_numbers_of_steel_balls() -> None:
 
 
 @pytest.mark.long
-def test_figures_and_references_are_in_the_order_of_the_text(whole: str) -> None:
+def test_figures_and_references_are_in_the_order_of_the_text(whole):
     drawn = re.findall(r"\\renewcommand\{\\thefigure\}\{(\w+)\}", whole)
     assert drawn == figures_of(TEXT)
     assert list(dict.fromkeys(re.findall(r"Fig\. (\w+)", TEXT))) == drawn
@@ -275,7 +275,7 @@ def test_figures_and_references_are_in_the_order_of_the_text(whole: str) -> None
 
 
 @pytest.mark.long
-def test_nothing_is_left_of_the_source(whole: str) -> None:
+def test_nothing_is_left_of_the_source(whole):
     assert "{{" not in whole.replace("{{\\", "")
     assert "```" not in whole
     assert r"\text{[" not in whole  # a character without LaTeX
@@ -285,7 +285,7 @@ def test_nothing_is_left_of_the_source(whole: str) -> None:
 
 
 @pytest.mark.long
-def test_the_supplement_has_every_form_and_its_domains() -> None:
+def test_the_supplement_has_every_form_and_its_domains():
     made = supplement([])
     assert made.isascii()
     assert r"\text{[" not in made
@@ -295,7 +295,7 @@ def test_the_supplement_has_every_form_and_its_domains() -> None:
             assert f"[\\texttt{{{name.replace('_', chr(92) + '_')}}}]\n{shown}" in made
 
 
-def test_the_page_has_the_same() -> None:
+def test_the_page_has_the_same():
     made = page(TEXT)
     assert "(B7, B21)\n\n$$\n\\begin{aligned}" in made
     assert "\\tag" not in made
@@ -305,7 +305,7 @@ def test_the_page_has_the_same() -> None:
     ]
 
 
-def test_what_latex_would_read_is_escaped() -> None:
+def test_what_latex_would_read_is_escaped():
     assert written("50 % of a_b & # {x} ~ ^^ \\input{/etc/passwd} $x_1$") == (
         r"50 \% of $a_{b}$ \& \# \{x\} \~{} $\wedge \wedge $ \textbackslash{}input\{/etc/passwd\} "
         "$x_1$\n\n"
@@ -314,7 +314,7 @@ def test_what_latex_would_read_is_escaped() -> None:
     assert written("*a* **b & c**") == "\\emph{a} \\textbf{$b$ \\& $c$}\n\n"
 
 
-def test_what_is_written() -> None:
+def test_what_is_written():
     assert written("Eq. 13 and\nEqs. B5 and B16.") == "Eq.~13 and\nEqs.~B5 and B16.\n\n"
     assert written("$$\nx\n\\tag{B5}\n$$") == "\\begin{equation}\nx\n\\tag{B5}\n\\end{equation}\n"
     assert written("1. A. B. C, **5**.\n").splitlines()[1] == r"\bibitem{1} A. B. C, \textbf{5}."

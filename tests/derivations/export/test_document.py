@@ -27,14 +27,14 @@ def written() -> str:
     return document([run(fakes.PREMISE), run(fakes.with_claim(fakes.baffled))])
 
 
-def test_a_fragment_is_the_statement_alone() -> None:
+def test_a_fragment_is_the_statement_alone():
     fragment = statement_latex(fakes.PREMISE)
     assert fragment.startswith(r"\begin{equation}")
     assert fragment.rstrip().endswith(r"\end{equation}")
     assert r"\Delta_{ij} = 2 \delta r_{ij} - \delta r_{i-2,j} - \delta r_{i+2,j}" in fragment
 
 
-def test_the_document_is_ascii_and_balanced_and_the_same_every_time() -> None:
+def test_the_document_is_ascii_and_balanced_and_the_same_every_time():
     text = written()
     assert text.isascii()
     assert text == written()
@@ -44,41 +44,41 @@ def test_the_document_is_ascii_and_balanced_and_the_same_every_time() -> None:
     assert "undecided" in text
 
 
-def test_a_page_may_end_within_a_long_step() -> None:
+def test_a_page_may_end_within_a_long_step():
     text = document([run(load(14))])
     assert r"\allowdisplaybreaks" in text
     for one in re.findall(r"\\begin\{align\*\}(.*?)\\end\{align\*\}", text, re.DOTALL):
         assert r"\begin{aligned}" not in one
 
 
-def test_a_step_that_gives_the_printed_equation_refers_to_it() -> None:
+def test_a_step_that_gives_the_printed_equation_refers_to_it():
     text = section_latex(run(fakes.PREMISE))
     assert "Subtract two radii: Eq.~(1)." in text
     assert text.count(r"\Delta_{ij} = ") == 1
 
 
-def test_the_margin_names_what_a_step_rests_on() -> None:
+def test_the_margin_names_what_a_step_rests_on():
     text = section_latex(run(load(13)))
     assert r"\step{4}{1, 3, (12)}" in text
     assert r"\step{1}{}" in text
 
 
-def test_cases_of_a_quantity_are_in_one_display() -> None:
+def test_cases_of_a_quantity_are_in_one_display():
     text = section_latex(run(load(13)))
     assert text.count(r"\begin{cases}") == 1
     assert r"j = M - 1,\; M \geq 3" in text
 
 
-def test_errata_stand_with_their_equation() -> None:
+def test_errata_stand_with_their_equation():
     assert "Erratum: the printed formula is for $j" in section_latex(run(load(3)))
 
 
-def test_names_and_labels_have_two_digits() -> None:
+def test_names_and_labels_have_two_digits():
     assert [*map(fragment_name, (3, "B5", "B13"))] == ["eq03.tex", "eqB05.tex", "eqB13.tex"]
     assert r"\label{eq:fd03}" in statement_latex(load(3))
 
 
-def test_prose_is_escaped_and_set_as_mathematics() -> None:
+def test_prose_is_escaped_and_set_as_mathematics():
     assert prose_latex("50 % of {a} & b_1, #2, \\x ~") == (
         r"50 \% of \{a\} \& $b_{1}$, $\#2$, \textbackslash{}x \~{}"
     )
@@ -111,7 +111,7 @@ def sentences(number: Number) -> Iterator[str]:
 
 
 @pytest.mark.parametrize("number", each(modules()))
-def test_sentences_of_every_derivation_can_be_set(number: Number) -> None:
+def test_sentences_of_every_derivation_can_be_set(number):
     for sentence in sentences(number):
         source = prose_latex(sentence)
         assert source.isascii()
@@ -121,7 +121,7 @@ def test_sentences_of_every_derivation_can_be_set(number: Number) -> None:
         assert r"\surd" not in source, source
 
 
-def test_fonts_are_commands_of_every_class() -> None:
+def test_fonts_are_commands_of_every_class():
     """Those of old, such as bf, are none of KOMA's classes, nor of memoir."""
     for path in GOLDEN.rglob("*.t*"):
         source = path.read_text(encoding="utf-8")

@@ -1,6 +1,6 @@
 """Generated closed forms: as the derivations give them, exact on fractions, accurate in float64."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from fractions import Fraction
 from inspect import signature
 from itertools import combinations, product
@@ -45,7 +45,7 @@ GIVEN = {"phi": Fraction(2, 7), "sigma": Fraction(1, 3), "r": Fraction(2)}
 
 
 @pytest.mark.long
-def test_the_file_is_what_the_derivations_generate() -> None:
+def test_the_file_is_what_the_derivations_generate():
     written = generator.TARGET.read_text(encoding="utf-8")
     assert written == generator.source(), (
         "run python -m force_diffusion.derivations.export.generate_closed_forms"
@@ -69,7 +69,7 @@ def places(name: str) -> Iterator[dict[str, Any]]:
 
 @pytest.mark.long(sample=7)
 @pytest.mark.parametrize("name", OF_CONTACTS | BELOW_LOAD)
-def test_they_are_the_exact_forms(name: str) -> None:
+def test_they_are_the_exact_forms(name):
     number, of = (OF_CONTACTS | BELOW_LOAD)[name]
     form, function = fd.equation(number).exact(of), getattr(closed_forms, name)
     for place in places(name):
@@ -79,7 +79,7 @@ def test_they_are_the_exact_forms(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", LEADING)
-def test_leading_orders_are_those_of_tall_packings(name: str) -> None:
+def test_leading_orders_are_those_of_tall_packings(name):
     number, exact = LEADING[name]
     M, j = 10**9, 4 * 10**8
     leading = getattr(closed_forms, name)(M, Fraction(j, M), **GIVEN)
@@ -88,7 +88,7 @@ def test_leading_orders_are_those_of_tall_packings(name: str) -> None:
         assert leading == fd.equation(number).at(M=M, j=j, **GIVEN)
 
 
-def test_the_other_branch_is_the_mirror_image_and_off_the_cone_is_nothing() -> None:
+def test_the_other_branch_is_the_mirror_image_and_off_the_cone_is_nothing():
     given = GIVEN.values()
     for i in range(-9, 10, 2):
         right = closed_forms.contact_response(i, 3, 1, 7, "+", *given)
@@ -104,7 +104,7 @@ cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=10
 
 @given(height=heights, phi=cosines, data=st.data())
 @pytest.mark.parametrize("name", ["surface_variance", "bulk_variance", *BELOW_LOAD, *LEADING])
-def test_float64_is_accurate(name: str, height: int, phi: Fraction, data: st.DataObject) -> None:
+def test_float64_is_accurate(name, height, phi, data):
     near = st.integers(0, min(height, 9) - 1)
     j = data.draw(st.one_of(near, near.map(lambda k: height - 1 - k), st.integers(0, height - 1)))
     i = j - height + 2 * data.draw(st.integers(0, height - j))
@@ -126,7 +126,7 @@ every = pytest.mark.parametrize("form", EVERY, ids=lambda form: form.__name__)
 
 @pytest.mark.parametrize("kind", [np.int64, np.int32, float, Fraction, mpmath.mpf])
 @every
-def test_whole_numbers_of_any_type_do_not_overflow(form: Callable[..., Any], kind: Any) -> None:
+def test_whole_numbers_of_any_type_do_not_overflow(form, kind):
     phi = Fraction(1, 3)
     exact = form(10**9, 1, phi, ONE, ONE)
     assert form(kind(10**9), kind(1), phi, ONE, ONE) == exact
@@ -138,7 +138,7 @@ def test_whole_numbers_of_any_type_do_not_overflow(form: Callable[..., Any], kin
 
 @pytest.mark.parametrize("kind", [float, np.float64, np.float32, Fraction, mpmath.mpf, flint.arb])
 @every
-def test_the_result_is_of_the_type_of_phi(form: Callable[..., Any], kind: Any) -> None:
+def test_the_result_is_of_the_type_of_phi(form, kind):
     quarter, one, two = kind(1) / kind(4), kind(1), kind(2)
     found = form(10**9, 1, quarter, one, two)
     assert type(found) is type(quarter)
@@ -165,6 +165,6 @@ REFUSED: list[tuple[str, tuple[Any, ...], str]] = [
 
 
 @pytest.mark.parametrize(("name", "at", "says"), REFUSED)
-def test_what_is_not_allowed_is_named(name: str, at: tuple[Any, ...], says: str) -> None:
+def test_what_is_not_allowed_is_named(name, at, says):
     with pytest.raises(ValueError, match=says):
         getattr(closed_forms, name)(*at, 0.1, 1.0, 1.0)

@@ -52,13 +52,13 @@ def refuted_shown(one: Refuted) -> str:
 
 
 @pytest.mark.parametrize("number", each(modules()))
-def test_statement(number: int, update_golden: bool) -> None:
+def test_statement(number, update_golden):
     derivation = load(number)
     compare(GOLDEN / fragment_name(derivation.number), statement_latex(derivation), update_golden)
 
 
 @pytest.mark.parametrize("number", range(1, 17))
-def test_steps(number: int, update_golden: bool) -> None:
+def test_steps(number, update_golden):
     derivation = load(number)
     steps = [step_shown(step) for step in derivation.proof]
     refuted = [refuted_shown(one) for one in derivation.proof.refuted]

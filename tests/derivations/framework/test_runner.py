@@ -1,6 +1,5 @@
 """The runner: verdicts from checks, premises first."""
 
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -23,7 +22,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.axioms import base
 from force_diffusion.symbolic.kernel.decisions import Verdict
-from force_diffusion.symbolic.kernel.rules import Rule, rewrite
+from force_diffusion.symbolic.kernel.rules import rewrite
 from force_diffusion.symbolic.trees import equation
 
 from tests.derivations import fakes
@@ -41,7 +40,7 @@ def catalogue(monkeypatch: pytest.MonkeyPatch) -> dict[int, Derivation]:
 
 
 @MAKERS
-def test_what_is_not_proved_spoils_the_verdict(make: Callable[[Rule], Derivation]) -> None:
+def test_what_is_not_proved_spoils_the_verdict(make):
     outcome = run(make(fakes.baffled))
     assert outcome.verdict is Verdict.UNDECIDED
     (line,) = trouble_lines(outcome)
@@ -49,7 +48,7 @@ def test_what_is_not_proved_spoils_the_verdict(make: Callable[[Rule], Derivation
     assert ("step 2, 'So it is.'" in line) == (make is fakes.with_step)
 
 
-def test_a_printed_equation_that_no_step_shows_is_undecided() -> None:
+def test_a_printed_equation_that_no_step_shows_is_undecided():
     other = replace(fakes.PREMISE, printed=(equation(sy.phi, sy.phi),))
     outcome = run(other)
     assert outcome.verdict is Verdict.UNDECIDED
@@ -57,7 +56,7 @@ def test_a_printed_equation_that_no_step_shows_is_undecided() -> None:
 
 
 @MAKERS
-def test_what_is_assumed_is_told_everywhere(make: Callable[[Rule], Derivation]) -> None:
+def test_what_is_assumed_is_told_everywhere(make):
     outcome = run(make(fakes.guessed))
     assert outcome.verdict is Verdict.ASSUMING
     assert outcome.assuming == (fakes.GUESS,)
@@ -74,7 +73,7 @@ def test_what_is_assumed_is_told_everywhere(make: Callable[[Rule], Derivation]) 
     assert f"& {words} &" in latex
 
 
-def test_what_rests_on_an_assumption_assumes_it() -> None:
+def test_what_rests_on_an_assumption_assumes_it():
     def premise(steps: Steps) -> None:
         steps.show("A guess:", fakes.PRINTED, fakes.guessed)
 
@@ -90,14 +89,14 @@ def test_what_rests_on_an_assumption_assumes_it() -> None:
     assert run(fakes.with_claim(fakes.baffled)).assuming == ()
 
 
-def test_a_step_defines_new_symbols_alone_and_rests_on_nothing_supposed() -> None:
+def test_a_step_defines_new_symbols_alone_and_rests_on_nothing_supposed():
     steps = Steps(1, fakes.BEADS, {})
     with pytest.raises(NotProvedError, match="r has a meaning of its own"):
         steps.show("So.", equation(sy.r, sy.phi), rewrite(), definitions={sy.r: sy.phi})
     assert not steps
 
 
-def test_a_refutation_of_what_holds_is_no_refutation() -> None:
+def test_a_refutation_of_what_holds_is_no_refutation():
     steps = Steps(1, fakes.BEADS, {})
     with pytest.raises(NotProvedError, match="was to be refuted: a reading"):
         steps.refute("a reading", fakes.TWICE, rewrite(), fakes.BEADS)
@@ -107,25 +106,25 @@ def test_a_refutation_of_what_holds_is_no_refutation() -> None:
         steps.refute("a third", equation(sy.DeltaX(sy.i, sy.j), 0), rewrite(base()), fakes.BEADS)
 
 
-def test_premises_come_first_and_once(catalogue: dict[int, Derivation]) -> None:
+def test_premises_come_first_and_once(catalogue):
     catalogue[3] = replace(fakes.CONCLUSION, number=3)
     assert [one.number for one in with_premises([3, 2, 1])] == [1, 3, 2]
     assert fakes.CONCLUSION.premises == (1,)
 
 
-def test_a_module_may_derive_several(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_module_may_derive_several(monkeypatch):
     several = SimpleNamespace(DERIVATIONS={2: fakes.CONCLUSION, 1: fakes.PREMISE})
     monkeypatch.setattr(loading, "import_module", lambda _: several)
     assert [load(1).number, load(2).number] == [1, 2]
 
 
-def test_every_module_beyond_the_paper_has_labels() -> None:
+def test_every_module_beyond_the_paper_has_labels():
     stems = {module for number, module in modules().items() if isinstance(number, str)}
     files = {f"beyond.{path.stem}" for path in FOLDER.glob("*.py") if path.stem != "__init__"}
     assert stems == {"leaning", *files}
 
 
-def test_modules_are_found_by_name_in_order() -> None:
+def test_modules_are_found_by_name_in_order():
     paper = [number for number in modules() if isinstance(number, int)]
     beyond = [number for number in modules() if isinstance(number, str)]
     assert paper == list(range(1, 17))

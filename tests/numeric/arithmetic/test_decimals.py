@@ -18,12 +18,12 @@ VALUES = st.builds(
 
 @given(VALUES)
 @example(Fraction(1, 800))  # few zeros stand behind the point
-def test_forty_digits_are_the_nearest(value: Fraction) -> None:
+def test_forty_digits_are_the_nearest(value):
     off = abs(Fraction(decimal_string(value)) - value)
     assert off * 2 * 10**39 <= abs(value)
 
 
 @given(VALUES)
-def test_a_few_digits_are_the_nearest_and_a_bound_is_above(value: Fraction) -> None:
+def test_a_few_digits_are_the_nearest_and_a_bound_is_above(value):
     assert abs(Fraction(short(value)) - value) * 2 * 10**5 <= abs(value)
     assert abs(value) <= Fraction(bound_string(abs(value))) <= abs(value) * Fraction(101, 100)

@@ -23,7 +23,7 @@ V1 = ("memory.limit_in_bytes", "memory.usage_in_bytes")
 V2 = ("memory.max", "memory.current")
 
 
-def test_every_group_above_this_process_counts(tmp_path: Path) -> None:
+def test_every_group_above_this_process_counts(tmp_path):
     own, root = tmp_path / "own", tmp_path / "root"
     own.write_text("0::/batch/job\n")
     group(root / "batch" / "job", *V2, "max", 50_000, 2000)
@@ -33,7 +33,7 @@ def test_every_group_above_this_process_counts(tmp_path: Path) -> None:
     assert sorted(free_of_groups(own, root)) == [352_000, 900_000]
 
 
-def test_the_first_version_of_groups_and_a_container_that_sees_only_its_own(tmp_path: Path) -> None:
+def test_the_first_version_of_groups_and_a_container_that_sees_only_its_own(tmp_path):
     own, root = tmp_path / "own", tmp_path / "root"
     own.write_text("4:memory:/docker/0123\n3:cpuset:/\n1:name=systemd:/x:y\n0::/\n")
     group(root / "memory", *V1, "600000", 100_000, 40_000)  # of a name that is not seen here
@@ -42,14 +42,14 @@ def test_the_first_version_of_groups_and_a_container_that_sees_only_its_own(tmp_
 
 
 @linux
-def test_files_that_the_system_keeps_are_free() -> None:
+def test_files_that_the_system_keeps_are_free():
     meminfo = dict(line.split(":") for line in Path("/proc/meminfo").read_text().splitlines())
     available = 1024 * int(meminfo["MemAvailable"].split()[0])
     assert 0 < memory_limit() <= 0.9 * available  # it is 0.8, and others come and go
 
 
 @linux
-def test_a_limit_of_the_shell_counts() -> None:
+def test_a_limit_of_the_shell_counts():
     program = (
         "from force_diffusion.numeric.arithmetic.machine import memory_limit; print(memory_limit())"
     )

@@ -14,7 +14,6 @@ from force_diffusion.numeric.ensemble import sums
 from force_diffusion.numeric.ensemble.ensemble import WorkersError
 
 import force_diffusion as fd
-from tests.conftest import Call
 from tests.numeric.ensemble.cases import PROFILE, bytes_of_first, case
 from tests.numeric.scenes import scene, toml
 
@@ -45,7 +44,7 @@ def client(local: Any) -> Iterator[Any]:
         yield client
 
 
-def test_a_worker_is_killed_in_the_middle(client: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_worker_is_killed_in_the_middle(client, monkeypatch):
     monkeypatch.setattr(sums, "BEADS", 4 * M.problem.region.beads)
     pids = list(client.run(os.getpid).values())
     assert len(set(pids) - {os.getpid()}) == 2
@@ -65,9 +64,7 @@ def test_a_worker_is_killed_in_the_middle(client: Any, monkeypatch: pytest.Monke
     assert found.sums.to_bytes() == bytes_of_first(M, 300)
 
 
-def test_another_version_on_a_worker_is_refused(
-    client: Any, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_another_version_on_a_worker_is_refused(client, monkeypatch):
     monkeypatch.setattr(module, "__version__", "9.9")
     with pytest.raises(WorkersError, match="install the same version"):
         fd.ensemble(scene(PROFILE), 40, executor=client.get_executor(pure=False))
@@ -81,13 +78,11 @@ def forty(tmp_path: Path) -> list[Any]:
     return ["ensemble", path, "--realisations", 40, "--json"]
 
 
-def test_the_command_gives_the_same(local: Any, forty: list[Any], call: Call) -> None:
+def test_the_command_gives_the_same(local, forty, call):
     assert call(*forty, "--scheduler", local.scheduler_address)[:2] == call(*forty)[:2]
 
 
-def test_a_scheduler_that_is_missing_or_has_no_workers(
-    forty: list[Any], monkeypatch: pytest.MonkeyPatch, call: Call
-) -> None:
+def test_a_scheduler_that_is_missing_or_has_no_workers(forty, monkeypatch, call):
     import distributed
 
     monkeypatch.setattr(command, "PATIENCE", 1)

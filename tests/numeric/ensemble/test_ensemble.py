@@ -14,7 +14,7 @@ from tests.numeric.scenes import basic, scene
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_arrays_rows_and_data_say_the_same(name: str) -> None:
+def test_arrays_rows_and_data_say_the_same(name):
     found = fd.ensemble(scene(CASES[name]), 20)
     groups = len(found.mean)
     for array in (found.mean, found.mean_change, found.mean_change_error, found.mean_square,
@@ -46,7 +46,7 @@ def test_arrays_rows_and_data_say_the_same(name: str) -> None:
     assert found._repr_latex_().count(" & ") == (len(rows[0]) - 1) * (1 + min(len(rows), 20))
 
 
-def test_layers_of_both_branches() -> None:
+def test_layers_of_both_branches():
     found = fd.ensemble(scene(PROFILE), 150)
     assert found.mean - found.mean_change == pytest.approx(0.7559289460184544)
     assert found.solved == 150
@@ -57,7 +57,7 @@ def test_layers_of_both_branches() -> None:
 
 
 @pytest.mark.parametrize(("kind", "angle"), [("surface", 25), ("bulk", 25), ("surface", 0)])
-def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind: str, angle: int) -> None:
+def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind, angle):
     load = {"kind": kind, "angle_deg": angle}
     found = fd.ensemble(scene({**PROFILE, "load": load}), 400)
     assert found.first_order_std is not None
@@ -72,12 +72,12 @@ def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind: str, angl
 
 
 @pytest.mark.parametrize("reach", [-1, 0, math.nan])
-def test_no_bins_reach_so_far(reach: float) -> None:
+def test_no_bins_reach_so_far(reach):
     with pytest.raises(ArgumentError, match=r"reach = .*must be greater than 0"):
         fd.ensemble(scene(CASES["histogram of all"]), 9, reach=reach)
 
 
-def test_memory_bounds_the_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_memory_bounds_the_workers(monkeypatch):
     monkeypatch.setattr(module, "memory_limit", lambda: 10**8)
     with pytest.raises(ArgumentError, match="workers = 2: the free memory is enough for 1"):
         fd.ensemble(scene(PROFILE), 9, workers=2)
@@ -85,7 +85,7 @@ def test_memory_bounds_the_workers(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.parametrize("magnitude", ["=1e-298", "=1e200"])
-def test_squares_beyond_floats_are_refused_and_not_zero(magnitude: str) -> None:
+def test_squares_beyond_floats_are_refused_and_not_zero(magnitude):
     sections = basic(4, 6, quantity="profile")
     sections["packing"]["allow_images"] = True
     sections["disorder"]["relative_std"] = "=1e-2"

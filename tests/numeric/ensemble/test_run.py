@@ -8,7 +8,6 @@ from collections.abc import Callable
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
 from contextlib import suppress
 from multiprocessing import active_children
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -68,9 +67,7 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @settings(max_examples=settings.default.max_examples // 6)
 @given(st.integers(0, 10**6), st.integers(2, 150))
-def test_what_fails_goes_on_from_the_file(
-    tmp_path_factory: pytest.TempPathFactory, seed: int, before: int
-) -> None:
+def test_what_fails_goes_on_from_the_file(tmp_path_factory, seed, before):
     path = tmp_path_factory.mktemp("store") / "ensemble.fd"
     held = []
     with pytest.MonkeyPatch.context() as monkeypatch:
@@ -91,9 +88,7 @@ def test_what_fails_goes_on_from_the_file(
 
 @pytest.mark.long
 @pytest.mark.usefixtures("small_blocks")
-def test_a_process_that_is_killed_loses_nothing_that_was_kept(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_process_that_is_killed_loses_nothing_that_was_kept(tmp_path, monkeypatch):
     monkeypatch.setattr(module.engine, "compiles", lambda *_, **__: False)
     others, store = active_children(), tmp_path / "ensemble.fd"
 
@@ -116,7 +111,7 @@ def test_a_process_that_is_killed_loses_nothing_that_was_kept(
 
 @settings(max_examples=settings.default.max_examples // 6)
 @given(st.integers(0, 10**6))
-def test_where_it_stops_depends_on_nothing_but_the_sums(seed: int) -> None:
+def test_where_it_stops_depends_on_nothing_but_the_sums(seed):
     with pytest.MonkeyPatch.context() as monkeypatch:
         monkeypatch.setattr(sums, "BEADS", 4 * BEADS)
         usual = fd.ensemble(SCENE, 300, until=0.12, confidence=0.9)
@@ -130,7 +125,7 @@ def test_where_it_stops_depends_on_nothing_but_the_sums(seed: int) -> None:
     assert (found.looks, found.half_width) == (usual.looks, usual.half_width)
 
 
-def test_a_rule_that_is_not_met() -> None:
+def test_a_rule_that_is_not_met():
     found = fd.ensemble(SCENE, 40, until=1e-6, confidence=0.9)
     assert found.reached is False
     assert found.looks == 2  # at 32, and at the end
@@ -140,7 +135,7 @@ def test_a_rule_that_is_not_met() -> None:
     assert fixed.half_width < found.half_width
 
 
-def test_packings_that_can_not_be_built_are_left_out_and_counted(tmp_path: Path) -> None:
+def test_packings_that_can_not_be_built_are_left_out_and_counted(tmp_path):
     wild = case("profile", kind="normal", relative_std="=0.16")
     bad = [k for k in range(60) if why_left_out(wild, k)]
     assert 5 < len(bad) < 55
@@ -155,7 +150,7 @@ def test_packings_that_can_not_be_built_are_left_out_and_counted(tmp_path: Path)
     assert bytes_of(found) == bytes_of_first(wild, 60)
 
 
-def test_a_pool_is_given_few_blocks_at_a_time_and_they_are_withdrawn() -> None:
+def test_a_pool_is_given_few_blocks_at_a_time_and_they_are_withdrawn():
     done = []
 
     class Counting(ThreadPoolExecutor):

@@ -44,9 +44,7 @@ def refused(path: Path, says: str) -> None:
 
 
 @given(st.data())
-def test_flipped_and_missing_bytes_are_refused_or_do_no_harm(
-    sound: bytes, tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
-) -> None:
+def test_flipped_and_missing_bytes_are_refused_or_do_no_harm(sound, tmp_path_factory, data):
     path = tmp_path_factory.mktemp("flipped") / "ensemble.fd"
     wrong = bytearray(sound)
     for _ in range(data.draw(st.integers(1, 3))):
@@ -61,7 +59,7 @@ def test_flipped_and_missing_bytes_are_refused_or_do_no_harm(
         assert found.sums.to_bytes() == WHOLE
 
 
-def test_files_of_another_kind_are_refused(tmp_path: Path) -> None:
+def test_files_of_another_kind_are_refused(tmp_path):
     path = tmp_path / "thesis.tex"
     path.write_text("\\documentclass{article}")
     refused(path, "not the store of an ensemble")
@@ -90,9 +88,7 @@ def test_files_of_another_kind_are_refused(tmp_path: Path) -> None:
         ("DROP TABLE blocks", "no such table"),
     ],
 )
-def test_a_file_that_was_tampered_with(
-    statement: str, says: str, sound: bytes, tmp_path: Path
-) -> None:
+def test_a_file_that_was_tampered_with(statement, says, sound, tmp_path):
     path = tmp_path / "ensemble.fd"
     path.write_bytes(sound)
     with closing(sqlite3.connect(path)) as database, database:
@@ -100,9 +96,7 @@ def test_a_file_that_was_tampered_with(
     refused(path, says)
 
 
-def test_a_file_of_another_ensemble_or_version(
-    sound: bytes, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_of_another_ensemble_or_version(sound, tmp_path, monkeypatch):
     path = tmp_path / "ensemble.fd"
     path.write_bytes(sound)
     for other, says in (
@@ -118,13 +112,13 @@ def test_a_file_of_another_ensemble_or_version(
     assert path.read_bytes() == sound
 
 
-def test_the_same_scene_in_other_words_is_the_same_ensemble() -> None:
+def test_the_same_scene_in_other_words_is_the_same_ensemble():
     other = {**PROFILE, "packing": {"height": 4, "width": 6, "radius": "=1.0", "spacing": "=3.00"}}
     other["ask"] = {"quantity": "profile", "realisations": 77}
     assert store.description(measurement(scene(other))) == KEY
 
 
-def test_two_runs_may_share_a_file(tmp_path: Path) -> None:
+def test_two_runs_may_share_a_file(tmp_path):
     path = tmp_path / "ensemble.fd"
     with closing(store.Store(path, KEY)) as one, closing(store.Store(path, KEY)) as other:
         for k, block in enumerate(M.blocks(SIZE)):
@@ -134,9 +128,7 @@ def test_two_runs_may_share_a_file(tmp_path: Path) -> None:
     assert (found.solved, found.sums.to_bytes()) == (0, WHOLE)
 
 
-def test_a_full_disk_is_told_and_leaves_the_file_good(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_full_disk_is_told_and_leaves_the_file_good(tmp_path, monkeypatch):
     path = tmp_path / "ensemble.fd"
     monkeypatch.setattr(sums, "BEADS", 4 * M.problem.region.beads)
     connect = sqlite3.connect
@@ -155,9 +147,7 @@ def test_a_full_disk_is_told_and_leaves_the_file_good(
 
 
 @pytest.mark.parametrize("moment", ["CREATE 2", "INSERT 1", "INSERT 2", "INSERT 3", "INSERT 5"])
-def test_stopped_before_a_statement_it_goes_on(
-    moment: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_stopped_before_a_statement_it_goes_on(moment, tmp_path, monkeypatch):
     word, count = moment.split()
     statements = []
 
@@ -182,7 +172,7 @@ def test_stopped_before_a_statement_it_goes_on(
     assert found.sums.to_bytes() == bytes_of_first(M, SIZE)
 
 
-def test_a_store_in_memory_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_store_in_memory_is_none(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     # names that SQLite could obey
     for name in (":memory:", "file:here?mode=memory", "file::memory:"):
@@ -191,7 +181,7 @@ def test_a_store_in_memory_is_none(tmp_path: Path, monkeypatch: pytest.MonkeyPat
         assert fd.read_store(name).realisations == 30
 
 
-def test_an_ensemble_that_can_not_be_built_blocks_no_corrected_scene(tmp_path: Path) -> None:
+def test_an_ensemble_that_can_not_be_built_blocks_no_corrected_scene(tmp_path):
     path = tmp_path / "ensemble.fd"
     wrong = PROFILE | {"disorder": PROFILE["disorder"] | {"kind": "normal", "relative_std": "=5"}}
     with pytest.raises(RealisationError, match="30 of 30 packings are left out"):

@@ -2,7 +2,6 @@
 
 import math
 from collections.abc import Iterator, Sequence
-from typing import Any
 
 import numpy as np
 import pytest
@@ -34,9 +33,7 @@ def changes(m: Measurement, realisations: range) -> list[Array]:
 @ALL
 @pytest.mark.parametrize("kind", ["uniform", "normal", "two-point"])
 @pytest.mark.parametrize("std", ["=1e-4", "=0.12"])
-def test_batches_and_single_packings_give_the_same_bytes(
-    name: str, kind: str, std: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_batches_and_single_packings_give_the_same_bytes(name, kind, std, monkeypatch):
     """In rough packings contacts pull, and some can't be built."""
     m = case(name, kind=kind, relative_std=std)
     usual = solve_block(m, 0, 7).to_bytes()
@@ -51,7 +48,7 @@ def test_batches_and_single_packings_give_the_same_bytes(
 
 
 @ALL
-def test_estimates_are_those_of_the_changes(name: str) -> None:
+def test_estimates_are_those_of_the_changes(name):
     """Within 10⁻¹³ of what they are made of; their standard errors are 10⁻² of them here."""
     m, N = case(name), 5
     found = ensemble_of(m, N)
@@ -73,7 +70,7 @@ def test_estimates_are_those_of_the_changes(name: str) -> None:
     assert found.std_error == pytest.approx(expected, rel=1e-11, nan_ok=True)
 
 
-def test_a_profile_is_that_of_run() -> None:
+def test_a_profile_is_that_of_run():
     outcome = run(planned({**PROFILE, "ask": {"quantity": "profile", "realisations": 6}}))
     found = ensemble_of(m := case("profile"), 6)
     assert m.labels == {n: [row[n] for row in outcome.decimals()] for n in ("j", "branch")}
@@ -86,7 +83,7 @@ def test_a_profile_is_that_of_run() -> None:
 
 
 @pytest.mark.parametrize("name", ["response", "all contacts", "contact of a slab"])
-def test_labels_and_changes_are_those_of_run(name: str) -> None:
+def test_labels_and_changes_are_those_of_run(name):
     m = case(name)
     outcome = run(planned(CASES[name]))
     rows = {(r["i"], r["j"], r["branch"]): r for r in outcome.rows()}
@@ -105,7 +102,7 @@ def test_labels_and_changes_are_those_of_run(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["histogram of all", "histogram of one"])
-def test_bins_are_fixed_and_count_everything(name: str) -> None:
+def test_bins_are_fixed_and_count_everything(name):
     m, N = case(name), 5
     found = first(m, N)
     edges = np.array([-math.inf, *m.edges, math.inf])
@@ -121,7 +118,7 @@ def test_bins_are_fixed_and_count_everything(name: str) -> None:
     assert m.edges == tuple(-edge for edge in reversed(m.edges))
 
 
-def test_the_smallest_disorder_keeps_all_digits() -> None:
+def test_the_smallest_disorder_keeps_all_digits():
     def relative(std: str) -> Array:
         m = case("profile, first order", relative_std=f"={std}")
         found = ensemble_of(m, 4)
@@ -141,6 +138,6 @@ def test_the_smallest_disorder_keeps_all_digits() -> None:
         ({"ask": {"quantity": "histogram"}, "load": {"kind": "point", "at": [0, 4]}}, "--reach"),
     ],
 )
-def test_what_has_no_statistics_is_refused(change: dict[str, Any], says: str) -> None:
+def test_what_has_no_statistics_is_refused(change, says):
     with pytest.raises(SceneError, match=says):
         measurement(scene({**PROFILE, **change}))

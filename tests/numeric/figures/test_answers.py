@@ -50,7 +50,7 @@ def of_one_load(size: str, folder: Path) -> fd.Outcome:
     return scene("contact_forces", std=0, load=load).run()
 
 
-def test_forces_at_the_ends_of_the_range_are_drawn_and_none_beyond(tmp_path: Path) -> None:
+def test_forces_at_the_ends_of_the_range_are_drawn_and_none_beyond(tmp_path):
     usual, *others = (of_one_load(size, tmp_path).plot() for size in ("1", "1e-299", "1e279"))
     for other in others:
         assert lines(other)[0].get_linewidths() == pytest.approx(lines(usual)[0].get_linewidths())
@@ -61,14 +61,14 @@ def test_forces_at_the_ends_of_the_range_are_drawn_and_none_beyond(tmp_path: Pat
 
 @pytest.mark.parametrize("power", [300, -400])
 @pytest.mark.parametrize("quantity", ["contact_forces", "profile", "histogram", "positions"])
-def test_no_unit_is_drawn_beyond_what_floats_hold(quantity: str, power: int) -> None:
+def test_no_unit_is_drawn_beyond_what_floats_hold(quantity, power):
     size = Fraction(10) ** power
     load = fd.SurfaceLoad(magnitude=size)
     with pytest.raises(fd.SceneError, match=r"(packing.radius|load.magnitude) = .*another unit"):
         scene(quantity, radius=size, spacing=3 * size, load=load).run("1e-20").plot()
 
 
-def test_chains_are_as_thick_as_forces_and_tension_has_its_colour() -> None:
+def test_chains_are_as_thick_as_forces_and_tension_has_its_colour():
     outcome = scene("contact_forces", std=0.04).run()
     forces = outcome.arrays["force"]
     assert (forces < 0).any()
@@ -83,7 +83,7 @@ def test_chains_are_as_thick_as_forces_and_tension_has_its_colour() -> None:
     assert np.hypot(*(ends[:, 1] - ends[:, 0]).T) == pytest.approx(2.0)
 
 
-def test_a_point_load_near_the_edge_has_one_cone() -> None:
+def test_a_point_load_near_the_edge_has_one_cone():
     load = fd.PointLoad(at=(0, M))
     outcome = scene("response", load=load, width=2 * M).run()
     figure = outcome.plot()
@@ -101,7 +101,7 @@ def test_a_point_load_near_the_edge_has_one_cone() -> None:
     assert vertical.sum() == pytest.approx(M, abs=1e-3 * M)
 
 
-def test_a_profile_stands_beside_theory() -> None:
+def test_a_profile_stands_beside_theory():
     for load, number in ((fd.SurfaceLoad(), 13), (fd.BulkLoad(), 14)):
         outcome = scene("profile", realisations=20, load=load).run()
         figure = outcome.plot()
@@ -121,7 +121,7 @@ def test_a_profile_stands_beside_theory() -> None:
     assert drawn == pytest.approx(F * np.sqrt(own))
 
 
-def test_theory_of_a_load_at_an_angle_is_drawn_for_either_branch() -> None:
+def test_theory_of_a_load_at_an_angle_is_drawn_for_either_branch():
     outcome = scene("profile", load=fd.BulkLoad(angle_deg=15)).run()
     figure = outcome.plot()
     for exact, branch in zip(figure.axes[0].get_lines()[:2], "+-", strict=True):
@@ -132,7 +132,7 @@ def test_theory_of_a_load_at_an_angle_is_drawn_for_either_branch() -> None:
 
 
 @pytest.mark.parametrize("at", [None, (0, 0, "+")])
-def test_densities_are_those_of_all_changes(at: Any) -> None:
+def test_densities_are_those_of_all_changes(at):
     outcome = scene("histogram", at=at, realisations=300).run()
     count = outcome.arrays["count"]
     figure = outcome.plot()
@@ -146,7 +146,7 @@ def test_densities_are_those_of_all_changes(at: Any) -> None:
     assert (density * v**2).sum() * np.diff(v).min() == pytest.approx(1, abs=0.3)
 
 
-def test_beads_have_their_radii() -> None:
+def test_beads_have_their_radii():
     outcome = scene("positions", std=0.02).run()
     (beads,) = (c for c in outcome.plot().axes[0].collections if isinstance(c, PatchCollection))
     boxes = np.array([path.get_extents().get_points() for path in beads.get_paths()])
@@ -160,7 +160,7 @@ def test_beads_have_their_radii() -> None:
 
 
 @pytest.mark.parametrize("quantity", ["profile", "histogram", "contact_forces", "response"])
-def test_an_ensemble_is_drawn_too(quantity: str) -> None:
+def test_an_ensemble_is_drawn_too(quantity):
     load = fd.PointLoad(at=(0, M)) if quantity == "response" else fd.SurfaceLoad()
     found = fd.ensemble(scene(quantity, load=load), 20)
     figure = found.plot()
@@ -175,7 +175,7 @@ def test_an_ensemble_is_drawn_too(quantity: str) -> None:
     assert figure._repr_png_()[1:4] == b"PNG"  # type: ignore[attr-defined]
 
 
-def test_it_looks_the_same_whatever_a_user_has_set() -> None:
+def test_it_looks_the_same_whatever_a_user_has_set():
     import matplotlib as mpl
 
     figure = scene("profile").run().plot()
@@ -188,7 +188,7 @@ def legend(figure: Figure) -> list[str]:
     return [text.get_text() for text in figure.legends[0].get_texts()]
 
 
-def test_chains_that_differ_little_are_as_thick_as_they_exceed_the_smallest() -> None:
+def test_chains_that_differ_little_are_as_thick_as_they_exceed_the_smallest():
     outcome = scene("contact_forces", std=1e-5).run()
     forces = outcome.arrays["force"]
     assert 0.99 * forces.max() < forces.min()
@@ -213,7 +213,7 @@ def arrows(figure: Figure) -> np.ndarray[Any, Any]:
 
 
 @pytest.mark.parametrize("angle", [0, 20])
-def test_an_arrow_stands_on_each_bead_of_the_surface(angle: int) -> None:
+def test_an_arrow_stands_on_each_bead_of_the_surface(angle):
     figure = scene("contact_forces", load=fd.SurfaceLoad(angle_deg=angle)).run().plot()
     nx, ny = 0.75, np.sqrt(1 - 0.75**2)
     tips = arrows(figure)
@@ -225,7 +225,7 @@ def test_an_arrow_stands_on_each_bead_of_the_surface(angle: int) -> None:
 
 
 @pytest.mark.parametrize("quantity", ["response", "contact_forces"])
-def test_the_arrow_of_a_point_load_leans_with_it(quantity: str) -> None:
+def test_the_arrow_of_a_point_load_leans_with_it(quantity):
     load = fd.PointLoad(at=(M % 2, M), angle_deg=30)
     panels = scene(quantity, load=load).run().plot().axes
     texts: list[Any] = [text for axes in panels for text in axes.texts]
@@ -234,7 +234,7 @@ def test_the_arrow_of_a_point_load_leans_with_it(quantity: str) -> None:
     assert across / -up == pytest.approx(np.tan(np.radians(30)))
 
 
-def test_arrows_stand_on_the_beads_of_a_packing_at_rest() -> None:
+def test_arrows_stand_on_the_beads_of_a_packing_at_rest():
     free = scene("contact_forces", std=0.03, effects={"contacts": "unilateral"}).run()
     assert free.answer.network is not None
     top = free.answer.network.x[-W:]
@@ -242,14 +242,14 @@ def test_arrows_stand_on_the_beads_of_a_packing_at_rest() -> None:
     assert arrows(free.plot()) - beads == pytest.approx(np.tile((0, 1.1), (W, 1)))
 
 
-def test_no_theory_is_drawn_where_none_applies() -> None:
+def test_no_theory_is_drawn_where_none_applies():
     outcome = scene("profile", load=fd.PointLoad(at=(0, M))).run()
     assert "first_order_std" not in outcome.arrays
     labels = [text.get_text() for text in outcome.plot().axes[0].get_legend().get_texts()]
     assert labels == ["simulated, $f^+$", "simulated, $f^-$"]
 
 
-def test_of_equal_forces_none_is_thicker() -> None:
+def test_of_equal_forces_none_is_thicker():
     figure = scene("contact_forces", std=0).run().plot()
     assert len(set(lines(figure)[0].get_linewidths())) == 1
     assert legend(figure) == ["all, $f=0.756$"]

@@ -45,7 +45,7 @@ def columns(made: Made, name: str) -> dict[str, list[Any]]:
     return {key: list(column) for key, column in made.tables[name].items()}
 
 
-def test_figure_1_shows_beads_that_touch() -> None:
+def test_figure_1_shows_beads_that_touch():
     table = notation.figure(Options(seed=4)).tables["figure1"]
     i, j, radius = (np.array(table[name]) for name in ("i", "j", "radius"))
     touching = (np.abs(i[:, None] - i) == 1) & (j[:, None] - j == 1)
@@ -57,7 +57,7 @@ def test_figure_1_shows_beads_that_touch() -> None:
         assert apart == pytest.approx(distance, rel=1e-14)
 
 
-def test_widths_of_figure_2_are_those_of_line_sums() -> None:
+def test_widths_of_figure_2_are_those_of_line_sums():
     """Weights of a line's radii are 1 at its ends, and 2 between; the own bead is in both lines."""
     M = 6
     x, y = diffusion.displacement_std(M)
@@ -74,7 +74,7 @@ def drawn(axes: Axes, label: str) -> tuple[Any, Any]:
     return markers.get_data()
 
 
-def test_what_figure_3_says_draws_and_writes_is_the_same() -> None:
+def test_what_figure_3_says_draws_and_writes_is_the_same():
     made = comparison.figure(Options((2, 3), 16, models=frozenset({"q-model"})))
     assert json.loads(json.dumps(made.facts)) == made.facts
     assert [one["inside"] for one in made.facts["comparisons"]] == [
@@ -101,7 +101,7 @@ def test_what_figure_3_says_draws_and_writes_is_the_same() -> None:
 
 
 @pytest.mark.parametrize("heights", [[], 5, "8", iter(()), [8, 8]])
-def test_figure_3_needs_heights(heights: Any) -> None:
+def test_figure_3_needs_heights(heights):
     with pytest.raises(fd.SceneError, match=r"heights = .*must be a list of different"):
         fd.figure(3, heights=heights)
 
@@ -111,7 +111,7 @@ def on_layer(values: Any, j: int) -> Any:
     return values[j == point_load.LAYER]
 
 
-def test_figure_4_does_not_depend_on_the_horizontal_position() -> None:
+def test_figure_4_does_not_depend_on_the_horizontal_position():
     table, cuts = point_load.simulated(Options(realisations=400))
     for j in range(1, point_load.APEX - 1):
         inside = on_layer(table["variance_exact"], j)[1:-1]
@@ -129,7 +129,7 @@ def test_figure_4_does_not_depend_on_the_horizontal_position() -> None:
     assert (off < 5 * table["mean_standard_error"][point_load.LEG]).all()
 
 
-def test_chains_bear_the_load_of_all_beads_in_every_layer() -> None:
+def test_chains_bear_the_load_of_all_beads_in_every_layer():
     found = chains.figure(Options(seed=2))
     table = {name: np.array(column) for name, column in found.tables["chains"].items()}
     along = np.stack([table[f"{axis}_high"] - table[f"{axis}_low"] for axis in "xy"])
@@ -144,7 +144,7 @@ def test_chains_bear_the_load_of_all_beads_in_every_layer() -> None:
     assert chains.HEIGHT < facts["critical_height"] < 2 * chains.HEIGHT
 
 
-def test_distributions() -> None:
+def test_distributions():
     o = Options(realisations=200)
     for number, (kind, M) in enumerate(distribution.CASES):
         deviates, found = distribution.simulated(o, number)
@@ -152,14 +152,14 @@ def test_distributions() -> None:
         assert deviates.std() == pytest.approx(1, abs=5 / np.sqrt(2 * 200))
 
 
-def test_goodness_of_fit_rejects_what_it_should() -> None:
+def test_goodness_of_fit_rejects_what_it_should():
     normal = np.random.default_rng(8).standard_normal(400)
     assert min(distribution.p_values(normal, 1)) > 0.01
     for wrong in (normal + 0.4, normal * 1.4):
         assert max(distribution.p_values(wrong, 1)) < 0.01
 
 
-def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory() -> None:
+def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory():
     s, usual = Fraction(12, 5), Fraction(3)
     other = comparison.simulated(6, Options(realisations=300, spacing=s, relative_std=1e-3))
     assert other.deviation <= 1
@@ -205,7 +205,7 @@ WRONG: dict[str, Callable[[Any], Any]] = {
 
 
 @pytest.mark.parametrize("name", SIMULATED)
-def test_theory_is_within_the_band_and_a_wrong_one_outside(name: str) -> None:
+def test_theory_is_within_the_band_and_a_wrong_one_outside(name):
     compared = SIMULATED[name]()
     wrong = WRONG[name](compared.theory)
     assert compared.deviation <= 1
@@ -223,7 +223,7 @@ def test_theory_is_within_the_band_and_a_wrong_one_outside(name: str) -> None:
         (spheres, "figureB13", 8 + 16 + 16),
     ],
 )
-def test_points_with_bars_are_the_rows_of_the_table(module: Any, name: str, rows: int) -> None:
+def test_points_with_bars_are_the_rows_of_the_table(module, name, rows):
     made = few(module)
     table = {key: np.array(column) for key, column in columns(made, name).items()}
     assert {len(column) for column in table.values()} == {rows}
@@ -242,7 +242,7 @@ def test_points_with_bars_are_the_rows_of_the_table(module: Any, name: str, rows
         start += part.shape[1]
 
 
-def test_figure_b13_has_the_leading_orders_of_the_exact_forms() -> None:
+def test_figure_b13_has_the_leading_orders_of_the_exact_forms():
     z, M = np.array([0.25, 0.5]), 10**6
     for load, form in (
         ("surface", closed_forms.surface_variance_of_spheres),
@@ -259,14 +259,14 @@ def laid_out(made: Made) -> list[Axes]:
     return list(made.figure.axes)
 
 
-def test_panels_are_lettered_where_there_are_several() -> None:
+def test_panels_are_lettered_where_there_are_several():
     both = laid_out(few(mean_forces))
     assert [axes.get_title(loc="left") for axes in both] == ["(a)", "(b)"]
     (alone,) = laid_out(few(neighbours))
     assert not alone.get_title(loc="left")
 
 
-def test_names_of_figure_1_lie_within_their_beads() -> None:
+def test_names_of_figure_1_lie_within_their_beads():
     with style.house_style():
         (axes,) = laid_out(notation.figure(Options()))
     shown = {text.get_text(): text for text in axes.texts}

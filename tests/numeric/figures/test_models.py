@@ -22,7 +22,7 @@ def simulated(loads: np.ndarray, depth: int) -> np.ndarray:
     return np.stack(found, axis=1)
 
 
-def test_the_recursion_of_the_q_model_is_what_simulation_finds() -> None:
+def test_the_recursion_of_the_q_model_is_what_simulation_finds():
     depth, width, n = 12, 32, 1500
     loads = simulated(np.ones((n, width)), depth)
     assert loads.sum(axis=2) == pytest.approx(np.full((n, depth + 1), width), rel=1e-13)
@@ -33,7 +33,7 @@ def test_the_recursion_of_the_q_model_is_what_simulation_finds() -> None:
     assert (off[1:] < 5 * error).all()
 
 
-def test_q_model_weights_saturate_at_one_half() -> None:
+def test_q_model_weights_saturate_at_one_half():
     """P(w) = 4 w exp(−2w) at infinite depth, of variance 1/2; approached as depth^(−1/2)."""
     variance = q_model.weight_variance(4000)
     assert variance[1:3] == pytest.approx([1 / 6, 17 / 72])
@@ -42,7 +42,7 @@ def test_q_model_weights_saturate_at_one_half() -> None:
     assert missing[1000] / missing[4000] == pytest.approx(2, rel=0.01)
 
 
-def test_rays_without_defects_are_the_cone() -> None:
+def test_rays_without_defects_are_the_cone():
     end, at_base, force = double_y.walk(0, TILT, double_y.SPLITTING_ANGLE, 1000, 1)
     slope = float(N_X) / np.sqrt(1 - float(N_X) ** 2)
     assert np.abs(end) == pytest.approx(np.full(1000, slope), rel=1e-12)
@@ -52,7 +52,7 @@ def test_rays_without_defects_are_the_cone() -> None:
 
 
 @pytest.mark.parametrize("splits", [0.5, 4.0])
-def test_rays_conserve_the_vertical_force(splits: float) -> None:
+def test_rays_conserve_the_vertical_force(splits):
     _, at_base, force = double_y.walk(splits, TILT, double_y.SPLITTING_ANGLE, 100_000, 3)
     net = np.where(at_base, force, -force)  # of the base, less what lifts the surface
     error = net.std() / np.sqrt(len(net))
@@ -60,7 +60,7 @@ def test_rays_conserve_the_vertical_force(splits: float) -> None:
     assert error < 0.02
 
 
-def test_the_response_turns_from_two_peaks_to_a_broad_one() -> None:
+def test_the_response_turns_from_two_peaks_to_a_broad_one():
     def shares(splits: float) -> tuple[float, float]:
         found = double_y.profile(splits, TILT, seed=4, rays=100_000)
         middle = np.abs(double_y.BINS[:-1] + double_y.BINS[1:]) / 2

@@ -46,9 +46,7 @@ def beads(draw: st.DrawFn, low: int, high: int, width: int | None) -> tuple[int,
 
 @often
 @given(st.data(), widths, st.integers(0, 8))
-def test_a_triangle_is_what_a_bead_stands_on(
-    data: st.DataObject, width: int | None, j: int
-) -> None:
+def test_a_triangle_is_what_a_bead_stands_on(data, width, j):
     tip = data.draw(beads(j, j, width))
     found = regions.triangle(*tip, width)
     assert sites(found.rows, width) == walk([tip], -1, j, width)
@@ -60,9 +58,7 @@ def test_a_triangle_is_what_a_bead_stands_on(
 
 @often
 @given(st.data(), widths, heights)
-def test_loads_reach_all_below_them_and_may_reach_what_lies_between(
-    data: st.DataObject, width: int | None, top: int
-) -> None:
+def test_loads_reach_all_below_them_and_may_reach_what_lies_between(data, width, top):
     loaded = data.draw(st.lists(beads(0, top, width), min_size=1, max_size=3))
     rows = regions.downward_cone(loaded, width)
     reached = walk(loaded, -1, top, width)
@@ -74,9 +70,7 @@ def test_loads_reach_all_below_them_and_may_reach_what_lies_between(
 
 @often
 @given(st.data(), widths, heights, st.sampled_from("+-"))
-def test_a_contact_needs_what_stands_on_it_and_bears_load(
-    data: st.DataObject, width: int | None, top: int, branch: str
-) -> None:
+def test_a_contact_needs_what_stands_on_it_and_bears_load(data, width, top, branch):
     """No bead more, but where images split the row that bears load."""
     i, j = data.draw(beads(0, top - 1, width))
     surface = [(2 * q + top % 2, top) for q in range(width or 9)]

@@ -18,7 +18,7 @@ from tests.numeric.scenes import answer, basic
 
 @pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1.0, -1.5])
 @pytest.mark.parametrize("layer", [0, 1, 2])
-def test_a_radius_that_is_none_names_the_bead(wrong: float, layer: int) -> None:
+def test_a_radius_that_is_none_names_the_bead(wrong, layer):
     region = whole(4, 2)
     rho = np.zeros((1, 12))
     rho[0, 4 * layer + 2] = wrong
@@ -40,7 +40,7 @@ def row(radii: DrawnRadii, layer: Layer, k: int) -> np.ndarray[Any, Any]:
 
 @pytest.mark.parametrize("kind", ["uniform", "normal", "two-point"])
 @pytest.mark.parametrize("seed", [0, 2**63 - 1, 2**63 + 5, 2**63 + 6, 2**64 - 1])
-def test_rows_drawn_together_are_numpys_words_for_every_seed(kind: str, seed: int) -> None:
+def test_rows_drawn_together_are_numpys_words_for_every_seed(kind, seed):
     """Words of NumPy's own generator, its key given as 64-bit words: no seed is rounded."""
     radii = DrawnRadii(kind, Fraction(1, 100), seed, 5)
     ring, together = Layer(3, 1, 5), [7, 0, 2**40]
@@ -61,7 +61,7 @@ def test_rows_drawn_together_are_numpys_words_for_every_seed(kind: str, seed: in
 @pytest.mark.parametrize(
     ("kind", "fourth"), [("uniform", 9 / 5), ("normal", 3.0), ("two-point", 1.0)]
 )
-def test_deviates_have_the_moments_of_their_distribution(kind: str, fourth: float) -> None:
+def test_deviates_have_the_moments_of_their_distribution(kind, fourth):
     """n = 4e5: five standard errors of each moment (those of x⁴ at most √96/√n)."""
     n = 400_000
     x = 100 * row(DrawnRadii(kind, Fraction(1, 100), 12, None), Layer(0, 0, n), 3)
@@ -72,14 +72,14 @@ def test_deviates_have_the_moments_of_their_distribution(kind: str, fourth: floa
     assert abs((x**4).mean() - fourth) < room * math.sqrt(96)
 
 
-def test_critical_height_far_outside_of_floats() -> None:
+def test_critical_height_far_outside_of_floats():
     assert critical_height(Fraction(1, 10**300)) == pytest.approx(1e200, rel=1e-9)
     assert critical_height(Fraction(0)) == math.inf
     assert critical_height(Fraction(1, 10**4999)) == math.inf
     assert critical_height(Fraction(10**4999)) == 0
 
 
-def test_tolerances_below_the_smallest_float() -> None:
+def test_tolerances_below_the_smallest_float():
     sections = basic(4, None, quantity="contact", at=[0, 0, "+"], tolerance="=1e-400")
     outcome = answer(sections)
     assert outcome.accuracy.arithmetic.startswith("arb balls, 13")
@@ -88,7 +88,7 @@ def test_tolerances_below_the_smallest_float() -> None:
     assert outcome.accuracy.error_bound <= Fraction(bound) <= Fraction(1, 10**400)
 
 
-def test_the_limit_of_tolerances_is_said_as_it_is() -> None:
+def test_the_limit_of_tolerances_is_said_as_it_is():
     sections = basic(4, None, quantity="contact", at=[0, 0, "+"], tolerance="=1e-5000")
     with pytest.raises(ToleranceError, match=r"1e-5000 .* needs 16\d\d\d bits") as caught:
         answer(sections)

@@ -95,14 +95,12 @@ def single(draw: st.DrawFn) -> tuple[dict[str, dict[str, Any]], int]:
 @example(  # an image that lies exactly on the other diagonal
     ({**strip(5, 2, "first-order", [3, 3, "-"]), "load": {"kind": "point", "at": [3, 5]}}, 2)
 )
-def test_images_are_seen_exactly_where_the_slab_differs(
-    asked: tuple[dict[str, dict[str, Any]], int],
-) -> None:
+def test_images_are_seen_exactly_where_the_slab_differs(asked):
     sections, width = asked
     assert planned(sections).sees_images == slab_differs(sections, width)
 
 
-def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
+def test_the_widest_strip_is_looked_at_where_its_load_is():
     """A trillion beads of a layer are not listed."""
     sections = basic(4, 10**12, quantity="response")
     sections["load"] = {"kind": "point", "at": [0, 4]}
@@ -116,8 +114,8 @@ def test_the_widest_strip_is_looked_at_where_its_load_is() -> None:
     st.sampled_from(["contact_forces", "profile"]), st.sampled_from(["surface", "bulk", "point"]),
 )  # fmt: skip
 def test_many_contacts_see_images_where_any_one_does(
-    width: int, height: int, layer: int, geometry: str, quantity: str, load: str
-) -> None:
+    width, height, layer, geometry, quantity, load
+):
     layer = min(layer, height)
     sections = basic(height, width, quantity=quantity)
     sections["packing"]["allow_images"] = True
@@ -131,7 +129,7 @@ def test_many_contacts_see_images_where_any_one_does(
     assert planned(sections).sees_images == any(ones)
 
 
-def test_what_is_seen_does_not_depend_on_how_a_load_is_written(tmp_path: Path) -> None:
+def test_what_is_seen_does_not_depend_on_how_a_load_is_written(tmp_path):
     (tmp_path / "loads.csv").write_text("i,j,fx,fy\n6,6,0,-1\n")
     for width, geometry in product((3, 5, 6, 7, 10), ("exact", "first-order")):
         sections = basic(6, width)
@@ -146,7 +144,7 @@ def test_what_is_seen_does_not_depend_on_how_a_load_is_written(tmp_path: Path) -
         assert file == (width <= 6)
 
 
-def test_loads_far_apart_do_not_see_the_beads_between_them(tmp_path: Path) -> None:
+def test_loads_far_apart_do_not_see_the_beads_between_them(tmp_path):
     (tmp_path / "loads.csv").write_text("i,j,fx,fy\n0,2,0,-1\n10,2,0,-1\n")
     sections = basic(2, 8, quantity="contact_forces")
     sections["load"] = {"kind": "file", "file": "loads.csv"}

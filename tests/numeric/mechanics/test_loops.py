@@ -61,9 +61,7 @@ def solved(
 @given(
     PHI, regions(), st.integers(0, 2**32), st.integers(1, 3), st.sampled_from([1e-2, 1e-5, 1e-9])
 )
-def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
-    phi: Fraction, case: tuple[Region, Rows], seed: int, batch: int, size: float
-) -> None:
+def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(phi, case, seed, batch, size):
     region, rows = case
     rng = np.random.default_rng(seed)
     rho = rng.uniform(-1, 1, (batch, region.beads)) * size
@@ -100,9 +98,7 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(
             assert np.abs(one.error[0] - off).max(initial=0) <= room
 
 
-def test_machine_code_on_disk_follows_each_of_its_sources(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_machine_code_on_disk_follows_each_of_its_sources(tmp_path, monkeypatch):
     """Another rest of a bead, loop, way to compile, rule for errors, or release of numba."""
     used = [local.rest, loops.deposit]
     usual = compiling.stamp(used)
@@ -128,9 +124,7 @@ def _twice(p: Any, n: Any) -> int:
 
 
 @pytest.mark.long
-def test_what_was_compiled_is_taken_from_disk(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_what_was_compiled_is_taken_from_disk(tmp_path, monkeypatch):
     monkeypatch.setattr(compiling, "CODES", tmp_path / "codes")
     for made in (1, 1):
         found = compiling.compiled([(_twice, ("float", "number"))], [])
@@ -150,8 +144,8 @@ def test_what_was_compiled_is_taken_from_disk(
     st.none() | st.integers(40, 50),
 )
 def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
-    kind: str, seed: int, realisations: list[int], rows: list[tuple[int, int]], width: int | None
-) -> None:
+    kind, seed, realisations, rows, width
+):
     source = DrawnRadii(kind, Fraction(1, 10**6), seed, width)
     layers = Rows([2 * i + j % 2 for j, (i, _) in enumerate(rows)], [n for _, n in rows])
     found = source.of(layers, realisations, FLOAT64)
@@ -168,7 +162,7 @@ def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_a_drawn_radius_that_is_not_positive_is_named_alike(dimension: int) -> None:
+def test_a_drawn_radius_that_is_not_positive_is_named_alike(dimension):
     """Of spheres as (p, q, j), and not by the column in the row of W² beads."""
     asked = question("profile", 6, 13, dimension=dimension, spacing=2.9, kind="normal", std=0.45)
     for way in (nullcontext, by_numpy):
@@ -178,13 +172,13 @@ def test_a_drawn_radius_that_is_not_positive_is_named_alike(dimension: int) -> N
         assert bead.count(",") == dimension - 1
 
 
-def test_logarithms_and_cosines_are_right_to_a_few_units_in_the_last_place() -> None:
+def test_logarithms_and_cosines_are_right_to_a_few_units_in_the_last_place():
     ones = np.random.default_rng(5).random(2000)
     for x in (ones, ones * 2.0**-50, 1 - ones * 2.0**-30):
         assert drawing.logarithm(x) == pytest.approx(np.log(x), rel=1e-15, abs=0)
     assert drawing.cosine_of_turn(ones) == pytest.approx(np.cos(2 * np.pi * ones), abs=2e-15)
 
 
-def test_without_numba_numpy_sweeps(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_numba_numpy_sweeps(monkeypatch):
     monkeypatch.setitem(sys.modules, "llvmlite", None)
     assert compiling.compiled([(_twice, ("float", "number"))], []) is None

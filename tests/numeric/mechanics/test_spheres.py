@@ -28,7 +28,7 @@ def from_above(region: Region, share: Any) -> Array:
     return np.full((region.dimension, beads), share)
 
 
-def test_small_disorder_is_first_order() -> None:
+def test_small_disorder_is_first_order():
     exact, first = (
         scene(height=3, width=4, std=1e-30, geometry=g).run(tolerance="1e-29")
         for g in ("exact", "first-order")
@@ -37,7 +37,7 @@ def test_small_disorder_is_first_order() -> None:
         assert abs(float((a - b) / b)) < 1e-26  # second order, 1e-30, over the smallest change
 
 
-def test_gaps_of_touching_beads_are_told_apart() -> None:
+def test_gaps_of_touching_beads_are_told_apart():
     """At s = 2r beads of a layer touch: no gap, to the last place."""
     region, rho = spheres([np.zeros((3, 3))] * 2)
     with FLOAT64.active():
@@ -49,7 +49,7 @@ def test_gaps_of_touching_beads_are_told_apart() -> None:
 
 
 @pytest.mark.parametrize(("dimension", "phi"), [(2, Fraction(-2, 5)), (3, Fraction(-3, 10))])
-def test_pairs_come_by_distance_each_once(dimension: int, phi: Fraction) -> None:
+def test_pairs_come_by_distance_each_once(dimension, phi):
     found = [pair for pair, _ in zip(by_distance(dimension, float(phi)), range(400), strict=False)]
     assert [distance for distance, _ in found] == sorted(distance for distance, _ in found)
     steps = {one for _, one in found}
@@ -63,7 +63,7 @@ def test_pairs_come_by_distance_each_once(dimension: int, phi: Fraction) -> None
             assert one in steps or tuple(-s for s in one) in steps
 
 
-def test_a_support_that_is_too_large_is_named() -> None:
+def test_a_support_that_is_too_large_is_named():
     rho = [np.zeros((4, 4)), np.zeros((4, 4))]
     rho[0][2, 1] = 6.0
     with FLOAT64.active(), pytest.raises(sweep.UnbuildableError) as raised:
@@ -79,14 +79,14 @@ def test_a_support_that_is_too_large_is_named() -> None:
         [[[0.8, 1.3], [1.2, -0.8]], [[0.7, 1.7], [1.4, 1.0]], [[0.0, -0.4], [0.5, 1.8]]],
     ],
 )
-def test_supports_that_lie_too_steeply_are_named(rho: list[list[list[float]]]) -> None:
+def test_supports_that_lie_too_steeply_are_named(rho):
     """In the first their plane is steeper than a base vector, in the second two change places."""
     with FLOAT64.active(), pytest.raises(sweep.UnbuildableError, match="steeper") as raised:
         sweep.deposit(Fraction(1, 5), *spheres([np.array(row) for row in rho]), FLOAT64)
     assert raised.value.site[2] == 2
 
 
-def test_contacts_in_one_plane_hold_nothing_up() -> None:
+def test_contacts_in_one_plane_hold_nothing_up():
     """The first contact of bead (1, 0, 1) is turned onto the second."""
     block = np.zeros((1, 12, 8))
     block[0, 3:5, 6] = -1, 1
@@ -96,7 +96,7 @@ def test_contacts_in_one_plane_hold_nothing_up() -> None:
         sweep.sweep_down(placed, region.rows, from_above(region, 1.0))
 
 
-def test_what_balls_leave_open_is_undecided() -> None:
+def test_what_balls_leave_open_is_undecided():
     system = Balls(60)
     with system.active():
         rho = [system.zeros(2, 2), system.zeros(2, 2)]

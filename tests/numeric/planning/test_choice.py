@@ -75,13 +75,13 @@ def assert_kept(outcome: Outcome, true: Outcome, tolerance: Fraction) -> None:
 
 
 @pytest.mark.parametrize(("value", "near"), [(0.5, True), (0.5 + 1e-9, True), (0.51, False)])
-def test_changes_near_the_edge_of_a_bin_are_left_to_balls(value: float, near: bool) -> None:
+def test_changes_near_the_edge_of_a_bin_are_left_to_balls(value, near):
     table = Table({}, {"change": np.array([0.9, 1.0, value])}, ("change",))
     bins = [(Fraction(0), Fraction(1, 2), 0), (Fraction(1, 2), Fraction(2), 3)]
     assert edge_in_doubt(table, bins, Accuracy(1e-8, False, "float64")) == near
 
 
-def test_changes_that_float64_can_not_hold_are_left_to_balls() -> None:
+def test_changes_that_float64_can_not_hold_are_left_to_balls():
     """Inside of a load's cone all are zero to first order, and so would be any of second order."""
     sections = basic(4, 6, quantity="contact", at=[1, 1, 1, "1"], tolerance="=1e-3")
     sections["packing"]["dimension"] = 3
@@ -95,9 +95,7 @@ def test_changes_that_float64_can_not_hold_are_left_to_balls() -> None:
 
 
 @given(scenes(), st.sampled_from(TOLERANCES))
-def test_any_scene_keeps_its_tolerance_compiled_or_not(
-    sections: dict[str, dict[str, Any]], wanted: str
-) -> None:
+def test_any_scene_keeps_its_tolerance_compiled_or_not(sections, wanted):
     sections["ask"]["tolerance"] = f"={wanted}"
     plan = planned(sections)
     true = reference(sections)
@@ -109,7 +107,7 @@ def test_any_scene_keeps_its_tolerance_compiled_or_not(
 
 
 @pytest.mark.parametrize("tolerance", ["1e-3", "1e-13", "1e-15"])
-def test_float64_does_answer(tolerance: str) -> None:
+def test_float64_does_answer(tolerance):
     """Were its estimates too careful, balls would answer everything, and the tests above hold."""
     outcome = run(planned(basic(tolerance=f"={tolerance}")))
     assert outcome.plan.system is FLOAT64
@@ -118,14 +116,14 @@ def test_float64_does_answer(tolerance: str) -> None:
     assert "estimated" in outcome.accuracy.note
 
 
-def test_certified_leaves_balls_alone() -> None:
+def test_certified_leaves_balls_alone():
     plan = planned(basic(tolerance="=1e-3", certified=True))
     assert (plan.certified, plan.reason) == (True, "only balls certify")
     with pytest.raises(SceneError, match=r"ask\.certified.*tolerance"):
         planned(basic(certified=True))
 
 
-def test_what_only_balls_decide_is_left_to_them() -> None:
+def test_what_only_balls_decide_is_left_to_them():
     high = basic(24, 25, tolerance="=1e-3")
     high["disorder"]["relative_std"] = "=1e-2"
     tiny = basic(tolerance="=1e-3")
@@ -137,13 +135,13 @@ def test_what_only_balls_decide_is_left_to_them() -> None:
         assert why in plan.reason
 
 
-def test_an_effect_is_never_replaced() -> None:
+def test_an_effect_is_never_replaced():
     for geometry in ("exact", "first-order"):
         sections = {**basic(tolerance="=1e-3"), "effects": {"geometry": geometry}}
         assert {way.problem.route for way in both(planned(sections))} == {geometry}
 
 
-def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> None:
+def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound():
     """Two-point radii leave changes of second order, here 9e-16 of the largest one."""
     sections = basic(11, 6, quantity="positions", realisations=6, tolerance="=1e-12")
     sections["packing"] |= {"spacing": "=2.9999813928", "allow_images": True}
@@ -154,7 +152,7 @@ def test_a_change_about_as_small_as_its_error_is_within_the_stated_bound() -> No
     assert_kept(outcome, true, Fraction(1, 10**12))
 
 
-def test_an_estimate_that_misses_gives_way(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_an_estimate_that_misses_gives_way(monkeypatch):
     """Balls answer, and the outcome says why float64 did not."""
     plan = planned(basic(tolerance="=1e-9"))
     assert not plan.certified

@@ -4,8 +4,6 @@ import json
 import subprocess
 import sys
 import tracemalloc
-from pathlib import Path
-from typing import Any
 
 import pytest
 from force_diffusion.numeric.planning.planner import plan
@@ -42,7 +40,7 @@ print(1024 * int(peak.split()[1]), file=sys.stderr)
 
 @pytest.mark.long
 @pytest.mark.parametrize("name", SCENES)
-def test_no_run_takes_more_than_its_plan_says_nor_much_less(name: str, tmp_path: Path) -> None:
+def test_no_run_takes_more_than_its_plan_says_nor_much_less(name, tmp_path):
     scene = tmp_path / "scene.toml"
     scene.write_text(f"{DRAWN}{SCENES[name]}\n")
     predicted, peaks = 0, []
@@ -65,7 +63,7 @@ def test_no_run_takes_more_than_its_plan_says_nor_much_less(name: str, tmp_path:
         ({"height": 5, "width": 12, "realisations": 10**9}, "ask.realisations = 1000000000"),
     ],
 )
-def test_what_is_too_large_is_named(sizes: dict[str, int], key: str) -> None:
+def test_what_is_too_large_is_named(sizes, key):
     many = sizes.pop("realisations", 1)
     sections = basic(**sizes, quantity="contact_forces", realisations=many)
     sections["packing"]["allow_images"] = True
@@ -74,7 +72,7 @@ def test_what_is_too_large_is_named(sizes: dict[str, int], key: str) -> None:
 
 
 @pytest.mark.parametrize("load", [{}, {"load": {"kind": "point", "at": [0, 10_000_000]}}])
-def test_too_high_a_slab_is_refused_before_its_layers_are_listed(load: dict[str, Any]) -> None:
+def test_too_high_a_slab_is_refused_before_its_layers_are_listed(load):
     sections = basic(10_000_000, None, quantity="contact", at=[0, 0, "+"]) | load
     tracemalloc.start()
     with pytest.raises(SceneError, match="of memory"):
@@ -83,6 +81,6 @@ def test_too_high_a_slab_is_refused_before_its_layers_are_listed(load: dict[str,
     tracemalloc.stop()
 
 
-def test_the_memory_that_may_be_used_is_an_argument() -> None:
+def test_the_memory_that_may_be_used_is_an_argument():
     with pytest.raises(SceneError, match=r"of memory.*100 MB may be used"):
         plan(scene(basic(100, 201)), memory_limit=100_000_000)

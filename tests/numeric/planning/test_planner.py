@@ -1,7 +1,6 @@
 """Only what is called for: tests on the work that was executed, and on what it depends on."""
 
 import sys
-from pathlib import Path
 from typing import Any
 
 import pytest
@@ -20,9 +19,7 @@ contacts = st.integers(1, 12).flatmap(
 
 
 @given(contacts, st.sampled_from(["exact", "first-order"]))
-def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(
-    where: tuple[int, int, int, str], geometry: str
-) -> None:
+def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(where, geometry):
     M, j, column, branch = where
     sections = basic(M, None, quantity="contact", at=[2 * abs(column) + j % 2, j, branch])
     sections["effects"] = {"geometry": geometry}
@@ -41,9 +38,7 @@ def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(
 
 
 @given(contacts, st.sampled_from(["exact", "first-order"]))
-def test_below_a_point_load_a_plan_counts_the_beads_that_are_read(
-    where: tuple[int, int, int, str], geometry: str
-) -> None:
+def test_below_a_point_load_a_plan_counts_the_beads_that_are_read(where, geometry):
     M, j, column, branch = where
     sections = basic(M, None, quantity="contact", at=[2 * column + j % 2, j, branch])
     sections |= {"effects": {"geometry": geometry}, "load": {"kind": "point", "at": [M % 2, M]}}
@@ -51,7 +46,7 @@ def test_below_a_point_load_a_plan_counts_the_beads_that_are_read(
     assert plan.beads == len(radii_read(plan)[1])
 
 
-def test_without_disorder_nothing_is_swept() -> None:
+def test_without_disorder_nothing_is_swept():
     for quantity in ("contact_forces", "profile", "positions", "histogram"):
         sections = basic(quantity=quantity)
         del sections["disorder"]
@@ -62,7 +57,7 @@ def test_without_disorder_nothing_is_swept() -> None:
         assert plan.beads == 0
 
 
-def test_where_no_load_is_nothing_is_swept(tmp_path: Path) -> None:
+def test_where_no_load_is_nothing_is_swept(tmp_path):
     (tmp_path / "loads.csv").write_text("i,j,fx,fy\n4,4,0,0\n")
     sections = basic() | {"load": {"kind": "file", "file": "loads.csv"}}
     plan = planned(sections, tmp_path)
@@ -71,7 +66,7 @@ def test_where_no_load_is_nothing_is_swept(tmp_path: Path) -> None:
     assert all(force == 0 for force in run(plan).arrays["force"])
 
 
-def test_a_point_load_stays_in_its_cone() -> None:
+def test_a_point_load_stays_in_its_cone():
     sections = basic(8, 20, quantity="response")
     sections["load"] = {"kind": "point", "at": [5, 7]}
     solved, _ = radii_read(planned(sections))
@@ -92,7 +87,7 @@ def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[
 @pytest.mark.parametrize("realisations", [1, 3, 7])
 @pytest.mark.parametrize("quantity", ["contact", "contact_forces", "positions", "profile"])
 @pytest.mark.parametrize("geometry", ["exact", "first-order"])
-def test_the_plan_is_what_runs(geometry: str, quantity: str, realisations: int) -> None:
+def test_the_plan_is_what_runs(geometry, quantity, realisations):
     plan = planned(scene_of(geometry, quantity, realisations))
     seen: list[int] = []
     kinds = {"deposited", "summed"}
@@ -101,13 +96,13 @@ def test_the_plan_is_what_runs(geometry: str, quantity: str, realisations: int) 
     assert outcome.accuracy.arithmetic == plan.system.name
 
 
-def test_memory_knows_what_is_solved_together() -> None:
+def test_memory_knows_what_is_solved_together():
     one, batch = (planned(basic(quantity="profile", realisations=n)) for n in (1, 1000))
     assert batch.memory > one.memory + 900 * one.problem.region.beads * float_bead(2)
 
 
 @pytest.mark.parametrize("quantity", ["contact", "histogram", "profile", "response"])
-def test_a_plan_takes_no_longer_the_more_layers_there_are(quantity: str) -> None:
+def test_a_plan_takes_no_longer_the_more_layers_there_are(quantity):
     def calls(height: int) -> int:
         sections = basic(height, 7, quantity=quantity)
         sections["packing"]["allow_images"] = True

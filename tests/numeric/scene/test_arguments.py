@@ -3,7 +3,6 @@
 import math
 from decimal import Decimal
 from fractions import Fraction
-from typing import Any
 
 import flint
 import mpmath
@@ -23,7 +22,7 @@ EXACT = [
 
 
 @pytest.mark.parametrize("at", range(len(EXACT)))
-def test_exact_numbers_are_taken(at: int) -> None:
+def test_exact_numbers_are_taken(at):
     packing = fd.Packing(height=2, spacing=EXACT[at])
     assert packing.spacing == (Fraction(16, 5) if at < 6 else Fraction(3))
 
@@ -37,7 +36,7 @@ REFUSED = [  # longer than float64, not one number, or too long
 
 
 @pytest.mark.parametrize("number", REFUSED, ids=range(len(REFUSED)))
-def test_other_numbers_are_refused_in_words(number: Any) -> None:
+def test_other_numbers_are_refused_in_words(number):
     for name in ("spacing", "tolerance"):
         with pytest.raises(fd.SceneError, match=rf"^{name} = .*: must (be|have) "):
             fd.solve(RADII, **{name: number})
@@ -51,23 +50,23 @@ LONGER = [
 
 
 @pytest.mark.parametrize("radii", LONGER, ids=range(len(LONGER)))
-def test_radii_are_not_cut_in_silence(radii: Any) -> None:
+def test_radii_are_not_cut_in_silence(radii):
     with pytest.raises(fd.SceneError, match=r"(?s)^radii = .*by \.astype\(float\)"):
         fd.solve(radii)
 
 
 @pytest.mark.parametrize("kind", [np.longdouble, np.float32, np.float16, np.int8, np.uint64])
-def test_radii_that_float64_holds_are_taken(kind: Any) -> None:
+def test_radii_that_float64_holds_are_taken(kind):
     radii = np.full((3, 6), 64).astype(kind)
     assert fd.solve(radii, radius=64).scene.disorder.values.dtype == np.float64  # type: ignore[union-attr]
 
 
-def test_a_huge_number_can_be_shown() -> None:
+def test_a_huge_number_can_be_shown():
     assert "radius=1e+4999" in repr(fd.Packing(height=4, width=9, radius=10**4999))
     assert "radius=2.5" in repr(fd.Packing(height=4, width=9, radius=2.5))
 
 
-def test_what_is_odd_about_a_batch_names_the_packing() -> None:
+def test_what_is_odd_about_a_batch_names_the_packing():
     radii = RADII.copy()
     radii[2] += 0.13 * np.random.default_rng(2).uniform(-1, 1, (5, 12))
     physical = fd.solve(radii).forces.data()["physical"]
@@ -79,7 +78,7 @@ def test_what_is_odd_about_a_batch_names_the_packing() -> None:
     assert caught.value.__notes__ == ["packing 3"]
 
 
-def test_a_shifted_mean_and_a_height_above_the_critical_one_are_said() -> None:
+def test_a_shifted_mean_and_a_height_above_the_critical_one_are_said():
     delta = RADII[0] - 1
     found = fd.solve(delta_r=delta + 0.01, spacing=2.88)
     (note,) = found.forces.plan.notes

@@ -56,7 +56,7 @@ WRONG: list[tuple[Sections, str]] = [
 
 
 @pytest.mark.parametrize(("changes", "says"), WRONG, ids=range(len(WRONG)))
-def test_errors_name_the_key_and_what_is_allowed(changes: Sections, says: str) -> None:
+def test_errors_name_the_key_and_what_is_allowed(changes, says):
     sections: Sections = basic()
     for name, keys in changes.items():
         sections[name] = sections.get(name, {}) | keys
@@ -66,14 +66,14 @@ def test_errors_name_the_key_and_what_is_allowed(changes: Sections, says: str) -
     assert says in str(caught.value)
 
 
-def test_columns_of_a_slab_may_be_negative() -> None:
+def test_columns_of_a_slab_may_be_negative():
     planned(basic(4, None, quantity="contact", at=[-3, 1, "+"]))
     for i in (-(2**60), 2**60):
         with pytest.raises(SceneError, match=r"above -2\^60 and below 2\^60"):
             scene(basic(4, None, quantity="contact", at=[i, 0, "+"]))
 
 
-def test_missing_sections_and_keys() -> None:
+def test_missing_sections_and_keys():
     for text, says in [
         ("", r"section \[packing\] is required"),
         ("[packing]\nheight = 3\n", r"section \[ask\] is required"),
@@ -107,7 +107,7 @@ HUGE, LONG = 10**6000, "9" * 5000
         (fd.Ask, {"quntity": LONG}),
     ],
 )
-def test_what_is_huge_is_quoted_in_a_few_words(section: Any, keys: dict[str, Any]) -> None:
+def test_what_is_huge_is_quoted_in_a_few_words(section, keys):
     with pytest.raises(SceneError, match=r"must|unknown") as caught:
         section(**keys)
     assert len(str(caught.value)) <= 200
@@ -116,14 +116,14 @@ def test_what_is_huge_is_quoted_in_a_few_words(section: Any, keys: dict[str, Any
 @pytest.mark.parametrize(
     ("section", "key"), [("ask", "quantity"), ("ask", "at"), ("packing", "height")]
 )
-def test_numbers_of_thousands_of_digits_in_a_file(section: str, key: str) -> None:
+def test_numbers_of_thousands_of_digits_in_a_file(section, key):
     sections = basic(quantity="contact", at=[0, 0, "+"])
     sections[section][key] = "=[0x" + "f" * 4000 + ', 0, "+"]'
     with pytest.raises(SceneError, match=rf"^{section}\.{key} = .*a number of .*: .*must be"):
         scene(sections)
 
 
-def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path: Path) -> None:
+def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path):
     for quantity, packing, std in [
         ("contact_forces", {}, "=1e-301"),
         ("profile", {}, "=1e-400"),
@@ -147,7 +147,7 @@ def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path: Path) -> None:
     assert answer(sections, tmp_path).accuracy.certified
 
 
-def test_bins_far_below_the_smallest_float() -> None:
+def test_bins_far_below_the_smallest_float():
     sections = basic(3, 8, quantity="histogram", tolerance="=1e-10", bins=7)
     sections["disorder"]["relative_std"] = "=1e-400"
     rows = answer(sections).decimals()
@@ -179,15 +179,13 @@ GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
         ([*GOOD[:3], "3" * 10**6], "line 5: a line has at most 20000 characters"),
     ],
 )
-def test_radii_files_name_the_line_and_the_bead(
-    tmp_path: Path, lines: list[str], says: str
-) -> None:
+def test_radii_files_name_the_line_and_the_bead(tmp_path, lines, says):
     sections = radii_file(tmp_path, "\n".join(["i,j,delta_r", *lines, ""]))
     with pytest.raises(TableError, match=says):
         planned(sections, tmp_path)
 
 
-def test_endless_files_are_refused_at_once(tmp_path: Path) -> None:
+def test_endless_files_are_refused_at_once(tmp_path):
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)
     for path in (Path("/dev/zero"), pipe, tmp_path):

@@ -61,7 +61,7 @@ def read(path: Path) -> Any:
         "another unit": (npy(GOOD * 2.5), "mean radius"),
     }.values(),
 )
-def test_what_is_no_array_of_numbers(content: bytes, says: str, tmp_path: Path) -> None:
+def test_what_is_no_array_of_numbers(content, says, tmp_path):
     path = tmp_path / "radii.npy"
     path.write_bytes(content)
     with pytest.raises(TableError, match=rf"disorder.file: .*radii.npy: .*{says}"):
@@ -73,7 +73,7 @@ def test_what_is_no_array_of_numbers(content: bytes, says: str, tmp_path: Path) 
     [np.asfortranarray(GOOD), GOOD.astype(">f8"), GOOD.astype(np.longdouble),
      np.ones((LAYERS, WIDTH), dtype=np.int16), np.ones((LAYERS, WIDTH), dtype="|u1")],
 )  # fmt: skip
-def test_all_real_arrays_of_numpy_are_read(values: Any, tmp_path: Path) -> None:
+def test_all_real_arrays_of_numpy_are_read(values, tmp_path):
     path = tmp_path / "radii.npy"
     path.write_bytes(npy(values))
     found = read_numbers(path)
@@ -83,9 +83,7 @@ def test_all_real_arrays_of_numpy_are_read(values: Any, tmp_path: Path) -> None:
 
 
 @given(data=st.data())
-def test_a_changed_file_is_read_or_refused(
-    data: Any, tmp_path_factory: pytest.TempPathFactory
-) -> None:
+def test_a_changed_file_is_read_or_refused(data, tmp_path_factory):
     content = bytearray(npy())
     for _ in range(data.draw(st.integers(1, 4))):
         at = data.draw(st.integers(0, 127))

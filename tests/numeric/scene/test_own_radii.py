@@ -40,14 +40,14 @@ def same(found: fd.Outcome, reference: Any) -> bool:
     return bool(np.allclose(found.arrays["change"], reference, rtol=0, atol=1e-15))
 
 
-def test_an_array(tmp_path: Path, reference: Any) -> None:
+def test_an_array(tmp_path, reference):
     np.save(tmp_path / "radii.npy", R + DELTA)
     found = solved(tmp_path / "radii.npy")
     assert same(found, reference)
     assert set(found.source["sha256"]) == {"disorder.file"}
 
 
-def test_a_table_of_places(tmp_path: Path, reference: Any) -> None:
+def test_a_table_of_places(tmp_path, reference):
     """Places as an experiment has them: displaced, in any order, some beyond the seam."""
     random = np.random.default_rng(4)
     step = 2 * R * (1 - (7.2 / (4 * R)) ** 2) ** 0.5
@@ -67,7 +67,7 @@ def test_a_table_of_places(tmp_path: Path, reference: Any) -> None:
         *((far, r"more than 2\^50 r from bead") for far in ("1e400,0", "0,1e308", "0,-1e20")),
     ],
 )
-def test_a_place_between_sites_is_refused(place: str, says: str, tmp_path: Path) -> None:
+def test_a_place_between_sites_is_refused(place, says, tmp_path):
     path = tmp_path / "places.csv"
     path.write_text(f"x,y,r\n{place},{R}\n")
     with pytest.raises(TableError, match=rf"places.csv, line 2: .*{says}"):
@@ -77,7 +77,7 @@ def test_a_place_between_sites_is_refused(place: str, says: str, tmp_path: Path)
 @pytest.mark.parametrize(
     ("header", "offset"), [("i,j,r", -R), ("i,j,r", 2 * R), ("i,j,delta_r", 1.9 * R)]
 )
-def test_another_mean_is_refused(header: str, offset: float, tmp_path: Path) -> None:
+def test_another_mean_is_refused(header, offset, tmp_path):
     start = R if header == "i,j,r" else 0.0
     rows = [(i, j, start + offset + abs(float(DELTA[j, q]))) for j, q, i in SITES]
     with pytest.raises(TableError, match="mean radius is"):
@@ -111,7 +111,7 @@ def image(
 
 @pytest.mark.parametrize("delimiter", [",", ";", "\t"])
 @pytest.mark.parametrize("rotation", [-9.0, 0.0, 4.0])
-def test_a_packing_is_read_back(rotation: float, delimiter: str, tmp_path: Path) -> None:
+def test_a_packing_is_read_back(rotation, delimiter, tmp_path):
     """Centres lie off the lattice, by about 2 % of r: so near the fit comes."""
     found = fd.read_radii(image(tmp_path, rotation, delimiter), spacing=SPACING)
     assert found.radii / found.radii.mean() == pytest.approx(RADII / RADII.mean(), rel=1e-12)
@@ -128,9 +128,7 @@ def test_a_packing_is_read_back(rotation: float, delimiter: str, tmp_path: Path)
     "given",
     [{"scale": SCALE}, {"scale": SCALE, "rotation": 4.0}, {"spacing": SPACING, "origin": ORIGIN}],
 )
-def test_what_is_given_is_kept_and_the_rest_is_the_best(
-    given: dict[str, Any], tmp_path: Path
-) -> None:
+def test_what_is_given_is_kept_and_the_rest_is_the_best(given, tmp_path):
     """No other value of what is fitted has a smaller residual."""
     path = image(tmp_path)
     found = fd.read_radii(path, **given)
@@ -150,7 +148,7 @@ def test_what_is_given_is_kept_and_the_rest_is_the_best(
             assert fd.read_radii(path, **everything | other).residual > found.residual
 
 
-def test_what_is_no_packing_is_refused(tmp_path: Path) -> None:
+def test_what_is_no_packing_is_refused(tmp_path):
     path = image(tmp_path, without=40)
     with pytest.raises(fd.TableError, match=r"bead \(24, 2\) is missing: each layer needs the 14"):
         fd.read_radii(path)
@@ -174,7 +172,7 @@ def test_what_is_no_packing_is_refused(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("header", ["r;j;note;i", "radius\tj\tnote\ti"])
-def test_columns_of_radii_files_may_have_any_order(header: str, tmp_path: Path) -> None:
+def test_columns_of_radii_files_may_have_any_order(header, tmp_path):
     delimiter = ";" if ";" in header else "\t"
     lines = [header]
     for j in range(4):

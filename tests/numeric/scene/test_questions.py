@@ -2,7 +2,6 @@
 
 import json
 from itertools import combinations
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -11,7 +10,6 @@ from force_diffusion.numeric import accuracy
 from force_diffusion.numeric.scene.sections import SceneError
 
 import force_diffusion as fd
-from tests.conftest import Call
 from tests.numeric.scenes import basic, planned, scene, toml
 
 QUANTITIES = ("contact_forces", "positions", "profile", "histogram", "response")
@@ -26,7 +24,7 @@ def asking(*quantities: str, **more: Any) -> dict[str, dict[str, Any]]:
 
 @pytest.mark.parametrize("pair", list(combinations(QUANTITIES, 2)), ids="-".join)
 @pytest.mark.parametrize("more", [{}, {"realisations": 3}, {"tolerance": "=1e-25"}])
-def test_each_answer_is_as_if_asked_alone(pair: tuple[str, str], more: dict[str, Any]) -> None:
+def test_each_answer_is_as_if_asked_alone(pair, more):
     both = fd.run(planned(asking(*pair, **more)))
     assert tuple(both.results) == pair
     for name, found in both.results.items():
@@ -35,7 +33,7 @@ def test_each_answer_is_as_if_asked_alone(pair: tuple[str, str], more: dict[str,
         assert found.decimals() == fd.run(planned(alone)).decimals()
 
 
-def test_all_are_answered_where_contacts_open() -> None:
+def test_all_are_answered_where_contacts_open():
     sections = basic(5, 7, quantity=["contact_forces", "positions"])
     sections["disorder"]["relative_std"] = "=0.03"
     sections["effects"] = {"contacts": "unilateral"}
@@ -49,7 +47,7 @@ def test_all_are_answered_where_contacts_open() -> None:
         assert one * unit == pytest.approx(other)  # lengths have no unit of force
 
 
-def test_one_packing_is_solved(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_one_packing_is_solved(monkeypatch):
     solved = []
     true = accuracy.answer
 
@@ -62,7 +60,7 @@ def test_one_packing_is_solved(monkeypatch: pytest.MonkeyPatch) -> None:
     assert solved == [2]
 
 
-def test_files_hold_all_tables(tmp_path: Path, call: Call) -> None:
+def test_files_hold_all_tables(tmp_path, call):
     path, out = tmp_path / "scene.toml", tmp_path / "out"
     path.write_text(toml(asking("contact_forces", "positions")))
     status, shown, _ = call("run", path, "--out", out, "--format", "npz")
@@ -73,14 +71,14 @@ def test_files_hold_all_tables(tmp_path: Path, call: Call) -> None:
         assert len(np.load(out / f"{name}.npz")["j"]) == count
 
 
-def test_other_commands_take_one() -> None:
+def test_other_commands_take_one():
     asked = scene(asking("contact_forces", "positions", realisations=3))
     for refused in (fd.cost, fd.ensemble, lambda one: one.run().plot()):
         with pytest.raises(SceneError, match="must be one quantity"):
             refused(asked)
 
 
-def test_a_path_is_run(tmp_path: Path, call: Call) -> None:
+def test_a_path_is_run(tmp_path, call):
     path = tmp_path / "scene.toml"
     path.write_text(toml(basic(4, 9)))
     true = fd.run(planned(basic(4, 9))).decimals()

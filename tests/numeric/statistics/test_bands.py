@@ -9,7 +9,7 @@ from force_diffusion.numeric.statistics.bands import critical_value, log_relativ
 from scipy.special import ndtri
 
 
-def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch):
     """Repeated ensembles of a small packing, whose exact σ_f is known to first order."""
     from scipy import stats  # a second to load, which collecting tests should not take
 
@@ -30,7 +30,7 @@ def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch: pytest.Mo
         assert stats.binomtest(count, repetitions, 1 - level).pvalue > 1e-3, outside
 
 
-def test_one_layer_needs_the_quantile_of_t() -> None:
+def test_one_layer_needs_the_quantile_of_t():
     from scipy import stats
 
     expected = stats.t.ppf(0.995, 12)
@@ -39,7 +39,7 @@ def test_one_layer_needs_the_quantile_of_t() -> None:
     assert critical_value(np.eye(1), 12, 0.99, 1) == pytest.approx(expected, abs=3 * error)
 
 
-def test_layers_that_always_agree_count_as_one_and_others_do_not() -> None:
+def test_layers_that_always_agree_count_as_one_and_others_do_not():
     alike, apart = (critical_value(c, 10_000, 0.99, 1) for c in (np.ones((6, 6)), np.eye(6)))
     assert alike == pytest.approx(ndtri(0.995), abs=0.05)
     each = (1 - 0.99 ** (1 / 6)) / 2
@@ -50,9 +50,7 @@ def test_layers_that_always_agree_count_as_one_and_others_do_not() -> None:
 @pytest.mark.parametrize("shift", [-0.1, 0.02, 0.1])
 @pytest.mark.parametrize("width", [0.05, 0.2, 0.5])
 @pytest.mark.parametrize("seed", range(3))
-def test_influences_are_what_leaving_a_realisation_out_changes(
-    seed: int, width: float, shift: float
-) -> None:
+def test_influences_are_what_leaving_a_realisation_out_changes(seed, width, shift):
     generator = np.random.default_rng(seed)
     samples = shift + width * generator.standard_normal((200, 12, 2))
     mean, square = samples.mean(axis=1), (samples**2).mean(axis=1)

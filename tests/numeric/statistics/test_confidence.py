@@ -26,26 +26,26 @@ from tests.numeric.scenes import question
         (1e-9, 2, (1 - 1e-9) * math.sqrt(2 / (1 - (1 - 1e-9) ** 2))),
     ],
 )
-def test_student(wrong: float, freedom: int, meant: float) -> None:
+def test_student(wrong, freedom, meant):
     found = half_width([1e-6], freedom + 1, 1 - wrong, 0)
     assert math.log1p(found) == pytest.approx(1e-6 * meant, rel=1e-6)
 
 
-def test_student_becomes_normal_and_needs_two() -> None:
+def test_student_becomes_normal_and_needs_two():
     found = half_width([1.0], 10**8, 1 - 0.31731050786291404, 0)
     assert found == pytest.approx(math.e - 1, rel=1e-6)
     assert half_width([1.0], 1, 0.95, 0) == math.inf
     assert half_width([], 1, 0.95, 0) == 0
 
 
-def test_looks_are_few_and_their_shares_add_up() -> None:
+def test_looks_are_few_and_their_shares_add_up():
     found = list(looks(10**9))
     assert found == sorted(set(found))
     assert len(found) < 60
     assert sum(1 / (k * (k + 1)) for k in range(1, len(found) + 1)) < 1
 
 
-def test_more_looks_and_more_confidence_ask_for_more() -> None:
+def test_more_looks_and_more_confidence_ask_for_more():
     found = ensemble_of(m := case("profile"), 40)
     t = stdtrit(39, 1 - 0.05 / m.groups / 2)
     error = max(e / s for e, s in zip(found.std_error, found.std, strict=True) if e)
@@ -57,7 +57,7 @@ def test_more_looks_and_more_confidence_ask_for_more() -> None:
     assert ensemble_of(m, 1).half_width == math.inf
 
 
-def test_two_packings_tell_not_how_well_the_scatter_of_a_contact_is_known() -> None:
+def test_two_packings_tell_not_how_well_the_scatter_of_a_contact_is_known():
     found = replace(ensemble_of(case("contact of a slab"), 2), until=0.01)
     assert math.isnan(found.std_error[0])
     assert (found.half_width, found.reached) == (math.inf, False)
@@ -70,7 +70,7 @@ where 1.5 % do, as do σ ± t errors that come straight from the squares."""
 
 
 @pytest.mark.long
-def test_of_a_single_std_99_percent_are_held() -> None:
+def test_of_a_single_std_99_percent_are_held():
     """Far below M*: what is nonlinear is a share M³(σ/r)² of σ_f, 6e-7."""
     m = measurement(question("profile", 4, 6, std=1e-4, seed=7))
     theory = m.theory()

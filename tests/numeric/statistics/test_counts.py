@@ -16,9 +16,7 @@ from tests.numeric.scenes import question
 @pytest.mark.parametrize(("dimension", "width"), [(2, 32), (3, 6)])
 @pytest.mark.parametrize("layers", [None, [2], [0, 2]])
 @pytest.mark.parametrize(("bins", "tolerance"), [(1, None), (100, None), (7, "1e-30")])
-def test_counts_are_those_of_the_changes(
-    dimension: int, width: int, layers: list[int] | None, bins: int, tolerance: str | None
-) -> None:
+def test_counts_are_those_of_the_changes(dimension, width, layers, bins, tolerance):
     """A change belongs to the bin of low ≤ change < high; bins reach from the first to the last."""
     of = {"dimension": dimension, "realisations": 3, "seed": 3}
     rows = question("histogram", 3, width, bins=bins, layers=layers, **of).run(tolerance).decimals()
@@ -36,9 +34,7 @@ def test_counts_are_those_of_the_changes(
 
 @pytest.mark.parametrize("effects", [{"geometry": "ordered"}, {}])
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_realisations_that_are_alike_are_counted_too(
-    effects: dict[str, Any], dimension: int
-) -> None:
+def test_realisations_that_are_alike_are_counted_too(effects, dimension):
     """Without disorder one is solved, and stands for all."""
     std = 0.01 if effects else 0.0
 
@@ -58,7 +54,7 @@ def layered(quantity: str, **more: Any) -> fd.Scene:
     return question(quantity, 6, 14, seed=5, **more)
 
 
-def test_an_ensemble_counts_them_too() -> None:
+def test_an_ensemble_counts_them_too():
     at: dict[str, Any] = {"realisations": 40, "bins": 6}
     every = fd.ensemble(layered("histogram", **at), reach=0.05)
     each = [fd.ensemble(layered("histogram", layers=[j], **at), reach=0.05) for j in range(6)]
@@ -70,12 +66,12 @@ def test_an_ensemble_counts_them_too() -> None:
     assert each[2].std == pytest.approx([np.sqrt(np.mean(own**2))], rel=0.01)
 
 
-def test_its_bins_reach_as_far_as_these_layers_do() -> None:
+def test_its_bins_reach_as_far_as_these_layers_do():
     top, base = (fd.ensemble(layered("histogram", layers=[j]), 40).arrays for j in (5, 0))
     assert top["low"][-1] < base["low"][-1]
 
 
-def test_it_is_drawn_with_the_gaussians_of_these_layers() -> None:
+def test_it_is_drawn_with_the_gaussians_of_these_layers():
     pytest.importorskip("matplotlib")
     (axes,) = layered("histogram", layers=[5], realisations=20).run().plot().axes
     line = next(one for one in axes.lines if len(one.get_xdata()) == 321)
@@ -92,6 +88,6 @@ def test_it_is_drawn_with_the_gaussians_of_these_layers() -> None:
         ({"layers": [4], "load": fd.PointLoad(at=(0, 4))}, "from 0 to 3"),
     ],
 )
-def test_layers_that_can_not_be_asked_for(more: dict[str, Any], says: str) -> None:
+def test_layers_that_can_not_be_asked_for(more, says):
     with pytest.raises(fd.SceneError, match=says):
         layered("histogram", **more)

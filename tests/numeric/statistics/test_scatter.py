@@ -25,7 +25,7 @@ def errors(x: np.ndarray) -> tuple[float, float]:
 
 
 @given(PACKINGS, st.integers(1, 8))
-def test_moments_of_groups_are_those_of_all(packings: list[list[float]], first: int) -> None:
+def test_moments_of_groups_are_those_of_all(packings, first):
     samples, moments = np.array(packings), Moments()
     for group in (samples[:first], samples[first:]):
         if len(group):
@@ -35,17 +35,15 @@ def test_moments_of_groups_are_those_of_all(packings: list[list[float]], first: 
 
 
 @given(st.floats(0.01, 100), st.floats(0.01, 100), st.floats(-100, 100))
-def test_two_samples_tell_nothing_of_the_error_of_their_deviation(
-    above: float, below: float, about: float
-) -> None:
+def test_two_samples_tell_nothing_of_the_error_of_their_deviation(above, below, about):
     assert math.isnan(errors(np.array([[about + above], [about - below]]))[1])
 
 
-def test_of_one_packing_no_error_is_known() -> None:
+def test_of_one_packing_no_error_is_known():
     assert all(map(math.isnan, errors(np.array([[1.0, 2.0]]))))
 
 
-def test_errors_are_those_of_the_jackknife() -> None:
+def test_errors_are_those_of_the_jackknife():
     """Leaving out one packing after the other knows nothing of products of deviations."""
     x = np.random.default_rng(1).gamma(2.0, size=(400, 15)) + np.arange(15) / 9
     means = [np.delete(x, k, axis=0).mean() for k in range(len(x))]

@@ -7,7 +7,6 @@ from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.theory.expected import expected_tension
 
 import force_diffusion as fd
-from tests.conftest import Call
 from tests.numeric.scenes import question
 
 PHI = 1 - 2 * 0.75**2  # s = 3 r
@@ -34,9 +33,7 @@ def scene(load: fd.Load, relative_std: float, packing: dict[str, int] = DISCS) -
         (fd.BulkLoad(), 0.03, SPHERES, 0.2),
     ],
 )
-def test_exact_packings_have_as_many(
-    load: fd.Load, relative_std: float, packing: dict[str, int], room: float
-) -> None:
+def test_exact_packings_have_as_many(load, relative_std, packing, room):
     """To first order, and Gaussian only for many layers: so it is an estimate, good to ``room``.
 
     At 50° one branch pulls in the ordered packing: about half of all contacts do.
@@ -51,7 +48,7 @@ def test_exact_packings_have_as_many(
 @pytest.mark.long(sample=9)
 @pytest.mark.parametrize("load", ["surface", "bulk"])
 @pytest.mark.parametrize("height", [1, 3, 40, 99, 100, 101, 399, 2000])
-def test_the_number_is_the_fraction_times_the_contacts(load: str, height: int) -> None:
+def test_the_number_is_the_fraction_times_the_contacts(load, height):
     """From 100 layers on not every layer is looked at: the sum is good to a thousandth."""
     std = 0.8 * height**-1.5
     form = closed_forms.bulk_variance if load == "bulk" else closed_forms.surface_variance
@@ -61,7 +58,7 @@ def test_the_number_is_the_fraction_times_the_contacts(load: str, height: int) -
 
 
 @pytest.mark.parametrize("load", ["surface", "bulk"])
-def test_the_height_of_one_is_where_the_number_passes_one(load: str) -> None:
+def test_the_height_of_one_is_where_the_number_passes_one(load):
     height = expected_tension(4, W, PHI, 0.0055, load).height_of_one
     assert height is not None
     below, there = (
@@ -71,7 +68,7 @@ def test_the_height_of_one_is_where_the_number_passes_one(load: str) -> None:
     assert expected_tension(4, W, PHI, 1e-30, load).height_of_one is None
 
 
-def test_a_scene_whose_packings_have_tension_is_named(tmp_path, call: Call) -> None:
+def test_a_scene_whose_packings_have_tension_is_named(tmp_path, call):
     path = tmp_path / "scene.toml"
     for std, has_tension in ((0.0026, False), (0.0055, True)):
         path.write_text(

@@ -96,7 +96,7 @@ def refused(packing: Packing) -> str:
     return ""
 
 
-def test_what_stands_is_proved() -> None:
+def test_what_stands_is_proved():
     for packing in (
         *(pile(), third_base_bead("3", "-5"), more(), more(load="-0.0e5")),
         *(more("3", "7.75"), more("3", "0.5", radius="0.4")),
@@ -106,7 +106,7 @@ def test_what_stands_is_proved() -> None:
         assert refused(packing) == "", packing
 
 
-def test_what_is_certified_of_the_pile() -> None:
+def test_what_is_certified_of_the_pile():
     """5/8 by hand; a bead of radius 1, 3.75 above one of radius 2.5."""
     network = certified(pile())
     assert [float(force) for force in network.forces] == pytest.approx([5 / 8] * 2)
@@ -114,7 +114,7 @@ def test_what_is_certified_of_the_pile() -> None:
     assert certified(more()).rattlers.tolist() == [3]
 
 
-def test_forces_below_the_rounding_of_others_are_certified() -> None:
+def test_forces_below_the_rounding_of_others_are_certified():
     """The load points at bead 0, but for 1e-18: half of its 5/4 remains for bead 1."""
     packing = changed("loads", 2, ["-0.6", "-0.800000000000000001"])
     assert float(min(certified(packing).forces, key=float)) == pytest.approx(0.625e-18)
@@ -126,9 +126,7 @@ def test_forces_below_the_rounding_of_others_are_certified() -> None:
     ("load", "fourth", "contacts"),
     [(["0", "-1"], "14.2", [[5, 2], [5, 3]]), (["-0.6", "-0.8"], "14.5", [[5, 2], [5, 4]])],
 )
-def test_of_beads_that_touch_without_force_nothing_is_proved(
-    load: list[str], fourth: str, contacts: list[list[int]]
-) -> None:
+def test_of_beads_that_touch_without_force_nothing_is_proved(load, fourth, contacts):
     """Two beads side by side, each on two of the base, in triangles of sides 3, 4 and 5."""
     packing = Packing(
         "30",
@@ -165,7 +163,7 @@ def test_of_beads_that_touch_without_force_nothing_is_proved(
         changed("contacts", 1, [1, 0]),
     ],
 )
-def test_what_is_no_equilibrium_is_not_proved(packing: Packing) -> None:
+def test_what_is_no_equilibrium_is_not_proved(packing):
     assert refused(packing)
 
 
@@ -184,7 +182,7 @@ KINDS = ("pile", "pressed", "rattlers")
 
 
 @pytest.mark.parametrize("kind", KINDS)
-def test_the_packings_to_be_changed_are_proved(kind: str) -> None:
+def test_the_packings_to_be_changed_are_proved(kind):
     packing = known(kind)
     assert refused(packing) == ""
     held = {bead for pair in packing.contacts for bead in pair}
@@ -241,7 +239,7 @@ def changes(draw: st.DrawFn, kind: str) -> Packing:
 
 @pytest.mark.parametrize("kind", KINDS)
 @given(data=st.data())
-def test_no_change_makes_a_proof_of_what_is_no_equilibrium(kind: str, data: Any) -> None:
+def test_no_change_makes_a_proof_of_what_is_no_equilibrium(kind, data):
     """The certificate moves beads by Newton's steps first: what it proves is where they end."""
     try:
         network = certified(data.draw(changes(kind)))
@@ -266,21 +264,21 @@ def matrix(n: int, seed: int) -> Array:
 
 @pytest.mark.parametrize("n", [1, 2, 5, 40, 300])
 @pytest.mark.parametrize("seed", [1, 2, 3])
-def test_the_smallest_singular_value_is_bounded_from_below_and_well(n: int, seed: int) -> None:
+def test_the_smallest_singular_value_is_bounded_from_below_and_well(n, seed):
     dense = matrix(n, seed)
     exact = np.linalg.svd(dense, compute_uv=False)[-1]
     assert exact / 4 < bound(dense) <= exact
 
 
 @pytest.mark.parametrize("wrong", [1e3, 1e-2])
-def test_the_bound_holds_whatever_chose_the_shift(wrong: float) -> None:
+def test_the_bound_holds_whatever_chose_the_shift(wrong):
     """Factors of a larger matrix give too large a shift, which is made smaller until it holds."""
     dense = matrix(40, 1)
     exact = np.linalg.svd(dense, compute_uv=False)[-1]
     assert bound(dense, wrong * dense) <= exact
 
 
-def test_the_bound_holds_whatever_the_factorisation(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_the_bound_holds_whatever_the_factorisation(monkeypatch):
     """Factors of another matrix leave more than the shift, and prove nothing."""
 
     def wrong(shifted: Any, *how: Any, **options: Any) -> Any:
@@ -292,7 +290,7 @@ def test_the_bound_holds_whatever_the_factorisation(monkeypatch: pytest.MonkeyPa
 
 
 @pytest.mark.parametrize("smallest", [0.0, 1e-12, 1e-9])
-def test_nothing_is_bounded_where_rounding_is_larger(smallest: float) -> None:
+def test_nothing_is_bounded_where_rounding_is_larger(smallest):
     """Its square is below 1e-16, the rounding of the others'."""
     turn = np.linalg.qr(np.random.default_rng(1).standard_normal((8, 8)))[0]
     dense = turn @ np.diag([*[1.0] * 7, smallest]) @ turn.T

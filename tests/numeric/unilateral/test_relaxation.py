@@ -48,7 +48,7 @@ def own(deviations: dict[tuple[int, int], float], width: int = 5, spacing: float
     return strip(height=2, width=width, spacing=spacing, radii=radii)
 
 
-def test_no_contact_pulls(relaxed: fd.Outcome) -> None:
+def test_no_contact_pulls(relaxed):
     bilateral = strip(contacts="bilateral").run().physical
     assert bilateral is not None
     assert bilateral.tensile > 0
@@ -58,7 +58,7 @@ def test_no_contact_pulls(relaxed: fd.Outcome) -> None:
     assert max(float(force.rad()) for force in network.forces) < 1e-15
 
 
-def test_positions_are_those_of_the_network(relaxed: fd.Outcome) -> None:
+def test_positions_are_those_of_the_network(relaxed):
     network = network_of(relaxed)
     positions = strip("positions").run().arrays
     assert positions["x"].astype(float).tolist() == network.x[:, 0].astype(float).tolist()
@@ -70,7 +70,7 @@ def test_positions_are_those_of_the_network(relaxed: fd.Outcome) -> None:
 
 
 @pytest.mark.parametrize("seed", [0, 2])
-def test_without_tension_forces_are_as_deposited(seed: int) -> None:
+def test_without_tension_forces_are_as_deposited(seed):
     unilateral = strip(seed=seed, tolerance=Fraction(1, 10**20)).run()
     bilateral = strip(
         seed=seed, contacts="bilateral", tolerance=Fraction(1, 10**20), certified=True
@@ -92,7 +92,7 @@ def test_without_tension_forces_are_as_deposited(seed: int) -> None:
         *(strip(std=0.03, width=width, seed=seed) for width, seed in ((3, 2), (4, 4), (5, 2))),
     ],
 )
-def test_beads_come_to_rest(scene: fd.Scene) -> None:
+def test_beads_come_to_rest(scene):
     outcome = scene.run()
     assert outcome.accuracy.certified
     at_rest(outcome)
@@ -100,16 +100,14 @@ def test_beads_come_to_rest(scene: fd.Scene) -> None:
 
 @pytest.mark.long
 @pytest.mark.parametrize(("std", "width", "seed"), [(0.03, 16, 3), (0.3, 16, 1), (0.354, 5, 1)])
-def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(
-    std: float, width: int, seed: int
-) -> None:
+def test_what_cannot_be_deposited_starts_from_a_stretched_lattice(std, width, seed):
     """Up to 4 M*; as deposited, these have overlaps or beads that can't rest."""
     at_rest(strip(std=std, seed=seed, width=width).run())
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("pressure", [0.1, 10])
-def test_a_point_load_on_pressure(pressure: float, tmp_path: Path) -> None:
+def test_a_point_load_on_pressure(pressure, tmp_path):
     """Under little pressure the load sinks and pushes beads aside, which become rattlers."""
     outcome = pressed(tmp_path, pressure, 1 + pressure).run()
     network = at_rest(outcome)
@@ -119,16 +117,14 @@ def test_a_point_load_on_pressure(pressure: float, tmp_path: Path) -> None:
 
 
 @pytest.mark.long
-def test_under_no_pressure_to_speak_of_beads_are_no_equilibrium(tmp_path: Path) -> None:
+def test_under_no_pressure_to_speak_of_beads_are_no_equilibrium(tmp_path):
     """The load sinks to the base, and all others stay in the air."""
     with pytest.raises(UnfinishedError, match="bears a load, and no contact holds it"):
         pressed(tmp_path, 1e-12, 1).run()
 
 
 @pytest.mark.parametrize("tiny", [1e-9, 1e-14, 1e-300])
-def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(
-    tiny: float, tmp_path: Path
-) -> None:
+def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(tiny, tmp_path):
     """One bead of the surface bears so little that its contacts may count as bearing nothing."""
     try:
         outcome = pressed(tmp_path, 1, tiny).run()
@@ -139,11 +135,11 @@ def test_a_bead_that_bears_next_to_nothing_is_held_or_is_no_answer(
 
 
 @pytest.mark.parametrize("load", [fd.SurfaceLoad(angle_deg=20), fd.BulkLoad()], ids=str)
-def test_equal_radii_rest_as_deposited(load: fd.Load) -> None:
+def test_equal_radii_rest_as_deposited(load):
     at_rest(strip(std=0, width=8, load=load).run(), moved=False)
 
 
-def test_equal_radii_under_one_load_are_no_strict_minimum() -> None:
+def test_equal_radii_under_one_load_are_no_strict_minimum():
     """Two straight chains bear it, whose beads nothing presses from the side."""
     outcome = strip(std=0, load=fd.PointLoad(at=[0, 8])).run()
     assert len(network_of(outcome).pairs) == 16
@@ -154,7 +150,7 @@ def test_equal_radii_under_one_load_are_no_strict_minimum() -> None:
 
 
 @pytest.mark.parametrize(("angle", "stands"), [(48, True), (49, False), (-49, False)])
-def test_the_base_holds_loads_that_lean_less_than_its_contacts(angle: int, stands: bool) -> None:
+def test_the_base_holds_loads_that_lean_less_than_its_contacts(angle, stands):
     """Beads between two of the base touch them at asin(3/4) = 48.6° to the vertical."""
     scene = strip(std=0, load=fd.SurfaceLoad(angle_deg=angle))
     if stands:
@@ -164,7 +160,7 @@ def test_the_base_holds_loads_that_lean_less_than_its_contacts(angle: int, stand
             scene.run()
 
 
-def test_a_small_bead_is_held_at_the_side_of_a_large_one() -> None:
+def test_a_small_bead_is_held_at_the_side_of_a_large_one():
     """Centres of radii 0.9 and 1.2, 3 apart, touched by 0.9: 2.1 and 1.8 from them, by Heron."""
     x = np.array([[0.0, 0.0], [3.0, 0.0], [1.5, 2.0]])
     # from the horizontal at the bead of 1.2: cos = (3² + 2.1² − 1.8²) / (2 · 3 · 2.1)
@@ -215,12 +211,12 @@ def test_a_small_bead_is_held_at_the_side_of_a_large_one() -> None:
         ),
     ],
 )  # fmt: skip
-def test_it_is_said_why_there_is_no_answer(scene: fd.Scene, words: str) -> None:
+def test_it_is_said_why_there_is_no_answer(scene, words):
     with pytest.raises(UnfinishedError, match=words):
         scene.run()
 
 
-def test_a_load_that_lifts_beads_off_is_never_an_answer(tmp_path: Path) -> None:
+def test_a_load_that_lifts_beads_off_is_never_an_answer(tmp_path):
     scene = strip(load=fd.Load(kind="file", file="loads.csv"))
     M, W = scene.packing.height, scene.packing.width or 0
     rows = [f"{i},{M},0,1" for i in range(M % 2, 2 * W, 2)]
@@ -229,7 +225,7 @@ def test_a_load_that_lifts_beads_off_is_never_an_answer(tmp_path: Path) -> None:
         scene.model_copy(update={"folder": tmp_path}).run()
 
 
-def test_what_is_not_proved_is_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_what_is_not_proved_is_no_answer(monkeypatch):
     """Were forces below zero rounded up to it, the certificate would say so."""
     enclosed = certificate._enclosed
 
@@ -242,7 +238,7 @@ def test_what_is_not_proved_is_no_answer(monkeypatch: pytest.MonkeyPatch) -> Non
         strip().run()
 
 
-def test_a_solver_that_is_not_installed_is_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_solver_that_is_not_installed_is_asked_for(monkeypatch):
     monkeypatch.setitem(sys.modules, "highspy", None)
     with pytest.raises(
         fd.ForceDiffusionError, match=r"highspy: pip install .force-diffusion\[unilateral\]"
@@ -250,7 +246,7 @@ def test_a_solver_that_is_not_installed_is_asked_for(monkeypatch: pytest.MonkeyP
         strip().run()
 
 
-def test_enough_programs_change_nothing(relaxed: fd.Outcome) -> None:
+def test_enough_programs_change_nothing(relaxed):
     most = {"most_programs": network_of(relaxed).programs}
     assert strip(effects=most).run().rows() == relaxed.rows()
 
@@ -259,6 +255,6 @@ def test_enough_programs_change_nothing(relaxed: fd.Outcome) -> None:
     ("width", "effects", "key"),
     [(2, {}, "packing.width"), (16, {"most_seconds": 0}, "effects.most_seconds")],
 )
-def test_what_has_no_meaning_is_refused(width: int, effects: dict[str, Any], key: str) -> None:
+def test_what_has_no_meaning_is_refused(width, effects, key):
     with pytest.raises(fd.SceneError, match=f"^{key}.*(unilateral|greater than 0)"):
         strip(width=width, effects=effects)

@@ -27,7 +27,7 @@ THEIRS = sympy.QQ.frac_field(M, phi).field
 
 @pytest.mark.long
 @given(fractions_, fractions_)
-def test_arithmetic_agrees_with_sympy(left: sympy.Expr, right: sympy.Expr) -> None:
+def test_arithmetic_agrees_with_sympy(left, right):
     ours = FIELD.from_sympy(left), FIELD.from_sympy(right)
     theirs = THEIRS.from_expr(left), THEIRS.from_expr(right)
     for operation in (add, sub, mul, *([truediv] if theirs[1] else [])):
@@ -36,7 +36,7 @@ def test_arithmetic_agrees_with_sympy(left: sympy.Expr, right: sympy.Expr) -> No
 
 
 @given(st.lists(small, min_size=1, max_size=5), st.integers(-4, 4), st.integers(0, 6))
-def test_sums_of_polynomials(powers: list[int], low: int, length: int) -> None:
+def test_sums_of_polynomials(powers, low, length):
     term = sum((c * m**k for k, c in enumerate(powers)), sympy.Integer(0))
     total = sum_polynomial(
         FIELD.from_sympy(term), m, FIELD.constant(low), FIELD.constant(low + length - 1)
@@ -46,7 +46,7 @@ def test_sums_of_polynomials(powers: list[int], low: int, length: int) -> None:
 
 
 @given(st.lists(small, min_size=1, max_size=4))
-def test_antidifference_starts_at_zero(powers: list[int]) -> None:
+def test_antidifference_starts_at_zero(powers):
     term = sum((c * m**k for k, c in enumerate(powers)), sympy.Integer(0))
     assert antidifference(FIELD.from_sympy(term), m).substitute({m: FIELD.zero}).is_zero()
 
@@ -55,7 +55,7 @@ def vanishes(expression: sympy.Expr) -> bool:
     return FIELD.from_sympy(expression).is_zero()
 
 
-def test_direction_cosines_are_reduced() -> None:
+def test_direction_cosines_are_reduced():
     assert vanishes(1 - phi**2 - 4 * n_x**2 * n_y**2)
     assert vanishes(n_x**4 + n_y**4 - (1 + phi**2) / 2)
     assert not vanishes(phi - n_x**2 + n_y**2)
@@ -63,7 +63,7 @@ def test_direction_cosines_are_reduced() -> None:
 
 
 @given(st.integers(0, 5), st.integers(0, 5))
-def test_what_is_reduced_is_the_same(across: int, up: int) -> None:
+def test_what_is_reduced_is_the_same(across, up):
     one = FIELD.from_sympy(n_x**across * n_y**up + M)
     assert (one.reduced() - one).is_zero()
     assert one.reduced().degree(n_x) == across % 2
@@ -71,11 +71,11 @@ def test_what_is_reduced_is_the_same(across: int, up: int) -> None:
 
 
 @pytest.mark.parametrize("expression", [sympy.sqrt(r), sympy.Float(0.5), sympy.exp(phi)])
-def test_nothing_inexact_comes_in(expression: sympy.Expr) -> None:
+def test_nothing_inexact_comes_in(expression):
     with pytest.raises(NotExactError):
         FIELD.from_sympy(expression)
 
 
-def test_division_by_zero_is_refused() -> None:
+def test_division_by_zero_is_refused():
     with pytest.raises(NotExactError, match="zero"):
         FIELD.from_sympy(sympy.Mul(1, sympy.Pow(phi - phi, -1, evaluate=False), evaluate=False))

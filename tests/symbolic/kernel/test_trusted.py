@@ -33,7 +33,7 @@ def in_tens(lines: int) -> int:
     return -(-lines // 10) * 10
 
 
-def test_every_trusted_file_is_named_with_its_lines_and_their_sum() -> None:
+def test_every_trusted_file_is_named_with_its_lines_and_their_sum():
     files = trusted()
     named = {name: int(n) for name, n in re.findall(r"^\| `(.*)\.py` \| (\d+) \|", PAGE, re.M)}
     assert named == {name: in_tens(lines) for name, lines in files.items()}

@@ -47,19 +47,19 @@ HALF = sympy.Rational(1, 2)
         (times(2, power(-1, -1)), r"\frac{2}{-1}", None),
     ],
 )
-def test_notation(expression: sympy.Expr, source: str | None, plain: str | None) -> None:
+def test_notation(expression, source, plain):
     if source is not None:
         assert latex(expression) == source
     if plain is not None:
         assert text(expression) == plain
 
 
-def test_the_order_in_which_it_was_built_is_kept() -> None:
+def test_the_order_in_which_it_was_built_is_kept():
     built = terms(sy.DeltaR(j, i), minus(sy.DeltaR(i, j)), times(r, terms(j, i)))
     assert text(built) == "δr_ji − δr_ij + r (j + i)"
 
 
-def test_brackets_grow_outwards() -> None:
+def test_brackets_grow_outwards():
     inner = terms(i, j)
     middle = terms(1, times(2, inner))
     outer = times(r, terms(z, times(r, middle)))
@@ -72,7 +72,7 @@ def long_sum(count: int) -> sympy.Expr:
 
 
 @given(st.integers(1, 60))
-def test_long_equations_fit_their_lines_and_lose_nothing(count: int) -> None:
+def test_long_equations_fit_their_lines_and_lose_nothing(count):
     printed = equation(M, long_sum(count))
     lines = latex_lines(printed)
     assert all(width(line) <= LINE_WIDTH * 1.02 for line in lines)
@@ -82,7 +82,7 @@ def test_long_equations_fit_their_lines_and_lose_nothing(count: int) -> None:
     assert "".join(plain).count("δr") == count
 
 
-def test_a_wide_product_is_broken_within_its_bracket() -> None:
+def test_a_wide_product_is_broken_within_its_bracket():
     printed = equation(M, times(r, long_sum(40)))
     lines = latex_lines(printed)
     assert len(lines) > 1
@@ -106,13 +106,13 @@ scalars = st.recursive(
 
 
 @given(scalars)
-def test_sympy_source_reads_back(expression: sympy.Expr) -> None:
+def test_sympy_source_reads_back(expression):
     read = eval(sympy_source(expression), {**vars(sympy), **vars(sy)})
     assert (read + sympy.S.Zero).subs(POINT) == expression.subs(POINT)
 
 
 @given(scalars)
-def test_printers_take_any_scalar_and_balance_their_brackets(expression: sympy.Expr) -> None:
+def test_printers_take_any_scalar_and_balance_their_brackets(expression):
     source, plain = latex(expression), text(expression)
     assert source.count("{") == source.count("}")
     assert source.count(r"\left") == source.count(r"\right")
@@ -120,7 +120,7 @@ def test_printers_take_any_scalar_and_balance_their_brackets(expression: sympy.E
 
 
 @given(scalars)
-def test_text_can_be_read_in_one_way(expression: sympy.Expr) -> None:
+def test_text_can_be_read_in_one_way(expression):
     """Put back into Python, the text has the value of the expression."""
     plain = text(expression).translate(str.maketrans("[]{}−φ", "()()-f")).replace("σ_δr", "s")
     plain = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda found: "**" + sympy_digits(found[0]), plain)
@@ -138,14 +138,14 @@ def sympy_digits(raised: str) -> str:
     return raised.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789"))
 
 
-def test_python_source_takes_any_number_type() -> None:
+def test_python_source_takes_any_number_type():
     scope: dict[str, object] = {}
     exec(python_source("f", "Doc.", M**2 / (2 * r) + sympy.Sum(sy.DeltaR(m, j), (m, 1, M))), scope)
     function = scope["f"]
     assert function(M=3, j=0, r=9.0, dr=lambda a, b: a + b) == 6.5  # type: ignore[operator]
 
 
-def test_no_fraction_has_three_storeys() -> None:
+def test_no_fraction_has_three_storeys():
     unit = power(sy.sigma / sy.r, 2)
     assert latex(times(1 + sy.j, unit, power(sy.M, -1))) == (
         r"\frac{j + 1}{M} \left( \frac{\sigma_{\delta r}}{r} \right)^{2}"
@@ -156,7 +156,7 @@ def test_no_fraction_has_three_storeys() -> None:
     assert text(times(1 + sy.j, unit, power(sy.M, -1))).count("/") == 2
 
 
-def test_no_line_is_a_lone_factor() -> None:
+def test_no_line_is_a_lone_factor():
     first, last = folded(r"a = \frac{1}{b} (c + d) (e + f) (g)^2", 110)
     assert last.startswith(r"\times (e + f) (g)^2")
     assert first == r"a = \frac{1}{b} (c + d)"
@@ -167,9 +167,7 @@ def test_no_line_is_a_lone_factor() -> None:
     [(terms(1, phi), ("(φ + 1)", r"(\phi + 1)")), (sigma**2 / (2 * r), ("σ_δr²", r"\sigma"))],
     ids=["a bracket", "a fraction"],
 )
-def test_a_broken_product_keeps_its_first_factor(
-    factor: sympy.Expr, shown: tuple[str, str]
-) -> None:
+def test_a_broken_product_keeps_its_first_factor(factor, shown):
     product = times(factor, terms(*(sy.DeltaR(i + k, j) for k in range(9))))
     for lines, part in zip(
         (text_lines(product, room=40), latex_lines(product, room=120.0)), shown, strict=True
@@ -181,7 +179,7 @@ def test_a_broken_product_keeps_its_first_factor(
 
 @pytest.mark.parametrize("room", [120, 222, 330])
 @pytest.mark.parametrize("number", each(modules(), share=2))
-def test_lines_put_together_are_the_formula(number: int | str, room: float) -> None:
+def test_lines_put_together_are_the_formula(number, room):
     """Nothing is lost or doubled, and a line that was broken fits."""
     derivation = load(number)
     formulas = [] if isinstance(derivation, Row) else [*derivation.printed]
@@ -199,7 +197,7 @@ def test_lines_put_together_are_the_formula(number: int | str, room: float) -> N
 
 
 @pytest.mark.parametrize("number", each(modules()))
-def test_a_polynomial_in_order_is_the_same(number: int | str) -> None:
+def test_a_polynomial_in_order_is_the_same(number):
     """Its parts are factored, each with its sign, and add up to it."""
     for form in load(number).exact_forms.values():
         for piece in form.pieces:
@@ -207,7 +205,7 @@ def test_a_polynomial_in_order_is_the_same(number: int | str) -> None:
                 assert sympy.expand(sympy.Add(*in_order(polynomial)) - polynomial) == 0
 
 
-def test_the_highest_degree_comes_first_factored() -> None:
+def test_the_highest_degree_comes_first_factored():
     form = sympy.expand(8 * (M - j) ** 2 * (M + 2 * j) - 6 * M + M * (1 - phi) ** 2 + phi + 1)
     assert text(form) == "8 (M − j)² (M + 2 j) + M (φ² − 2 φ − 5) + φ + 1"
     assert text(sympy.expand(j * (7 - 2 * phi) - j**2 * (1 - phi) ** 4 + 1)) == (
