@@ -143,10 +143,10 @@ class Carrying(NumberSystem):
 
     def number(self, value: Fraction) -> Carried:
         """Round a rational, and keep what that lost."""
-        near = float(FLOAT64.number(value))
-        if not np.isfinite(near):
-            return Carried(near, 0.0)
-        return Carried(near, float(FLOAT64.number(value - Fraction(near))))
+        near = value.numerator / value.denominator
+        top, bottom = near.as_integer_ratio()
+        off = value.numerator * bottom - top * value.denominator
+        return Carried(near, off / (value.denominator * bottom))
 
     def from_float(self, value: float) -> Carried:
         """Give an exact number."""
@@ -213,10 +213,10 @@ class Sizes(NamedTuple):
 NONE = Sizes()
 
 
-def stated_error(roundings: int, unseen: Fraction) -> float:
+def stated_error(roundings: int, unseen: Fraction | float) -> float:
     """Bound the error of numbers that were rounded so often after their errors were carried.
 
     Both are relative to the largest change; ``unseen`` is what the carried errors leave out.
     """
     ratio = PRINTED * (roundings * UNIT + 2 * unseen)
-    return float(min(ratio, Fraction(10) ** 300)) * (1 + 1e-15)
+    return float(min(ratio, 10**300)) * (1 + 1e-15)

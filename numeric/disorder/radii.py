@@ -179,7 +179,7 @@ class ArrayRadii:
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look the radii up."""
         values = self.values[np.asarray(realisations)]
-        if rows.are_whole(self.values.shape[-1]):
+        if rows.alike == self.values.shape[-1]:
             return self._deltas(values[:, : len(rows)].reshape(len(values), -1), system)
         i, j = rows.sites
         return self._deltas(values[:, j, (i - j % 2) // 2 % values.shape[-1]], system)

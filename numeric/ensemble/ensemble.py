@@ -123,7 +123,7 @@ def ensemble(
         _executor(m, size, workers) if executor is None else nullcontext(executor)
     )
     opened = None if store is None else Store(Path(store), description(m))
-    followed = _bar(size, until) if progress is True else nullcontext(progress or _silent)
+    followed = _bar(size, until) if progress is True else nullcontext(progress or (lambda *_: None))
     try:
         with closing(opened) if opened else nullcontext(), solving as solver, followed as follow:
             return _joined(m, size, solver, opened, until, confidence, follow)
@@ -137,10 +137,6 @@ def ensemble(
         if opened is not None:
             interrupt.add_note(_kept(opened).strip())
         raise
-
-
-def _silent(done: int, width: float | None) -> None:
-    """Show nothing."""
 
 
 @contextmanager

@@ -129,9 +129,12 @@ class Rows(Sequence[Layer]):
         ends = np.flatnonzero(np.diff(np.cumsum(self.counts) // beads, append=-1)) + 1
         return (self[a:b] for a, b in pairwise([0, *ends.tolist()]))
 
-    def are_whole(self, width: int) -> bool:
-        """Say whether each is the whole layer of a periodic packing."""
-        return bool(((self.counts == width) & (self.firsts == self.layers % 2)).all())
+    @cached_property
+    def alike(self) -> int | None:
+        """W, where each may be the whole layer of a periodic packing of so many beads a layer."""
+        width = int(self.counts[0]) if len(self) else 0
+        whole = (self.counts == width) & (self.firsts == self.layers % 2)
+        return width if whole.all() else None
 
     @property
     def lasts(self) -> Array:
@@ -247,7 +250,7 @@ class Region:
     @cached_property
     def is_whole(self) -> bool:
         """Whether it is all of a periodic packing, up to its highest layer."""
-        return self.width is not None and self.rows.are_whole(self.width)
+        return self.width is not None and self.rows.alike == self.width
 
 
 def _itself(values: Array) -> Array:
@@ -353,15 +356,20 @@ class Naming(NamedTuple):
         assert self.side is not None
         return bead_of(site, self.side)
 
+    def beyond(self, bead: Sequence[int], steps: Sequence[int]) -> tuple[int, ...]:
+        """Name the bead so many steps along each base vector on, within the period."""
+        *columns, j = bead
+        if self.dimension == 2:
+            return self.home(columns[0] + steps[0] - steps[1]), j + sum(steps)
+        moved = ((at + step) % (self.side or 1) for at, step in zip(columns, steps, strict=False))
+        return *moved, j + sum(steps)
+
     def contact(self, at: Sequence[Any]) -> Block:
         """Give the contact that a scene names by its lower bead and its branch."""
         *below, name = at
         branch = direction(name)
-        if self.dimension == 2:
-            i, j = self.site(below)
-            return Block(branch, Layer(j + 1, i + branch.side, 1))
-        p, q, j = map(int, below)
-        i, j = self.site([p + (branch.number == 0), q + (branch.number == 1), j + 1])
+        steps = [int(axis == branch.number) for axis in range(self.dimension)]
+        i, j = self.site(self.beyond([*map(int, below)], steps))
         return Block(branch, Layer(j, i, 1))
 
     def above(self, lower: Array, number: Array) -> tuple[Array, Array]:

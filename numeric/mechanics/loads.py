@@ -83,18 +83,21 @@ class LoadSpec:
         nx, up = own.number(n_x), own.root(vertical_square(self.dimension, n_x))
         root12 = own.root(Fraction(12)) if self.dimension > 2 else None
 
-        def of(*force: Any) -> Components:
-            parts = components(force, nx, up, root12)
+        def nearest(parts: Components) -> Components:
             return tuple(x.nearest for x in parts) if own is not system else parts
 
-        single = {site: of(*map(own.number, force)) for site, force in self.single.items()}
-        sin, cos = self._turn(own)
-        return Strength(of(sin, *[0 * sin] * (self.dimension - 2), -cos), single)
+        single = {
+            site: nearest(components(tuple(map(own.number, force)), nx, up, root12))
+            for site, force in self.single.items()
+        }
+        unit: Components = (1 / (self.dimension * up),) * self.dimension
+        if self.angle_deg:
+            sin, cos = self._turn(own)
+            unit = components((sin, *[0 * sin] * (self.dimension - 2), -cos), nx, up, root12)
+        return Strength(nearest(unit), single)
 
     def _turn(self, system: NumberSystem) -> tuple[Any, Any]:
         """Give sin θ and cos θ."""
-        if not self.angle_deg:
-            return system.number(Fraction(0)), system.number(Fraction(1))
         balls = system if isinstance(system, Balls) else Balls(400)
         with balls.active():
             angle = flint().fmpq(*self.angle_deg.as_integer_ratio()) / 180
@@ -129,10 +132,12 @@ class LoadSpec:
         starts = rows.starts_above
         forces = system.zeros(self.dimension, int(starts[-1]))
         if self.loaded is None:
-            row = np.arange(len(rows)).repeat(np.diff(starts))
-            times = system.from_floats(self.height - rows.layers + 1.0)
+            times: Any = 1
+            if self.kind == "bulk":
+                above = self.height - rows.layers + 1.0
+                times = system.from_floats(above.repeat(np.diff(starts)))
             for a, share in enumerate(strength.unit):
-                forces[a] = (times * share)[row] if self.kind == "bulk" else share
+                forces[a] = times * share
             return forces
         for site, load in self._singly(strength).items():
             for a, share in enumerate(load):

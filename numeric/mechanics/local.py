@@ -50,9 +50,10 @@ def vertical_square(dimension: int, n_x: Fraction) -> Fraction:
 
 
 def metric(dimension: int, phi: Fraction, scalar: Callable[[Fraction], Any]) -> Metric:
-    """Round what φ decides, each number once."""
-    cross = -phi / ((1 - phi) * (1 + (dimension - 1) * phi))
-    return Metric(scalar(phi), scalar(1 / (1 - phi)), scalar(cross))
+    """Give what φ decides."""
+    cosine = scalar(phi)
+    less = 1 - cosine
+    return Metric(cosine, 1 / less, -cosine / (less * (1 + (dimension - 1) * cosine)))
 
 
 def level(dimension: int) -> tuple[tuple[int, ...], ...]:

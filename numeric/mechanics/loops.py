@@ -101,16 +101,21 @@ def deposit(
     rho: Any, block: Any, rows: Any, m: Any, batch: Any, layers: Any, period: Any, beads: Any,
     pitch: Any, e: Any, f: Any,
 ) -> int:  # fmt: skip
-    """Deposit packings; say whether every bead above the base rests.
+    """Deposit packings; say whether every bead rests.
 
-    ``rho`` is (batch, beads), and ``block`` (batch, 6, pitch): c of the base is there, filled in
-    are c and δn of all others. ``rows`` (layers, 3): each row's first bead, how many there are, and
-    in which column of the row below its first bead has the support x − e₊.
+    ``rho`` is (batch, beads); ``block``, (batch, 6, pitch), is filled with c and δn. ``rows``
+    (layers, 3): each row's first bead, how many there are, and in which column of the row below its
+    first bead has the support x − e₊.
     """
     good, metric = True, metric_of(m, f)
     for k in range(batch):
         p = 6 * k * pitch
         r = k * beads - p
+        for q in range(rows[1]):  # the base stays where it is
+            radius = 1 + number(rho, k * beads + q, e)
+            good &= sound(radius, f)
+            for a in range(6):
+                put(block, p + a * pitch + q, f, 0 * radius)
         for j in range(1, layers):
             below, under = p + rows[3 * j - 3], rows[3 * j - 2]
             start, count, shift = p + rows[3 * j], rows[3 * j + 1], rows[3 * j + 2]

@@ -101,19 +101,19 @@ class Physicality:
     def _look_at_pairs(self, packing: SolvedPacking, steps: Steps) -> None:
         """Measure the gaps of one kind of pairs."""
         gap = gaps_of(packing, steps)
-        self.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
-        close = np.abs(gap) <= RESOLUTION
-        self.undecided_gaps += int(np.count_nonzero(close | np.isnan(gap)))
-        least = float(np.nanmin(gap, initial=math.inf))
+        if not gap.min(initial=math.inf) > RESOLUTION:  # or it is NaN
+            self.overlaps += int(np.count_nonzero(gap < -RESOLUTION))
+            close = np.abs(gap) <= RESOLUTION
+            self.undecided_gaps += int(np.count_nonzero(close | np.isnan(gap)))
+        least = float(np.fmin.reduce(gap, axis=None, initial=math.inf))
         if least < self._least_gap:
-            number, bead = map(int, np.argwhere(gap == least)[0])
+            number, bead = divmod(int(np.argmax(gap == least)), gap.shape[1])
             region = packing.region
             j = int(np.searchsorted(region.starts, bead, "right")) - 1
-            own, other = region.rows[j], region.rows[j + sum(steps)]
-            column = bead - int(region.starts[j])
-            there = region.look(other, own, steps, -1)(np.arange(other.count))
+            own = region.bead(region.rows[j], bead - int(region.starts[j]))
             self.smallest_gap, self.smallest_in = least, self.looks_at[number]
-            self.between = named(region, own, column), named(region, other, int(there[column]))
+            naming, here = region.naming, (0,) * len(steps)
+            self.between = naming.beyond(own, here), naming.beyond(own, steps)
 
     def look_at_forces(self, forces: Forces) -> None:
         """Count the contacts that surely pull and those whose sign stays open."""
@@ -165,9 +165,12 @@ def _least(dimension: int, phi: float) -> float:
     return min(1 - phi, 1 + (dimension - 1) * phi)
 
 
-def square_of(phi: Fraction, steps: Steps) -> Fraction:
-    """Give the square of a distance in the ordered packing, exactly."""
-    return 4 * (sum(s * s for s in steps) * (1 - phi) + sum(steps) ** 2 * phi)
+def square_of(phi: Fraction, steps: Steps) -> tuple[float, float]:
+    """Give the square of a distance in the ordered packing, and that less 4, each rounded once."""
+    top, bottom = phi.as_integer_ratio()
+    own, both = sum(s * s for s in steps), sum(steps) ** 2
+    square = 4 * (own * (bottom - top) + both * top)
+    return square / bottom, (square - 4 * bottom) / bottom
 
 
 @lru_cache(maxsize=8)
@@ -212,16 +215,23 @@ def _bounds(packing: SolvedPacking, phi: float) -> tuple[float, float, float]:
     return turn * ROOM, moved * ROOM, widest
 
 
+@lru_cache(maxsize=4)
+def _pairs(region: Region, steps: Steps) -> Array:
+    """Give the rows of ``loops.gaps``."""
+    rows = region.rows
+    return np.stack([region.starts[:-1], rows.counts, shift_of(rows, rows, steps)], axis=1)
+
+
 def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
     """Give the gaps of beads and those so many steps on, (packings, beads); inf where none is."""
     region, rho, block, rise = packing.region, packing.rho, packing.block, sum(steps)
-    d, square = region.dimension, square_of(packing.phi, steps)
+    d, (square, excess) = region.dimension, square_of(packing.phi, steps)
     gaps = np.full(rho.shape, math.inf)
     rows, starts = region.rows, region.starts
     if d == 2 and (made := loops()) is not None:
-        table = np.stack([starts[:-1], rows.counts, shift_of(rows, rows, steps)], axis=1)
+        table = _pairs(region, steps)
         m = metric_array(packing.phi, CARRYING)[:3]  # its numbers without their errors
-        constants = np.array([*m, *steps, float(square), float(square - 4)])
+        constants = np.array([*m, *steps, square, excess])
         sizes = len(rho), len(rows), rise, region.width or 0, region.beads, block.strides[1] // 8
         arrays = (array.ctypes.data for array in (rho, block, gaps, table, constants))
         made.gaps(*arrays, *sizes)
@@ -237,12 +247,6 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
         u = tuple(look(block[:, a, over]) - block[:, a, own] for a in range(d))
         both = look(rho[:, over]) + rho[:, own]
         with FLOAT64.active():
-            gap = local.gap(steps, float(square), float(square - 4), u, both, metric)
+            gap = local.gap(steps, square, excess, u, both, metric)
         gaps[:, own] = np.where(known, gap, math.inf)
     return gaps
-
-
-def named(region: Region, row: Layer, column: int) -> tuple[int, ...]:
-    """Name a bead of a row as users know it, within the period."""
-    *columns, j = region.bead(row, column)
-    return (region.naming.home(columns[0]), j) if region.dimension == 2 else (*columns, j)

@@ -130,13 +130,14 @@ def rounded(solved: Solved) -> Solved:
     d, block = packing.region.dimension, packing.block
     sizes = Sizes(_most(block.error[:, :d]), _most(block.error[:, d:]))
     block.value[...] += block.error
-    packing = replace(packing, system=FLOAT64, rho=packing.rho.nearest, block=block.value)
+    rho = packing.rho.nearest
+    packing = SolvedPacking(packing.phi, FLOAT64, packing.region, rho, block.value)
     if forces is not None:
         g = forces.g
         force = _most(forces.F.value) + _most(g.value)
         sizes |= Sizes(changed=_most(g.error), force=force)
         g.value[...] += g.error
-        forces = replace(forces, system=FLOAT64, F=forces.F.nearest, g=g.value)
+        forces = Forces(FLOAT64, forces.region, forces.rows, forces.F.nearest, g.value)
     return Solved(FLOAT64, packing, forces, None, sizes)
 
 
@@ -342,10 +343,6 @@ def _compiled_deposit(phi: Fraction, region: Region, rho: Any, system: NumberSys
         return None
     rows, m = _supports(region), metric_array(phi, system)
     block = spread(system, len(rho), 6, region.beads)
-    base = int(region.starts[1])
-    block[..., :base] = 0.0
-    if not system.signs(1 + rho[:, :base])[0].all():
-        return None
     (radii, e), (where, f) = _address(rho), _address(block)
     pitch = (block.value if f else block).strides[1] // 8
     sizes = len(rho), len(rows), region.width or 0, region.beads, pitch

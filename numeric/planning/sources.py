@@ -11,7 +11,7 @@ from ..scene.scene import CheckedScene
 from ..scene.sections import GivenRadii
 
 # Units of length of an array by which r may differ from 1.
-FARTHEST_UNIT = Fraction(10**100)
+FARTHEST_UNIT, CLOSEST_UNIT = Fraction(10**100), Fraction(1, 10**100)
 # δr/r may be as small as this; where it meets a load or a unit of length, their product a bit less.
 LEAST, LEAST_PRODUCT = Fraction(1, 10**300), Fraction(1, 10**305)
 # Sums over a packing (i up to 2^60) must stay below 1e308.
@@ -65,7 +65,7 @@ def beyond_floats(scene: CheckedScene, radii: Radii, load: LoadSpec) -> bool:
     packing, spread = scene.packing, radii.relative_std
     if isinstance(radii, MeasuredRadii):
         spread = radii.least
-    if isinstance(radii, ArrayRadii) and not 1 / FARTHEST_UNIT <= packing.radius <= FARTHEST_UNIT:
+    if isinstance(radii, ArrayRadii) and not CLOSEST_UNIT <= packing.radius <= FARTHEST_UNIT:
         return True
     units = [packing.radius if "positions" in scene.ask.quantities else Fraction(1)]
     if scene.ask.quantities != ("positions",):

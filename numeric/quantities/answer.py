@@ -56,9 +56,8 @@ def answer(
     Raises what the sweeps raise for a packing that can't be built, or not be decided.
     """
     work = Work() if work is None else work
-    physical, network, sizes = None, None, NONE
-    if problem.route == Route.EXACT:
-        physical = Physicality(looks_at=realisations)
+    network, sizes = None, NONE
+    physical = Physicality() if problem.route == Route.EXACT else None
     gatherers = [quantity.gatherer(problem, system) for quantity in quantities]
     tables = []
     # an ordered packing is solved once, whatever is asked

@@ -290,7 +290,7 @@ def contact_forces(
     """
     system, forces = solved.system, solved.forces
     if solved.single is not None:  # line sums of the one contact
-        force, change = (column([number], system) for number in solved.single)
+        force, change = (system.filled([number]) for number in solved.single)
         return force, change[None]
     assert forces is not None
     zero = system.zeros(1)[0]
@@ -304,19 +304,6 @@ def contact_forces(
         F.append(pick(forces.ordered(a, row.j), own, row, row.count, zero))
         g.append(pick(forces.change(a, row.j), own, row, row.count, zero))
     return np.concatenate(F), np.concatenate(g, axis=1)
-
-
-def joined(system: NumberSystem, parts: Sequence[Array]) -> Array:
-    """Put arrays one after the other, of which there may be none."""
-    return np.concatenate([system.array([]), *parts])
-
-
-def column(values: Sequence[Any], system: NumberSystem) -> Array:
-    """Give a column of numbers that are in the number system already."""
-    filled = np.empty(len(values), dtype=system.dtype)
-    for q, value in enumerate(values):  # one by one: a power series looks like a sequence to NumPy
-        filled[q] = value
-    return filled
 
 
 def has_theory(problem: Problem) -> bool:

@@ -3,6 +3,8 @@
 from collections.abc import Iterable, Sequence
 from typing import Any
 
+import numpy as np
+
 from ..arithmetic.systems import Array, NumberSystem
 from ..lattice import regions
 from ..lattice.branch import axis_names
@@ -11,7 +13,7 @@ from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
 from ..unilateral.network import Relaxed
-from .base import Quantity, Table, cartesian, column, joined
+from .base import Quantity, Table, cartesian
 
 
 class Positions(Quantity):
@@ -69,15 +71,15 @@ class Positions(Quantity):
         """Give c of each direction, row by row."""
         system, packing = solved.system, solved.packing
         if solved.single is not None:  # line sums of the one bead
-            return [column([number], system) for number in solved.single]
+            return [system.filled([number]) for number in solved.single]
         if packing is None:
             return [system.zeros(sum(row.count for row in rows))] * len(self.branches)
         region = packing.region
-        moved = [
+        parts = (
             [pick(packing.c(a, row.j)[0], region.rows[row.j], row, self.width) for row in rows]
             for a in range(region.dimension)
-        ]
-        return [joined(system, parts) for parts in moved]
+        )
+        return [np.concatenate([system.array([]), *each]) for each in parts]
 
 
 def ordered_places(

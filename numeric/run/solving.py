@@ -31,7 +31,7 @@ from ..mechanics.problem import Route
 from ..mechanics.sweep import swept
 from ..planning.plan import Plan
 from ..planning.planner import plan
-from ..planning.sources import FARTHEST_UNIT
+from ..planning.sources import CLOSEST_UNIT, FARTHEST_UNIT
 from ..quantities.contact_forces import steps_up
 from ..scene.combinations import either
 from ..scene.sections import Ask, GivenRadii, Load, Packing, SceneError, SurfaceLoad
@@ -77,7 +77,7 @@ class Solution(Tabled):
     @cached_property
     def scene(self) -> Scene:
         """The same packing as a scene."""
-        return Scene(**self.sections)
+        return _scene(self.sections)
 
     @cached_property
     def plan(self) -> Plan:
@@ -286,13 +286,12 @@ class Solution(Tabled):
 
     @property
     def _dimension(self) -> int:
-        return self.scene.packing.dimension
+        return int(self.sections["packing"].dimension)
 
     @property
     def _shape(self) -> tuple[int, ...]:
         """(…, M + 1, W), or of spheres (…, M + 1, W, W)."""
-        shape: tuple[int, ...] = self.sections["disorder"].values.shape
-        return shape
+        return tuple(self.sections["disorder"].values.shape)
 
     def _beads(self, kind: str) -> Array:
         names = [kind + axis for axis in axis_names(self._dimension)]
@@ -356,23 +355,31 @@ AT_ONCE = 2_000_000
 SMALL = 1e-140
 
 
-def _directly(sections: Mapping[str, Any]) -> Solution | None:
-    """Solve packings under loads on layers; None for what is out of the ordinary, or can't be."""
-    packing, given, load, _ = sections.values()
-    d, shape, r, s = packing.dimension, given.values.shape, packing.radius, packing.s
-    layers, width = shape[-d], shape[-1]
-    usual = all(1 / FARTHEST_UNIT < x < FARTHEST_UNIT for x in (r, s, load.magnitude))
-    apart = 4 * r**2 < s**2 < (8 + Fraction(8, d)) * r**2
-    mean = float(given.values.mean()) - float(r if given.delta_r is None else 0)
+def _scene(sections: Mapping[str, Any]) -> Scene:
+    """Ask for all contact forces of all packings that are given."""
+    values, d = sections["disorder"].values, sections["packing"].dimension
+    packings = len(values) if values.ndim > d else 1
+    return Scene(**sections, ask=Ask(quantity="contact_forces", realisations=packings))
+
+
+def _directly(sections: Mapping[str, Any], mean: float) -> Solution | None:
+    """Solve packings under loads on layers; None for what is out of the ordinary, or can't be.
+
+    ``mean``: of what is given, radii or deviations.
+    """
+    packing, given, load = sections.values()
+    d, values, r = packing.dimension, given.values, packing.radius
+    shape, n_x, origin = values.shape, packing.n_x, r if given.delta_r is None else Fraction(0)
+    layers, row = shape[-d], shape[-1] ** (d - 1)
+    usual = all(CLOSEST_UNIT < x < FARTHEST_UNIT for x in (r, load.magnitude))
+    apart = n_x > 1 / 2 and 2 * n_x**2 < 1 + 1 / d
     on_layers = load.kind in {"surface", "bulk"} and not load.angle_deg
-    if not (usual and apart and abs(mean) <= r / 2 and on_layers):
+    if not (usual and apart and on_layers and values.size <= AT_ONCE):
         return None
-    if given.values.size > AT_ONCE:
+    if abs(mean - float(origin)) > float(r) / 2:
         return None
-    n_x, row = s / (4 * r), width ** (d - 1)
     region, spec = whole(row, layers - 1, d), LoadSpec(load.kind, layers - 1, row, dimension=d)
-    origin = r if given.delta_r is None else Fraction(0)
-    radii = ArrayRadii(given.values.reshape(-1, layers, row), origin, r)
+    radii = ArrayRadii(values.reshape(-1, layers, row), origin, r)
     packings, physical = range(len(radii.values)), Physicality()
     with FLOAT64.active():
         try:
@@ -382,37 +389,33 @@ def _directly(sections: Mapping[str, Any]) -> Solution | None:
         physical.look_at(solved, packings)
         forces, unseen = solved.forces, solved.sizes.unseen(layers - 1)[0]
         assert forces is not None
-        change, force = forces.g, forces.g + forces.F
+        below = (*shape[:-d], d, layers - 1, *shape[1 - d :])
+        change, ordered = forces.g.reshape(below), forces.F.reshape(below[-d - 1 :])
         largest = max(float(change.max()), -float(change.min()))
+        _by_lower_bead(change, d)
+        force = change + ordered  # of loads on layers, which are alike there
         if load.magnitude != 1:
             magnitude = FLOAT64.number(load.magnitude)
             change, force = change * magnitude, force * magnitude
     if not (largest > SMALL and solved.sizes.moved + unseen < math.inf):
         return None
     roundings = 1 if load.magnitude == 1 else 3
-    bound = stated_error(roundings, Fraction(unseen) / Fraction(largest))
+    bound = stated_error(roundings, unseen / largest)
     if physical.smallest_gap is not None:
-        physical.smallest_gap = float(Fraction(physical.smallest_gap) * r)
-    below = (*shape[:-d], layers - 1, *shape[1 - d :])
-    return Solution(
-        sections,
-        _by_lower_bead(force, d, below),
-        _by_lower_bead(change, d, below),
-        Accuracy(bound, False, FLOAT64.name, CARRIED),
-        physical,
-    )
+        physical.smallest_gap *= float(r)
+    accuracy = Accuracy(bound, False, FLOAT64.name, CARRIED)
+    return Solution(sections, force, change, accuracy, physical)
 
 
-def _by_lower_bead(values: Array, d: int, shape: tuple[int, ...]) -> Array:
-    """Turn what belongs to contacts by their upper beads, (packings, d, beads), into ``shape``."""
-    shaped = values.reshape(*shape[:-d], d, *shape[-d:])
-    rows = np.moveaxis(shaped, -d - 1, 0)
+def _by_lower_bead(values: Array, d: int) -> None:
+    """Put what lies by the upper beads of contacts, (…, d, layers, W), by their lower ones."""
     if d == 2:  # (i + 1, j + 1) is of the same column where j is even, (i − 1, j + 1) where odd
-        rows[0][..., 1::2, :] = np.roll(rows[0][..., 1::2, :], -1, -1)
-        rows[1][..., 0::2, :] = np.roll(rows[1][..., 0::2, :], 1, -1)
+        odd, even = values[..., 0, 1::2, :], values[..., 1, 0::2, :]
+        odd[...] = np.concatenate((odd[..., 1:], odd[..., :1]), -1)
+        even[...] = np.concatenate((even[..., -1:], even[..., :-1]), -1)
     else:
-        rows[0][...], rows[1][...] = np.roll(rows[0], -1, -2), np.roll(rows[1], -1, -1)
-    return shaped
+        first, second = values[..., 0, :, :, :], values[..., 1, :, :, :]
+        first[...], second[...] = np.roll(first, -1, -2), np.roll(second, -1, -1)
 
 
 @contextmanager
@@ -516,10 +519,11 @@ def solve(
             f"shape {shape}: {layers} layers of {beads} beads would bear on their "
             f"own images; {remedy}if you mean it, say allow_images=True",
         )
+    mean = float(given.values.mean())
     if radius is None:
-        radius = Fraction(float(given.values.mean())) if delta_r is None else 1
-        if radius <= 0:
-            raise SceneError("radii", None, f"must be positive; their mean is {float(radius):.6g}")
+        if delta_r is None and mean <= 0:
+            raise SceneError("radii", None, f"must be positive; their mean is {mean:.6g}")
+        radius = Fraction(mean) if delta_r is None else 1
     packing = Packing(
         height=layers - 1,
         width=shape[-1],
@@ -529,11 +533,10 @@ def solve(
         allow_images=allow_images,
     )
     load = SurfaceLoad() if load is None else load
-    ask = Ask(quantity="contact_forces", realisations=batch[0] if batch else 1)
-    sections: dict[str, Any] = {"packing": packing, "disorder": given, "load": load, "ask": ask}
-    if tolerance is None and (solution := _directly(sections)) is not None:
+    sections: dict[str, Any] = {"packing": packing, "disorder": given, "load": load}
+    if tolerance is None and (solution := _directly(sections, mean)) is not None:
         return solution
-    scene = Scene(**sections)
+    scene = _scene(sections)
     asked = None if tolerance is None else read_tolerance(tolerance)
     forces = run(plan(scene, asked, certified=certified, text=False))
     below = (*batch, layers - 1, *shape[1 - dimension :], dimension)

@@ -29,14 +29,9 @@ def critical_height(relative_std: Fraction) -> float:
     """
     if not relative_std:
         return math.inf
-    # The exponents of numerator and denominator may lie outside a float's range.
-    log = _log10(relative_std.numerator) - _log10(relative_std.denominator)
+    # whole numbers, which may lie outside a float's range
+    log = math.log10(relative_std.numerator) - math.log10(relative_std.denominator)
     return round(10 ** (-2 * log / 3), 9) if log > -460 else math.inf
-
-
-def _log10(n: int) -> float:
-    shift = max(n.bit_length() - 60, 0)
-    return math.log10(n >> shift) + shift * math.log10(2)
 
 
 @lru_cache(maxsize=4096)
@@ -51,16 +46,12 @@ def stds_of_contacts(
     """
     bulk = load == "bulk"
     if len(components) > 2:
-        form = generated.surface_variance_of_spheres
-        if bulk:
-            form = generated.bulk_variance_of_spheres
+        form = generated.bulk_variance_of_spheres if bulk else generated.surface_variance_of_spheres
         return tuple(math.sqrt(form(M, j, M - j, phi)) * own for own in components)
     tilted = generated.bulk_variance_at_angle if bulk else generated.surface_variance_at_angle
-    stds = []
-    for own, other in (components, components[::-1]):
-        size = own or NO_FORCE
-        stds.append(abs(size) * math.sqrt(max(0.0, tilted(M, j, M - j, other / size, phi))))
-    return tuple(stds)
+    pairs = ((own or NO_FORCE, other) for own, other in (components, components[::-1]))
+    variances = ((own, tilted(M, j, M - j, other / own, phi)) for own, other in pairs)
+    return tuple(abs(own) * math.sqrt(max(0.0, variance)) for own, variance in variances)
 
 
 @dataclass(frozen=True)
