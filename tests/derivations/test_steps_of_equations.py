@@ -18,6 +18,9 @@ AT_RIGHT_ANGLES = "a change of direction is at right angles to its contact, at e
 NOTHING_THERE = "the weight of the layer that is added, left out or counted elsewhere is zero there"
 DROPPED_ANYWAY = "weights of order 1 change, and these are what the step drops"
 
+SAME_HEIGHT = "b⁺ and b⁻ have one vertical component"
+DERIVATIVE = "a derivative does not see what does not depend on its variable"
+
 OF_ACROSS = (
     "left: sign of (y − Y)² flipped",
     "left: (y − Y)² dropped",
@@ -29,6 +32,16 @@ OF_ACROSS = (
 )
 OF_UP = tuple(change.replace("y", "x").replace("Y", "X") for change in OF_ACROSS)
 """Changes that a derivative by x, or by y, does not see."""
+UP_TO_ONE_MORE, UP_TO_ONE_LESS = (f"upper bound m = M shifted to M {one} 1" for one in "+−")
+CASE_LATER, CASE_EARLIER = (f"case m ≤ j shifted to j {one} 1" for one in "+−")
+CHANGES_OF_1 = "sign of 1 flipped", "1 dropped", "1 changed to 2"
+
+
+def on_the_left(*changes: str) -> tuple[str, ...]:
+    """The same changes of left-hand sides."""
+    return tuple(f"left: {change}" for change in changes)
+
+
 SAME = {
     ("4", 4): (
         AT_RIGHT_ANGLES,
@@ -42,73 +55,32 @@ SAME = {
         "left: δn⁻_ij shifted to δn⁻_(i+2,j)",
         "left: δn⁻_ij shifted to δn⁻_(i−1,j+1)",
     ),
-    ("12", 4): (
-        NOTHING_THERE,
-        "upper bound m = M shifted to M + 1",
-        "case m ≤ j shifted to j + 1",
-    ),
+    ("12", 4): (NOTHING_THERE, UP_TO_ONE_MORE, CASE_LATER),
     ("12", 5): (
-        NOTHING_THERE,
-        "left: upper bound m = M shifted to M + 1",
-        "left: case m ≤ j shifted to j + 1",
-        "upper bound m = M shifted to M − 1",
-        "case m ≤ j shifted to j − 1",
+        NOTHING_THERE, *on_the_left(UP_TO_ONE_MORE, CASE_LATER), UP_TO_ONE_LESS, CASE_EARLIER
     ),
-    ("13", 1): (NOTHING_THERE, "upper bound m = M shifted to M − 1"),
-    ("13", 3): (NOTHING_THERE, "left: upper bound m = M shifted to M − 1"),
-    ("2", 4): (
-        "b⁺ and b⁻ have one vertical component",
-        "left: b⁺ replaced by b⁻",
-        "left: b⁻ replaced by b⁺",
-    ),
-    ("6", 1): (
-        "a derivative does not see what does not depend on its variable",
-        *OF_ACROSS,
-        *OF_UP,
-    ),
+    ("13", 1): (NOTHING_THERE, UP_TO_ONE_LESS),
+    ("13", 3): (NOTHING_THERE, *on_the_left(UP_TO_ONE_LESS)),
+    ("2", 4): (SAME_HEIGHT, "left: b⁺ replaced by b⁻", "left: b⁻ replaced by b⁺"),
+    ("6", 1): (DERIVATIVE, *OF_ACROSS, *OF_UP),
     ("6", 2): (
-        "a derivative does not see what does not depend on its variable; its square has no sign",
-        OF_UP[0],
-        *OF_ACROSS,
-        *OF_UP[:2],
-        OF_ACROSS[0],
-        *OF_UP[2:],
+        f"{DERIVATIVE}; its square has no sign",
+        OF_UP[0], *OF_ACROSS, *OF_UP[:2], OF_ACROSS[0], *OF_UP[2:],
     ),
     ("14", 3): (
         NOTHING_THERE,
-        "left: lower bound l = j + 1 shifted to j",
-        "left: lower bound l = m shifted to m + 1",
+        *on_the_left("lower bound l = j + 1 shifted to j", "lower bound l = m shifted to m + 1"),
     ),
     ("14", 4): (
         DROPPED_ANYWAY,
-        "lower bound m = 1 shifted to 2",
-        "upper bound m = M shifted to M + 1",
-        "lower bound m = 1 shifted to 0",
-        "upper bound m = M shifted to M − 1",
-        "case m ≤ j shifted to j + 1",
-        "case m ≤ j shifted to j − 1",
-        "sign of 1 flipped",
-        "1 dropped",
-        "1 changed to 2",
-        "sign of 1 flipped",
-        "1 dropped",
-        "1 changed to 2",
+        "lower bound m = 1 shifted to 2", UP_TO_ONE_MORE,
+        "lower bound m = 1 shifted to 0", UP_TO_ONE_LESS,
+        CASE_LATER, CASE_EARLIER, *CHANGES_OF_1, *CHANGES_OF_1,
     ),
-    ("14", 5): (
-        NOTHING_THERE,
-        "upper bound m = M shifted to M + 1",
-        "upper bound m = M shifted to M − 1",
-    ),
-    ("14", 6): (
-        NOTHING_THERE,
-        "left: lower bound m = 1 shifted to 0",
-    ),
-    ("14", 7): (
-        NOTHING_THERE,
-        "left: upper bound m = M shifted to M + 1",
-        "left: upper bound m = M shifted to M − 1",
-    ),
-}
+    ("14", 5): (NOTHING_THERE, UP_TO_ONE_MORE, UP_TO_ONE_LESS),
+    ("14", 6): (NOTHING_THERE, "left: lower bound m = 1 shifted to 0"),
+    ("14", 7): (NOTHING_THERE, *on_the_left(UP_TO_ONE_MORE, UP_TO_ONE_LESS)),
+}  # fmt: skip
 """Mutants of a step that say the same: why, and which."""
 
 

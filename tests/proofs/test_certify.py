@@ -121,10 +121,7 @@ UNPROVED = {
     "0 = 1": ("exact I. Qed.", "0 = 1"),
     "0 = 2": ("lra. Qed.", "Cannot find witness"),
     "0 = 3": ("Admitted.", "rests on Asked_2.statement"),
-    "True \\/ ~ True": (
-        "apply Classical_Prop.classic. Qed.",
-        "rests on Classical_Prop.classic",
-    ),
+    "True \\/ ~ True": ("apply Classical_Prop.classic. Qed.", "rests on Classical_Prop.classic"),
 }
 """Statements, what is said to prove them, and what is found."""
 

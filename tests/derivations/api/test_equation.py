@@ -5,7 +5,6 @@ import re
 import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import modules, paper
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel.decisions import Verdict
 from force_diffusion.symbolic.printing.lines import COLUMNS, width
 from force_diffusion.symbolic.printing.structure import rebuilt
@@ -74,16 +73,6 @@ def test_the_lines_of_exact_forms_fit(number, columns):
     for form in map(eq.exact, eq.forms):
         for line in form.latex(columns).splitlines():
             assert width(line) <= COLUMNS[columns] + 12, line  # 12: of &
-
-
-def test_no_such_exact_form():
-    with pytest.raises(ForceDiffusionError, match="13, 14, 15, 16, B2"):
-        fd.equation(3).exact()
-    with pytest.raises(ForceDiffusionError, match=r"'Layer'. It has layer"):
-        fd.equation(13).exact("Layer")
-    with pytest.raises(ForceDiffusionError, match=r"'leg'. It has bead, contact and force"):
-        fd.equation(16).exact("leg")
-    assert fd.equation(3).forms == ()
 
 
 @pytest.mark.long

@@ -22,13 +22,7 @@ from hypothesis import strategies as st
 import force_diffusion as fd
 from force_diffusion.symbols import N, f_minus, f_plus, i, j, k, l, p, t
 from tests.properties.reading import AbsentError
-from tests.soundness.witnesses.moments import (
-    DIRECTIONS,
-    Packing,
-    Value,
-    covariance,
-    exact,
-)
+from tests.soundness.witnesses.moments import DIRECTIONS, Packing, Value, covariance, exact
 
 HIGHEST = 6
 FEW, SOME = (settings(max_examples=max(2, settings.default.max_examples // n)) for n in (20, 10))

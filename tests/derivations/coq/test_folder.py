@@ -12,12 +12,7 @@ from pathlib import Path
 import pytest
 from force_diffusion.derivations.coq import folder
 from force_diffusion.derivations.coq.files import theory
-from force_diffusion.derivations.coq.folder import (
-    CoqAbsentError,
-    CoqFolder,
-    axioms_in,
-    unexpected,
-)
+from force_diffusion.derivations.coq.folder import CoqAbsentError, CoqFolder, axioms_in, unexpected
 
 import force_diffusion as fd
 

@@ -8,12 +8,7 @@ from itertools import pairwise
 import pytest
 import sympy
 from force_diffusion.derivations.beyond.variances import IN_SPACE, UNIT
-from force_diffusion.derivations.export.article import (
-    article,
-    figures_of,
-    page,
-    source,
-)
+from force_diffusion.derivations.export.article import article, figures_of, page, source
 from force_diffusion.derivations.export.supplement import supplement
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load

@@ -31,10 +31,7 @@ OF_CONTACTS = {
     "beads_mean_variance": ("B8", "mean"),
 }
 """The equation and the name of each; tests/derivations/calculator certifies these."""
-BELOW_LOAD = {
-    "bead_response": (16, "bead"),
-    "contact_response": (16, "contact"),
-}
+BELOW_LOAD = {"bead_response": (16, "bead"), "contact_response": (16, "contact")}
 LEADING = {
     "surface_diffusion": (13, "surface_variance"),
     "bulk_diffusion": (14, "bulk_variance"),

@@ -7,11 +7,7 @@ from types import SimpleNamespace
 import pytest
 from force_diffusion.derivations.api.derived import Derived
 from force_diffusion.derivations.export.document import document
-from force_diffusion.derivations.export.terminal import (
-    outcome_text,
-    summary_line,
-    trouble_lines,
-)
+from force_diffusion.derivations.export.terminal import outcome_text, summary_line, trouble_lines
 from force_diffusion.derivations.framework import loading
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load, with_premises

@@ -15,7 +15,8 @@ from force_diffusion.numeric.run.running import run
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
-from tests.numeric.scenes import basic, planned, radii_read
+import force_diffusion as fd
+from tests.numeric.scenes import basic, planned, question, radii_read
 
 
 @dataclass(frozen=True)
@@ -130,18 +131,15 @@ def test_many_contacts_see_images_where_any_one_does(
 
 
 def test_what_is_seen_does_not_depend_on_how_a_load_is_written(tmp_path):
-    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n6,6,0,-1\n")
     for width, geometry in product((3, 5, 6, 7, 10), ("exact", "first-order")):
-        sections = basic(6, width)
-        sections["packing"]["allow_images"] = True
-        sections["effects"] = {"geometry": geometry}
         at = [6 % (2 * width), 6]
         (tmp_path / "loads.csv").write_text(f"i,j,fx,fy\n{at[0]},6,0,-1\n")
-        sections["load"] = {"kind": "file", "file": "loads.csv"}
-        file = planned(sections, tmp_path).sees_images
-        sections["load"] = {"kind": "point", "at": at}
-        assert file == planned(sections).sees_images
-        assert file == (width <= 6)
+        for load in (fd.Load(kind="file", file="loads.csv"), fd.PointLoad(at=at)):
+            effects = {"geometry": geometry}
+            asked = question(
+                "contact_forces", 6, width, load=load, effects=effects, folder=tmp_path
+            )
+            assert asked.explain().sees_images == (width <= 6)
 
 
 def test_loads_far_apart_do_not_see_the_beads_between_them(tmp_path):
