@@ -10,7 +10,6 @@ import numpy as np
 import pytest
 from flint import fmpq
 
-import force_diffusion as fd
 from tests.derivations.fourth_order import bulk_leading, other_laws, surface_leading, variances
 from tests.numeric.mechanics import taylor
 
@@ -57,13 +56,6 @@ def test_floats_are_the_exact_coefficients(load, height, layer):
     found = variances(height, float(PHI), load == "bulk")[layer]
     exact = by_taylor(height, layer, load)
     assert found == pytest.approx(tuple(map(float, exact)), rel=1e-11)  # a few hundred roundings
-
-
-@pytest.mark.parametrize(("number", "bulk"), [(13, False), (14, True)])
-def test_the_first_order_is_that_of_the_equations(number, bulk):
-    stated = fd.equation(number).exact().profile(M=6, phi=0.3, sigma=1, r=1)
-    found = [second for second, _ in variances(6, 0.3, bulk)]
-    assert found == pytest.approx([float(one) for one in stated], rel=1e-11)
 
 
 @pytest.mark.long

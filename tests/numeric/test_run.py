@@ -168,13 +168,6 @@ def test_a_realisation_that_can_not_be_built_is_named():
     assert len(answer(sections).rows()) == k * 6 * 8 * 2  # those before it can
 
 
-def test_a_notebook_shows_the_first_rows_and_says_how_many_there_are():
-    shown = answer(basic(6, 14))._repr_html_()
-    assert shown.count("<tr>") == 21
-    assert "and 148 more rows" in shown
-    assert "physical; error" in shown
-
-
 @pytest.mark.parametrize("power", [-400, 400])
 def test_a_profile_in_units_beyond_floats_is_that_in_others(power):
     loads = (fd.SurfaceLoad(magnitude=Fraction(10) ** k) for k in (0, power))

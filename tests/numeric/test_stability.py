@@ -167,14 +167,6 @@ def test_balls_lose_a_power_of_the_height(low, high):
     assert lost(high, 1e-8) - lost(low, 1e-8) < 1.5 * 2 + 0.1
 
 
-def test_what_balls_lose_at_the_critical_height():
-    """512 layers at σ/r = 1e-4, M* = 464: below 40 bits.
-
-    23 bits are the power law's (8 + 1.5 · 10); the rest is room for the growth that sets in.
-    """
-    assert lost(512, 1e-4) < 40
-
-
 def test_beyond_it_balls_lose_exponentially():
     """The packing itself is unstable there: half a bit a layer and more at σ/r = 1e-2."""
     assert critical_height(Fraction(1, 100)) < 32

@@ -89,12 +89,6 @@ def test_lines_that_are_left_out_are_not_proved(number):
     assert not eq.decide([lines[0]] * len(lines)).verdict.is_proved
 
 
-def test_the_line_that_an_expression_is_proved_for_is_named():
-    first, second = fd.equation(7).expr
-    assert "f⁺_(k−1,l−1)" in fd.equation(7).decide(first.rhs).note
-    assert "f⁻_(k+1,l−1)" in fd.equation(7).decide(second.rhs).note
-
-
 def test_a_tuple_of_one_is_the_one_line():
     eq = fd.equation(13)
     assert eq.decide(Tuple(eq.expr)).verdict is Verdict.PROVED
@@ -181,8 +175,10 @@ def test_what_is_not_read_is_undecided_with_the_reason(number):
         assert found.verdict is Verdict.UNDECIDED or candidate in NEVER_PROVED, candidate
 
 
-def test_which_line_is_meant_is_asked():
+def test_which_line_is_meant_is_named_or_asked():
     first, second = fd.equation(7).expr
+    assert "f⁺_(k−1,l−1)" in fd.equation(7).decide(first.rhs).note  # which is proved for it
+    assert "f⁻_(k+1,l−1)" in fd.equation(7).decide(second.rhs).note
     assert fd.equation(7).decide(equal(first.lhs, second.rhs)).verdict is Verdict.REFUTED
     found = fd.equation(7).decide(sympy.sin(sy.phi))
     assert found.verdict is Verdict.UNDECIDED

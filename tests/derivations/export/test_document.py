@@ -44,13 +44,6 @@ def test_the_document_is_ascii_and_balanced_and_the_same_every_time():
     assert "undecided" in text
 
 
-def test_a_page_may_end_within_a_long_step():
-    text = document([run(load(14))])
-    assert r"\allowdisplaybreaks" in text
-    for one in re.findall(r"\\begin\{align\*\}(.*?)\\end\{align\*\}", text, re.DOTALL):
-        assert r"\begin{aligned}" not in one
-
-
 def test_a_step_that_gives_the_printed_equation_refers_to_it():
     text = section_latex(run(fakes.PREMISE))
     assert "Subtract two radii: Eq.~(1)." in text

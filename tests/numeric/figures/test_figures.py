@@ -227,19 +227,16 @@ def test_points_with_bars_are_the_rows_of_the_table(module, name, rows):
     made = few(module)
     table = {key: np.array(column) for key, column in columns(made, name).items()}
     assert {len(column) for column in table.values()} == {rows}
-    shares = []
-    for one in (one for axes in made.figure.axes for one in axes.containers if one.has_yerr):
-        y, bars = one.lines[0].get_ydata(), np.array(one.lines[2][0].get_segments())[:, :, 1]
-        shares.append(np.array([bars[:, 0], y, bars[:, 1]]) / y.mean())
-    drawn = np.concatenate(shares, axis=1)
-    assert drawn.shape[1] == rows
     written = np.array([table[key] for key in ("band_low", "simulated", "band_high")])
-    # the units of the axes are not those of the table: the shape of each series is the same
     start = 0
-    for part in shares:
-        own = written[:, start : start + part.shape[1]]
-        assert part == pytest.approx(own / own[1].mean(), rel=1e-9)
-        start += part.shape[1]
+    for series in (one for axes in made.figure.axes for one in axes.containers if one.has_yerr):
+        y, bars = series.lines[0].get_ydata(), np.array(series.lines[2][0].get_segments())[:, :, 1]
+        own = written[:, start : start + len(y)]
+        # the units of the axes are not those of the table: the shape of each series is the same
+        shape = np.array([bars[:, 0], y, bars[:, 1]]) / y.mean()
+        assert shape == pytest.approx(own / own[1].mean(), rel=1e-9)
+        start += len(y)
+    assert start == rows
 
 
 def test_figure_b13_has_the_leading_orders_of_the_exact_forms():

@@ -14,7 +14,7 @@ from force_diffusion.numeric.scene.sections import SceneError
 import force_diffusion as fd
 from tests.numeric.scenes import answer, basic, parse_scene, planned, scene
 
-CONTACT: dict[str, Any] = {"quantity": "contact"}
+CONTACT, HISTOGRAM = {"quantity": "contact"}, {"quantity": "histogram"}
 SPHERES: dict[str, Any] = {"dimension": 3}
 Sections = dict[str, dict[str, Any]]
 WRONG: list[tuple[Sections, str]] = [
@@ -41,6 +41,10 @@ WRONG: list[tuple[Sections, str]] = [
     ({"ask": {"realisations": 0}}, "from 1 to 1000000000"),
     ({"ask": {"bins": 5}}, 'needs quantity = "histogram"'),
     ({"ask": {"layers": [0.5]}}, "a list of layers"),
+    ({"ask": HISTOGRAM | {"layers": [6]}}, "of lower beads below the load, from 0 to 5"),
+    ({"load": {"kind": "point", "at": [0, 4]}, "ask": HISTOGRAM | {"layers": [4]}}, "0 to 3"),
+    ({"ask": HISTOGRAM | {"layers": [1, 1]}}, "each once"),
+    ({"ask": HISTOGRAM | {"layers": [0], "at": [0, 0, "+"]}}, "asks for one place"),
     ({"ask": {"at": [0, 0, "+"]}}, 'needs quantity = "contact", "histogram" or "positions"'),
     ({"ask": CONTACT | {"at": [0, 0, "x"]}}, "must be a contact"),
     ({"ask": CONTACT | {"at": [0, 1, "+"]}}, "even"),

@@ -77,17 +77,3 @@ def test_it_is_drawn_with_the_gaussians_of_these_layers():
     line = next(one for one in axes.lines if len(one.get_xdata()) == 321)
     v, gauss = line.get_xdata(), line.get_ydata()
     assert gauss == pytest.approx(np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi))
-
-
-@pytest.mark.parametrize(
-    ("more", "says"),
-    [
-        ({"layers": [6]}, "must be layers of lower beads below the load, from 0 to 5"),
-        ({"layers": [1, 1]}, "each once"),
-        ({"layers": [0], "at": (0, 0, "+")}, "asks for one place"),
-        ({"layers": [4], "load": fd.PointLoad(at=(0, 4))}, "from 0 to 3"),
-    ],
-)
-def test_layers_that_can_not_be_asked_for(more, says):
-    with pytest.raises(fd.SceneError, match=says):
-        layered("histogram", **more)
