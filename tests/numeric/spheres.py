@@ -1,6 +1,5 @@
-"""Small scenes of spheres, and what their answers say."""
+"""Small scenes of spheres."""
 
-from collections.abc import Iterator
 from typing import Any
 
 import force_diffusion as fd
@@ -15,7 +14,3 @@ def scene(
         quantity, height, width, dimension=3, spacing=2.9, std=std, seed=5,
         effects={"geometry": geometry}, **more,
     )  # fmt: skip
-
-
-def columns(outcome: fd.Outcome, *names: str) -> Iterator[tuple[Any, ...]]:
-    return zip(*(outcome.arrays[name].tolist() for name in names), strict=True)

@@ -12,19 +12,17 @@ from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
 import force_diffusion as fd
 from tests.numeric.scenes import question
-from tests.numeric.spheres import columns, scene
+from tests.numeric.spheres import scene
 
 
 def test_one_contact_and_one_bead_are_those_of_all():
-    every = scene(height=3, width=4).run()
-    for p, q, j, branch, change in columns(every, "p", "q", "j", "branch", "change"):
-        if (p + 2 * q + j) % 11 == 0:
-            one = scene("contact", height=3, width=4, at=(p, q, j, branch)).run()
-            assert one.arrays["change"].tolist() == [change]
-            assert one.rows()[0]["branch"] == branch
+    for row in scene(height=3, width=4).run().rows()[::11]:
+        place = tuple(row[name] for name in ("p", "q", "j", "branch"))
+        (contact,) = scene("contact", height=3, width=4, at=place).run().rows()
+        assert (contact["branch"], contact["change"]) == (row["branch"], row["change"])
     beads = scene("positions", height=3, width=4).run()
-    one = scene("positions", height=3, width=4, at=(3, 1, 2)).run()
-    assert one.rows()[0] in beads.rows()
+    (bead,) = scene("positions", height=3, width=4, at=(3, 1, 2)).run().rows()
+    assert bead in beads.rows()
 
 
 @pytest.mark.long(sample=1)
