@@ -54,13 +54,13 @@ def show_steps(steps: Steps) -> None:
     )
     in_spacing = {spacing: 4 * r * n_x}
     steps.show(
-        "The squared distance of two beads that are (p, q) apart, p + q even.",
+        "Two beads that are (p, q) apart, p + q even, have the squared distance",
         equation(D(p, q), 4 * r**2 * (p**2 * n_x**2 + q**2 * n_y**2)),
         rewrite(printed.theorem),
         PAIRS,
     )
     steps.show(
-        "The contacts touch, to both sides.",
+        "Contacts to both sides have the length 2r:",
         sympy.Tuple(equation(D(1, 1), 4 * r**2), equation(D(-1, 1), 4 * r**2)),
         rewrite(printed.theorem),
     )
@@ -75,8 +75,8 @@ def show_steps(steps: Steps) -> None:
         definitions=in_spacing,
     )
     steps.show(
-        "All others are further apart: none of the terms is negative for |p| ≥ 2 (first) or "
-        "|q| ≥ 2 (second), the last one being that of the tightest pair.",
+        "All other pairs are at least as far apart: none of the terms is negative for |p| ≥ 2 "
+        "(first line) or |q| ≥ 2 (second line), and the last is that of the tightest pair.",
         sympy.Tuple(
             *(
                 equation(
@@ -97,8 +97,8 @@ def show_steps(steps: Steps) -> None:
         PAIRS,
     )
     steps.show(
-        "Hence s lies between 2r and 2√3 r, and in terms of φ = n⁺·n⁻ both bounds together "
-        "say |φ| < ½; and 1 − φ² is positive.",
+        "Hence s lies between 2r and 2√3 r. In terms of φ = n⁺·n⁻ both bounds together say "
+        "|φ| < ½, and 1 − φ² is positive:",
         sympy.Tuple(
             equation(sympy.Rational(1, 2) - phi, (spacing**2 - 4 * r**2) / (8 * r**2)),
             equation(sympy.Rational(1, 2) + phi, (12 * r**2 - spacing**2) / (8 * r**2)),

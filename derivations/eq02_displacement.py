@@ -54,23 +54,23 @@ def show_steps(steps: Steps) -> None:
     contacts = sympy.Matrix([contact(0), contact(1)])
     supports = tuple(map(of_support, SUPPORTS))
     exact = steps.show(
-        "The bead touches both supports: the squared distance of the centres is the squared "
-        "sum of the radii. With ε the strength of the disorder, Δx, Δy the difference of "
-        "the two displacements and ρ the sum of the two δr, this vanishes, from the left support "
-        "and from the right:",
+        "The bead touches both supports, so the squared distance of the centres equals the "
+        "squared sum of the radii. Let ε be the strength of the disorder, (Δx, Δy) the "
+        "displacement of the bead less that of a support, and ρ the sum of their two δr. For the "
+        "left and for the right support:",
         sympy.Tuple(*(equation(constraint, 0) for constraint in contacts)),
         (follows(axioms.contact(1)), follows(axioms.contact(-1))),
         definitions=supports,
     )
     slope = contacts.jacobian([epsilon]).subs(epsilon, 0)
     linear = steps.show(
-        "It holds at ε = 0, so its derivative there must vanish too.",
+        "This holds for all small ε, so the derivative at ε = 0 vanishes, too:",
         sympy.Tuple(*(equation(sympy.expand(side), 0) for side in slope)),
         tuple(order(theorem, 1) for theorem in exact.theorems),
         definitions=supports,
     )
     components = steps.show(
-        "A contact fixes one component of the displacement.",
+        "So each contact fixes one component of the displacement:",
         sympy.Tuple(
             equation(
                 Dot(n_plus, terms(DeltaX(i, j), minus(LEFT))),
@@ -109,7 +109,7 @@ def show_steps(steps: Steps) -> None:
         ),
         solved,
     )
-    steps.show("Written out in Cartesian components, this is the printed form.", PRINTED, solved)
+    steps.show("In Cartesian components the solution is the printed form.", PRINTED, solved)
 
 
 DERIVATION = Derivation(

@@ -49,16 +49,16 @@ def show_steps(steps: Steps) -> None:
     """Base case on the fixed base, then one step of Eq. 2 with symbolic i and j."""
     resting, base = eq02.DERIVATION.theorem, axioms.base()
     steps.show(
-        "The base is held, δx_(i,0) = 0. A bead of layer 1 rests on two such beads. What Eq. 2 "
-        "gives is the printed equation at j = 1, where both of its sums are empty.",
+        "The base is fixed, δx_(i,0) = 0, and a bead of layer 1 rests on two of its beads. So Eq. "
+        "2 gives the printed equation at j = 1, where both sums are empty:",
         equation(DeltaX(i, j), FIRST_LAYER),
         rewrite(resting, base),
         ABOVE.also(sympy.Eq(j, 1)),
     )
     left, right = DeltaX(i - 1, j - 1), DeltaX(i + 1, j - 1)
     steps.show(
-        "By Eq. 2, the component along n⁺ gains two radii from the support to the left, which lies "
-        "on the same diagonal towards the base; and likewise to the right.",
+        "By Eq. 2, the component along n⁺ is that of the left support, which lies on the same "
+        "diagonal, plus two δr; and likewise to the right:",
         sympy.Tuple(
             equation(
                 Dot(n_plus, DeltaX(i, j)),
@@ -73,8 +73,8 @@ def show_steps(steps: Steps) -> None:
     )
     steps.show(
         "Suppose that the printed equation holds in layer j − 1 ≥ 1. The radius of the support is "
-        "counted once there and once by the new contact: it joins the sum with the weight 2. This "
-        "is the printed equation in layer j.",
+        "counted once there and once by the new contact, so it joins the sum with the weight 2. "
+        "This is the printed equation in layer j.",
         PRINTED,
         from_the_base_up,
     )

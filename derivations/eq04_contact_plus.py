@@ -50,22 +50,19 @@ def show_steps(steps: Steps) -> None:
         1,
         PRINTED,
         (
-            "The centres of touching beads are exactly R + R′ apart, so the unit vector of the "
-            "contact is their separation over R + R′ = 2r + ερ; its derivative at ε = 0 is "
-            "(Δx − ρ n⁺)/2r.",
-            "With Eq. 3 for both beads, the b⁺ component of the difference is the sum of the two "
-            "radii alone, since both beads lie on one diagonal along n⁺.",
-            "The b⁻ component compares two neighbouring diagonals along n⁻.",
+            "The centres of touching beads with the radii R and R′ are exactly R + R′ apart, so "
+            "the unit vector of the contact is their separation over R + R′. To first order it "
+            "changes by",
+            "Both beads lie on one diagonal along n⁺, so by Eq. 3 the b⁺ component of the "
+            "difference is the sum of their two δr alone:",
+            "The b⁻ component is the difference of two neighbouring diagonals along n⁻.",
         ),
     )
     steps.show(
-        "The contact's length has been used: the change is at right angles to n⁺.",
-        RIGHT_ANGLE,
+        "A unit vector changes at right angles to itself:",
+        equation(Dot(n_plus, DeltaNPlus(i, j)), 0),
         rewrite(printed.theorem),
     )
-
-
-RIGHT_ANGLE = equation(Dot(n_plus, DeltaNPlus(i, j)), 0)
 
 
 DERIVATION = Derivation(

@@ -33,22 +33,20 @@ def show_steps(steps: Steps) -> None:
         PRINTED,
         (
             "As for Eq. 4, from the exact unit vector of the contact along n⁻:",
-            "With Eq. 3 for both beads, now the b⁻ component is the two radii alone.",
-            "The b⁺ component compares two neighbouring diagonals along n⁺.",
+            "By Eq. 3, the b⁻ component is now the sum of the two δr alone:",
+            "The b⁺ component is the difference of two neighbouring diagonals along n⁺.",
         ),
     )
     steps.show(
-        "It is the mirror image of Eq. 4: i → −i at every bead, n⁺ ↔ n⁻ and b⁺ ↔ b⁻ in that "
-        "equation give this one.",
+        "It is also the mirror image of Eq. 4, in which i → −i at every bead, n⁺ ↔ n⁻ and b⁺ ↔ b⁻:",
         lattice.mirror(eq04.PRINTED),
         mirror_of(eq04.DERIVATION.theorem),
     )
     steps.show(
-        "Again the change is at right angles to the contact.", RIGHT_ANGLE, rewrite(printed.theorem)
+        "Again a unit vector changes at right angles to itself:",
+        equation(Dot(n_minus, DeltaNMinus(i, j)), 0),
+        rewrite(printed.theorem),
     )
-
-
-RIGHT_ANGLE = equation(Dot(n_minus, DeltaNMinus(i, j)), 0)
 
 
 def directions() -> tuple[Theorem, ...]:

@@ -48,17 +48,17 @@ def show_steps(steps: Steps) -> None:
     """A frictionless contact pushes along the gradient of the distance of the two centres."""
     slopes = [sympy.Derivative(SQUARED_DISTANCE, axis) for axis in (x, y)]
     steps.show(
-        "A frictionless contact opposes only a change of the distance of its two centres, (X, Y) "
-        "for the support and (x, y): its force on the bead is f times the gradient of that "
-        "distance, f ≥ 0 when compressive. The gradient of the squared distance, twice the "
-        "distance times that, points from the support to the bead,",
+        "A frictionless contact opposes only a change of the distance between its two centres, "
+        "(X, Y) of the support and (x, y) of the bead. So its force on the bead is f times the "
+        "gradient of that distance, f > 0 in compression. The gradient of the squared distance, "
+        "which is this times twice the distance, points from the support to the bead:",
         sympy.Tuple(equation(slopes[0], 2 * (x - X)), equation(slopes[1], 2 * (y - Y))),
         differentiate,
         Domain(),
     )
     steps.show(
-        "so that the gradient of the distance is the unit vector between the two: n⁺ + δn⁺ from "
-        "(k−1, l−1), n⁻ + δn⁻ from (k+1, l−1).",
+        "Its length is twice the distance, so the gradient of the distance is the unit vector from "
+        "one centre to the other: n⁺ + δn⁺ from (k−1, l−1), and n⁻ + δn⁻ from (k+1, l−1).",
         equation(terms(*(slope**2 for slope in slopes)), 4 * SQUARED_DISTANCE),
         differentiate,
         Domain(),
@@ -71,12 +71,13 @@ def show_steps(steps: Steps) -> None:
         ),
     )
     steps.show(
-        "In the ordered packing, with the load f_load downwards, both supports carry f_load/2n_y.",
+        "In the ordered packing, under a load f_load straight down, each contact carries "
+        "f_load/2n_y:",
         equation(f_load / (2 * n_y) * terms(n_plus, n_minus), f_load * e_y),
         rewrite(),
     )
     steps.show(
-        "The two directions enclose an angle with the cosine φ.",
+        "The cosine of the angle between the two directions is φ:",
         equation(Dot(n_plus, n_minus), phi),
         rewrite(),
     )

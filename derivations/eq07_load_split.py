@@ -82,7 +82,8 @@ def show_steps(steps: Steps) -> None:
     (plus, minus_), carried = FORCES, times(ORDERED, terms(1, phi))
     rows = steps.show(
         "A vertical load is −(f_load/2n_y)(n⁺ + n⁻). Dotted with n⁺ and n⁻, Eq. 6 is a 2×2 system "
-        "for the two forces; ν⁺ = n⁻·δn⁺ and ν⁻ = n⁺·δn⁻ are all that δn^± holds, by Eqs. 4 and 5.",
+        "for the two forces. By Eqs. 4 and 5, δn^± is at right angles to its own contact, so only "
+        "the tilts ν⁺ = n⁻·δn⁺_(k−1,l−1) and ν⁻ = n⁺·δn⁻_(k+1,l−1) enter:",
         sympy.Tuple(
             equation(terms(plus, times(terms(phi, eq06.nu_minus), minus_)), carried),
             equation(terms(times(terms(phi, eq06.nu_plus), plus), minus_), carried),

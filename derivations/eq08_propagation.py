@@ -25,7 +25,7 @@ PRINTED = (
     equation(RATIOS[1], minus(times(1 / (1 - phi**2), TURN))),
 )
 
-nu_in = Symbol("nu_in", r"\nu_{\mathrm{in}}", "ν_in")  # n⁻·δn⁺ of the contact above
+nu_in = Symbol("nu_in", r"\nu_{rs}", "ν_rs")  # n⁻·δn⁺ of the contact above
 TILTS = {
     eq06.nu_plus: Dot(n_minus, DeltaNPlus(*LEFT)),
     eq06.nu_minus: Dot(n_plus, DeltaNMinus(*RIGHT)),
@@ -48,8 +48,9 @@ def show_steps(steps: Steps) -> None:
     loads, (plus, minus_) = axioms.loads(axioms.PASSING), FORCES
     balance = instance(axioms.balance(), {}, PASSED)
     rows = steps.show(
-        "As in Eq. 6, with the load replaced by the incoming force −f⁺_rs (n⁺ + δn⁺_rs). Dotted "
-        "with n⁺ and n⁻:",
+        "As in Eq. 6, with the incoming force −f⁺_rs (n⁺ + δn⁺_rs) in place of the load. Dotted "
+        "with n⁺ and n⁻, with the tilts ν⁺ = n⁻·δn⁺_(r−1,s−1) and ν⁻ = n⁺·δn⁻_(r+1,s−1) of the "
+        "contacts below, and ν_rs = n⁻·δn⁺_rs of that above:",
         sympy.Tuple(
             equation(terms(plus, times(terms(phi, eq06.nu_minus), minus_)), ENTERING),
             equation(
@@ -71,7 +72,7 @@ def show_steps(steps: Steps) -> None:
         solve(rows.theorems, FORCES),
     )
     steps.show(
-        "For an incoming force along n⁻ the same system gives the mirror images.",
+        "For an incoming force along n⁻, which the paper leaves to symmetry, the same system gives",
         sympy.Tuple(*map(lattice.mirror, PRINTED)),
         tuple(map(mirror_of, printed.theorems)),
         PASSED.mirrored(),
@@ -93,7 +94,6 @@ DERIVATION = Derivation(
     domain=PASSED,
     show_steps=show_steps,
     definitions=TILTS,
-    remarks=("The paper leaves the incoming force along n⁻ to symmetry; it is shown here.",),
 )
 
 if __name__ == "__main__":

@@ -54,7 +54,7 @@ def show_steps(steps: Steps) -> None:
     """Induction on the layer, downwards."""
     above = (i + 1, j + 1)
     steps.show(
-        "Each bead that is passed multiplies by Eq. 8.",
+        "Each bead that the force passes multiplies it by the factor of Eq. 8:",
         equation(ForcePlus(i, j) / ForcePlus(*above), eq08.straight(*above)),
         rewrite(eq08.DERIVATION.theorems[0]),
         Domain.of(
@@ -62,7 +62,7 @@ def show_steps(steps: Steps) -> None:
         ),
     )
     steps.show(
-        "To first order the changes in a product add up.",
+        "To first order the changes in a product add up:",
         equation(
             times(terms(1, epsilon * FIRST), terms(1, epsilon * SECOND)),
             terms(1, times(epsilon, terms(FIRST, SECOND)), epsilon**2 * FIRST * SECOND),
@@ -71,8 +71,8 @@ def show_steps(steps: Steps) -> None:
         Domain(),
     )
     steps.show(
-        "The direction in between cancels: the printed ratio at the contact above, times Eq. 8, is "
-        "that at the contact below.",
+        "So the printed ratio at the contact above, times that factor, is the printed ratio at the "
+        "contact below, as the direction in between cancels:",
         equation(
             first_order_product(PRINTED.rhs.xreplace({i: i + 1, j: j + 1}), eq08.straight(*above)),
             PRINTED.rhs,
@@ -81,8 +81,8 @@ def show_steps(steps: Steps) -> None:
         Domain.of(Eq(k - i, l - j), l - j >= 2, j >= 0),
     )
     steps.show(
-        "At the entry itself the printed ratio is 1: no bead has been passed. So from layer to "
-        "layer the ends are left.",
+        "At the entry, where no bead has been passed, the printed ratio is 1. By induction, layer "
+        "after layer down, only the two ends are left.",
         PRINTED,
         from_the_entry_down(*NOTHING_TO_THE_LEFT),
     )

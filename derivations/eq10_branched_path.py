@@ -67,7 +67,7 @@ def show_steps(steps: Steps) -> None:
     )
     bead = (i - n, j + n)
     steps.show(
-        "There the force along n⁻ that leaves is, by Eq. 8,",
+        "By Eq. 8, the force that leaves this bead along n⁻ is",
         equation(ForceMinus(i - n + 1, j + n - 1) / ForcePlus(*bead), eq08.branching(*bead)),
         rewrite(eq08.DERIVATION.theorems[1]),
         Domain.of(
@@ -77,8 +77,8 @@ def show_steps(steps: Steps) -> None:
         ),
     )
     steps.show(
-        "The straight pieces count at order 0, where they are 1 (Eq. 9). From layer to layer down, "
-        "every bead is balanced by these forces, and by no others:",
+        "The straight pieces count at order 0, where they are 1 (Eq. 9). By induction, layer after "
+        "layer down, every bead is balanced by these forces and no others.",
         PRINTED,
         eq09.from_the_entry_down((eq09.PRINTED, eq09.STRAIGHT), *NOTHING_BESIDE),
     )

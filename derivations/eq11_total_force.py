@@ -98,46 +98,43 @@ def show_steps(steps: Steps) -> None:
     )
     one_load = Domain.of(j >= 0, n >= 1, n <= M - j - 1)
     steps.show(
-        "A surface load that reaches the contact with one branch turns at the bead (i+n, j+n): "
-        "the mirror image of Eq. 10. It is the load on bead (k, l),",
+        "A load that reaches the contact by a path with one branch, at the bead (i+n, j+n), does "
+        "so as in the mirror image of Eq. 10. It is the load on the bead (k, l) with",
         sympy.Tuple(*map(equation, (k, l), branched_load(n))),
         rewrite(),
         one_load.also(sympy.Eq(2 * n, (l - j) - (i - k)), sympy.Eq(l, M), indices=(k, l)),
     )
     steps.show(
-        "one for each n = 1, …, M−j−1. Of the force along n⁻ below its bead it contributes",
+        "There is one such load for each n = 1, …, M−j−1. Relative to the force along n⁻ below its "
+        "bead, it contributes",
         lattice.mirror(eq10.PRINTED),
         mirror_of(eq10.DERIVATION.theorem),
         eq10.BRANCHED.mirrored(),
     )
     branched = sympy.Sum(eq10.branched_plus(i, j, n), (n, 1, M - j - 1))
     steps.show(
-        "Each enters with the ordered force as its source, since the branch is of first order. "
-        "Added up over n:",
+        "As the branch is of first order, the force that enters it counts at order 0, f_load/2n_y. "
+        "Summed over n:",
         equation(branched, printed[2]),
         rewrite(),
         LAYERS,
     )
     steps.show(
-        "Both together; from layer to layer down, every bead is balanced by these forces:",
+        "Both parts together balance every bead, as induction shows, layer after layer down.",
         PRINTED,
         from_the_surface_down,
     )
-    first, last = branched_load(sympy.S.One)[0], branched_load(M - j - 1)[0]
     steps.claim(
-        "each surface load has one n; those that branch are k = i−M+j+2, …, i+M−j−2",
+        "each of these loads has one n, and each n one load",
         sympy.Tuple(
             equation(((M - j) + (branched_load(n)[0] - i)) / 2, n),
             equation(branched_load(((M - j) + (k - i)) / 2)[0], k),
-            equation(branched_load(M - j)[0], STRAIGHT_LOAD[0]),
-            equation(first, i - M + j + 2),
-            equation(last, i + M - j - 2),
         ),
         rewrite(),
         one_load.also(indices=(k, l)),
     )
     steps.claim(
-        "what turns a force is of order √j: the component of δn⁻ along n⁺, for j ≥ 1",
+        "the tilt of a contact, the component of δn⁻ along n⁺, is of order √j for j ≥ 1",
         equation(
             Variance(Dot(n_plus, DeltaNMinus(i, j))),
             times(terms(4 * j, phi**2), sigma**2, 1 / (2 * r**2)),
@@ -146,7 +143,7 @@ def show_steps(steps: Steps) -> None:
         Domain.of(j >= 1),
     )
     steps.claim(
-        "at j = M − 1 the sum is empty and Eq. 7 is left",
+        "at j = M − 1 the sum is empty, and Eq. 7 is left",
         equation(PRINTED.rhs, eq07.split_plus(i + 1, M)),
         rewrite(),
         LAYERS.also(sympy.Eq(j, M - 1)),

@@ -58,14 +58,16 @@ def show_steps(steps: Steps) -> None:
     )
     steps.show(
         "Each term of the sum over n in Eq. 11 compares two neighbouring contacts along n⁻. By "
-        "Eq. 5 it is a second difference for every layer below the branch, half of one on the "
-        "base, and four radii beside the branch.",
+        "Eq. 5 it holds a second difference in every layer below the branch, half of one on the "
+        "base, and four radii beside the branch:",
         equation(BRANCH_TERM, times(1 / r, BRANCH_IN_RADII)),
         rewrite(eq05.DERIVATION.theorem),
         Domain.of(j >= 0, n >= 1),
     )
     steps.show(
-        "Keeping the sums of Eq. 5 alone, and one more term n = M − j:",
+        "Only the sums of second differences are kept. Like the paper, we give each of them one "
+        "more term, m = j + n, and the sum over n one more, n = M − j. These, too, are of the "
+        "order that is dropped:",
         equation(PRINTED.lhs, minus(times(PREFACTOR, DOUBLE_SUM))),
         negligible(*eq11.in_radii()),
     )
@@ -78,14 +80,12 @@ def show_steps(steps: Steps) -> None:
     )
     left_out = sympy.Sum(ON_DIAGONAL, (m, j + 1, M))
     steps.show(
-        "The printed braces leave out Δ once for every m > j:",
+        "The printed braces count each Δ with m > j one time less:",
         equation(weighted(FULL_COUNT), terms(weighted(BRACES), left_out)),
         rewrite(),
         INSIDE,
     )
-    steps.show(
-        "That is of the order that is dropped anyway.", PRINTED, negligible(*eq11.in_radii())
-    )
+    steps.show("That, too, is of the order that is dropped.", PRINTED, negligible(*eq11.in_radii()))
     steps.claim(
         "the mean force of Eq. 11 is f_load/2n_y at every height",
         equation(Mean(ForcePlus(i, j)), f_load / (2 * n_y)),
@@ -119,9 +119,9 @@ DERIVATION = Derivation(
         "Erratum: the double sum printed just before Eq. 12 counts M − m + 1 for m > j; the braces "
         "say M − m. The difference is of the order that Eq. 12 drops.",
         "Erratum: the sum over n in Eq. 11 ends at M − j − 1, the one printed before Eq. 12 at "
-        "M − j: again a difference of dropped order.",
-        "The largest of what is dropped is half a Δ on the base for each branch, with a weight of "
-        "order M on three radii.",
+        "M − j. This difference, too, is of the order that Eq. 12 drops.",
+        "The largest of the dropped terms is half a Δ on the base for each branch: three radii "
+        "with weights of order M, and a variance of order M² against M³ for what is kept.",
     ),
 )
 

@@ -46,16 +46,16 @@ def show_steps(steps: Steps) -> None:
     groups = eq11.in_radii()
     variance = steps.show(
         "Each Δ holds one radius with the weight 2 and two with the weight −1: their squares add "
-        "up to 6. Those of Eq. 12 lie in different layers and share no radius. With its prefactor, "
-        "the variance of its right-hand side is",
+        "up to 6. Those of Eq. 12 lie in different layers and share no radius. With the "
+        "prefactor, the variance of its right-hand side is",
         equation(KEPT_VARIANCE, times(layers.UNIT, WEIGHTS)),
         moment(),
         definitions={KEPT_VARIANCE: Variance(eq12.PRINTED.rhs)},
     )
     below, above = sympy.Sum((M - j) ** 2, (m, 1, n)), sympy.Sum((M - m) ** 2, (m, j + 1, n))
     steps.show(
-        "Each sum up to n is checked: it grows by the term at n, and is zero before the first "
-        "term, at n = 0 (first) and at n = j (second).",
+        "The closed form of each sum up to n is checked: it grows by the term at n, and is zero "
+        "before the first term, at n = 0 (first sum) and at n = j (second sum).",
         sympy.Tuple(
             *certificate(below, n * (M - j) ** 2),
             *certificate(above, terms(_squares_to(M - j), minus(_squares_to(M - n)))),
@@ -65,17 +65,17 @@ def show_steps(steps: Steps) -> None:
     )
     added = steps.show("Added up:", equation(WEIGHTS, TOTAL), rewrite())
     steps.show(
-        "What Eq. 12 drops varies less by an order, and the first term has the highest order: with "
-        "z = j/M it is the printed form.",
+        "The variance of what Eq. 12 drops is lower by an order in M, and the first term has the "
+        "highest order. With z = j/M it is the printed form.",
         PRINTED,
         drop_terms(eq12.DERIVATION.theorem, variance.theorem, added.theorem),
         IN_THE_LIMIT,
     )
-    how = "Eqs. 4 and 5 put into Eq. 11, every radius has one weight; each sum telescopes"
+    how = "put into Eq. 11, Eqs. 4 and 5 give every radius a weight; their squares add up"
     exact = layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, eq11.LOADED, groups)
     layers.show_next(steps, PRINTED, NEXT_ORDER, eq11.LOADED, exact)
     steps.show(
-        "The profile ceases to broaden at the base, where its slope vanishes.",
+        "At the base the profile no longer broadens, as its slope vanishes:",
         equation(sympy.Derivative(PROFILE, z), -6 * z * (1 - z)),
         differentiate,
         Domain(),
@@ -96,15 +96,6 @@ def show_steps(steps: Steps) -> None:
         PROFILE,
         6 * z / (2 * z + 1),
         (4 * z - 1) / (2 * z + 1),
-    )
-    steps.claim(
-        "1 − φ² is more than 3/4, since −½ < φ < ½",
-        equation(
-            terms(1, -(phi**2)),
-            terms(sympy.Rational(3, 4), times(sympy.S.Half - phi, sympy.S.Half + phi)),
-        ),
-        rewrite(),
-        Domain(),
     )
 
 
@@ -127,11 +118,12 @@ DERIVATION = Derivation(
         "Erratum: the limit is taken at fixed z. A fixed number of layers below the surface the "
         "printed form does not apply: at j = M − 1 the exact variance grows as 2(1+φ²) M, "
         "not 6 M, in units of (σ/r)²/(1 − φ²)².",
-        "The Gaussian P(f) of the paper is that of one contact, over the ensemble of packings, as "
-        "M → ∞ at fixed z. Over a layer of one packing it is the same once the packing is much "
-        "wider than high: contacts more than M apart share no radius. Over all contacts of a "
-        "packing it is not: Gaussian laws of all widths are mixed then, and the kurtosis is "
-        "3 ⟨P²⟩/⟨P⟩² = 156/35, and not 3, P being the profile (1 − z)²(2z + 1).",
+        "The Gaussian distribution of the paper is that of one contact over the ensemble of "
+        "packings, as M → ∞ at fixed z. Over a layer of one packing it is the same once the "
+        "packing is much wider than high: contacts more than M apart share no radius. Over all "
+        "contacts of a packing it is not: Gaussian laws of all widths are mixed then, and the "
+        "kurtosis is 156/35, not 3. It is 3 ⟨g²⟩/⟨g⟩², averaged over 0 < z < 1, with the profile "
+        "g = (1 − z)²(2z + 1).",
     ),
 )
 

@@ -116,8 +116,8 @@ def show_steps(steps: Steps) -> None:
         {MEAN_FORCE: sympy.Sum(m_g / (2 * n_y), (l, j + 1, M))},
     )
     steps.show(
-        "In units of this mean, f⁺_ij is the average of what Eq. 11 says over the heights "
-        "l = j+1, …, M: by balancing bead after bead, from the surface down.",
+        "In units of this mean, f⁺_ij is the average of Eq. 11 over the heights l = j+1, …, M, as "
+        "balancing bead after bead shows, from the surface down:",
         FORCE,
         eq11.from_the_surface_down,
         LOADED,
@@ -129,7 +129,7 @@ def show_steps(steps: Steps) -> None:
         eq12.INSIDE.also(m >= j + 1, m <= M),
     )
     approximation = steps.show(
-        "As in Eq. 12, what is dropped varies less by an order:",
+        "As in Eq. 12, the variance of what is dropped is lower by an order in M:",
         equation(terms(RATIO, -1), AVERAGE_OF_EQ_12),
         negligible(*groups),
         LOADED.also(j >= 1).in_the_limit(at_fixed_height("≈")),
@@ -142,25 +142,25 @@ def show_steps(steps: Steps) -> None:
     )
     up_to_n = n * (n + 1) * (n + 2) * (3 * n**2 + 6 * n + 1) / 15
     steps.show(
-        "This sum of squares is checked in the same way; it is zero at n = 0. With M − m for m, "
-        "the second sum is, but for its factor, this one at n = M − j − 1.",
+        "The sum of squares below is checked as in Eq. 13; it is zero at n = 0. With M − m for m, "
+        "the second sum above is a factor times this one at n = M − j − 1.",
         sympy.Tuple(*certificate(sympy.Sum(m**2 * (m + 1) ** 2, (m, 1, n)), up_to_n)),
         rewrite(),
         Domain.of(n >= 0),
     )
     added = steps.show("Added up:", equation(WEIGHTS, terms(HIGHEST, REST)), rewrite())
     steps.show(
-        "The first term has the highest order: with z = j/M it is the printed form.",
+        "The first term has the highest order. With z = j/M it is the printed form.",
         PRINTED,
         drop_terms(approximation.theorem, variance.theorem, added.theorem),
         IN_THE_LIMIT,
     )
-    how = "every radius has one weight; each sum telescopes"
+    how = "put into step 2, Eqs. 4 and 5 give every radius a weight; their squares add up"
     exact = layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, LOADED, groups)
     layers.show_next(steps, PRINTED, NEXT_ORDER, LOADED, exact)
     steps.show(
-        "The profile rises up to z = 1/6 and falls from there on. Without the normalisation it "
-        "would be stationary at the base.",
+        "From the base up the profile rises to z = 1/6, and falls above it. Not divided by ⟨f⟩_z² "
+        "it would be stationary at the base.",
         sympy.Tuple(
             equation(sympy.Derivative(PROFILE, z), 2 * (1 - z) * (1 - 6 * z)),
             equation(
@@ -188,7 +188,7 @@ def show_steps(steps: Steps) -> None:
         (8 * z - 3) / (4 * z + 1),
     )
     steps.claim(
-        "at fixed z the printed form has one maximum, at z = 1/6: it falls short of that by "
+        "the printed form has one maximum, at z = 1/6, below which its profile lies by "
         "(z − 1/6)² (17/3 − 4z)",
         equation(
             terms(PROFILE.xreplace({z: sympy.Rational(1, 6)}), -PROFILE),
@@ -198,8 +198,8 @@ def show_steps(steps: Steps) -> None:
         Domain(),
     )
     steps.claim(
-        "there the exact form has a maximum at j = M/6 − 5/24, up to a shift that vanishes as "
-        "M → ∞",
+        "near z = 1/6 the exact form has a maximum at j = M/6 − 5/24, up to a shift that vanishes "
+        "as M → ∞",
         sympy.Tuple(gained(4), gained(5)),
         asymptotic(*groups),
         [next_to_the_maximum(4), next_to_the_maximum(5)],
@@ -213,7 +213,7 @@ DERIVATION = Derivation(
     symbols=(*usual(sigma, r, M, z, phi), (m_g, "weight of a bead")),
     assumptions=(
         *FIRST_ORDER,
-        "every bead above the base weighs mg, whatever its radius",
+        "every bead above the base has the weight m g, whatever its radius",
         "printed form: M → ∞ at fixed z; exact form: every 0 ≤ j < M",
     ),
     printed=(PRINTED,),

@@ -1,7 +1,6 @@
 """Eq. 15: σ_f/⟨f⟩ averaged over the system, and the height M* at which forces turn tensile."""
 
 # fmt: off
-from collections.abc import Callable
 import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
@@ -9,11 +8,12 @@ from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Limit, Rule, Steps, Symbol, asymptotic, axioms, equation,
+    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, axioms, equation,
     moment, power, power_law, rewrite, tensile, terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.symbols import (
-    DeltaX, Dot, M, Mean, Tensile, UnitHeight, Variance, i, j, m, n_minus, n_plus, phi, r, sigma, z)
+    DeltaX, Dot, H_M, M, Mean, Tensile, UnitHeight, Variance, i, j, m, n_minus, n_plus, phi, r,
+    sigma, z)
 from sympy import Rational
 # fmt: on
 
@@ -99,61 +99,59 @@ def tensile_fraction(load: str) -> sympy.Expr:
 
 
 NEGATIVE = (
-    "The probability of a tensile contact is ½ erfc(1/√(2v)) for a Gaussian force of mean 1 and "
-    "variance v. The forces are Gaussian, to first order, for normal radii, and in the limit for "
-    "all radii of finite variance: no radius dominates, by Eqs. 13 and 14, which is what "
-    "Lindeberg's theorem needs. Averaged over the layers as M → ∞ at fixed M/M*, the expected "
-    "fraction under a surface load is"
+    "A Gaussian force of mean 1 and variance v is tensile with the probability ½ erfc(1/√(2v)). To "
+    "first order the forces are Gaussian for normal radii and, in the limit, for all radii of "
+    "finite variance: by Eqs. 13 and 14 no radius dominates, which is what Lindeberg's theorem "
+    "needs. Averaged over the layers as M → ∞ at fixed M/M*, the expected fraction under a surface "
+    "load is"
 )
 
 
 def show_steps(steps: Steps) -> None:
     """Average the exact variances; set the average to one; count negative Gaussian forces."""
-    for load in LOADS:
+    for load, how in (
+        ("surface", "layers hold equally many contacts, so their mean is that over the layers"),
+        ("bulk", "the same under a bulk load"),
+    ):
         layers.show_closed_form(
-            steps,
-            "the same number of contacts starts in every layer 0 ≤ j < M, so the mean over all "
-            f"contacts is the mean over the layers, {load} load",
-            MEAN_SQUARE,
-            meaning(load),
-            heights(load),
-            IN_RADII[load](),
+            steps, how, MEAN_SQUARE, meaning(load), heights(load), IN_RADII[load]()
         )
-
-    def show(
-        reason: str, formula: Callable[[str], sympy.Eq], rule: Callable[..., Rule], limit: Limit
-    ) -> None:
-        for load in LOADS:
-            steps.show(
-                reason.format(load),
-                formula(load),
-                rule(*IN_RADII[load]()),
-                heights(load).in_the_limit(limit),
-                meaning(load),
-            )
-
     in_proportion = at_large_height("∝")
-    show("Its two leading orders, {} load:", two_orders, asymptotic, at_large_height("∼", 2))
-    show("So its root goes as printed, {} load.", lambda _: PRINTED, power_law, in_proportion)
-    show(
-        "M* is defined here as the height at which the leading order of the mean of σ_f²/⟨f⟩² is "
-        "one. It goes as the paper says, {} load.",
-        lambda _: PRINTED_HEIGHT,
-        power_law,
-        in_proportion,
-    )
-    show("With its prefactor, {} load:", critical_height, power_law, at_large_height("="))
-    for load in LOADS:
-        ones = steps.claim(
-            f"in every layer the mean of a force over its mean is one, {load} load",
-            equation(Mean(FORCE[load]), sympy.S.One),
-            moment(*IN_RADII[load]()),
-            eq11.LAYERS.loaded(LOADING[load]),
+    for reason, formula, rule, limit in (
+        (
+            "The two leading orders of the mean, up to terms of order M, under a surface load and "
+            "under a bulk load:",
+            two_orders, asymptotic, at_large_height("∼", 2),
+        ),
+        ("Under both loads its root goes as printed.", lambda _: PRINTED, power_law, in_proportion),
+        (
+            "M* is defined here as the height at which the leading order of this mean is one. "
+            "Under both loads it scales as the paper says.",
+            lambda _: PRINTED_HEIGHT, power_law, in_proportion,
+        ),
+        (
+            "With its prefactor, under a surface load and under a bulk load:",
+            critical_height, power_law, at_large_height("="),
+        ),
+    ):  # fmt: skip
+        steps.show(
+            reason,
+            sympy.Tuple(*map(formula, LOADS)),
+            [rule(*IN_RADII[load]()) for load in LOADS],
+            [heights(load).in_the_limit(limit) for load in LOADS],
+            [meaning(load) for load in LOADS],
         )
+    ones = steps.claim(
+        "under both loads the mean of a force over its mean is one in every layer",
+        sympy.Tuple(*(equation(Mean(FORCE[load]), sympy.S.One) for load in LOADS)),
+        [moment(*IN_RADII[load]()) for load in LOADS],
+        [eq11.LAYERS.loaded(LOADING[load]) for load in LOADS],
+    )
+    for load, of_one in zip(LOADS, ones.theorems, strict=True):
         steps.show(
             NEGATIVE if load == "surface" else "In the same way, under a bulk load:",
             equation(FRACTION, tensile_fraction(load)),
-            tensile(OF_LAYER[load].theorem, ones.theorem, *IN_RADII[load]()),
+            tensile(OF_LAYER[load].theorem, of_one, *IN_RADII[load]()),
             heights(load).in_the_limit(AT_FIXED_RATIO),
             meaning(load),
         )
@@ -166,7 +164,7 @@ def claims(steps: Steps) -> None:
         shift = HEIGHT_SHIFT[load]
         shifted, sign = power(terms(M, -shift), 3), "−" if shift < 0 else "+"
         steps.claim(
-            f"as M* → ∞ the exact mean is 1 at M* {sign} {abs(shift)}, {load} load",
+            f"as M* → ∞ the exact mean is 1 at M* {sign} {abs(shift)} under a {load} load",
             equation(MEAN_SQUARE, times(LEADING[load], shifted, layers.UNIT)),
             asymptotic(*IN_RADII[load]()),
             heights(load).in_the_limit(at_large_height("∼", 2)),
@@ -174,19 +172,23 @@ def claims(steps: Steps) -> None:
         )
         top, below = BELOW_THE_PEAK[load]
         steps.claim(
-            f"σ_f²/⟨f⟩² is nowhere above {top} (M/M*)³ at leading order, {load} load",
+            f"to leading order σ_f²/⟨f⟩² is at most {top} (M/M*)³ under a {load} load",
             equation(terms(top, times(-1, PROFILES[load])), below),
             rewrite(),
             Domain(),
         )
-    for unit, component in ((n_plus, "n⁺"), (n_minus, "n⁻")):
-        steps.claim(
-            "displacements are of order M^(1/2) σ, so of order r at a height (σ/r)^(−2), far above "
-            f"M*: along {component} exactly",
-            equation(Variance(Dot(unit, DeltaX(i, j))), (4 * j - 2) * sigma**2),
-            moment(eq03.positions()),
-            Domain.of(j >= 2),
-        )
+    steps.claim(
+        "displacements are of order M^(1/2) σ, so they reach r at a height of order (σ/r)^(−2), "
+        "far above M*",
+        sympy.Tuple(
+            *(
+                equation(Variance(Dot(unit, DeltaX(i, j))), (4 * j - 2) * sigma**2)
+                for unit in (n_plus, n_minus)
+            )
+        ),
+        moment(eq03.positions()),
+        Domain.of(j >= 2),
+    )
 
 
 DERIVATION = Derivation(
@@ -194,11 +196,11 @@ DERIVATION = Derivation(
     name="general_form",
     title="Average over the system, and the height of tensile contacts",
     symbols=(
-        (DEVIATION, "relative standard deviation of the forces: root of the mean of its square"),
+        (DEVIATION, "root mean square over all contacts"),
         (HEIGHT, "height at which the leading order of the mean of σ_f²/⟨f⟩² is one"),
-        (MEAN_SQUARE, "mean over all contacts"),
+        (MEAN_SQUARE, "mean of σ_f²/⟨f⟩² over all contacts"),
         (FRACTION, "expected fraction of contacts with f < 0"),
-        *usual(sigma, r, M, z, phi),
+        *usual(H_M, sigma, r, M, z, phi),
     ),
     assumptions=(
         *FIRST_ORDER,
@@ -214,23 +216,21 @@ DERIVATION = Derivation(
         for load in LOADS
     },
     remarks=(
-        "The paper writes M* = O[(σ/r)^(−2/3)] in the text; it is checked here as ∝, with the "
-        "definition given, and the prefactor is found: (1−φ²)^(2/3) for a surface load, 5^(1/3) "
-        "times that for a bulk load.",
+        "The paper writes M* = O[(σ/r)^(−2/3)] in the text. Here it is proved as ∝ for the M* "
+        "defined above, with the prefactor (1−φ²)^(2/3) for a surface load, and 5^(1/3) times that "
+        "for a bulk load.",
         "M* is our definition; the paper says only that a finite fraction of the forces is "
-        "negative there, which the fraction above bears out.",
+        "negative there. The fraction above bears this out: it lies between 0 and ½, as half of an "
+        "error function does, and depends on M/M* alone.",
         "The fraction of tensile contacts is an estimate: the forces are Gaussian exactly for "
-        "normal radii and else in the limit, to first order in δr. That they are in the limit is "
-        "Lindeberg's theorem; its condition is decided, the theorem is quoted.",
-        "As the complementary error function of a positive number lies between 0 and 1, the "
-        "fraction of tensile contacts lies between 0 and ½; it depends on M/M* alone, and is "
-        "finite at heights of the order of M*.",
-        "To let the expected number of tensile contacts vanish, rather than their fraction, the "
-        "paper expects a much lower M*. With Gaussian forces M* divided by the cube root of "
-        "8c ln M, c > 1, is enough for a packing as wide as it is high, to leading order: a "
-        "logarithm, not another power of σ/r. The bound on the variance is decided, by which "
-        "1/(2σ_f²), with σ_f relative to the mean, is at least 2c ln M there; Chernoff's "
-        "inequality, P(f<0) ≤ exp[−1/(2σ_f²)] = M^(−2c) for each of the M² contacts, is quoted.",
+        "normal radii and else in the limit, to first order in δr. The limit is Lindeberg's "
+        "theorem, which is quoted; its condition is decided.",
+        "For the expected number of tensile contacts to vanish, rather than their fraction, the "
+        "paper expects a much lower M*. With Gaussian forces it is enough, to leading order, to "
+        "divide M* by the cube root of 8c ln M, c > 1, if the packing is as wide as it is high: by "
+        "a logarithm, not by another power of σ/r. The bound on the variance, decided here, makes "
+        "1/(2σ_f²), with σ_f relative to the mean, at least 2c ln M; Chernoff's inequality, "
+        "P(f<0) ≤ exp[−1/(2σ_f²)] = M^(−2c) for each of the M² contacts, is quoted.",
     ),
 )
 

@@ -11,26 +11,27 @@ from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Groups, Steps, Symbol, Theorem, asymptotic, axioms, equation,
-    lattice, leading_order_of, minus, mirror, moment, power, rewrite, same, shown,
-    terms, times, usual)
-from force_diffusion.symbolic.kernel.domain import along_base, inside_cone, on_leg
+    FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, Theorem, asymptotic, axioms,
+    equation, leading_order_of, minus, mirror, moment, power, rewrite, same, shown, terms, times,
+    usual)
 from force_diffusion.symbolic.symbols import (
     Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
-    VerticalPlus, e_y, f_load, i, j, k, l, n_minus, n_plus, n_y, p, phi, q, r, sigma)
+    VerticalPlus, e_y, f_load, i, j, k, l, n, n_minus, n_plus, n_y, phi, q, r,
+    sigma)
 from sympy import Eq, Rational
 # fmt: on
 
-RESPONSE, ONE_CONTACT, ON_LEG = (
+RESPONSE, ONE_CONTACT = (
     Symbol(name, rf"\frac{{{latex}}}{{(f^{{\mathrm{{load}}}})^{{2}}}}", f"{words}/f_load²")
     for name, latex, words in (
         ("response", r"\sigma_{\mathrm{ensemble}}^{2}(p)", "σ²(p)"),
-        ("contact_response", r"\sigma^{2}(n_{y} f_{ij}^{+})", "σ²(n_y f⁺_ij)"),
-        ("leg_response", r"\sigma_{\mathrm{leg}}^{2}(p)", "σ²(p on a leg)"),
+        ("contact_response", r"\sigma^{2}(p_{ij}^{+})", "σ²(p⁺_ij)"),
     )
 )
-LEG_MAGNITUDE = Symbol(
-    "leg_force", r"\frac{\sigma_{\mathrm{leg}}^{2}(f)}{\langle f\rangle^{2}}", "σ²(f on a leg)/⟨f⟩²"
+MAGNITUDE = Symbol(
+    "contact_force",
+    r"\frac{\sigma^{2}(f_{ij}^{+})}{(f^{\mathrm{load}}/2 n_{y})^{2}}",
+    "σ²(f⁺_ij)/(f_load/2n_y)²",
 )
 ORDERED = f_load / (2 * n_y)
 """Force of the contacts of the ordered packing: those on the legs of the cone."""
@@ -40,24 +41,26 @@ PRESSED = VerticalPlus(i, j) + VerticalMinus(i, j)
 MEANING = {
     RESPONSE: Variance(PRESSED / f_load),
     ONE_CONTACT: Variance(VerticalPlus(i, j) / f_load),
-    ON_LEG: Variance(VerticalPlus(i, j) / f_load),
-    LEG_MAGNITUDE: Variance(ForcePlus(i, j) / ORDERED),
+    MAGNITUDE: Variance(ForcePlus(i, j) / ORDERED),
 }
-"""What the symbols stand for; f⁺_ij inside the cone has no part of order 0 to be tilted."""
+"""What the symbols stand for."""
 
 PRINTED = equation(RESPONSE, times(3 / (2 * (1 - phi**2) ** 2), terms(l, j), power(sigma / r, 2)))
 
-# bead (i, j) is p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l)
+# bead (i, j) is n steps along n⁺ and q steps along n⁻ below the loaded bead (k, l)
 ALL_BELOW = Domain.of(j >= 0, j < l, indices=(i, k), loading=axioms.POINT)
-REACHED = ALL_BELOW.also(Eq(k, i + p - q), Eq(l, j + p + q))
-INSIDE = REACHED.also(p >= 1, q >= 1)
-LEFT_LEG = REACHED.also(p >= 1, Eq(q, 0))
-CONE = INSIDE.in_the_limit(inside_cone("∼"))
+REACHED = ALL_BELOW.also(Eq(k, i + n - q), Eq(l, j + n + q))
+INSIDE = REACHED.also(n >= 1, q >= 1)
+LEFT_LEG = REACHED.also(n >= 1, Eq(q, 0))
+_FIXED = "l → ∞ at fixed j/l and (i − k)/l, inside the cone"
+CONE = INSIDE.in_the_limit(Limit("∼", _FIXED, (j, n, q), (j, n, q)))
+DOWN_LEG = Limit("∼", "l → ∞ at fixed j/l, on a leg of the cone", (j, n), (j, n))
+ALONG_BASE = Limit("∼", "l → ∞ at j = 0 and fixed (i − k)/l, inside the cone", (n, q), (n, q))
 
-UPPER_RIGHT = eq10.branched_plus(i, j, p)
+UPPER_RIGHT = eq10.branched_plus(i, j, n)
 """The force f⁺_ij on a bead inside the cone, over f_load/2n_y, to first order.
 
-It has one path with one branch from the loaded bead: q steps along n⁻ and p along n⁺. The branch is
+It has one path with one branch from the loaded bead: q steps along n⁻ and n along n⁺. The branch is
 of first order; what enters it counts at order 0, f_load/2n_y.
 """
 LEG_CONTACT = eq09.first_order_product(eq07.split_plus(k, l), eq09.PRINTED.rhs)
@@ -77,13 +80,14 @@ FAMILY = (
 EXACT = {
     RESPONSE: times(terms(6 * (l + j), -6, phi**2), UNIT / 4),
     ONE_CONTACT: times(terms(3 * (l + j + k - i), -3, phi**2 / 2), UNIT / 4),
-    ON_LEG: times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), UNIT / 4),
-    LEG_MAGNITUDE: times(
-        terms(2 * (l - 1), 2 * phi**2 * j, Rational(5, 2) * phi**2, phi**4 / 2), UNIT
-    ),
 }
 """The usual formulas, away from base, load and legs."""
-DEEP = INSIDE.also(j >= 3, p + q >= 3)
+ON_LEG = {
+    ONE_CONTACT: times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), UNIT / 4),
+    MAGNITUDE: times(terms(2 * (l - 1), 2 * phi**2 * j, Rational(5, 2) * phi**2, phi**4 / 2), UNIT),
+}
+"""Those of the contacts on the left leg."""
+DEEP = INSIDE.also(j >= 3, n + q >= 3)
 """Beads inside the cone, from the third layer on, but that straight below the load."""
 
 
@@ -105,56 +109,59 @@ def show_steps(steps: Steps) -> None:
     groups = in_radii()
     by = moment(*groups)
     steps.show(
-        "Let (i, j) lie p steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): inside "
-        "the cone for p, q ≥ 1. The forces along n⁺, by balancing bead after bead from the load "
-        "down: on the left leg the split of the load (as in Eq. 7), carried down (as in Eq. 9); "
-        "inside the cone what branches off the other leg, along n⁻ and then n⁺ (as in Eq. 10), "
-        "which is of first order; and none elsewhere. Those along n⁻ are the mirror image.",
+        "Let (i, j) lie n steps along n⁺ and q steps along n⁻ below the loaded bead (k, l): on the "
+        "left leg of the cone for q = 0, on its right leg for n = 0, inside the cone for n, q ≥ 1. "
+        "The forces along n⁺ follow by balancing bead after bead, from the load down. They are, in "
+        "this order: on the left leg the split of the load (as in Eq. 7), carried down (as in "
+        "Eq. 9); inside the cone what branches off the right leg (as in Eq. 10), which is of first "
+        "order; and zero on the right leg and outside the cone. The forces along n⁻ are their "
+        "mirror image.",
         sympy.Tuple(*(statement for statement, _ in FAMILY)),
         [same(theorem) for theorem in forces()[: len(FAMILY)]],
         [domain for _, domain in FAMILY],
     )
     steps.show(
-        "They turn in the layers j + p and j + q; the two add up to l + j wherever the bead is.",
-        equation(terms(j + p, j + q), l + j),
+        "The two forces on a bead inside the cone branch off in the layers j + n and j + q. The "
+        "two heights add up to l + j wherever the bead is.",
+        equation(terms(j + n, j + q), l + j),
         rewrite(),
     )
     steps.show(
-        "In the radii (Eqs. 4 and 5) f⁺_ij is a sum of second differences up to the layer below "
-        "its turn, as in Eq. 12, and four radii. Exact variance of its vertical component:",
+        "By Eqs. 4 and 5, f⁺_ij is a sum of second differences up to the layer below its branch, "
+        "as in Eq. 12, and of four radii. Its vertical component p⁺_ij has, for n, q ≥ 1 and j + "
+        "n ≥ 2, exactly the variance",
         equation(ONE_CONTACT, EXACT[ONE_CONTACT]),
         by,
-        INSIDE.also(j + p >= 2),
+        INSIDE.also(j + n >= 2),
     )
     exact = steps.show(
-        "It depends on the horizontal position: what the paper says of the force at one contact "
-        "is refuted. What does not is the vertical force p that the "
-        "bead gets from both contacts together: their second differences lie on two diagonals, and "
-        "where these cross, the common weights add up to zero. Exact, for j ≥ 3:",
+        "It depends on the horizontal position, so what the paper says of the force at one contact "
+        "does not hold. It holds for the vertical force p that the bead gets from both contacts "
+        "together: their second differences lie on two diagonals, and where these cross, the "
+        "products of their weights add up to zero. Exactly, for n, q ≥ 1, n + q ≥ 3 and j ≥ 3:",
         equation(RESPONSE, EXACT[RESPONSE]),
         by,
         DEEP,
     )
     steps.show("To leading order:", PRINTED, leading_order_of(exact.theorem), CONE)
     steps.show(
-        "On the left leg of the cone f⁺_ij is the split of the load (Eq. 7), carried down by "
-        "Eq. 9. With the contact's own tilt its vertical component over f_load is",
+        "On the left leg the contact itself is tilted, too, so that p⁺_ij over f_load is",
         equation(
             LEG_RESPONSE, terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), LEG_TILTS))
         ),
         rewrite(eq07.right_angles()),
         LEFT_LEG,
     )
-    down_leg = LEFT_LEG.also(j >= 2, p >= 2)
+    down_leg = LEFT_LEG.also(j >= 2, n >= 2)
     steps.show(
-        "The two tilts are independent but for a few radii. Exact, for 2 ≤ j ≤ l − 2:",
-        equation(ON_LEG, EXACT[ON_LEG]),
+        "The two tilts share only a few radii. Exactly, for 2 ≤ j ≤ l − 2 on the left leg:",
+        equation(ONE_CONTACT, ON_LEG[ONE_CONTACT]),
         by,
         down_leg,
     )
     steps.show(
-        "The magnitude of that force, over its mean squared:",
-        equation(LEG_MAGNITUDE, EXACT[LEG_MAGNITUDE]),
+        "The magnitude of that force, whose mean is f_load/2n_y, has there the relative variance",
+        equation(MAGNITUDE, ON_LEG[MAGNITUDE]),
         by,
         down_leg,
     )
@@ -166,14 +173,15 @@ def claims(steps: Steps) -> None:
     groups = in_radii()
     by, leading = moment(*groups), asymptotic(*groups)
     steps.claim(
-        "to leading order that of one contact is 3s/2 in units of (σ/r)²/(1−φ²)², "
-        "s = ½(l+j+k−i) being the layer where it turns",
+        "to leading order the variance at one contact is 3s/2 in units of (σ/r)²/(1−φ²)², where "
+        "s = ½(l+j+k−i) is the layer in which its path branches",
         equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), UNIT)),
         leading,
         CONE,
     )
     steps.refute(
-        "the paper's reading is refuted: one contact alone depends on the horizontal position",
+        "the paper's reading is refuted: at one contact the variance depends on the horizontal "
+        "position",
         equation(ONE_CONTACT, PRINTED.rhs),
         leading,
         CONE,
@@ -181,14 +189,14 @@ def claims(steps: Steps) -> None:
     both = Covariance(VerticalPlus(i, j) / f_load, VerticalMinus(i, j) / f_load)
     straight = times(Rational(1, 4), (1 + phi) ** 2, UNIT / 4)
     steps.claim(
-        "the covariance of a bead's two contacts is zero for j ≥ 3, but for the bead straight "
-        "below the load",
+        "the vertical forces of a bead's two contacts have no covariance for j ≥ 3, except for the "
+        "bead straight below the load",
         sympy.Tuple(equation(both, 0), equation(both, straight)),
         by,
-        [DEEP, INSIDE.also(j >= 3, Eq(p, 1), Eq(q, 1))],
+        [DEEP, INSIDE.also(j >= 3, Eq(n, 1), Eq(q, 1))],
     )
     steps.claim(
-        "a bead passes on what it gets: forces do not change along a diagonal",
+        "inside the cone a bead passes on what it gets: forces do not change along a diagonal",
         sympy.Tuple(
             equation(ForcePlus(i - 1, j - 1), ForcePlus(i, j)),
             equation(ForceMinus(i + 1, j - 1), ForceMinus(i, j)),
@@ -204,52 +212,40 @@ def claims(steps: Steps) -> None:
         by,
         [INSIDE, LEFT_LEG],
     )
-    beside = FAMILY[2:]
-    none = [force for force, _ in beside]
-    steps.claim(
-        "no force of first order outside of the cone",
-        sympy.Tuple(*none, *map(lattice.mirror, none)),
-        rewrite(forces()),
-        [*(where for _, where in beside), *(where.mirrored() for _, where in beside)],
-    )
     steps.claim(
         "on a leg the vertical force has a third of the variance, to leading order",
-        equation(ON_LEG, PRINTED.rhs / 3),
+        equation(ONE_CONTACT, PRINTED.rhs / 3),
         leading,
-        LEFT_LEG.in_the_limit(on_leg("∼")),
+        LEFT_LEG.in_the_limit(DOWN_LEG),
     )
     apex = MEANING[RESPONSE].xreplace({i: k, j: l - 2})
     steps.claim(
         "the variance straight below the load is twice that at the base, as l → ∞",
         equation(apex, times(2, RESPONSE)),
         leading,
-        INSIDE.also(Eq(j, 0)).in_the_limit(along_base("∼")),
+        INSIDE.also(Eq(j, 0)).in_the_limit(ALONG_BASE),
     )
 
 
 DERIVATION = Derivation(
     number=16,
     name="response",
-    title="Variance of the response to a point load: refuted for one contact, proved for "
-    "both of a bead",
+    title="Variance of the response to a point load: proved for a bead, refuted for a contact",
     symbols=(
-        (
-            RESPONSE,
-            "variance of p over packings; p is the vertical force on bead (i, j), see below",
-        ),
-        (ONE_CONTACT, "the same for the vertical component of f⁺_ij alone"),
-        (ON_LEG, "the same for the one contact on a leg of the cone"),
-        (LEG_MAGNITUDE, "variance of its magnitude over the squared mean"),
+        (RESPONSE, "variance of p, the vertical force on bead (i, j), over packings"),
+        (VerticalPlus(i, j), "vertical component of the force f⁺_ij"),
+        (ONE_CONTACT, "its variance"),
+        (MAGNITUDE, "variance of f⁺_ij"),
         (f_load, "the load on bead (k, l), downwards"),
         (l, "layer of the loaded bead, j that of bead (i, j)"),
-        (p, "steps along n⁺ from (k, l) down to (i, j) (p is no force there)"),
-        (q, "steps along n⁻"),
+        (n, "steps along n⁺ from (k, l) down to (i, j)"),
+        (q, "steps along n⁻ from (k, l) down to (i, j)"),
         *usual(sigma, r, phi),
     ),
     assumptions=(
         *FIRST_ORDER,
         "p is the vertical force that bead (i, j) gets from both upper contacts together",
-        "(i, j) is inside the cone: p, q ≥ 1",
+        "(i, j) is inside the cone below the load: n, q ≥ 1",
         "printed form: l → ∞ at fixed j/l and (i − k)/l; exact forms: every site",
     ),
     printed=(PRINTED,),
@@ -260,20 +256,21 @@ DERIVATION = Derivation(
     deciders=lambda: [asymptotic(*in_radii())],
     exact=lambda: {
         name: layers.closed_form(symbol, MEANING, ALL_BELOW, in_radii)
-        for name, symbol in (("bead", RESPONSE), ("contact", ONE_CONTACT), ("force", LEG_MAGNITUDE))
+        for name, symbol in (("bead", RESPONSE), ("contact", ONE_CONTACT), ("force", MAGNITUDE))
     },
     remarks=(
         "Erratum: the paper's p is the vertical component of the force at a contact f^±_ij. For "
-        "one contact the printed form does not hold: its variance is (3/2) s (σ/r)²/(1−φ²)² with "
-        "the layer s = ½(l+j±(k−i)) in which its path turns, so it grows from (3/2) j beside one "
-        "leg to (3/2) l beside the other. The printed form holds for both upper contacts of a bead "
-        "together, and, since these pass through it, for both lower ones.",
+        "one contact the printed form does not hold: the variance is (3/2) s (σ/r)²/(1−φ²)² with "
+        "the layer s = ½(l+j±(k−i)) in which its path branches, so it grows from (3/2) j beside "
+        "one leg to (3/2) l beside the other. The printed form holds for both upper contacts of a "
+        "bead together, and also for both lower ones, since the bead passes these forces on.",
         "For that p the horizontal position drops out exactly, not only to leading order, from the "
         "third layer above the base on, except straight below the load.",
-        "The fluctuations on the cone, which the paper leaves out, are of the same order: "
-        "(l + j)/2 in place of 3(l + j)/2 for the vertical force, on a mean of ½ f_load.",
-        "'Twice as large near the apex as near the base' is the variance; the standard deviation "
-        "is √2 times as large.",
+        "The legs, which the paper leaves out, fluctuate to the same order: in units of "
+        "(σ/r)²/(1−φ²)² the vertical force, of mean ½ f_load, has the variance (l + j)/2 there, "
+        "and 3(l + j)/2 inside the cone.",
+        "“Twice as large near the apex as near the base” is true of the variance; the standard "
+        "deviation is √2 times as large.",
     ),
 )
 

@@ -68,8 +68,8 @@ def show_steps(steps: Steps) -> None:
     """From layer to layer down: what enters along n⁺ is L⁺, what turns into it was L⁻."""
     above = (i + 1, j + 1)
     steps.show(
-        "Every bead passes on what it carries (Eq. 8 and its mirror image): f⁺ has what came along "
-        "n⁺, and what turns from n⁻, which is of first order,",
+        "Every bead passes on what it carries (Eq. 8 and its mirror image): f⁺ is what came along "
+        "n⁺, and what branches off n⁻, which is of first order:",
         equation(
             ForcePlus(i, j),
             terms(
@@ -81,20 +81,20 @@ def show_steps(steps: Steps) -> None:
         ON_SURFACE.also(j <= M - 2),
     )
     steps.show(
-        "Layer by layer, down from the surface: the changes along n⁺ cancel but for the last, "
-        "and L⁻ turns into f⁺ at each of M − j − 1 beads, as in Eq. 11. f⁻ is the mirror image, "
-        "with L⁺ and L⁻ exchanged:",
+        "Layer after layer, down from the surface, the changes along n⁺ cancel except for the "
+        "last, and a part of L⁻ branches into f⁺ at each of M − j − 1 beads, as in Eq. 11. f⁻ is "
+        "the mirror image, with L⁺ and L⁻ exchanged:",
         sympy.Tuple(*FORCES),
         tuple(map(same, forces("surface"))),
     )
     steps.show(
-        "Over the mean forces L⁺ and L⁻ of the two:",
+        "Divided by the two mean forces, L⁺ and L⁻:",
         sympy.Tuple(*PRINTED),
         rewrite(forces("surface")),
     )
     steps.show(
-        "Under the same load on every bead each layer m above the contact adds what it does as "
-        "the surface of a packing of the height m:",
+        "Under the same load on every bead, each layer m above the contact adds what it would add "
+        "as the surface of a packing of height m:",
         sympy.Tuple(*BULK),
         tuple(map(same, forces("bulk"))),
         IN_BULK,
@@ -144,8 +144,8 @@ DERIVATION = Derivation(
     show_steps=show_steps,
     definitions={L_minus: t * L_plus},
     remarks=(
-        "Only the changes along the other branch carry t: what turns into f⁺ is what came "
-        "along n⁻. As L⁻ is taken away, f⁺ stays near L⁺ and feels the tilt of its own contact "
-        "alone.",
+        "Only the changes along the other branch carry t, since what branches into f⁺ came along "
+        "n⁻. As L⁻ goes to zero, f⁺ stays near L⁺, and only the tilt of its own contact changes "
+        "it.",
     ),
 )

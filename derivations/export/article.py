@@ -44,6 +44,7 @@ _BLOCK = re.compile(
 _NO_STAR = r"(?:\$[^$]*\$|`[^`]*`|[^*$`])+"
 _INLINE = re.compile(
     rf"`([^`]*)`|(?<!\\)(\$[^$]*\$)|\*\*({_NO_STAR})\*\*|(?<!\\)\*({_NO_STAR})(?<!\\)\*"
+    r"|\[(\d+(?:, \d+)*)\]|\bFig\. (\w+)"
 )
 _ESCAPED = re.compile(r"\\([\\`*_$<\[\]])")
 
@@ -144,9 +145,9 @@ def _heading(level: int, title: str) -> str:
 def _figure(name: str, below: str, wide: Mapping[str, bool]) -> str:
     kind = "figure*" if wide[name] else "figure"
     return (
-        f"\\begin{{{kind}}}\n\\renewcommand{{\\thefigure}}{{{name}}}\n\\centering\n"
+        f"\\begin{{{kind}}}\n\\centering\n"
         f"\\includegraphics{{{FIGURES[name].file}.pdf}}\n"
-        f"\\caption{{{_inline(below.strip('*'))}}}\n\\end{{{kind}}}\n"
+        f"\\caption{{\\label{{fig:{name}}}{_inline(below.strip('*'))}}}\n\\end{{{kind}}}\n"
     )
 
 
@@ -171,9 +172,7 @@ def _table(caption: str, rows: str) -> str:
 
 def _words(markdown: str) -> str:
     lines = _ESCAPED.sub(r"\1", markdown).split("\n")
-    return "\n".join(
-        re.sub(r"\b(Eqs?|Figs?|Refs?)\. ", r"\1.~", prose_latex(line)) for line in lines
-    )
+    return "\n".join(re.sub(r"\b(Eqs?|Refs?)\. ", r"\1.~", prose_latex(line)) for line in lines)
 
 
 def _item(match: re.Match[str]) -> str:
@@ -182,15 +181,19 @@ def _item(match: re.Match[str]) -> str:
 
 
 def _inline(markdown: str, plain: Callable[[str], str] = _words) -> str:
-    """Words with emphasis, code and mathematics as LaTeX; ``plain`` writes all else."""
+    """Words with emphasis, code, mathematics and references; ``plain`` writes all else."""
     written, last = "", 0
     for match in _INLINE.finditer(markdown):
-        code, mathematics, strong, emphasis = match.groups()
+        code, mathematics, strong, emphasis, cited, figure = match.groups()
         written += plain(markdown[last : match.start()])
         if code is not None:
             written += f"\\texttt{{{text_latex(code)}}}"
         elif strong or emphasis:
             written += f"\\{'textbf' if strong else 'emph'}{{{_inline(strong or emphasis, plain)}}}"
+        elif cited:
+            written += f"\\cite{{{cited}}}"
+        elif figure:
+            written += f"Fig.~\\ref{{fig:{figure}}}"
         else:
             written += mathematics
         last = match.end()

@@ -86,7 +86,7 @@ def _step(step: Step, derivation: Statement) -> str:
     shown = (
         f"\\[ {step_latex(step, _ROOM)} \\]\n"
         if len(step.cases) > 1
-        else display(step.equations, step.relation)
+        else display([*dict.fromkeys(step.equations)], step.relation)
     )
     return f"{head}{prose_latex(step.reason)}\n{shown}"
 
@@ -121,15 +121,17 @@ def section_latex(outcome: ProofOutcome, explained: str = "") -> str:
         words = (prose_latex(sentence(part)) for part in (reading.reading, reading.reason))
         parts.append(f"\n{formula}".join(words) + "\n")
     parts += [_step(step, derivation) for step in proof]
-    if derivation.exact_forms and not any(step.cases for step in proof):
-        parts.append("\\par All of this, exact at every site:\n")
-        for form in derivation.exact_forms.values():
-            parts += [f"\\[ {body} \\]\n" for body in form.displays()]
     remarks = [prose_latex(remark) for remark in derivation.remarks]
     errata = [remark for remark in remarks if remark.startswith("Erratum")]
     parts += [f"\\par {remark}\n" for remark in errata]
     parts.append(_aside("Also proved", (prose_latex(claim.reason) for claim in proof.claims)))
     parts += [f"\\aside{{{remark}}}\n" for remark in remarks if remark not in errata]
+    if derivation.exact_forms and not any(step.cases for step in proof):
+        parts.append(
+            "\\par Exact at every site below the load, in several braces where one is too long:\n"
+        )
+        for form in derivation.exact_forms.values():
+            parts += [f"\\[ {body} \\]\n" for body in form.displays()]
     return "".join(parts)
 
 
@@ -150,7 +152,8 @@ def _verdicts(outcomes: Iterable[ProofOutcome]) -> str:
         for of in outcomes
     )
     return (
-        "\\begin{center}\\footnotesize\\setlength{\\tabcolsep}{3pt}\n"
+        "\\begin{center}\\footnotesize\\setlength{\\tabcolsep}{3pt}"
+        "\\setlength{\\extrarowheight}{2pt}\n"
         "\\begin{tabular}{r>{\\raggedright}p{84mm}>{\\raggedright}p{26mm}l}\n\\hline\n"
         f"Eq. & title & verdict & Coq \\\\\n\\hline\n{''.join(rows)}\\hline\n"
         "\\end{tabular}\n\\end{center}\n"

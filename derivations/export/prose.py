@@ -26,7 +26,7 @@ _TEXT = {
 
 _RUN = re.compile("([⁰¹²³⁴⁵⁶⁷⁸⁹⁺⁻]+)|([₀₁₂₃₄₅₆₇₈₉₊₋]+)")
 _INDEXED = re.compile(r"_(?:\(([^()]*)\)|([A-Za-z0-9δ]+|±))")
-_VECTOR = re.compile(r"(?<![A-Za-z\\{])([nb])(?=\^\{[-+]|\^?\\pm)")
+_VECTOR = re.compile(r"(?<![A-Za-z\\{])[nb](?=\^\{[-+]|\^?\\pm)|(?<=\\delta )x(?=_)")
 _NAMES = re.compile(r"(?<![A-Za-z\\])(max|min|exp|erfc)(?![A-Za-z])")
 _ARGUMENT = re.compile(r"(?:√|(?<![A-Za-z])(?:max|min|exp|erfc))\((?:[^()]|\([^()]*\))*\)")
 _SIGNS = frozenset("+−±·×/=≤≥<>")
@@ -67,7 +67,7 @@ def _run(match: re.Match[str]) -> str:
 
 
 def _vector(match: re.Match[str]) -> str:
-    return r"\hat{\mathbf{n}}" if match[1] == "n" else r"\mathbf{b}"
+    return r"\hat{\mathbf{n}}" if match[0] == "n" else rf"\mathbf{{{match[0]}}}"
 
 
 def _character(character: str) -> str:

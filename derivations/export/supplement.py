@@ -24,10 +24,10 @@ _HEAD = r"""\documentclass[twocolumn]{article}
 \begin{center}\large Supplement: the closed forms of Eqs.~B2 to B25\end{center}
 """
 _INTRODUCTION = (
-    "Each formula is exact for the indices beside it; below the formulas are the indices for which "
-    "they together hold. In brackets is the name by which the program knows a form. For spheres p "
-    "and q count steps, and the force on a bead is written out. Eqs. B11 and B20 put Eqs. 13 and "
-    "B13, and Eqs. 14 and B14, side by side."
+    "Each formula is exact for the indices beside it or below it. Where a quantity has several "
+    "formulas, what holds for all of them stands below the last. The word in brackets above a form "
+    "is its name in the program. For spheres p and q count steps, and the force on a bead is "
+    "written out. Eqs. B11 and B20 compare Eqs. 13 and B13, and Eqs. 14 and B14."
 )
 
 
@@ -58,6 +58,6 @@ def _section(row: Row) -> str:
     title = f"\n\\medskip\\textbf{{Eq.~{row.number}. {prose_latex(row.title)}.}} "
     parts = [f"{title}{'; '.join(meanings)}.\n"]
     for name, form in row.exact_forms.items():
-        parts.append(f"\n[\\texttt{{{text_latex(name)}}}]\n")
+        parts.append(f"\n\\nobreak [\\texttt{{{text_latex(name)}}}]\n")
         parts += [f"\\[ {display} \\]\n" for display in form.displays(columns=2)]
     return "".join(parts)

@@ -341,8 +341,9 @@ class ClosedForm:
         return self._shown(self.pieces, columns)
 
     def _shown(self, pieces: Sequence[Piece], columns: int, size: float = 1.0) -> str:
-        """LaTeX of some of its pieces, in type of some size."""
-        room, domain = room_of(columns) / size, self.conditions(words.LATEX)
+        """LaTeX of some of its pieces, in type of some size; where all hold, below the last."""
+        is_last = pieces[-1] == self.pieces[-1]
+        room, domain = room_of(columns) / size, self.conditions(words.LATEX) if is_last else []
         below = with_commas(domain, "for")
         if len(pieces) == 1:
             (piece,) = pieces

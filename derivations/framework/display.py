@@ -20,12 +20,16 @@ def room_of(columns: int) -> float:
 
 
 def alternatives_in_latex(parts: Iterable[Relations], before: str = "") -> list[str]:
-    """Where a formula holds, as pieces of LaTeX."""
-    first, *others = (words.parts(part, words.LATEX) for part in parts)
-    return [
-        *with_commas(first, before),
-        *(relation for part in others for relation in with_commas(part, " or")),
-    ]
+    """Where a formula holds, as pieces of LaTeX; what all alternatives share comes first."""
+    several = [words.parts(part, words.LATEX) for part in parts]
+    shared = [phrase for phrase in several[0] if all(phrase in part for part in several)]
+    first, *others = ([phrase for phrase in part if phrase not in shared] for part in several)
+    if shared and first:
+        first[0] = rf"\text{{either }} {first[0]}"
+    pieces = with_commas([*shared, *first], before)
+    if not others:
+        return pieces
+    return [" ".join(pieces), *(" ".join(with_commas(part, " or")) for part in others)]
 
 
 def with_commas(parts: Sequence[str], before: str = "") -> list[str]:

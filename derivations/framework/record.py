@@ -31,6 +31,7 @@ _MEANINGS = {
     sy.z: "relative height j/M",
     sy.phi: "n⁺·n⁻, the cosine of the angle between the two contact directions",
     sy.N: "number of neighbours",
+    sy.H_M: "1 + 1/2 + … + 1/M",
     sy.t: "L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻)",
     sy.t_2: "L²/L¹ of the load −Σ_a L^a n^a",
     sy.t_3: "L³/L¹",

@@ -132,26 +132,6 @@ class Limit:
             raise ValueError("each sum is what grows, less others that are such sums themselves")
 
 
-def inside_cone(relation: str) -> Limit:
-    """The limit l → ∞ at a fixed place inside the cone below a point load.
-
-    The indices j, p and q grow: what l and k are stands in the domain.
-    """
-    words = "l → ∞ at fixed j/l and (i − k)/l, inside the cone"
-    return Limit(relation, words, (sy.j, sy.p, sy.q), (sy.j, sy.p, sy.q))
-
-
-def on_leg(relation: str) -> Limit:
-    """The limit l → ∞ at a fixed place on a leg of that cone."""
-    return Limit(relation, "l → ∞ at fixed j/l, on a leg of the cone", (sy.j, sy.p), (sy.j, sy.p))
-
-
-def along_base(relation: str) -> Limit:
-    """The limit l → ∞ at the base, inside of that cone."""
-    words = "l → ∞ at j = 0 and fixed (i − k)/l, inside the cone"
-    return Limit(relation, words, (sy.p, sy.q), (sy.p, sy.q))
-
-
 def at_fixed_height(relation: str) -> Limit:
     """The limit M → ∞ at a fixed relative height z = j/M between base and surface."""
     words = "M → ∞ at fixed z = j/M, 0 < z < 1"

@@ -437,6 +437,11 @@ def _lines(formula: Basic, room: float) -> list[str]:
 
 
 def _packed(pieces: Iterable[str], room: float) -> list[str]:
+    """Pieces in lines; alternatives begin a line each where one of them fills more than that."""
+    pieces = list(pieces)
+    if any(r",\; " in piece and width(piece) > room for piece in pieces):
+        apart = (re.split(r"(?<=,\\;) ", piece) for piece in pieces)
+        return [line for phrases in apart for line in _packed(phrases, room)]
     parts = [part for piece in pieces for part in _in_parts(piece, room)]
     pieces = [line for part in parts for line in folded(part, room)]
     return pack([(piece, float(width(piece))) for piece in pieces], room, room)

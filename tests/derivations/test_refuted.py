@@ -20,7 +20,7 @@ def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure():
     (reading,) = derivation.proof.refuted
     assert reading.formula.rhs == derivation.printed[0].rhs
     assert reading.relation == "∼"
-    assert "goes to (j + p)/(2 j + p + q), not to 1" in reading.reason
+    assert "goes to (j + n)/(2 j + n + q), not to 1" in reading.reason
 
 
 def test_what_holds_for_one_contact_is_not_refuted():

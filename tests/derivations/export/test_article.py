@@ -261,7 +261,7 @@ def test_numbers_of_steel_balls():
 
 @pytest.mark.long
 def test_figures_and_references_are_in_the_order_of_the_text(whole):
-    drawn = re.findall(r"\\renewcommand\{\\thefigure\}\{(\w+)\}", whole)
+    drawn = re.findall(r"\\label\{fig:(\w+)\}", whole)
     assert drawn == figures_of(TEXT)
     assert list(dict.fromkeys(re.findall(r"Fig\. (\w+)", TEXT))) == drawn
     cited = [int(one) for some in re.findall(r"\[([\d, ]+)\]", TEXT) for one in some.split(",")]
@@ -310,7 +310,7 @@ def test_what_latex_would_read_is_escaped():
 
 
 def test_what_is_written():
-    assert written("Eq. 13 and\nEqs. B5 and B16.") == "Eq.~13 and\nEqs.~B5 and B16.\n\n"
+    assert written("Eqs. 1\nand B5 [3, 4]") == "Eqs.~1\nand B5 \\cite{3, 4}\n\n"
     assert written("$$\nx\n\\tag{B5}\n$$") == "\\begin{equation}\nx\n\\tag{B5}\n\\end{equation}\n"
     assert written("1. A. B. C, **5**.\n").splitlines()[1] == r"\bibitem{1} A. B. C, \textbf{5}."
     table = "```{table} Two\n| a | it |\n|---|------|\n| is | so |\n```\n"
@@ -318,5 +318,5 @@ def test_what_is_written():
     assert "a & it \\\\[2pt]\n\\hline\n\\noalign{\\vskip 2pt}\nis & so \\\\[2pt]\n" in written(
         table
     )
-    figure = written("![](B5)\n\n*What it is.*\n")
-    assert "\\includegraphics{figureB5.pdf}\n\\caption{What it is.}" in figure
+    figure = written("![](B5)\n\n*As Fig. B2.*\n")
+    assert "\\includegraphics{figureB5.pdf}\n\\caption{\\label{fig:B5}As Fig.~\\ref{fig:B2}.}" in figure
