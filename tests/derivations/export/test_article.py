@@ -96,8 +96,6 @@ DOMAINS = {"B4": (j >= 1,), "B5": (j >= 2, j <= M - 2), "B9": (j >= 2, *BELOW)}
 DOMAINS["B10"] = DOMAINS["B5"]
 LEADING = {
     "B2, B3": ["B2 plus", "B3 plus"],
-    "B7, B21": ["B7 mean", "B21 mean"],
-    "B8": ["B8 mean"],
     "B6": ["B6 force"],
     "B15, B16": ["B15 plus", "B16 plus"],
     "B17": ["B17 ratio"],
@@ -110,7 +108,10 @@ FAR = (N >= 3, Ge(l - j + sy.k - sy.i - 2 * N, 4), Ge(l - j - sy.k + sy.i - 2 * 
 ON_A_FACE = (sy.p >= 1, sy.q >= 1, sy.p + sy.q >= 3, sy.p + sy.q <= l - 3)
 x = sympy.Symbol("x", positive=True)
 LARGE = {j: z * l, N: x * l}
+FEW = (N >= 2, j - 2 >= N, M - j - 1 >= N)
 GROWING = {
+    "B7, B21": [(label, "mean", FEW, M, {j: z * M}) for label in ("B7", "B21")],
+    "B8": [("B8", "mean", FEW, M, {j: z * M})],
     "16": [(16, "bead", (j >= 3, j <= l - 3, *BELOW), l, {j: z * l})],
     "B12": [("B12", name, DEEP, M, {j: z * M, l: z_upper * M}) for name in ("layers", "bulk")],
     "B22": [
@@ -319,4 +320,4 @@ def test_what_is_written():
         table
     )
     figure = written("![](B5)\n\n*As Fig. B2.*\n")
-    assert "\\includegraphics{figureB5.pdf}\n\\caption{\\label{fig:B5}As Fig.~\\ref{fig:B2}.}" in figure
+    assert "figureB5.pdf}\n\\caption{\\label{fig:B5}As Fig.~\\ref{fig:B2}.}" in figure
