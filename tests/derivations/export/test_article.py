@@ -114,9 +114,7 @@ GROWING = {
     "B8": [("B8", "mean", FEW, M, {j: z * M})],
     "16": [(16, "bead", (j >= 3, j <= l - 3, *BELOW), l, {j: z * l})],
     "B12": [("B12", name, DEEP, M, {j: z * M, l: z_upper * M}) for name in ("layers", "bulk")],
-    "B22": [
-        ("B22", name, (*FAR, j >= N + 3), l, LARGE) for name in ("loads", "beads", "both")
-    ],
+    "B22": [("B22", name, (*FAR, j >= N + 3), l, LARGE) for name in ("loads", "beads", "both")],
     "B23": [
         ("B23", "pairs", (N >= 2, j - 2 >= N, Ge(sy.k - sy.i, 3)), l, {j: z * l}),
         ("B23", "pairs", (j >= 2, j + 3 <= N, Ge(sy.k - sy.i, 3)), N, {}),
