@@ -3,7 +3,6 @@
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict
 from textwrap import fill
 from typing import Any
 
@@ -177,7 +176,14 @@ def outcomes_data(outcomes: Iterable[ProofOutcome], *, timed: bool = True) -> di
             "verdict": str(outcome.verdict),
             "assuming": list(outcome.assuming),
             "checks": [
-                {**asdict(check), "verdict": str(check.verdict)} for check in outcome.checks
+                {
+                    "kind": check.kind,
+                    "name": check.name,
+                    "verdict": str(check.verdict),
+                    "note": check.note,
+                    "assuming": list(check.assuming),
+                }
+                for check in outcome.checks
             ],
             "refuted as expected": len(outcome.refuted),
             **({"seconds": round(outcome.seconds, 6)} if timed else {}),

@@ -302,8 +302,10 @@ class ClosedForm:
 
     # the leading orders
 
-    def leading(self, orders: int = 2) -> sympy.Expr:
+    def leading(self, orders: int = 2, *relations: sympy.Basic) -> sympy.Expr:
         """The highest powers of M at fixed z = j/M, as a sum; two of them by default.
+
+        Where they depend on other indices, relations say which part is meant: leading(1, N >= 2).
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
@@ -311,12 +313,16 @@ class ClosedForm:
         2*M**3*sigma**2*(1 - z)**2*(2*z + 1)/(r**2*(1 - phi**2)**2)
 
         Raises:
-            ArgumentError: it doesn't depend on the height M or the layer j, or the powers depend on
-                other indices.
+            ArgumentError: it doesn't depend on the height M or the layer j, or the powers differ on
+                several parts, or these are no relations of indices.
         """
         if not isinstance(orders, Integral) or not 1 <= orders <= _ORDERS:
             raise ArgumentError(f"orders = {quoted(orders)}: a whole number from 1 to {_ORDERS}")
-        pieces = [piece for piece in self.pieces if any(map(_reaches_inside, piece.where))]
+        try:
+            pieces = self.function.part(*relations).pieces
+        except NotExactError as reason:
+            raise ArgumentError(f"{text(self.quantity)}: {reason}") from None
+        pieces = tuple(piece for piece in pieces if any(map(_reaches_inside, piece.where)))
         if not pieces or not {sy.M, sy.j} <= self._needed:
             raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
         height, z = FIELD.generator(sy.M), FIELD.generator(sy.z)
@@ -327,7 +333,8 @@ class ClosedForm:
         if len(domains) > 1:
             several = ", and for ".join([*domains.values()][:2])
             raise ArgumentError(
-                f"its leading orders differ, as for {several}: on(…) has the formula of one part"
+                f"its leading orders differ, as for {several}. Say which part is meant, as in "
+                "leading(1, N >= 2)"
             )
         return sympy.Add(*next(iter(domains)))
 

@@ -82,6 +82,9 @@ def test_leading_orders_that_depend_on_other_indices_are_refused():
     assert sympy.simplify(second.on(sympy.Eq(k, i), j >= 2, j <= M - 2) - first.pieces[0].expr) == 0
     with pytest.raises(fd.ForceDiffusionError, match="its leading orders differ, as for"):
         second.leading()
+    assert second.leading(1, sympy.Eq(k, i)) == first.leading(1)
+    with pytest.raises(fd.ForceDiffusionError, match="phi - 1 is not affine in the indices"):
+        second.leading(1, phi > 0)
 
 
 def test_six_constants_and_no_more():

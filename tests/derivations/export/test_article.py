@@ -147,7 +147,8 @@ def test_leading_orders_are_those_of_the_closed_forms(tag):
     for words, (relation, value) in zip(LEADING[tag], STATED[tag], strict=True):
         label, name = words.split()
         assert relation == r"\sim"
-        assert sympy.cancel(load(label).exact_forms[name].leading(1) - value) == 0
+        several = [N >= 2] if N in value.free_symbols else []
+        assert sympy.cancel(load(label).exact_forms[name].leading(1, *several) - value) == 0
 
 
 def test_those_of_the_paper():
