@@ -17,13 +17,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_186,
+    "symbolic": 4_182,
     "derivations": 7_792,
     "numeric": 9_513,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 13_001,
+    "tests": 13_000,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
