@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Iterator
+from functools import cache
 from itertools import pairwise
 
 import pytest
@@ -64,6 +65,7 @@ def read(words: str) -> sympy.Expr:
     return sympy.sympify(spelled, locals=NAMES).subs({u: UNIT, v: IN_SPACE})
 
 
+@cache
 def displays() -> dict[str, list[tuple[str, sympy.Expr]]]:
     """By its tag, the relation and right-hand side of each statement of a display."""
     found: dict[str, list[tuple[str, sympy.Expr]]] = {}
@@ -87,7 +89,6 @@ def statements(body: str) -> Iterator[tuple[str, sympy.Expr]]:
         yield relation, read(right)
 
 
-STATED = displays()
 EXACT = {
     "B4": ["height"], "B5": ["force"], "B9": ["contact", "bead"], "B10": ["ratio", "vertical"],
 }  # fmt: skip
@@ -129,7 +130,7 @@ LAYER = {"bead": (1 - 2 * z) * l, "leg": (1 - z) * l}
 
 
 def test_every_display_is_looked_at():
-    assert {*STATED} == {"13, 14", *EXACT, *LEADING, *GROWING}
+    assert {*displays()} == {"13, 14", *EXACT, *LEADING, *GROWING}
     labels = {label for label in modules() if isinstance(label, str)}
     assert {*re.findall(r"\bB\d+\b", TEXT)} == labels
 
@@ -137,14 +138,14 @@ def test_every_display_is_looked_at():
 @pytest.mark.parametrize("tag", each(EXACT))
 def test_exact_displays_are_the_closed_forms(tag):
     forms = load(tag).exact_forms
-    for name, (relation, value) in zip(EXACT[tag], STATED[tag], strict=True):
+    for name, (relation, value) in zip(EXACT[tag], displays()[tag], strict=True):
         assert relation == "="
         assert equals(name, value, *DOMAINS[tag])(forms).verdict.is_proved
 
 
 @pytest.mark.parametrize("tag", each(LEADING))
 def test_leading_orders_are_those_of_the_closed_forms(tag):
-    for words, (relation, value) in zip(LEADING[tag], STATED[tag], strict=True):
+    for words, (relation, value) in zip(LEADING[tag], displays()[tag], strict=True):
         label, name = words.split()
         assert relation == r"\sim"
         several = [N >= 2] if N in value.free_symbols else []
@@ -152,14 +153,14 @@ def test_leading_orders_are_those_of_the_closed_forms(tag):
 
 
 def test_those_of_the_paper():
-    for number, (_, value) in zip((13, 14), STATED["13, 14"], strict=True):
+    for number, (_, value) in zip((13, 14), displays()["13, 14"], strict=True):
         assert sympy.cancel(load(number).exact_forms["layer"].leading(1) - value) == 0
 
 
 @pytest.mark.parametrize("tag", each(GROWING))
 def test_limits_are_those_of_the_closed_forms(tag):
     for (label, name, where, growing, at), (relation, value) in zip(
-        GROWING[tag], STATED[tag], strict=True
+        GROWING[tag], displays()[tag], strict=True
     ):
         assert relation == r"\sim"
         in_layer = value.subs(j, LAYER[name]) if tag == "B19" else value.xreplace(at)

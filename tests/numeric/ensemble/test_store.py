@@ -21,7 +21,6 @@ from tests.numeric.scenes import scene
 M = case("profile")
 KEY = store.description(M)
 SIZE = 40
-WHOLE = bytes_of_first(M, SIZE)
 
 
 def on_file(path: Path, size: int) -> Ensemble:
@@ -56,7 +55,7 @@ def test_flipped_and_missing_bytes_are_refused_or_do_no_harm(sound, tmp_path_fac
     except store.StoreError:
         assert path.read_bytes() == bytes(wrong)
     else:  # in a part of the file that holds nothing
-        assert found.sums.to_bytes() == WHOLE
+        assert found.sums.to_bytes() == bytes_of_first(M, SIZE)
 
 
 def test_files_of_another_kind_are_refused(tmp_path):
@@ -125,7 +124,7 @@ def test_two_runs_may_share_a_file(tmp_path):
             (one, other)[k % 2].put(block, solve_block(M, *block))
             one.put(block, solve_block(M, *block))
     found = fd.ensemble(scene(PROFILE), SIZE, store=path)
-    assert (found.solved, found.sums.to_bytes()) == (0, WHOLE)
+    assert (found.solved, found.sums.to_bytes()) == (0, bytes_of_first(M, SIZE))
 
 
 def test_a_full_disk_is_told_and_leaves_the_file_good(tmp_path, monkeypatch):

@@ -9,23 +9,22 @@ from typing import Any
 
 import numpy as np
 import pytest
+from force_diffusion.numeric.arithmetic import compiling
 from force_diffusion.numeric.arithmetic.carried import CARRYING, Carried
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, as_floats
+from force_diffusion.numeric.disorder import drawing
 from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError
 from force_diffusion.numeric.lattice.branch import Branch, Contact
 from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
 from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
-from force_diffusion.numeric.mechanics import sweep
+from force_diffusion.numeric.mechanics import local, loops, sweep
 from force_diffusion.numeric.mechanics.physicality import Physicality
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from tests.numeric.scenes import by_numpy, question
 
-pytest.importorskip("numba")
-from force_diffusion.numeric.arithmetic import compiling
-from force_diffusion.numeric.disorder import drawing
-from force_diffusion.numeric.mechanics import local, loops
+pytestmark = pytest.mark.skipif(find_spec("numba") is None, reason="without numba")
 
 # Between the directions at which beads of the ordered packing overlap.
 PHI = st.fractions(Fraction(-32, 100), Fraction(47, 100), max_denominator=10**6)
