@@ -368,7 +368,7 @@ class Spheres:
         Raises:
             AbsentError: it names a contact that is not there.
         """
-        return _Reading(self, exactly(self.symbols())).moment(expression)
+        return _Reading(self, exactly(self.symbols()), (0, 0, 0)).moment(expression)
 
     def along(self, axis: int, bead: Site, *, vertical: bool) -> Value:
         """A force along a base vector; with a point load over that of the ordered legs."""
