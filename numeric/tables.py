@@ -4,7 +4,6 @@ import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache
-from html import escape
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -135,21 +134,22 @@ def html_table(
     rows: Sequence[Mapping[str, Any]], words: Iterable[str], count: int | None = None
 ) -> str:
     """Show the first of ``count`` rows as a table in HTML, and lines of words below it."""
+    from html import escape  # its names of characters take long to load
+
+    def cell(value: Any) -> str:
+        if value is None:
+            return ""
+        return escape(f"{value:.6g}" if isinstance(value, float) else str(value))
+
     left = (len(rows) if count is None else count) - SHOWN
     heads = "".join(f"<th>{escape(name)}</th>" for name in (rows[0] if rows else {}))
     body = "".join(
-        "<tr>" + "".join(f"<td>{_cell(value)}</td>" for value in row.values()) + "</tr>"
+        "<tr>" + "".join(f"<td>{cell(value)}</td>" for value in row.values()) + "</tr>"
         for row in rows[:SHOWN]
     )
     more = f"<p>… and {left} more rows</p>" if left > 0 else ""
     below = "<br>".join(map(escape, words))
     return f"<table><tr>{heads}</tr>{body}</table>{more}<p>{below}</p>"
-
-
-def _cell(value: Any) -> str:
-    if value is None:
-        return ""
-    return escape(f"{value:.6g}" if isinstance(value, float) else str(value))
 
 
 def latex_table(rows: Sequence[Mapping[str, Any]]) -> str:

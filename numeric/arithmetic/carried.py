@@ -148,10 +148,6 @@ class Carrying(NumberSystem):
         off = value.numerator * bottom - top * value.denominator
         return Carried(near, off / (value.denominator * bottom))
 
-    def from_float(self, value: float) -> Carried:
-        """Give an exact number."""
-        return Carried(value, 0.0)
-
     def root(self, value: Fraction) -> Any:
         """Give the square root of a rational."""
         return sqrt(self.number(value))

@@ -35,9 +35,9 @@ class NumberSystem(ABC):
     def number(self, value: Fraction) -> Any:
         """Turn a rational into the nearest number (balls: into an enclosure)."""
 
-    @abstractmethod
     def from_float(self, value: float) -> Any:
         """Turn a float64 into a number, exactly."""
+        return self.number(Fraction(value))
 
     def from_ball(self, value: Any) -> Any:
         """Turn an arb ball into a number: its midpoint, or the ball itself for balls."""
@@ -91,10 +91,6 @@ class Float64(NumberSystem):
     def number(self, value: Fraction) -> Any:
         """Round to nearest even."""
         return np.float64(value.numerator / value.denominator)
-
-    def from_float(self, value: float) -> Any:
-        """Keep it."""
-        return np.float64(value)
 
     def from_floats(self, values: Array) -> Any:
         """Keep them."""

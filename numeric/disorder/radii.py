@@ -23,8 +23,8 @@ from .drawing import deviates
 
 # Columns of a slab may be negative; counters must not be.
 OFFSET = np.uint64(2**62)
-# Beads that are drawn together.
-TOGETHER = 200_000
+# Beads that are drawn together, and those whose δr are worked out at once, in a near cache.
+TOGETHER, AT_ONCE = 200_000, 8192
 
 
 class RadiusError(ForceDiffusionError, ValueError):
@@ -192,4 +192,8 @@ class ArrayRadii:
 
     def _deltas(self, values: Array, system: NumberSystem) -> Any:
         origin, radius = system.number(self.origin), system.number(self.radius)
-        return (system.from_floats(values) - origin) / radius
+        deltas = system.zeros(*values.shape)
+        for at in range(0, values.shape[-1], AT_ONCE):
+            part = (..., slice(at, at + AT_ONCE))
+            deltas[part] = (system.from_floats(values[part]) - origin) / radius
+        return deltas
