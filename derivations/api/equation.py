@@ -16,6 +16,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.printing.code import python_source, sympy_source
+from force_diffusion.symbolic.printing.lines import TEXT_WIDTH
 from force_diffusion.symbolic.printing.text import text
 
 from ..coq.statements import recorded
@@ -223,7 +224,12 @@ class Equation:
         >>> [piece["domain"] for piece in exact["layer"]][:2]
         ['2 ≤ j ≤ M − 2', 'j = M − 1, M ≥ 3']
         """
-        return statement_data(self._derivation)
+        return {
+            **statement_data(self._derivation),
+            "text": "\n".join(self._derivation.lines(TEXT_WIDTH)),
+            "latex": self._derivation.latex(),
+            "exact": {name: form.data() for name, form in self._derivation.exact_forms.items()},
+        }
 
     def sympy_code(self) -> str:
         """SymPy source of the right-hand side, in the names of :attr:`symbols`.

@@ -156,15 +156,12 @@ def markdown_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def statement_data(derivation: Statement) -> dict[str, Any]:
-    """What JSON says of an equation: text and LaTeX, and the pieces of its exact forms."""
+    """What JSON says of any equation."""
     return {
         "number": derivation.number,
         "name": derivation.name,
         "title": derivation.title,
         "premises": list(derivation.premises),
-        "text": "\n".join(derivation.lines(TEXT_WIDTH)),
-        "latex": derivation.latex(),
-        "exact": {name: form.data() for name, form in derivation.exact_forms.items()},
     }
 
 
