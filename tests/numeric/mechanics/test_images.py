@@ -93,6 +93,7 @@ def single(draw: st.DrawFn) -> tuple[dict[str, dict[str, Any]], int]:
 
 @settings(max_examples=2 * settings.default.max_examples)
 @given(single())
+@example(({**strip(3, 5, "exact", [1, 1, "+"]), "load": {"kind": "surface"}}, 5))  # just none
 @example(  # an image that lies exactly on the other diagonal
     ({**strip(5, 2, "first-order", [3, 3, "-"]), "load": {"kind": "point", "at": [3, 5]}}, 2)
 )
