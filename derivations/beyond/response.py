@@ -150,7 +150,7 @@ DERIVATIONS: dict[Number, Row] = {
             (LEG_FORCE, "variance of its magnitude over its squared mean f₀²"),
             (INSIDE, "variance of a contact's magnitude inside the cone, over f₀²"),
             (l, "layer of the loaded bead (0, 0, l)"),
-            (q, "steps along that contact's own vector, from the leg where its path turns"),
+            (q, "steps along that contact's own vector, from the leg where its path branches off"),
             (p, "steps down that leg"),
         ),
         claimed={

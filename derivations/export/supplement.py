@@ -19,6 +19,7 @@ _HEAD = r"""\documentclass[twocolumn]{article}
 \usepackage{amsmath}
 \setlength{\parindent}{0pt}
 \emergencystretch=3em
+\interlinepenalty=10000
 \raggedbottom
 \begin{document}
 \begin{center}\large Supplement: the closed forms of Eqs.~B2 to B25\end{center}
