@@ -6,7 +6,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, Symbol, axioms, differentiate, equation, follows, instance, rewrite,
     terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, LoadForce, e_y, epsilon, f_load, k, l,
+    DeltaNMinus, DeltaNPlus, ForceMinus, ForcePlus, LoadForce, e_y, epsilon, f_load, k, l,
     n_minus, n_plus, n_y, phi, site_r, site_s)
 # fmt: on
 
@@ -74,11 +74,6 @@ def show_steps(steps: Steps) -> None:
         "In the ordered packing, under a load f_load straight down, each contact carries "
         "f_load/2n_y:",
         equation(f_load / (2 * n_y) * terms(n_plus, n_minus), f_load * e_y),
-        rewrite(),
-    )
-    steps.show(
-        "The cosine of the angle between the two directions is φ:",
-        equation(Dot(n_plus, n_minus), phi),
         rewrite(),
     )
 

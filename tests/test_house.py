@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_182,
-    "derivations": 7_795,
+    "derivations": 7_791,
     "numeric": 9_513,
     "force_diffusion": 78,
     "benchmarks": 836,
