@@ -95,12 +95,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         wanted = mark.kwargs if mark else {}
         if of_ci:
             share = wanted.get("share", 1 if len(every) < MANY else 3)
-            kept = set(range(seed % share, len(every), share))
+            places = set(range(seed % share, len(every), share))
         else:
             sample = min(wanted.get("sample", 0), len(every))
             # evenly spaced, in the order of the cases
-            kept = {place * len(every) // sample for place in range(sample)}
-        left_out |= {item for place, item in enumerate(every) if place not in kept}
+            places = {place * len(every) // sample for place in range(sample)}
+        left_out |= {item for place, item in enumerate(every) if place not in places}
     config.hook.pytest_deselected(items=list(left_out))
     items[:] = [item for item in items if item not in left_out]
 

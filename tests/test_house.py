@@ -208,6 +208,6 @@ def test_every_room_is_on_the_map():
     text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
     for folder in ("numeric", "symbolic", "derivations"):
         part = text.partition(f"### {folder}/")[2].partition("\n#")[0]
-        told = {name.strip("`/") for row in part.splitlines() for name in row.split("`")[1:-1:2]}
+        named = {name.strip("`/") for row in part.splitlines() for name in row.split("`")[1:-1:2]}
         there = {room for room in rooms(folder) if not room.startswith("eq")}
-        assert there <= told, folder
+        assert there <= named, folder

@@ -90,8 +90,9 @@ def test_equations_answer_to_how_papers_call_them(word):
 def test_errors_that_docstrings_name_are_there():
     """Of functions that users call, and of methods of their results."""
     for name in fd.__all__:
-        told = [getattr(fd, name)]
-        told += [v for v in vars(told[0]).values() if isinstance(v, types.FunctionType | property)]
-        for one in told:
-            for error in re.findall(r"\b[A-Z]\w+Error\b", inspect.getdoc(one) or ""):
+        public = getattr(fd, name)
+        kinds = types.FunctionType | property
+        members = [value for value in vars(public).values() if isinstance(value, kinds)]
+        for documented in (public, *members):
+            for error in re.findall(r"\b[A-Z]\w+Error\b", inspect.getdoc(documented) or ""):
                 assert hasattr(fd, error) or hasattr(builtins, error), (name, error)

@@ -44,8 +44,8 @@ def test_all_that_is_said_of_the_run_counts_it():
     assert derived.proved
     assert derived.counts() == f"1 proved; {words}"
     assert [check.kind for check in proof.refuted] == ["refutation"]
-    for said in (str(derived), str(proof), terminal.outcome_text(outcome)):
-        assert words in said
+    for summary in (str(derived), str(proof), terminal.outcome_text(outcome)):
+        assert words in summary
     assert terminal.trouble_lines(outcome) == []
     (found,) = derived.data()["equations"]
     assert found["refuted as expected"] == 1

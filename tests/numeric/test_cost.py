@@ -57,8 +57,8 @@ def test_the_error_of_float64_is_that_of_its_numbers():
     exact = [midpoint(ball) for ball in true.table.numbers["change"]]
     rounded = map(float, near.arrays["change"])
     off = max(abs(Fraction(a) - b) for a, b in zip(rounded, exact, strict=True))
-    meant = float(off / max(map(abs, exact)))
-    assert float(fd.cost(asked).ways[0].error) == pytest.approx(meant, rel=1e-3)
+    expected = float(off / max(map(abs, exact)))
+    assert float(fd.cost(asked).ways[0].error) == pytest.approx(expected, rel=1e-3)
 
 
 def test_what_takes_too_long_is_extrapolated_by_its_beads(monkeypatch):

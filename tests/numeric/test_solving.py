@@ -87,9 +87,9 @@ def test_what_is_refused(arguments, says):
     ("shape", "remedy"), [((13, 4), "radii.T"), ((2, 13, 4), "radii.swapaxes(-1, -2)")]
 )
 def test_an_array_that_may_be_transposed_is_refused(shape, remedy):
-    with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images=True") as told:
+    with pytest.raises(fd.SceneError, match=r"13 layers of \d+ beads.*allow_images") as refused:
         fd.solve(np.ones(shape))
-    assert f"if transposed, give {remedy};" in str(told.value)
+    assert f"if transposed, give {remedy};" in str(refused.value)
     assert fd.solve(np.ones(shape), allow_images=True).force.shape[-2:] == (12, shape[-1])
 
 
@@ -97,9 +97,9 @@ def test_an_array_that_may_be_transposed_is_refused(shape, remedy):
 def test_a_stack_of_squares_needs_its_dimension(shape):
     """It is one packing of spheres or several of discs; nobody is to get the other one unawares."""
     layers, side = shape[0], shape[-1]
-    with pytest.raises(fd.SceneError, match=r"dimension=3.*dimension=2") as told:
+    with pytest.raises(fd.SceneError, match=r"dimension=3.*dimension=2") as refused:
         fd.solve(np.ones(shape))
-    assert f"{layers} layers of {side} × {side}" in str(told.value)
+    assert f"{layers} layers of {side} × {side}" in str(refused.value)
     flat = fd.solve(np.ones(shape), dimension=2)
     assert flat.force.shape == (layers, 2, side - 1, side)
     spheres = fd.solve(np.ones(shape), dimension=3)

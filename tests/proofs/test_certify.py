@@ -180,7 +180,7 @@ class Bent(CoqStatement):
 def test_no_file_of_the_theory_can_change_what_is_stated(coq):
     """Twice the right side of Eq. 3, with a tactic that proves what is bent at once."""
     twice = {field.name: getattr(wrong(3), field.name) for field in fields(CoqStatement)}
-    found = accepted(coq, {kind: Bent(**twice, bent=said) for kind, said in BENT.items()})
+    found = accepted(coq, {kind: Bent(**twice, bent=source) for kind, source in BENT.items()})
     for number, (kind, one) in enumerate(found.items()):
         assert not one.accepted
         files = [f"Asked_{number}_{part}.v" for part in ("bent", "statement")]

@@ -126,11 +126,11 @@ def test_conditions_tell_a_part_from_the_rest_of_its_context(first, second, arou
         return
     reached = set()
     for equations, bounds in found:
-        told = [Eq(_form(one), 0, evaluate=False) for one in equations]
-        told += [Ge(_form(one), 0, evaluate=False) for one in bounds]
-        reached |= points_of(sets.where(*told) & context)
-        for left_out in told:
-            others = [one for one in told if one is not left_out]
+        conditions = [Eq(_form(one), 0, evaluate=False) for one in equations]
+        conditions += [Ge(_form(one), 0, evaluate=False) for one in bounds]
+        reached |= points_of(sets.where(*conditions) & context)
+        for left_out in conditions:
+            others = [one for one in conditions if one is not left_out]
             assert not points_of(sets.where(*others) & context) <= points_of(whole)
     assert reached == points_of(whole)
 

@@ -288,8 +288,8 @@ def test_pieces_that_leave_a_part_of_the_domain_out_are_no_statement():
 def test_z_stands_for_the_height_of_a_layer():
     form = fd.equation(13).exact()
     in_z = form.pieces[0].expr.subs(sy.j, sy.z * sy.M)
-    said = sympy.Piecewise((in_z, form.expr.args[0][1]), *form.expr.args[1:], evaluate=False)
-    assert form.decide(said).verdict is Verdict.PROVED
+    candidate = sympy.Piecewise((in_z, form.expr.args[0][1]), *form.expr.args[1:], evaluate=False)
+    assert form.decide(candidate).verdict is Verdict.PROVED
 
 
 # what is assumed

@@ -163,10 +163,10 @@ def test_a_function_has_a_signature_and_says_what_it_is():
     function = fd.equation(13).function()
     assert str(inspect.signature(function)) == "(M, z, phi, sigma, r)"
     assert function.__name__ == "surface_diffusion"
-    told = inspect.getdoc(function)
-    assert told is not None
+    docstring = inspect.getdoc(function)
+    assert docstring is not None
     for words in ("Eq. 13", "σ_f²(z)/⟨f⟩²", "M: height of the packing", "0 ≤ z ≤ 1"):
-        assert words in told
+        assert words in docstring
 
 
 @pytest.mark.parametrize("number", [13, 14, 15, 16])

@@ -69,8 +69,8 @@ def test_a_constant_in_source_leading_orders_and_candidates():
     assert form.on(j >= 2, j <= M - 2).equals(first / a**2)
     mean = fd.mean(f_plus(i, j) / a)
     assert str(mean.decide(1 / a)).startswith("proved")
-    said = str(mean.decide(2 / a))
-    assert said.startswith("refuted")
+    ruling = str(mean.decide(2 / a))
+    assert ruling.startswith("refuted")
     doubled = fd.mean(a * f_plus(i, j)).decide(3 * a)
     assert str(doubled) == "refuted: at j = 0, M = 1: the sides differ by −2 a"
     assert str(mean.decide(sympy.Symbol("a"))).startswith("not a statement: this a is not that of")

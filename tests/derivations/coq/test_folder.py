@@ -142,9 +142,9 @@ def test_statements_and_verdicts_are_written(programs, tmp_path, call):
         for number in (3, 7)
     ]
     assert printed[-1] == "0 of 2 accepted."
-    said = json.loads((out / "certificate.json").read_text())
-    assert [one["accepted"] for one in said["equations"]] == [False, False]
-    (three, seven) = (one["theorems"] for one in said["equations"])
+    certificate = json.loads((out / "certificate.json").read_text())
+    assert [one["accepted"] for one in certificate["equations"]] == [False, False]
+    (three, seven) = (one["theorems"] for one in certificate["equations"])
     for name, hashed in (three | seven).items():
         files = (f"{name.capitalize()}{end}.v" for end in ("_statement", "", "_accepted"))
         content = b"".join((out / file).read_bytes() for file in files)
@@ -175,10 +175,10 @@ def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(programs, tmp_pa
         assert running.poll() is None
         time.sleep(0.05)
     running.send_signal(signal.SIGTERM)
-    _, said = running.communicate(timeout=600)
+    _, err = running.communicate(timeout=600)
     assert running.returncode == 130
-    assert "interrupted" in said
-    assert "Traceback" not in said
+    assert "interrupted" in err
+    assert "Traceback" not in err
     for process in map(int, started.read_text().split()):
         with pytest.raises(ProcessLookupError):
             os.kill(process, 0)

@@ -220,7 +220,7 @@ def test_averaging_over_loads_lowers_the_variance_by_less_than_a_third():
 
 @pytest.mark.long
 def test_numbers_of_steel_balls():
-    said = TEXT.partition("## Steel balls\n")[2].partition("\n## ")[0]
+    section = TEXT.partition("## Steel balls\n")[2].partition("\n## ")[0]
     radius, share, height, cosine = 2.5e-3, 1e-4, 100, -0.125
     at = {"M": height, "phi": cosine, "sigma": share, "r": 1.0}
     rise = math.sqrt((1 + cosine) / 2)
@@ -254,7 +254,7 @@ def test_numbers_of_steel_balls():
         rf"$(r/\sigma)^2=10^{round(-2 * math.log10(share))}$ layers",
         rf"flatten by ${flattened * 1e6:.2f}\,\mathrm{{\mu m}}$ at ${force:.2f}\,\mathrm{{N}}$",
     ):
-        assert words in said
+        assert words in section
 
 
 # how it is written

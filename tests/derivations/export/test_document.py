@@ -100,7 +100,7 @@ def sentences(number: Number) -> Iterator[str]:
         yield from (step.reason, both(step.uses) if step.uses else "follows")
     yield from (claim.reason for claim in derivation.proof.claims)
     yield from (*derivation.remarks, *derivation.assumptions, derivation.title)
-    yield from (said for _, said in derivation.symbols)
+    yield from (meaning for _, meaning in derivation.symbols)
 
 
 @pytest.mark.parametrize("number", each(modules()))

@@ -89,13 +89,13 @@ def test_labels_and_changes_are_those_of_run(name):
     rows = {(r["i"], r["j"], r["branch"]): r for r in outcome.rows()}
     assert len(rows) * (2 if name == "response" else 1) == m.groups
     contacts = zip(m.labels["i"], m.labels["j"], m.labels["branch"], strict=True)
-    meant, ordered = [], []
+    expected, ordered = [], []
     for k, contact in enumerate(contacts):
         vertical = "component" in m.labels and m.labels["component"][k] == "vertical"
-        meant.append(rows[contact]["vertical_change" if vertical else "change"])
+        expected.append(rows[contact]["vertical_change" if vertical else "change"])
         ordered.append(rows[contact]["vertical" if vertical else "force"])
     (found,) = changes(m, range(1))
-    assert found[:, 0].tolist() == pytest.approx(meant, rel=1e-9, abs=1e-16)
+    assert found[:, 0].tolist() == pytest.approx(expected, rel=1e-9, abs=1e-16)
     total = [float(F) + g for F, g in zip(m.ordered(), found[:, 0], strict=True)]
     assert total == pytest.approx(ordered, rel=1e-9, abs=1e-12)
     assert first(m, 1).tensile.tolist() == [force < 0 for force in total]

@@ -16,7 +16,7 @@ from tests.numeric.scenes import question
 
 
 @pytest.mark.parametrize(
-    ("wrong", "freedom", "meant"),
+    ("wrong", "freedom", "quantile"),
     [
         # P(|T| > t) in closed form: 1 − 2 atan(t)/π for one degree of freedom,
         # 1 − t/√(2 + t²) for two
@@ -26,9 +26,9 @@ from tests.numeric.scenes import question
         (1e-9, 2, (1 - 1e-9) * math.sqrt(2 / (1 - (1 - 1e-9) ** 2))),
     ],
 )
-def test_student(wrong, freedom, meant):
+def test_student(wrong, freedom, quantile):
     found = half_width([1e-6], freedom + 1, 1 - wrong, 0)
-    assert math.log1p(found) == pytest.approx(1e-6 * meant, rel=1e-6)
+    assert math.log1p(found) == pytest.approx(1e-6 * quantile, rel=1e-6)
 
 
 def test_student_becomes_normal_and_needs_two():
