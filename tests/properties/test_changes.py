@@ -69,7 +69,7 @@ def passes(check: Check, equation: sympy.Eq, packing: object) -> bool:
 
 
 @pytest.mark.parametrize(
-    "number", [pytest.param(n, marks=pytest.mark.long if n == 12 else ()) for n in CHECKS]
+    "number", [pytest.param(n, marks=[pytest.mark.long] * (n in (12, 15))) for n in CHECKS]
 )
 def test_each_change_of_what_is_printed_fails(number):
     """But for those that say the same at the order that the equation keeps."""

@@ -291,6 +291,7 @@ def test_the_supplement_has_every_form_and_its_domains():
             assert f"[\\texttt{{{name.replace('_', chr(92) + '_')}}}]\n{shown}" in made
 
 
+@pytest.mark.long
 def test_the_page_has_the_same():
     made = page(TEXT)
     assert "(B7, B21)\n\n$$\n\\begin{aligned}" in made
