@@ -7,9 +7,9 @@ that rounding, those of gathering them, and what the carried errors leave out.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from fractions import Fraction
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -46,8 +46,7 @@ SWALLOWED = 2
 ROUNDED = 2.0**-50
 
 
-@dataclass(frozen=True)
-class Accuracy:
+class Accuracy(NamedTuple):
     """Error of the answer's small columns, relative to the largest entry of them.
 
     ``certified``: a rigorous bound (balls). Otherwise it is estimated, from errors that the sweep

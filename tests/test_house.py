@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_182,
     "derivations": 7_791,
-    "numeric": 9_513,
+    "numeric": 9_495,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,

@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
@@ -63,8 +63,7 @@ def _counters_of(i: Array, j: Array, width: int | None) -> tuple[Array, Array]:
     )
 
 
-@dataclass(frozen=True)
-class DrawnRadii:
+class DrawnRadii(NamedTuple):
     """Independent draws: ``kind`` "uniform", "normal" or "two-point", width of the packing."""
 
     kind: str

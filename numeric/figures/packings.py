@@ -1,10 +1,9 @@
 """Ensembles for figures: planned, solved batch after batch by the engine, and held to theory."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from fractions import Fraction
 from math import sqrt
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -34,8 +33,7 @@ PAPER_STD = sqrt(1e-6 / 12)
 SPACING = Fraction(3)
 
 
-@dataclass(frozen=True)
-class Medium:
+class Medium(NamedTuple):
     """What packings are made of: the spacing s in units of r, and σ_δr/r."""
 
     spacing: Fraction = SPACING
@@ -61,8 +59,7 @@ PAPER = Medium()
 N_X, PHI = PAPER.n_x, PAPER.phi
 
 
-@dataclass(frozen=True)
-class Options:
+class Options(NamedTuple):
     """What can be chosen of figures."""
 
     heights: Sequence[int] = (8, 32, 128)
@@ -78,8 +75,7 @@ class Options:
         return Medium(self.spacing or usual.spacing, self.relative_std or usual.std)
 
 
-@dataclass(frozen=True)
-class Comparison:
+class Comparison(NamedTuple):
     """What was simulated, with its band, and what ``theory`` says, (L,); ``of``: in words."""
 
     of: str
@@ -102,8 +98,7 @@ class Comparison:
         return np.array([self.band.value - low, high - self.band.value])
 
 
-@dataclass(frozen=True)
-class Made:
+class Made(NamedTuple):
     """A figure, its CSV files by name, verdicts and parameters, verdicts in words."""
 
     figure: "Figure"

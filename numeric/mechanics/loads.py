@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -40,8 +40,7 @@ def components(force: Sequence[Any], n_x: Any, up: Any, root12: Any = None) -> C
     return tuple(parts)
 
 
-@dataclass(frozen=True)
-class Strength:
+class Strength(NamedTuple):
     """A load's components (L^a) in a number system, of all loads or of each loaded bead."""
 
     unit: Components

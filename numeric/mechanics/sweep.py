@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache, partial
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -45,8 +45,7 @@ class NotStandingError(ForceDiffusionError, ValueError):
         self.site = site
 
 
-@dataclass(frozen=True)
-class SolvedPacking:
+class SolvedPacking(NamedTuple):
     """Beads of some packings at rest, row after row as ``region`` has them, in units of r.
 
     ``rho``: δr/r, shape (packings, beads). ``block``, (packings, d + d², beads): c_a = n^a·δx/r of
@@ -70,8 +69,7 @@ class SolvedPacking:
         return self.block[:, d + a * d : 2 * d + a * d, self.region.row(j)].swapaxes(0, 1)
 
 
-@dataclass(frozen=True)
-class Forces:
+class Forces(NamedTuple):
     """Contact forces below beads, by the upper bead, row after row of ``rows`` above the base.
 
     ``F``, (d, beads): of the ordered packing; ``g``, (packings, d, beads): f^a − F^a.
@@ -112,9 +110,9 @@ class Solved:
         at = slice(number, number + 1)
         packing, forces = self.packing, self.forces
         if packing is not None:
-            packing = replace(packing, rho=packing.rho[at], block=packing.block[at])
+            packing = packing._replace(rho=packing.rho[at], block=packing.block[at])
         if forces is not None:
-            forces = replace(forces, g=forces.g[at])
+            forces = forces._replace(g=forces.g[at])
         return replace(self, packing=packing, forces=forces)
 
 

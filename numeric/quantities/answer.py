@@ -1,7 +1,8 @@
 """An answer: packings solved, looked at, and gathered as a quantity asks."""
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,8 +23,7 @@ from .histogram import Histogram
 UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
 
 
-@dataclass(frozen=True)
-class Answer:
+class Answer(NamedTuple):
     """Tables of numbers, one a question.
 
     ``physical``: None where nothing exact was solved, or the same packings a second time.

@@ -5,12 +5,12 @@ enclose it. What would take too long is extrapolated from fewer layers.
 """
 
 from collections.abc import Callable, Iterator
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from numbers import Real
 from pathlib import Path
 from time import process_time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -53,8 +53,7 @@ MEASURED, CERTIFIED, STATED, ESTIMATED = "measured", "certified", "stated", "est
 HEAD = f"{'way':<9}{'digits':>6}  {'error':<10}{'':<10}{'seconds':>10}  relative cost"
 
 
-@dataclass(frozen=True)
-class Way:
+class Way(NamedTuple):
     """An arithmetic with its decimal digits, error and time.
 
     ``error`` is relative to the largest |change|. It is "measured" (the distance from balls),
@@ -91,7 +90,7 @@ class CostStudy:
 
     def rows(self) -> list[tables.Row]:
         """One row a way, ready for a data frame."""
-        return [asdict(way) for way in self.ways]
+        return [way._asdict() for way in self.ways]
 
     def data(self) -> dict[str, Any]:
         """Give it as JSON can hold it."""
@@ -185,8 +184,7 @@ def cost(
     return CostStudy(str(scene.ask.quantity), tuple(ways), skipped)
 
 
-@dataclass(frozen=True)
-class _Timed:
+class _Timed(NamedTuple):
     """A run: its seconds, what was found, and the error that is stated.
 
     ``numbers`` is None where it was a run of fewer layers, whose seconds are extrapolated.
@@ -267,7 +265,7 @@ class _Study:
             if whole <= allowed:
                 break
             if 4 * measured.seconds > allowed:
-                return replace(measured, seconds=whole, numbers=None)
+                return measured._replace(seconds=whole, numbers=None)
             layers *= 2
         measured = _run(_planned(self.scene, name, digits), name, digits)
         if name == "balls":

@@ -4,8 +4,7 @@
 refused is answered.
 """
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 QUANTITIES = ("contact", "contact_forces", "positions", "profile", "histogram", "response")
 COMMANDS = ("run", "ensemble", "figures", "cost")
@@ -139,8 +138,7 @@ def answered(command: str, **features: Any) -> tuple[str, ...]:
     return tuple(quantity for quantity in QUANTITIES if not refused(quantity))
 
 
-@dataclass(frozen=True)
-class Need:
+class Need(NamedTuple):
     """A ``key`` that means something beside these ``values`` of another alone.
 
     It is ``required`` beside some of them.

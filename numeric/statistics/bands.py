@@ -8,7 +8,7 @@ half-width of a band is c standard errors, where c is the quantile of the larges
 layers, simulated with the estimated correlations (a multivariate t).
 """
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -46,8 +46,7 @@ def critical_value(covariance: Array, freedom: int, level: float, seed: int) -> 
     return float(np.quantile(np.abs(normal).max(axis=1) / scale, level))
 
 
-@dataclass(frozen=True)
-class Band:
+class Band(NamedTuple):
     """A simultaneous band about what was estimated; ``estimate`` and ``half``-widths are (L,).
 
     ``logarithmic``: both are those of logarithms; else of plain means.

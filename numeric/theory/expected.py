@@ -6,9 +6,9 @@ pull far below it.
 """
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
+from typing import NamedTuple
 
 from .. import generated
 
@@ -54,8 +54,7 @@ def stds_of_contacts(
     return tuple(abs(own) * math.sqrt(max(0.0, variance)) for own, variance in variances)
 
 
-@dataclass(frozen=True)
-class ExpectedTension:
+class ExpectedTension(NamedTuple):
     """About so many ``contacts`` pull, in one packing.
 
     ``height_of_one``: the height from which on it is one or more, at the same width; None beyond

@@ -1,7 +1,7 @@
 """Where beads came to rest under unilateral contacts."""
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -45,8 +45,7 @@ class Frame:
                 )
 
 
-@dataclass(frozen=True)
-class Network:
+class Network(NamedTuple):
     """Beads at rest under unilateral contacts; lengths in units of r, numbers in balls.
 
     Bead number j W + q is (i, j) of the lattice, i = 2q + j mod 2, where it was deposited.

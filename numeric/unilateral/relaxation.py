@@ -1,8 +1,8 @@
 """Packings without tension: beads come to rest in float64, and where that is is proved in balls."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
 from time import process_time
+from typing import NamedTuple
 
 import numpy as np
 from scipy.optimize import linprog
@@ -29,8 +29,7 @@ CLOSED = 4e-13
 ITERATIONS = 12
 
 
-@dataclass(frozen=True)
-class Settled:
+class Settled(NamedTuple):
     """Where beads came to rest, in float64; ``contacts`` bear force, or are those of the lattice.
 
     ``programs``: how many it took, 0 where the deposited packing has no tension; ``fall``: of the
@@ -65,7 +64,7 @@ def _proved(problem: Problem, realisation: int, settled: Settled, system: Balls)
     if not settled.programs:
         return as_deposited(problem, realisation, known, system)
     proved = certify(settled.grains, settled.contacts, known, system)
-    return replace(proved, programs=settled.programs, fall=settled.fall)
+    return proved._replace(programs=settled.programs, fall=settled.fall)
 
 
 def settle(problem: Problem, realisation: int, work: Work) -> Settled:

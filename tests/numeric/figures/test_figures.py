@@ -4,7 +4,6 @@ import csv
 import json
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from fractions import Fraction
 from functools import cache
 from typing import Any
@@ -210,7 +209,7 @@ def test_theory_is_within_the_band_and_a_wrong_one_outside(name):
     wrong = WRONG[name](compared.theory)
     assert compared.deviation <= 1
     assert compared.band.deviation(wrong) > 1
-    assert "outside" in replace(compared, theory=wrong).verdict()
+    assert "outside" in compared._replace(theory=wrong).verdict()
 
 
 @pytest.mark.parametrize(
