@@ -158,7 +158,7 @@ DERIVATION = Derivation(
         (ForcePlus(i, j), "force of the contact from (i, j) to (i+1, j+1)"),
         (f_load, "load on every bead of the surface layer j = M, downwards"),
         (M, "height of the packing in layers above the base"),
-        (n, "layers between the contact and the bead at which a force turns into it"),
+        (n, "layers between the contact and the bead at which a force branches into it"),
     ),
     assumptions=("first order in δr", *LOADED.in_words(), "no path meets a side wall (W > M)"),
     printed=(PRINTED,),

@@ -131,7 +131,7 @@ DERIVATION = Derivation(
         (ForcePlus(i, j), "force of the contact from (i, j) to (i+1, j+1)"),
         (ForceMinus(i, j), "force of the contact from (i, j) to (i−1, j+1)"),
         (M, "height of the packing in layers above the base"),
-        (n, "layers between the contact and the bead at which a force turns into it"),
+        (n, "layers between the contact and the bead at which a force branches into it"),
     ),
     assumptions=(
         "first order in δr",

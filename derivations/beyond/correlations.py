@@ -74,8 +74,8 @@ def _contacts(number: Number, name: str, load: str) -> Row:
             "mean": variance(mean_over(ForcePlus(i, j), N), load=load).named(FORCE_MEAN),
             "apart": covariance(ForcePlus(i, j), ForcePlus(i + 2 * k, j), load=load).named(APART),
         },
-        meaning="N independent contacts would have σ_f²/N. Force fluctuations nearly cancel along "
-        "a layer up to N of order M³, where the radii of the two layers that touch take over.",
+        meaning="N independent contacts would have σ_f²/N. Along a layer force fluctuations "
+        "nearly cancel for N up to order M³; beyond that the two layers that touch dominate.",
         quantities=(
             (FORCE_MEAN, "variance of the mean of f^± over N neighbours of one layer"),
             (APART, "covariance of two contacts of a layer that are k places apart"),
@@ -179,8 +179,8 @@ DERIVATIONS: dict[Number, Row] = {
             ).named(symbol)
             for (name, load), symbol in zip(_BY_LOAD.items(), (LAYERS, BULK_LAYERS), strict=True)
         },
-        meaning="Along a diagonal forces stay correlated over the whole height of the packing, "
-        "and averaging over it hardly helps; along a layer their fluctuations cancel.",
+        meaning="Along a diagonal forces stay correlated over the whole height of the packing, so "
+        "averaging along it hardly helps; along a layer their fluctuations cancel.",
         quantities=(
             (LAYERS, "covariance of two contacts of one diagonal, over both means; surface load"),
             (BULK_LAYERS, "the same under a bulk load"),

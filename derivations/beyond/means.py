@@ -74,8 +74,8 @@ def _leaning(number: Number, load: str, upright: Number, own: sympy.Expr, other:
             "plus": mean(ForcePlus(i, j), order=2, load=under).named(PLUS - 1),
             "minus": mean(ForceMinus(i, j), order=2, load=under).named(MINUS - 1),
         },
-        meaning="Loads superpose: what a load along n⁺ makes of f⁺, and t times what one along n⁻ "
-        "does, which gives f⁺ a mean where the ordered packing has none.",
+        meaning="Loads superpose: f⁺ is what a load along n⁺ makes of it, plus t times what one "
+        "along n⁻ does. The latter gives f⁺ a mean even where the ordered packing has none.",
         quantities=(
             (PLUS, "mean of f⁺ over its value in the ordered packing"),
             (MINUS, "the same of f⁻"),
@@ -99,15 +99,15 @@ DERIVATIONS: dict[Number, Row] = {
         exact=lambda: {
             "height": mean(Dot(e_y, DeltaX(i, j)), order=2, relative=False).named(HEIGHT)
         },
-        meaning="A contact that tilts, whichever way, carries its upper bead less far up: the pile "
-        "settles, at any φ and with no gravity in the argument, as the square of the height.",
+        meaning="A contact that tilts, whichever way, holds its upper bead at a lower height. So "
+        "the pile settles, as the square of the height, with or without gravity.",
         quantities=(
             (HEIGHT, "mean vertical displacement of bead (i, j); the horizontal one is 0"),
             (n_y, "vertical component of n^±"),
         ),
         claimed={
             "every layer above the base settles": has_sign("height", -1, j >= 1, at={j: j + 1}),
-            "by a share of its height that grows as its height": goes_as(
+            "by a share of its height that grows in proportion to that height": goes_as(
                 "height",
                 -2 * j**2 * n_y * sigma**2 / (r * (1 + phi) * (1 - phi**2)),
                 j >= 1,

@@ -110,10 +110,11 @@ DERIVATIONS: dict[Number, Row] = {
             "contact": mean(ForcePlus(i, j), order=2, load=point(k, l)).named(CONTACT),
             "bead": mean(response(i, j), order=2, load=point(k, l)).named(PUSH),
         },
-        meaning="Between the two rays of the ordered packing the mean response is a plateau, which "
-        "depends neither on height nor place off the two lowest layers: it does not spread as a "
-        "diffusing ray would. Ensemble averages and averages over N equal loads, and N contacts, "
-        "have this mean alike. In p, the vertical force on a bead, the legs pay what it gains.",
+        meaning="Between the two rays of the ordered packing the mean response is a plateau: "
+        "above the two lowest layers it depends neither on height nor on position, and does not "
+        "spread as a diffusing ray would. The average over the ensemble and that over N equal "
+        "loads and N contacts have the same mean. In p, the vertical force on a bead, the legs "
+        "lose what the plateau gains.",
         quantities=(
             (CONTACT, "what disorder adds to the mean of f⁺ below the load on bead (k, l)"),
             (PUSH, "the same of p, the vertical force that bead (i, j) gets from both contacts"),
@@ -130,7 +131,7 @@ DERIVATIONS: dict[Number, Row] = {
                         j >= 2, j <= l - 2, growing=j),
             "in p nothing is lost: in each layer all beads add up to no change":
                 adds_up_to_zero("bead", i),
-            "outside of the cone no mean changes": equals("bead", sympy.S.Zero, Le(_ACROSS, -2)),
+            "outside the cone no mean changes": equals("bead", sympy.S.Zero, Le(_ACROSS, -2)),
         },
     ),
     "B19": Row(
@@ -140,9 +141,8 @@ DERIVATIONS: dict[Number, Row] = {
         call='variance(p_along(1, -q, -p, l), load="point", dimension=3, '
         "where=[p >= 1, q >= 1, p + q <= l])",
         exact=_of_spheres,
-        meaning="Fluctuations fill the three legs and three faces of a cone. Inside of it no force "
-        "is of first order: not on average, but in every packing. For discs the two legs enclose "
-        "one face, and this face is all of the inside.",
+        meaning="Fluctuations fill the three legs and the three faces of a cone. Inside it no "
+        "force changes to first order, in any packing. For discs one face fills the cone.",
         quantities=(
             (FACE, "variance of the vertical force of one contact in a face of the cone"),
             (FACE_BEAD, "the same of both contacts of the face above a bead together"),
@@ -171,8 +171,8 @@ DERIVATIONS: dict[Number, Row] = {
         call="variance(mean_over(response(i, j), N, k), load=point(k, l), "
         "where=[N >= 2, l - j + k - i >= 2, l - j - k + i >= 2*N])",
         exact=_of_bead,
-        meaning="Averaging over loads reduces the noise by a third at most, since one bead hears "
-        "all of them through the same radii; averaging over beads reduces σ(p) as 1/N.",
+        meaning="Averaging over loads lowers the variance by less than a third, since all of them "
+        "act on a bead through the same radii; averaging over beads lowers σ(p) as 1/N.",
         quantities=(
             (OVER_LOADS, "variance of p of one bead, averaged over N neighbouring loads"),
             (OVER_BEADS, "the same below one load, averaged over N neighbouring beads"),

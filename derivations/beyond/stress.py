@@ -103,10 +103,10 @@ def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -
         f"/(2*r*L_plus*(1 + t){'*(M - j)' if load == 'bulk' else ''}), order=2, "
         f'load=leaning(t, "{load}"), relative=False)',
         exact=lambda: _forms(load),
-        meaning="The stress ratio depends on the layer and on the kind of load, not on its "
-        "direction, and on no property of the material alone. The contact moment and the vertical "
-        "momentum through a cut differ at order σ²: the latter is fixed by the load, the former "
-        "weighs each contact's momentum with its height.",
+        meaning="The stress ratio depends on the layer and on the kind of load, but not on its "
+        "direction, so it is no property of the material alone. The contact moment and the "
+        "vertical momentum through a cut differ at order σ²: the load fixes the latter, while the "
+        "former weighs the momentum of each contact by its height.",
         quantities=(
             (RATIO, "of mean contact moments of a layer, over the ratio (1−φ)/(1+φ)"),
             (VERTICAL, "the vertical one over its value in the ordered packing"),
@@ -117,7 +117,7 @@ def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -
             "it is larger than in the ordered packing above "
             f"z = {'2φ/(1 + φ)' if load == 'surface' else 'φ'} and smaller below":
                 turns_positive("ratio", z, turns),
-            **{f"the load's direction does not count: {name}": is_free_of(name, t)
+            **{f"it does not depend on the load's direction: {name}": is_free_of(name, t)
                for name in ("ratio", "vertical", "flux")},
             "over all layers, weighted as the ordered stress is, moments and flux agree":
                 adds_up_to_zero("flux", j, LAYERS[load]),
@@ -160,7 +160,7 @@ DERIVATIONS: dict[Number, Row] = {
             **{f"they turn the other way for φ > 1/3: {load} load":
                    turns_positive(f"axes_{load}", phi, sympy.Rational(1, 3))
                for load in LAYERS},
-            **{f"the load's direction does not count: {name}_{load}":
+            **{f"it does not depend on the load's direction: {name}_{load}":
                    is_free_of(f"{name}_{load}", t)
                for name in ("shear", "axes") for load in LAYERS},
             **{f"moments and flux differ for T_xy as for T_yy, with the opposite sign: {load} load":

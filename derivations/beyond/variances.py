@@ -73,7 +73,7 @@ def _of_discs(number: Number, load: str) -> Row:
             f"for t = 1 it is Eq. {paper.DERIVATION.number}":
                 equals("plus", (paper.DERIVATION.number, "layer"), at={t: sympy.S.One}),
             "f⁻ has 1/t in place of t": equals("minus", "plus", at={t: 1 / t}),
-            "as L⁻ is taken away, t → 0, the tilt of the contact itself is left, whatever M: "
+            "as t → 0 only the tilt of the contact itself is left, at every M: "
             "φ²(4j + φ²)/2 in units of (σ/r)²/(1−φ²)², for j ≥ 1":
                 equals("plus", phi**2 * (4 * j + phi**2) / 2 * UNIT, j >= 1, at={t: sympy.S.Zero}),
             "at the base it goes as at z → 0": goes_as("plus", at_base, *BASE),
@@ -94,8 +94,8 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
         exact=lambda: {
             "first": variance(ForceAlong(1, 0, 0, j), load=load, dimension=3).named(FIRST)
         },
-        meaning="The profile over the height is that of discs; at finite M line sums along all "
-        "three base vectors count.",
+        meaning="The profile over the height is that of discs; at finite M sums along all three "
+        "base vectors contribute.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
         claimed={
             "the two highest orders": leads("first", in_dimensions(load, 3), following * IN_SPACE),
@@ -132,8 +132,8 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
                 leads("first", leading),
             f"for t₂ = t₃ = 1 it is Eq. {upright}":
                 equals("first", (upright, "first"), at={t_2: sympy.S.One, t_3: sympy.S.One}),
-            "as the other vectors are unloaded the tilt of the contact itself is left, whatever "
-            "M: φ²(4j + 1 + 2φ²) in units of (σ/r)²/[(1−φ)(1+2φ)]², for j ≥ 2":
+            "without load along the other vectors only the tilt of the contact itself is left, at "
+            "every M: φ²(4j + 1 + 2φ²) in units of (σ/r)²/[(1−φ)(1+2φ)]², for j ≥ 2":
                 equals("first", phi**2 * (4 * j + 1 + 2 * phi**2) * IN_SPACE, j >= 2, j <= M - 2,
                        at={t_2: sympy.S.Zero, t_3: sympy.S.Zero}),
             "one layer below the surface it goes as M [τ₁²(1 + φ)² + τ₂(1 + 2φ + 3φ²) + "
