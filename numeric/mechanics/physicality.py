@@ -215,7 +215,7 @@ def _bounds(packing: SolvedPacking, phi: float) -> tuple[float, float, float]:
     return turn * ROOM, moved * ROOM, widest
 
 
-@lru_cache(maxsize=4)
+@lru_cache(maxsize=2)
 def _pairs(region: Region, steps: Steps) -> Array:
     """Give the rows of ``loops.gaps``."""
     rows = region.rows
