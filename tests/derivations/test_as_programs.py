@@ -48,6 +48,7 @@ def test_from_elsewhere(how, tmp_path):
     assert "Eq. 2 is proved" in done.stdout
 
 
+@pytest.mark.long
 def test_its_arguments_are_those_of_derive(tmp_path):
     done = run(tmp_path, str(FOLDER / "eq01_ordered_positions.py"), "--fast")
     assert done.returncode == 2

@@ -49,7 +49,7 @@ def by_taylor(height: int, layer: int, load: str) -> tuple[fmpq, fmpq]:
     return sum((w**2 for w in weights.values()), fmpq(0)), 2 * squares + third
 
 
-@pytest.mark.long(sample=2)
+@pytest.mark.long(sample=1)
 @pytest.mark.parametrize("load", ["surface", "bulk"])
 @pytest.mark.parametrize(("height", "layer"), [(1, 0), (2, 0), (2, 1)])
 def test_floats_are_the_exact_coefficients(load, height, layer):

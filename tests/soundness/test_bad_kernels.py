@@ -192,7 +192,7 @@ def test_the_kernel_without_a_fault_is_right():
     assert not list(noticed())
 
 
-@pytest.mark.long(sample=3, share=2)
+@pytest.mark.long(sample=2, share=2)
 @pytest.mark.usefixtures("nothing_is_remembered")
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_noticed(monkeypatch, fault):

@@ -99,7 +99,7 @@ def test_a_tuple_of_one_is_the_one_line():
 DIRECTIONS = (sy.e_x, *sy.VECTORS)
 
 
-@pytest.mark.long(sample=10)
+@pytest.mark.long(sample=7)
 @pytest.mark.parametrize("number", OF_VECTORS)
 @pytest.mark.parametrize("vector", DIRECTIONS, ids=str)
 def test_a_component_of_an_equation_between_vectors(number, vector):
