@@ -58,13 +58,15 @@ def test_status_1_says_what_is_wrong(made_up, call):
     assert "1 proved; 1 undecided." in shown
 
 
-def test_json_follows_its_schema(made_up, call):
+def test_json_follows_its_schema(made_up, tmp_path, call):
     made_up[2] = fakes.with_claim(fakes.baffled)
-    status, shown, err = call("derive", 2, 1, 1, "--json")
+    status, shown, err = call("derive", 2, 1, 1, "--json", "--out", tmp_path / "out")
     assert (status, err) == (1, "")
     content = json.loads(shown)
     assert list(content) == ["equations"]
     assert [entry["number"] for entry in content["equations"]] == [2, 1]  # it has no premises
+    manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
+    assert [entry["number"] for entry in manifest["equations"]] == [1, 2]
     for entry in content["equations"]:
         assert " ".join(entry).startswith("number name title premises verdict assuming checks")
         assert entry["verdict"] in ("proved", "undecided")
