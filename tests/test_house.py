@@ -19,11 +19,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_182,
     "derivations": 7_791,
-    "numeric": 9_495,
+    "numeric": 9_498,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 12_999,
+    "tests": 13_003,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

@@ -8,7 +8,7 @@ import difflib
 import operator
 import textwrap
 from fractions import Fraction
-from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args, get_origin
 
 import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
@@ -376,7 +376,10 @@ def explained(error: ValidationError, model: type[Section], values: dict[str, An
         return SceneError(key, None, unknown(name, model))
     if kind == "missing":
         what = f"the key {key}" if model.section else f"the section [{key}]"
-        return SceneError(key, None, f"{what} is required")
+        field = model.model_fields[name].annotation
+        choices = get_args(field) if get_origin(field) is Literal else ()
+        allowed = f": {', '.join(choices)}" if choices else ""
+        return SceneError(key, None, f"{what} is required{allowed}")
     if kind == "literal_error":
         return _no_choice(key, value, get_args(model.model_fields[name].annotation))
     if key in _LISTS:

@@ -82,6 +82,7 @@ def test_missing_sections_and_keys():
         ("", r"section \[packing\] is required"),
         ("[packing]\nheight = 3\n", r"section \[ask\] is required"),
         ("[packing]\n[ask]\nquantity = 'contact'\n", "packing.height is required"),
+        ("[packing]\nheight = 3\n[disorder]\n[ask]\nquantity = 'contact'\n", "required: uniform, "),
         (
             "[packing]\nheight = 3\n[ask]\nquantity = ['contact', 'positions']",
             "ask.at: is required",
