@@ -26,9 +26,10 @@ _HEAD = r"""\documentclass[twocolumn]{article}
 """
 _INTRODUCTION = (
     "Each formula is exact for the indices beside it or below it. Where a quantity has several "
-    "formulas, what holds for all of them stands below the last. The word in brackets above a form "
-    "is its name in the program. For spheres p and q count steps, and the force on a bead is "
-    "written out. Eqs. B11 and B20 compare Eqs. 13 and B13, and Eqs. 14 and B14."
+    "formulas, “otherwise” means all indices that the others leave, and what holds for all of them "
+    "stands below the last. The word in brackets above a form is its name in the program. For "
+    "spheres p and q count steps, and the force on a bead is written out. Eqs. B11 and B20 compare "
+    "Eqs. 13 and B13, and Eqs. 14 and B14."
 )
 
 

@@ -56,7 +56,7 @@ _HIGHEST = 100_000  # M up to which they are exact
 _LAYERS = 10_000_000
 _ORDERS = 100
 _MOST_LINES = 60  # that print shows
-_SMALLER = {"footnotesize": 0.85, "scriptsize": 0.75, "tiny": 0.68}  # widths of LaTeX's type
+_MANY = 6  # parts of a domain, beyond which LaTeX says "otherwise" of a formula
 _HIGH = {1: 24, 2: 22}  # lines of a display that fits a page of usual classes, by columns
 
 
@@ -345,21 +345,31 @@ class ClosedForm:
 
         Lines fit a page of one or of two columns. Raises ``ArgumentError`` for any other number.
         """
-        return self._shown(self.pieces, columns)
+        return self._shown(self._in_latex, columns)
 
-    def _shown(self, pieces: Sequence[Piece], columns: int, size: float = 1.0) -> str:
-        """LaTeX of some of its pieces, in type of some size; where all hold, below the last."""
-        is_last = pieces[-1] == self.pieces[-1]
-        room, domain = room_of(columns) / size, self.conditions(words.LATEX) if is_last else []
+    @cached_property
+    def _in_latex(self) -> list[Piece]:
+        """The formulas, those with many parts last; the last of them has what the others leave."""
+        return sorted(self.pieces, key=lambda piece: max(len(piece.where), _MANY))
+
+    def _where(self, piece: Piece, before: str = "") -> list[str]:
+        if len(piece.where) > _MANY and piece is self._in_latex[-1]:
+            return [r"\text{otherwise}"]
+        return alternatives_in_latex(piece.where, before)
+
+    def _shown(self, pieces: Sequence[Piece], columns: int) -> str:
+        """LaTeX of some of its pieces; where all hold, below the last."""
+        is_last = pieces[-1] is self._in_latex[-1]
+        room, domain = room_of(columns), self.conditions(words.LATEX) if is_last else []
         below = with_commas(domain, "for")
         if len(pieces) == 1:
             (piece,) = pieces
-            if alternatives := alternatives_in_latex(piece.where, "if"):
+            if alternatives := self._where(piece, "if"):
                 below = [*alternatives, *with_commas(domain, " for")]
             line = equation(self.quantity, piece.expr)
             return latex_body((line,), room=room, below=below)
         factor, values = self._over_common
-        rows = [(values[piece], alternatives_in_latex(piece.where)) for piece in pieces]
+        rows = [(values[piece], self._where(piece)) for piece in pieces]
         return latex_cases(self.quantity, factor, rows, below, room)
 
     @cached_property
@@ -371,19 +381,12 @@ class ClosedForm:
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same as displays that fit a page, several if needed."""
-        return self._displays(self.pieces, columns)
+        return self._displays(self._in_latex, columns)
 
     def _displays(self, pieces: Sequence[Piece], columns: int) -> list[str]:
         whole, half = self._shown(pieces, columns), len(pieces) // 2
-        if whole.count(r"\\") <= _HIGH[columns]:
+        if whole.count(r"\\") <= _HIGH[columns] or not half:
             return [whole]
-        if not half:  # a single formula is set in smaller type
-            for name, size in _SMALLER.items():
-                small = self._shown(pieces, columns, size)
-                display = rf"\mbox{{\{name}$\displaystyle {small}$}}"
-                if small.count(r"\\") <= _HIGH[1]:
-                    break
-            return [display]
         return [*self._displays(pieces[:half], columns), *self._displays(pieces[half:], columns)]
 
     def _repr_latex_(self) -> str:
