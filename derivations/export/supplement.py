@@ -25,11 +25,10 @@ _HEAD = r"""\documentclass[twocolumn]{article}
 \begin{center}\large Supplement: the closed forms of Eqs.~B2 to B25\end{center}
 """
 _INTRODUCTION = (
-    "Each formula is exact for the indices beside it or below it. Where a quantity has several "
-    "formulas, “otherwise” means all indices that the others leave, and what holds for all of them "
-    "stands below the last. The word in brackets above a form is its name in the program. For "
-    "spheres p and q count steps, and the force on a bead is written out. Eqs. B11 and B20 compare "
-    "Eqs. 13 and B13, and Eqs. 14 and B14."
+    "Each formula is exact for the indices beside or below it. Among several formulas, “otherwise” "
+    "is for all indices that the others leave; what holds for all of them stands below the last. "
+    "The word in brackets is the name of a form in the program. For spheres p and q count steps, "
+    "and the force on a bead is written out. B11 and B20 compare Eqs. 13, B13 and Eqs. 14, B14."
 )
 
 

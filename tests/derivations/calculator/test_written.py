@@ -119,7 +119,7 @@ def test_latex_says_the_same(form):
         assert eval(formula, {"__builtins__": {}}, dict(numbers)) == expected, formula
 
 
-_RELATION = re.compile(r"\\leq|\\geq|=")
+_RELATION = re.compile(r"\\leq|\\geq|=|otherwise")
 
 
 def _formulas(latex: str) -> Iterator[str]:
