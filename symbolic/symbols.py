@@ -261,8 +261,8 @@ class Braces(Written):
 
     nargs = 4
     latex_form = (
-        r"\left\{ \begin{alignedat}{1} %(0)s &: %(2)s \leq %(3)s \\ "
-        r"%(1)s &: %(2)s > %(3)s \end{alignedat} \right\}"
+        r"\left\{ \begin{aligned} %(0)s &: %(2)s \leq %(3)s \\ "
+        r"%(1)s &: %(2)s > %(3)s \end{aligned} \right\}"
     )
     text_form = "{%(0)s if %(2)s ≤ %(3)s; %(1)s if %(2)s > %(3)s}"
 
