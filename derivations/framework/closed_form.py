@@ -57,7 +57,7 @@ _LAYERS = 10_000_000
 _ORDERS = 100
 _MOST_LINES = 60  # that print shows
 _MANY = 6  # parts of a domain, beyond which LaTeX says "otherwise" of a formula
-_HIGH = {1: 24, 2: 22}  # lines of a display that fits a page of usual classes, by columns
+_HIGH = {1: 23, 2: 22}  # lines of a display that fits a page of usual classes, by columns
 
 
 class ClosedForm:
