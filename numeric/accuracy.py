@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from .arithmetic.carried import UNIT, Sizes, stated_error
+from .arithmetic.carried import UNIT, Sizes, bound_error
 from .arithmetic.decimals import short
 from .arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
 from .arithmetic.systems import (
@@ -183,7 +183,7 @@ def of_carried(quantity: Quantity, table: Table, sizes: Sizes, plan: Plan) -> Ac
         unseen = Fraction(force) * scene.load.magnitude
     else:
         unseen = Fraction(moved * float(1 / problem.n_x)) * scene.packing.radius
-    bound = stated_error(gathering(quantity, problem), unseen / largest)
+    bound = bound_error(gathering(quantity, problem), unseen / largest)
     return Accuracy(bound, False, FLOAT64.name, CARRIED)
 
 

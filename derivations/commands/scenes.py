@@ -92,8 +92,8 @@ def run(
     asked = variants(settings, seed)
     # all scenes and folders are checked first
     plans = [_planned(scene, tolerance, certified, changes) for changes in asked]
-    several_values = [key for key in asked[0] if len({changes[key] for changes in asked}) > 1]
-    varied = [{key: changes[key] for key in several_values} for changes in asked]
+    varying = [key for key in asked[0] if len({changes[key] for changes in asked}) > 1]
+    varied = [{key: changes[key] for key in varying} for changes in asked]
     names = names_of(answered("run"))
     folders = [
         Output(out / name_of(own) if own else out, names, overwrite) if out else None

@@ -319,7 +319,7 @@ class ClosedForm:
         if not isinstance(orders, Integral) or not 1 <= orders <= _ORDERS:
             raise ArgumentError(f"orders = {quoted(orders)}: a whole number from 1 to {_ORDERS}")
         try:
-            pieces = self.function.part(*relations).pieces
+            pieces = self.function.part(*relations).pieces if relations else self.pieces
         except NotExactError as reason:
             raise ArgumentError(f"{text(self.quantity)}: {reason}") from None
         pieces = tuple(piece for piece in pieces if any(map(_reaches_inside, piece.where)))

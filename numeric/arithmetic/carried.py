@@ -209,7 +209,7 @@ class Sizes(NamedTuple):
 NONE = Sizes()
 
 
-def stated_error(roundings: int, unseen: Fraction | float) -> float:
+def bound_error(roundings: int, unseen: Fraction | float) -> float:
     """Bound the error of numbers that were rounded so often after their errors were carried.
 
     Both are relative to the largest change; ``unseen`` is what the carried errors leave out.

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from ..accuracy import CARRIED, Accuracy
-from ..arithmetic.carried import stated_error
+from ..arithmetic.carried import bound_error
 from ..arithmetic.decimals import Exact
 from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, checked, quoted
 from ..arithmetic.machine import write_whole
@@ -400,7 +400,7 @@ def _directly(sections: Mapping[str, Any], mean: float) -> Solution | None:
     if not (largest > SMALL and solved.sizes.moved + unseen < math.inf):
         return None
     roundings = 1 if load.magnitude == 1 else 3
-    bound = stated_error(roundings, unseen / largest)
+    bound = bound_error(roundings, unseen / largest)
     if physical.smallest_gap is not None:
         physical.smallest_gap *= float(r)
     accuracy = Accuracy(bound, False, FLOAT64.name, CARRIED)
