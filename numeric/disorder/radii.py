@@ -7,7 +7,7 @@ system solves the very same packing.
 """
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, lru_cache
@@ -42,9 +42,6 @@ class Radii(Protocol):
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Give δr/r of beads that lie row after row, (realisations, beads)."""
 
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
-        """Give δr/r of single beads, the same as in their rows; shape (sites,)."""
-
     @property
     def relative_std(self) -> Fraction:
         """σ_δr/r: of the distribution, or as measured."""
@@ -53,14 +50,11 @@ class Radii(Protocol):
 @lru_cache(maxsize=4)
 def counters(rows: Rows, width: int | None) -> tuple[Array, Array]:
     """Give the counters of beads that lie row after row."""
-    return _counters_of(*rows.sites, width)
-
-
-def _counters_of(i: Array, j: Array, width: int | None) -> tuple[Array, Array]:
+    i, j = rows.sites
     columns = (i - j % 2) // 2
-    return (columns if width is None else columns % width).astype(np.uint64) + OFFSET, j.astype(
-        np.uint64
-    )
+    if width is not None:
+        columns %= width
+    return columns.astype(np.uint64) + OFFSET, j.astype(np.uint64)
 
 
 class DrawnRadii(NamedTuple):
@@ -80,27 +74,13 @@ class DrawnRadii(NamedTuple):
             end = at + part.beads
             drawn[:, at:end] = deviates(self.kind, self.seed, realisations, low, high)
             at = end
-        self._check(drawn, lambda q: _site(rows, q))
-        return system.from_floats(drawn) * system.number(self.relative_std)
-
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
-        """Scale deviates of single beads."""
-        i, j = np.array(sites, dtype=np.int64).reshape(-1, 2).T
-        drawn = deviates(self.kind, self.seed, [realisation], *_counters_of(i, j, self.width))
-        self._check(drawn, sites.__getitem__)
-        return system.from_floats(drawn[0]) * system.number(self.relative_std)
-
-    def _check(self, drawn: Array, site: Callable[[int], tuple[int, int]]) -> None:
         least = Fraction(float(drawn.min(initial=0)))
         if self.relative_std * least <= -1:
             bead = int(np.argwhere(drawn == float(least))[0][1])
+            i, j = (int(site[bead]) for site in rows.sites)
             shown = short(1 + self.relative_std * least)
-            raise RadiusError(site(bead), f"the drawn radius is {shown} r, not positive")
-
-
-def _site(rows: Rows, bead: int) -> tuple[int, int]:
-    i, j = rows.sites
-    return int(i[bead]), int(j[bead])
+            raise RadiusError((i, j), f"the drawn radius is {shown} r, not positive")
+        return system.from_floats(drawn) * system.number(self.relative_std)
 
 
 @dataclass(frozen=True)
@@ -132,18 +112,13 @@ class MeasuredRadii:
 
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
-        i, j = (site.tolist() for site in rows.sites)
-        return self.at(list(zip(i, j, strict=True)), 0, system)[None][[0] * len(realisations)]
-
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
-        """Look single beads up."""
         values = []
-        for i, j in sites:
+        for i, j in zip(*(site.tolist() for site in rows.sites), strict=True):
             site = (i if self.width is None else i % (2 * self.width), j)
             if site not in self.rho:
                 raise RadiusError(site, "the radii file has no line for it")
             values.append(self.rho[site])
-        return system.array(values)
+        return system.array(values)[None][[0] * len(realisations)]
 
 
 @dataclass(frozen=True, eq=False)
@@ -179,17 +154,11 @@ class ArrayRadii:
         """Look the radii up."""
         values = self.values[np.asarray(realisations)]
         if rows.alike == self.values.shape[-1]:
-            return self._deltas(values[:, : len(rows)].reshape(len(values), -1), system)
-        i, j = rows.sites
-        return self._deltas(values[:, j, (i - j % 2) // 2 % values.shape[-1]], system)
-
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
-        """Look single beads up."""
-        i, j = np.array(sites, dtype=np.int64).reshape(-1, 2).T
-        columns = (i - j % 2) // 2 % self.values.shape[-1]
-        return self._deltas(self.values[realisation, j, columns], system)
-
-    def _deltas(self, values: Array, system: NumberSystem) -> Any:
+            layers = slice(rows.lowest, rows.lowest + len(rows))
+            values = values[:, layers].reshape(len(values), -1)
+        else:
+            i, j = rows.sites
+            values = values[:, j, (i - j % 2) // 2 % values.shape[-1]]
         origin, radius = system.number(self.origin), system.number(self.radius)
         deltas = system.zeros(*values.shape)
         for at in range(0, values.shape[-1], AT_ONCE):

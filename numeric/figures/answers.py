@@ -18,6 +18,7 @@ from matplotlib.figure import Figure
 from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import Branch
+from ..lattice.layers import Rows
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.scene import refuse
@@ -229,10 +230,11 @@ def height_of(places: Array) -> float:
 def positions(plan: Plan, columns: Columns, errors: Columns, network: Network | None) -> Figure:
     """Draw the beads where they lie, each with its radius, as dark as it is displaced."""
     rows = of_first(columns)
-    sites = list(zip(rows["i"].tolist(), rows["j"].tolist(), strict=True))
-    unit = float(plan.scene.packing.radius)
+    unit, places = float(plan.scene.packing.radius), plan.problem.region.rows
+    if plan.scene.ask.at is not None:
+        places = Rows(rows["i"], [1], int(rows["j"][0]))
     with FLOAT64.active():
-        radii = unit * (1 + plan.problem.radii.at(sites, 0, FLOAT64))
+        radii = unit * (1 + plan.problem.radii.of(places, [0], FLOAT64)[0])
     centres, away = np.stack([rows["x"], rows["y"]], axis=-1), np.hypot(rows["dx"], rows["dy"])
     figure, (axes,) = style.panels("a", style.PAGE, height_of(centres / unit) + 0.4)
     name = r"displacement $(\delta x^2+\delta y^2)^{1/2}$"

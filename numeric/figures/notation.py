@@ -27,8 +27,9 @@ def beads(o: Options) -> Table:
     o.notice("figure 1")
     plan = planned("positions", o, Medium(std=STD), height=HEIGHT, width=WIDTH)
     found = solve_first(plan)
-    found = {name: column[found["i"] < SHOWN] for name, column in found.items()}
-    sites = list(zip(found["i"].tolist(), found["j"].tolist(), strict=True))
+    radii = 1 + plan.problem.radii.of(plan.problem.region.rows, [0], FLOAT64)[0]
+    shown = found["i"] < SHOWN
+    found = {name: column[shown] for name, column in found.items()}
     return {
         "i": found["i"],
         "j": found["j"],
@@ -36,7 +37,7 @@ def beads(o: Options) -> Table:
         "y_ordered": found["y"] - found["dy"],
         "x": found["x"],
         "y": found["y"],
-        "radius": 1 + plan.problem.radii.at(sites, 0, FLOAT64),
+        "radius": radii[shown],
     }
 
 

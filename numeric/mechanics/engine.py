@@ -1,20 +1,17 @@
 """The engine: the one way in which packings are solved, whatever is asked and of how many."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from importlib.util import find_spec
 from typing import Any
 
 from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, NumberSystem
-from ..lattice.branch import Site
 from . import first_order
 from .physicality import Physicality
 from .problem import Problem, Route
 from .sweep import Forces, Solved, rounded, swept
 from .work import Work
 
-# Beads of diagonals that are drawn together.
-BLOCK = 10_000
 # Beads that are swept together: their arrays still fit into a cache.
 TOGETHER = 200_000
 
@@ -90,7 +87,8 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
         strength = load.strength(problem.n_x, system)
         if problem.contact is not None:
             zero = system.number(problem.n_x * 0)
-            single = (load.ordered_force(problem.contact, strength, system), zero)
+            own, *_ = first_order.ordered_forces(problem.contact, load, strength, system)
+            single = (own[0] if len(own) else zero, zero)
         else:
             F = load.ordered(rows, strength, system)
             forces = Forces(system, problem.region, rows, F, system.zeros(1, *F.shape))
@@ -98,22 +96,18 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
 
 
 def _line_sums(problem: Problem, realisation: int, system: NumberSystem, work: Work) -> Solved:
-    """Read the radii of the diagonals that the answer depends on, each bead once, and sum."""
-    lines: Iterable[first_order.Line]
-    if problem.contact is not None:
-        lines = first_order.lines_read(problem.contact, problem.load).values()
+    """Read the radii of the diagonals that the answer depends on, and sum."""
+    contact, load = problem.contact, problem.load
+
+    def rho(line: first_order.Line) -> Any:
+        return problem.radii.of(line.rows, [realisation], system)[0]
+
+    if contact is not None:
+        single = first_order.contact_change(contact, load, rho, problem.n_x, system)
     else:
         assert problem.site is not None
         lines = first_order.bead_lines(problem.site)
-    sites = list(dict.fromkeys(site for line in lines for site in line.sites()))
-    rho: dict[Site, Any] = {}
-    for at in range(0, len(sites), BLOCK):
-        block = sites[at : at + BLOCK]
-        rho.update(zip(block, problem.radii.at(block, realisation, system), strict=True))
-        work.did("summed", len(block))
-    if problem.contact is not None:
-        single = first_order.contact_change(problem.contact, problem.load, rho, problem.n_x, system)
-    else:
-        plus, minus = ([rho[site] for site in line.sites()] for line in lines)
-        single = first_order.line_sum(plus)[-1], first_order.line_sum(minus)[-1]
+        plus, minus = (first_order.line_sum(rho(line))[-1] for line in lines)
+        single = plus, minus
+    work.did("summed", problem.line_beads)
     return Solved(system, None, None, single)

@@ -10,83 +10,18 @@ two line sums c⁺, so that radii on three neighbouring diagonals decide the sum
 gives f⁻.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any, NamedTuple
 
-from ..arithmetic.systems import NumberSystem
-from ..lattice.branch import Branch, Contact, Site
-from .loads import LoadSpec
+import numpy as np
+
+from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..lattice.branch import Contact, Site
+from ..lattice.layers import Rows
+from .loads import LoadSpec, Strength
 from .local import cosine
-
-
-def line_sum(rho: list[Any]) -> list[Any]:
-    """Give c of every bead up a diagonal from its δr/r, base first: c = 0 at the base (Eq. 3).
-
-    >>> line_sum([1, 10, 100])
-    [0, 11, 121]
-    """
-    sums = [0 * rho[0]] if rho else []
-    for below, here in pairwise(rho):
-        sums.append(sums[-1] + below + here)
-    return sums
-
-
-def contact_change(
-    contact: Contact,
-    load: LoadSpec,
-    rho: Mapping[Site, Any],
-    n_x: Fraction,
-    system: NumberSystem,
-) -> tuple[Any, Any]:
-    """Give F^±_ij and g^±_ij to first order, from δr/r of the beads of ``lines_read``."""
-    i, j, branch = contact
-    side, other, phi = branch.side, branch.other, cosine(n_x)
-    over, cosine_ = system.number(1 / (1 - phi**2)), system.number(phi)
-    strength = load.strength(n_x, system)
-    radii = {
-        name: [rho[site] for site in line.sites()]
-        for name, line in lines_read(contact, load).items()
-    }
-    sums = {name: line_sum(along) for name, along in radii.items()}
-
-    def ordered(at: int, m: int, orientation: Branch) -> Any:
-        return load.ordered_force((at, m, orientation), strength, system)
-
-    def beta(upper: str, m: int, lower: str, n: int) -> Any:
-        both = radii[upper][m] + radii[lower][n]
-        return (sums[upper][m] - sums[lower][n] - cosine_ * both) / 2
-
-    above, below = crossing_layers(contact, load)
-    total = system.number(Fraction(0))
-    for m in above:
-        total = total + ordered(i + side * (m - j), m, other) * beta("outer", m + 1, "main", m)
-    for m in below:
-        force = ordered(i + side * (m - j + 1), m - 1, other)
-        total = total - force * beta("main", m, "inner", m - 1)
-    own = ordered(i, j, branch)
-    if load.carries(*contact):
-        total = total + own * cosine_ * beta("upper", -1, "lower", -1)
-    return own, total * over
-
-
-def crossing_layers(contact: Contact, load: LoadSpec) -> tuple[list[int], list[int]]:
-    """Say in which layers the beads straight up the contact have crossing contacts under force.
-
-    Gives the layers m of the beads y whose contact of the other orientation *above* them carries an
-    ordered force, and those where the one *below* them does.
-    """
-    i, j, branch = contact
-    side, other = branch.side, branch.other
-    if load.loaded is None:
-        return list(range(j + 1, load.height)), list(range(j + 1, load.height + 1))
-    top = max((site[1] for site in load.loaded), default=0)
-    layers = range(j + 1, top + 1)
-    return (
-        [m for m in layers if load.carries(i + side * (m - j), m, other)],
-        [m for m in layers if load.carries(i + side * (m - j + 1), m - 1, other)],
-    )
 
 
 class Line(NamedTuple):
@@ -100,9 +35,72 @@ class Line(NamedTuple):
         """Give i in layer m."""
         return self.start + self.step * m
 
-    def sites(self) -> list[Site]:
-        """Give its beads, from the base up."""
-        return [(self.at(m), m) for m in range(self.top + 1)]
+    @property
+    def rows(self) -> Rows:
+        """Its beads, one a row, from the base up."""
+        layers = np.arange(self.top + 1)
+        return Rows(self.start + self.step * layers, np.ones_like(layers))
+
+
+def line_sum(rho: Any) -> list[Any]:
+    """Give c of every bead up a diagonal from its δr/r, base first: c = 0 at the base (Eq. 3).
+
+    >>> line_sum([1, 10, 100])
+    [0, 11, 121]
+    """
+    sums = [0 * rho[0]]
+    for below, here in pairwise(rho):
+        sums.append(sums[-1] + below + here)
+    return sums
+
+
+def ordered_forces(
+    contact: Contact, load: LoadSpec, strength: Strength, system: NumberSystem
+) -> tuple[Any, Any, Any]:
+    """Give the ordered forces that decide a contact: its own, and those of contacts that cross it.
+
+    Its own is alone in an array, which is empty where the contact lies above every load. The
+    others, of the other orientation, are those above the beads straight up the contact, from its
+    upper one on, and those below these beads.
+    """
+    i, j, branch = contact
+    side, other = branch.side, branch.other.number
+    main, outer = (
+        load.ordered(Line(i - side * (j + 2 * off), side, load.top).rows, strength, system)
+        for off in (0, 1)
+    )
+    return main[branch.number, j : j + 1], outer[other, j + 1 :], main[other, j:]
+
+
+def contact_change(
+    contact: Contact,
+    load: LoadSpec,
+    rho: Callable[[Line], Any],
+    n_x: Fraction,
+    system: NumberSystem,
+) -> tuple[Any, Any]:
+    """Give F^±_ij and g^±_ij to first order, from δr/r of the beads of ``lines_read``."""
+    j, phi = contact.j, cosine(n_x)
+    over, cosine_ = system.number(1 / (1 - phi**2)), system.number(phi)
+    own, above, below = ordered_forces(contact, load, load.strength(n_x, system), system)
+    beads: dict[str, list[tuple[Any, Any]]] = {"outer": [], "main": [], "inner": []}
+    for name, line in lines_read(contact, load).items():
+        radii = rho(line)
+        beads[name] = list(zip(line_sum(radii), radii, strict=True))
+
+    def beta(upper: tuple[Any, Any], lower: tuple[Any, Any]) -> Any:
+        return (upper[0] - lower[0] - cosine_ * (upper[1] + lower[1])) / 2
+
+    force = total = system.number(Fraction(0))
+    # beyond the ends of the lines no force crosses them
+    for F, y, z in zip(above, beads["outer"][j + 2 :], beads["main"][j + 1 :], strict=False):
+        total = total + F * beta(y, z)
+    for F, y, z in zip(below, beads["main"][j + 1 :], beads["inner"][j:], strict=False):
+        total = total - F * beta(y, z)
+    if "upper" in beads:
+        force = own[0]
+        total = total + force * cosine_ * beta(beads["upper"][-1], beads["lower"][-1])
+    return force, total * over
 
 
 def bead_lines(site: Site) -> tuple[Line, Line]:
@@ -116,15 +114,16 @@ def lines_read(contact: Contact, load: LoadSpec) -> dict[str, Line]:
     i, j, branch = contact
     side = branch.side
     start = i - side * j
-    above, below = crossing_layers(contact, load)
+    own, *crossing = ordered_forces(contact, load, load.count, FLOAT64)
+    above, below = (j + 1 + np.flatnonzero(part).max(initial=-j - 1) for part in crossing)
     lines = {}
     if above:
-        lines["outer"] = Line(start - 2 * side, side, max(above) + 1)
+        lines["outer"] = Line(start - 2 * side, side, int(above) + 1)
     if above or below:
-        lines["main"] = Line(start, side, max([*above, *below]))
+        lines["main"] = Line(start, side, int(max(above, below)))
     if below:
-        lines["inner"] = Line(start + 2 * side, side, max(below) - 1)
-    if load.carries(*contact):
+        lines["inner"] = Line(start + 2 * side, side, int(below) - 1)
+    if own.any():
         lines["upper"] = Line(i + side * (j + 2), -side, j + 1)
         lines["lower"] = Line(i + side * j, -side, j)
     return lines

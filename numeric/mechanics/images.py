@@ -28,9 +28,7 @@ def sees_images(problem: Problem) -> bool:
     if not problem.needs_forces:
         tip = problem.height if problem.site is None else problem.site[1]
         return tip >= width
-    highest = load.height
-    if load.loaded is not None:
-        highest = max((j for _, j in load.loaded), default=0)
+    highest = load.top
     if problem.route == Route.EXACT:
         if load.loaded is not None and len(load.loaded) == 1:
             return highest >= width

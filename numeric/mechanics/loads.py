@@ -8,14 +8,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, flint
-from ..lattice.branch import Branch, Site
+from ..lattice.branch import Site
 from ..lattice.layers import Rows
 from .local import level, vertical_square
 
@@ -72,6 +71,17 @@ class LoadSpec:
         if self.at is not None:
             return [self.at]
         return sorted(site for site, force in self.single.items() if any(force))
+
+    @property
+    def top(self) -> int:
+        """The highest layer that is loaded."""
+        return self.height if self.loaded is None else max((j for _, j in self.loaded), default=0)
+
+    @property
+    def count(self) -> Strength:
+        """One along each direction of every load, which add up to how many loads there are."""
+        one = (1.0,) * self.dimension
+        return Strength(one, dict.fromkeys(self.loaded or [], one))
 
     def strength(self, n_x: Fraction, system: NumberSystem) -> Strength:
         """Give (L^a) of the unit load, or of each loaded bead.
@@ -160,43 +170,3 @@ class LoadSpec:
             columns = (p - down * (a == 0)) % side * side + (q - down * (a == 1)) % side
         there = (columns >= 0) & (columns < rows.counts[layers])
         return layers[there], columns[there]
-
-    @cached_property
-    def _by_diagonal(self) -> dict[tuple[int, int], list[Site]]:
-        """Loaded beads by (side, i − side·j), the diagonal that they load."""
-        places: dict[tuple[int, int], list[Site]] = {}
-        for site in self.loaded or []:
-            for side in (1, -1):
-                places.setdefault((side, self._diagonal(site[0], site[1], side)), []).append(site)
-        return places
-
-    def _diagonal(self, i: int, j: int, side: int) -> int:
-        off = i - side * j
-        return off if self.width is None else off % (2 * self.width)
-
-    def straight_above(self, i: int, j: int, branch: str) -> list[Site]:
-        """Give the single loaded beads that lie straight up the contact f^±_ij."""
-        side = Branch(branch).side
-        sites = self._by_diagonal.get((side, self._diagonal(i, j, side)), [])
-        return [site for site in sites if site[1] > j]
-
-    def carries(self, i: int, j: int, branch: str) -> bool:
-        """Say whether any load lies straight up the contact, so that its ordered force is not 0."""
-        if self.loaded is None:
-            return j < self.height
-        return bool(self.straight_above(i, j, branch))
-
-    def ordered_force(
-        self, contact: tuple[int, int, str], strength: Strength, system: NumberSystem
-    ) -> Any:
-        """Give F^±_ij of the ordered packing in closed form, visiting no bead."""
-        i, j, branch = contact
-        which = 0 if branch == Branch.PLUS else 1
-        if self.kind in {"surface", "bulk"}:
-            times = 1 if self.kind == "surface" else self.height - j
-            return strength.unit[which] * times
-        total = system.number(Fraction(0))
-        for site in self.straight_above(i, j, branch):
-            pair = strength.single[site] if self.kind == "file" else strength.unit
-            total = total + pair[which]
-        return total

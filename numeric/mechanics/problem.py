@@ -12,6 +12,7 @@ from ..disorder.radii import Radii
 from ..lattice.branch import Contact, Site
 from ..lattice.layers import Layer, Region, Rows
 from ..lattice.regions import reached
+from .first_order import beads_read
 from .loads import LoadSpec
 from .local import cosine
 
@@ -74,6 +75,14 @@ class Problem:
     def height(self) -> int:
         """M."""
         return self.load.height
+
+    @cached_property
+    def line_beads(self) -> int:
+        """How many beads lie on the diagonals that decide a single answer to first order."""
+        if self.contact is not None:
+            return beads_read(self.contact, self.load)
+        assert self.site is not None
+        return 2 * self.site[1] + 1
 
     @cached_property
     def reached(self) -> Sequence[Layer]:

@@ -58,7 +58,7 @@ class Plan:
         """How many beads the answer depends on, over all realisations."""
         problem = self.problem
         if problem.route == Route.LINE_SUMS:
-            return problem.realisations * self.quantity.line_beads(problem.load)
+            return problem.realisations * problem.line_beads
         return 0 if problem.route == Route.ORDERED else problem.realisations * problem.region.beads
 
     @cached_property

@@ -170,10 +170,6 @@ class Quantity(ABC):
             return Region(self.width, Rows())
         return standing_on_base(force_rows, self.width)
 
-    def line_beads(self, load: LoadSpec) -> int:
-        """Count the beads of the diagonals that decide a single answer to first order."""
-        raise NotImplementedError(f"{self.name} has no line sums")
-
     # What limits it
 
     @abstractmethod

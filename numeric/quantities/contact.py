@@ -5,7 +5,6 @@ from typing import Any
 from ..lattice import regions
 from ..lattice.branch import Contact
 from ..lattice.layers import Block, Region, Rows
-from ..mechanics import first_order
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem
 from .base import ContactQuantity
@@ -33,10 +32,6 @@ class SingleContact(ContactQuantity):
         else:
             reach = super().force_rows(load)
         return regions.contact_rows(self.contact, reach, self.width)
-
-    def line_beads(self, load: LoadSpec) -> int:
-        """Count the beads of the diagonals that decide the first-order force."""
-        return first_order.beads_read(self.contact, load)
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the one group, as the scene does."""

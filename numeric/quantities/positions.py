@@ -37,11 +37,6 @@ class Positions(Quantity):
         assert self.width is not None
         return whole(self.width, self.height)
 
-    def line_beads(self, load: LoadSpec) -> int:
-        """Count the beads of the two diagonals below the bead."""
-        assert self.scene.site is not None
-        return 2 * self.scene.site[1] + 1
-
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a bead."""
         return (1 if self.scene.ask.at is not None else region.beads) * realisations

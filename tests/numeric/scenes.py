@@ -161,14 +161,10 @@ class _Noted:
         self.sites.extend(zip(*(one.tolist() for one in rows.sites), strict=True))
         return self.radii.of(rows, realisations, system)
 
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Any:
-        self.sites.extend(sites)
-        return self.radii.at(sites, realisation, system)
-
 
 def radii_read(plan: Plan) -> tuple[Any, list[tuple[int, int]]]:
     """Solve the first realisation, and give the sites of the beads whose radii were read."""
     noted = _Noted(plan.problem.radii)
     with plan.system.active():
         solved = solve(replace(plan.problem, radii=noted), [0], plan.system, Work())
-    return solved, noted.sites
+    return solved, list(dict.fromkeys(noted.sites))
