@@ -21,6 +21,7 @@ def either(words: tuple[str, ...]) -> str:
     return " or ".join([", ".join(quoted[:-1]), quoted[-1]] if len(quoted) > 1 else quoted)
 
 
+_DRAWN = ("uniform", "normal", "two-point")
 _OF_NETWORKS = ("contact_forces", "positions")
 _GATHERED = ("profile", "contact", "contact_forces", "response", "histogram")
 
@@ -55,77 +56,45 @@ def refusal(
     few = load in {"point", "file"} and quantity not in {"profile", "positions"}
     finite = (at or few) and discs and not opens
     has_figure = quantity in {"profile", "histogram"} or (discs and quantity != "contact")
-    refused = (
-        (
-            slab and not finite,
-            "packing.width",
+    if slab and not finite:
+        return "packing.width", (
             "is required here: an infinite slab of discs answers for one contact, for one bead, or "
-            "for the contacts below loads on single beads",
-        ),
-        (opens and not discs, "effects.contacts", "must stay closed in three dimensions"),
-        (
-            opens and geometry != "exact",
-            "effects.geometry",
-            'must be "exact" with contacts = "unilateral": beads move until no contact pulls',
-        ),
-        (
-            opens and quantity not in _OF_NETWORKS,
-            "ask.quantity",
-            f'must be {either(_OF_NETWORKS)} with contacts = "unilateral"',
-        ),
-        (
-            opens and several,
-            "ask.realisations",
-            'must be 1 with contacts = "unilateral"',
-        ),
-        (
-            at and (layers or together),
-            "ask.at",
-            "asks for one place: for one quantity, and without layers",
-        ),
-        (
-            quantity == "response" and load != "point",
-            "load.kind",
-            'must be "point" for quantity = "response"',
-        ),
-        (
-            command != "run" and together,
-            "ask.quantity",
-            "must be one quantity: only run answers several at once",
-        ),
-        (
-            command == "ensemble" and quantity not in _GATHERED,
-            "ask.quantity",
-            f"must be {either(_GATHERED)} in an ensemble",
-        ),
-        (
-            command in {"ensemble", "cost"} and opens,
-            "effects.contacts",
-            'must be "bilateral": a single packing is solved where contacts open',
-        ),
-        (
-            command == "ensemble" and tolerance,
-            "ask.tolerance",
-            "must be left out in an ensemble, which is solved in float64",
-        ),
-        (
-            command == "ensemble" and not drawn,
-            "disorder.kind",
-            'must be "uniform", "normal" or "two-point" in an ensemble: its radii are drawn',
-        ),
-        (
-            reach and quantity != "histogram",
-            "ask.quantity",
-            'must be "histogram" with reach, which sets the edges of its bins',
-        ),
-        (
-            command == "figures" and not has_figure,
-            "ask.quantity",
+            "for the contacts below loads on single beads"
+        )
+    if opens and not discs:
+        return "effects.contacts", "must stay closed in three dimensions"
+    if opens and geometry != "exact":
+        where = 'with contacts = "unilateral": beads move until no contact pulls'
+        return "effects.geometry", f'must be "exact" {where}'
+    if opens and quantity not in _OF_NETWORKS:
+        return "ask.quantity", f'must be {either(_OF_NETWORKS)} with contacts = "unilateral"'
+    if opens and several:
+        return "ask.realisations", 'must be 1 with contacts = "unilateral"'
+    if at and (layers or together):
+        return "ask.at", "asks for one place: for one quantity, and without layers"
+    if quantity == "response" and load != "point":
+        return "load.kind", 'must be "point" for quantity = "response"'
+    if command != "run" and together:
+        return "ask.quantity", "must be one quantity: only run answers several at once"
+    if command == "ensemble" and quantity not in _GATHERED:
+        return "ask.quantity", f"must be {either(_GATHERED)} in an ensemble"
+    if command in {"ensemble", "cost"} and opens:
+        why = "a single packing is solved where contacts open"
+        return "effects.contacts", f'must be "bilateral": {why}'
+    if command == "ensemble" and tolerance:
+        return "ask.tolerance", "must be left out in an ensemble, which is solved in float64"
+    if command == "ensemble" and not drawn:
+        kinds = either(_DRAWN)
+        return "disorder.kind", f"must be {kinds} in an ensemble: its radii are drawn"
+    if reach and quantity != "histogram":
+        why = "reach, which sets the edges of its bins"
+        return "ask.quantity", f'must be "histogram" with {why}'
+    if command == "figures" and not has_figure:
+        return "ask.quantity", (
             'has no figure: ask for "profile" or "histogram", or of discs for "contact_forces", '
-            '"positions" or "response"',
-        ),
-    )
-    return next(((key, why) for holds, key, why in refused if holds), None)
+            '"positions" or "response"'
+        )
+    return None
 
 
 def answered(command: str, **features: Any) -> tuple[str, ...]:
@@ -150,7 +119,7 @@ class Need(NamedTuple):
     required: tuple[str, ...] = ()
 
 
-_DRAWN, _OPEN = ("uniform", "normal", "two-point"), ("unilateral",)
+_OPEN = ("unilateral",)
 NEEDS = (
     Need("disorder.relative_std", "kind", _DRAWN, _DRAWN),
     Need("disorder.seed", "kind", _DRAWN),
