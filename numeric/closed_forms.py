@@ -1,4 +1,4 @@
-"""Closed forms: variances (13–14, 16, B2–3, B7–8, B13–14) and means (B5–6).
+"""Closed forms: variances (13–14, 16 as printed, B2–3, B13–14) and means (B5–6).
 
 All functions give a variance over a squared force, or a mean over its ordered value: numbers
 without unit. Their formulas are those of ``generated``, plain arithmetic with no constant but whole
@@ -14,7 +14,6 @@ Arguments:
     z: height of the contact over that of the packing, j/M, from 0 to 1; as an asymptotic form it
         holds for 0 < z < 1.
     t: L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻) for f⁺; L⁺/L⁻ for f⁻. 1 for a vertical load.
-    N: how many neighbours, a whole number ≥ 1.
     l: layer of the loaded bead, a whole number ≥ 0.
     phi: n⁺·n⁻, without unit; −1/2 < φ < 1/2 in a packing without overlaps (not checked). Of spheres
         the mutual dot product of the base vectors; −1/3 < φ < 1/2.
@@ -31,14 +30,13 @@ from typing import Any
 from . import generated
 
 
-def _whole(name: str, value: Any, least: int | None) -> int:
+def _whole(name: str, value: Any, least: int) -> int:
     try:
         whole = None if hasattr(value, "__len__") else int(value)
     except (TypeError, ValueError, OverflowError):
         whole = None
-    if whole is None or whole != value or (least is not None and whole < least):
-        some = "one whole number" if least is None else f"one whole number from {least} up"
-        raise ValueError(f"{name} = {value!r}: {some} is allowed")
+    if whole is None or whole != value or whole < least:
+        raise ValueError(f"{name} = {value!r}: one whole number from {least} up is allowed")
     return whole
 
 
@@ -126,19 +124,6 @@ def bulk_diffusion_of_spheres(M: Any, z: Any, phi: Any, sigma: Any, r: Any) -> A
     return _leading(generated.bulk_diffusion_of_spheres, M, z, phi, sigma, r)
 
 
-def contacts_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact variance of the mean over N neighbouring f^±/⟨f⟩, surface load (Eq. B7)."""
-    return _of_contact(generated.contacts_mean_variance, M, j, phi, sigma, r, _whole("N", N, 1))
-
-
-def beads_mean_variance(M: Any, j: Any, N: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact variance of the mean over N neighbouring p/f_load, surface load (Eq. B8).
-
-    ``j`` is the layer of the beads, which lie below the surface.
-    """
-    return _of_contact(generated.beads_mean_variance, M, j, phi, sigma, r, _whole("N", N, 1))
-
-
 def response(l: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
     """Printed leading order of σ²(p)/f_load² inside the cone of a load on layer l (Eq. 16).
 
@@ -147,43 +132,3 @@ def response(l: Any, j: Any, phi: Any, sigma: Any, r: Any) -> Any:
     """
     l, j, phi = _whole("l", l, 0), _whole("j", j, 0), _endless(phi)
     return generated.response(j, l, phi) * (sigma / r) ** 2
-
-
-def bead_response(i: Any, j: Any, k: Any, l: Any, phi: Any, sigma: Any, r: Any) -> Any:
-    """Exact σ²(p)/f_load² to first order in δr, for a load f_load on bead (k, l) (Eq. 16).
-
-    p is the vertical force that bead (i, j) gets from both of its upper contacts together; inside
-    of the cone it passes the same on to its lower ones. On a leg of the cone, where one of the two
-    contacts carries ½ f_load on average, it is that contact's; outside of the cone, and on the
-    loaded bead itself, it does not fluctuate. All indices are whole numbers, i + j and k + l even,
-    j and l ≥ 0.
-    """
-    return _below_load(generated.bead_response, i, j, k, l, phi) * (sigma / r) ** 2
-
-
-def contact_response(
-    i: Any, j: Any, k: Any, l: Any, branch: str, phi: Any, sigma: Any, r: Any
-) -> Any:  # fmt: skip
-    """Exact variance of the vertical component of one contact's force over f_load² (Eq. 16).
-
-    To first order in δr, for a load f_load on bead (k, l). Unlike that of both upper contacts of a
-    bead, it depends on the horizontal position, through the layer ½(l + j ± (k − i)) of the bead
-    at which the force turns into the contact. (i, j) is the contact's lower bead; ``branch`` is "+"
-    for the contact to (i+1, j+1), "-" for that to (i−1, j+1). Indices as for ``bead_response``.
-    """
-    if branch not in ("+", "-"):
-        raise ValueError(f"branch = {branch!r}: '+' or '-' is allowed")
-    if branch == "-":  # the mirror image
-        i, k = -i, -k
-    return _below_load(generated.contact_response, i, j, k, l, phi) * (sigma / r) ** 2
-
-
-def _below_load(form: Callable[..., Any], i: Any, j: Any, k: Any, l: Any, phi: Any) -> Any:
-    """A form of bead (i, j) or of a contact above it, for a load on bead (k, l); 0 if not below."""
-    j, l = _whole("j", j, 0), _whole("l", l, 0)
-    i, k = _whole("i", i, None), _whole("k", k, None)
-    for across, layer in ((i, j), (k, l)):
-        if (across + layer) % 2:
-            raise ValueError(f"({across}, {layer}) is not a site: their sum must be even")
-    phi = _endless(phi)
-    return form(i, j, k, l, phi) if j < l else 0 * phi

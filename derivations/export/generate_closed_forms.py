@@ -91,11 +91,7 @@ def _forms() -> Iterator[tuple[str, str, Iterable[Branch]]]:
     ):
         for name, number in zip(("surface", "bulk"), numbers, strict=True):
             yield f"{name}_{what}", f"M j k{more} phi", _exact(number)
-    yield "contacts_mean_variance", "M j k N phi", _exact("B7")
-    yield "beads_mean_variance", "M j k N phi", _exact("B8")
     yield "response", "j l phi", _leading(eq16.PRINTED.rhs)
-    yield "bead_response", "i j k l phi", _exact(16, "bead")
-    yield "contact_response", "i j k l phi", _exact(16, "contact")
 
 
 def source() -> str:

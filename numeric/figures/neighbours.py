@@ -5,13 +5,16 @@ first order, in the N that they are for, what independent contacts would have, a
 1/N.
 """
 
+from functools import partial
+
 import numpy as np
 
-from .. import closed_forms
 from ..arithmetic.systems import Array
+from ..mechanics.problem import Route
 from ..mechanics.sweep import Solved
+from ..planning.plan import Plan
 from . import packings
-from .packings import PAPER, PAPER_STD, PHI, Comparison, Made, Options
+from .packings import PAPER, PAPER_STD, Comparison, Made, Options
 from .style import COLUMN, GREY, label_logarithmic, panels, points
 
 HEIGHT, LAYER = 32, 16
@@ -19,21 +22,10 @@ WINDOWS = (1, 2, 3, 5, 8, 14)
 NAMES = ("contacts of one branch", "beads, vertical force")
 
 
-def contacts(count: int) -> float:
-    """Variance of the mean of f⁺/⟨f⟩ over N neighbours in layer j (Eq. B7)."""
-    form = closed_forms.contacts_mean_variance
-    return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
-
-
-def beads(count: int) -> float:
-    """The same of the vertical force on a bead over its mean (Eq. B8)."""
-    form = closed_forms.beads_mean_variance
-    return float(form(HEIGHT, LAYER, count, float(PHI), PAPER_STD, 1.0))
-
-
-def window_means(answer: Solved, number: int) -> Array:
+def window_means(ensemble: Plan, answer: Solved, number: int) -> Array:
     """Mean squares of windows of contacts, then of beads; (number, 2 windows)."""
     forces, packing, upper = answer.forces, answer.packing, LAYER + 1
+    linear = ensemble.problem.route == Route.FIRST_ORDER
     assert forces is not None
     assert packing is not None
     relative, vertical = [], []
@@ -41,7 +33,8 @@ def window_means(answer: Solved, number: int) -> Array:
         change, ordered = forces.change(a, upper), forces.ordered(a, upper)
         tilt = packing.dn(a, upper).sum(axis=0)
         relative.append(change / ordered)
-        vertical.append((ordered + change) * PAPER.n_y * (1 + tilt) - ordered * PAPER.n_y)
+        force = ordered if linear else ordered + change
+        vertical.append((change + force * tilt) * PAPER.n_y)
     # contacts are named by their upper bead: bead q of an even layer has f⁺ at q, f⁻ at q − 1
     bead = vertical[0] + np.roll(vertical[1], 1, axis=1)
     each = [
@@ -55,10 +48,12 @@ def window_means(answer: Solved, number: int) -> Array:
 def simulated(o: Options) -> Comparison:
     """Average neighbours of one layer in windows at every place; σ of contacts, then of beads."""
     ensemble = packings.planned("profile", o, height=HEIGHT)
-    square = packings.gathered(ensemble, o.notice, "figure B7", window_means)
-    exact = [form(N) for form in (contacts, beads) for N in WINDOWS]
-    what = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8"
-    return Comparison(what, packings.band_of_roots(square, o.seed), np.sqrt(exact))
+    square, each = (
+        packings.gathered(plan, o.notice, "figure B7", partial(window_means, plan))
+        for plan in (ensemble, packings.one_changed(ensemble))
+    )
+    what, exact = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8", np.sqrt(each.sum(axis=0))
+    return Comparison(what, packings.band_of_roots(square, o.seed), PAPER_STD * exact)
 
 
 def figure(o: Options) -> Made:

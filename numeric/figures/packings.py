@@ -1,14 +1,17 @@
 """Ensembles for figures: planned, solved batch after batch by the engine, and held to theory."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from math import sqrt
 from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array
+from ..arithmetic.systems import FLOAT64, Array, NumberSystem
+from ..lattice.layers import Rows
 from ..mechanics.engine import packings
+from ..mechanics.problem import Route
 from ..mechanics.sweep import Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
@@ -176,6 +179,28 @@ def solve_first(ensemble: Plan) -> Table:
     return table.index | table.numbers
 
 
+class _OneChanged:
+    """Packing k has δr = r of bead number k alone; only to first order can it be solved."""
+
+    relative_std = Fraction(1)
+
+    def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Array:
+        """Give δr/r, (realisations, beads), in float64."""
+        radii = np.zeros((len(realisations), rows.beads))
+        radii[np.arange(len(radii)), realisations] = 1
+        return radii
+
+
+def one_changed(ensemble: Plan) -> Plan:
+    """Plan a packing for each bead, with no other radius changed, to first order.
+
+    Of what is then found, sums of squares are variances in units of (σ/r)².
+    """
+    beads, route = ensemble.problem.region.beads, Route.FIRST_ORDER
+    changed = {"radii": _OneChanged(), "route": route, "realisations": beads}
+    return replace(ensemble, problem=replace(ensemble.problem, **changed))
+
+
 def gathered(
     ensemble: Plan,
     notice: Notice,
@@ -187,7 +212,7 @@ def gathered(
 
     ``each`` takes what was solved, and of how many realisations.
     """
-    count, parts = ensemble.scene.ask.realisations, []
+    count, parts = ensemble.problem.realisations, []
     with FLOAT64.active():
         for solved, chunk in packings(ensemble.problem, range(start, start + count), FLOAT64):
             parts.append(each(solved, len(chunk)))

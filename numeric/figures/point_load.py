@@ -14,7 +14,8 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..arithmetic.systems import Array
-from ..closed_forms import bead_response, contact_response, response
+from ..closed_forms import response
+from ..lattice.branch import Branch
 from ..mechanics.sweep import Solved
 from ..planning.plan import Plan
 from ..quantities import response as quantities
@@ -45,16 +46,19 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
     medium = o.medium(MEDIUM)
     load = PointLoad(at=(0, APEX))
     ensemble = packings.planned("response", o, medium, height=APEX, width=None, load=load)
-    change = packings.gathered(ensemble, o.notice, "figure 4", partial(vertical, ensemble))
+    change, each = (
+        packings.gathered(plan, o.notice, "figure 4", partial(vertical, plan))
+        for plan in (ensemble, packings.one_changed(ensemble))
+    )
+    exact, single = (each.sum(axis=1) ** 2).sum(axis=0), (each[:, 0] ** 2).sum(axis=0)
+    change = change.sum(axis=1)
     phi, square = medium.phi, change.var(axis=0) / medium.std**2
-    exact = np.array([bead_response(i, j, 0, APEX, phi, 1, 1) for i, j in SITES], dtype=float)
     off = (change - change.mean(axis=0))[:, ON_CUTS] / medium.std
     band = packings.band_of_roots(off**2, o.seed)
     low, high = (np.full(len(SITES), "", dtype=object) for _ in range(2))
     low[ON_CUTS], high[ON_CUTS] = (edge**2 for edge in band.limits)
     ordered = np.where(LEG, 0.5, 0.0)
     printed = np.array([float(response(APEX, j, phi, 1, 1)) for j in LAYER.tolist()], dtype=object)
-    single = [float(contact_response(i, j, 0, APEX, "+", phi, 1, 1)) for i, j in SITES]
     table = {
         "i": COLUMN,
         "j": LAYER,
@@ -65,7 +69,7 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
         "variance_exact": exact,
         "variance_printed": np.where(LEG, "", printed),
         "variance_simulated": square,
-        "variance_upper_plus_contact": np.array(single),
+        "variance_upper_plus_contact": single,
         "band_low": low,
         "band_high": high,
     }
@@ -74,16 +78,16 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
 
 
 def vertical(ensemble: Plan, answer: Solved, number: int) -> Array:
-    """Give the change of p, (number, beads of the cone)."""
+    """Give the changes of p that beads of the cone get from f⁺ and f⁻, (number, 2, beads)."""
     quantity = ensemble.quantity
     assert isinstance(quantity, quantities.Response)
     _, changes = quantity.changes(ensemble.problem, answer, number)
-    labels, change_of_p = quantity.labels(ensemble.problem), np.zeros((len(SITES), number))
-    rows = zip(*(labels[name] for name in ("i", "j", "component")), changes[:, :, 0], strict=True)
-    for i, j, component, change in rows:
+    labels, change_of_p = quantity.labels(ensemble.problem), np.zeros((number, 2, len(SITES)))
+    names = zip(*(labels[name] for name in ("i", "j", "branch", "component")), strict=True)
+    for (i, j, branch, component), change in zip(names, changes[:, :, 0], strict=True):
         if component == "vertical":
-            change_of_p[SITES.index((i, j))] += change
-    return change_of_p.T
+            change_of_p[:, Branch(branch).number, SITES.index((i, j))] = change
+    return change_of_p
 
 
 def figure(o: Options) -> Made:

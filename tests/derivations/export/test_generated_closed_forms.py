@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 from inspect import signature
-from itertools import combinations, product
+from itertools import product
 from typing import Any
 
 import flint
@@ -27,11 +27,8 @@ OF_CONTACTS = {
     "bulk_variance_of_spheres": ("B14", "first"),
     "surface_mean_shift": ("B5", "force"),
     "bulk_mean_shift": ("B6", "force"),
-    "contacts_mean_variance": ("B7", "mean"),
-    "beads_mean_variance": ("B8", "mean"),
 }
 """The equation and the name of each; tests/derivations/calculator certifies these."""
-BELOW_LOAD = {"bead_response": (16, "bead"), "contact_response": (16, "contact")}
 LEADING = {
     "surface_diffusion": (13, "surface_variance"),
     "bulk_diffusion": (14, "bulk_variance"),
@@ -50,27 +47,21 @@ def test_the_file_is_what_the_derivations_generate():
 
 
 def places(name: str) -> Iterator[dict[str, Any]]:
-    """All contacts of small packings, or those below a loaded bead."""
+    """All contacts of small packings."""
     top = range(1, 7)
-    if name in BELOW_LOAD:
-        for j, l in combinations(top, 2):  # noqa: E741
-            lefts = range(j - l, l - j + 1, 2)
-            yield from ({"i": i + l % 2, "j": j, "k": l % 2, "l": l} for i in lefts)
-        return
-    counts = top if name.endswith("mean_variance") else [1]
     ratios = [ONE / 3, ONE * 2] if name.endswith("at_angle") else [ONE]
-    for M, j, N, t in product(top, top, counts, ratios):
+    for M, j, t in product(top, top, ratios):
         if j <= M:
-            yield {"M": M, "j": j - 1, "N": N, "t": t}
+            yield {"M": M, "j": j - 1, "t": t}
 
 
 @pytest.mark.long(sample=7)
-@pytest.mark.parametrize("name", OF_CONTACTS | BELOW_LOAD)
+@pytest.mark.parametrize("name", OF_CONTACTS)
 def test_they_are_the_exact_forms(name):
-    number, of = (OF_CONTACTS | BELOW_LOAD)[name]
+    number, of = OF_CONTACTS[name]
     form, function = fd.equation(number).exact(of), getattr(closed_forms, name)
     for place in places(name):
-        at = {"branch": "+", **place, **GIVEN}
+        at = place | GIVEN
         found = function(**{one: at[one] for one in signature(function).parameters})
         assert found == form.at(**{one: at[one] for one in form.symbols})
 
@@ -85,14 +76,6 @@ def test_leading_orders_are_those_of_tall_packings(name):
         assert leading == fd.equation(number).at(M=M, j=j, **GIVEN)
 
 
-def test_the_other_branch_is_the_mirror_image_and_off_the_cone_is_nothing():
-    given = GIVEN.values()
-    for i in range(-9, 10, 2):
-        right = closed_forms.contact_response(i, 3, 1, 7, "+", *given)
-        assert closed_forms.contact_response(-i, 3, -1, 7, "-", *given) == right
-        assert (closed_forms.bead_response(i, 3, 1, 7, *given) == 0) == (abs(i - 1) > 4)
-
-
 # float64
 
 heights = st.one_of(st.integers(1, 40), st.integers(1, 10**9))
@@ -100,13 +83,11 @@ cosines = st.fractions(Fraction(-49, 100), Fraction(49, 100), max_denominator=10
 
 
 @given(height=heights, phi=cosines, data=st.data())
-@pytest.mark.parametrize("name", ["surface_variance", "bulk_variance", *BELOW_LOAD, *LEADING])
+@pytest.mark.parametrize("name", ["surface_variance", "bulk_variance", *LEADING])
 def test_float64_is_accurate(name, height, phi, data):
     near = st.integers(0, min(height, 9) - 1)
     j = data.draw(st.one_of(near, near.map(lambda k: height - 1 - k), st.integers(0, height - 1)))
-    i = j - height + 2 * data.draw(st.integers(0, height - j))
-    at = {"M": height, "j": j, "z": Fraction(j / height), "branch": "+"}
-    at |= {"i": i, "k": 0, "l": height} if height % 2 == 0 else {"i": i + 1, "k": 1, "l": height}
+    at = {"M": height, "j": j, "z": Fraction(j / height)}
     function = getattr(closed_forms, name)
     where = [at[one] for one in list(signature(function).parameters)[:-3]]
     exact = function(*where, Fraction(float(phi)), ONE, ONE)
@@ -142,8 +123,6 @@ def test_the_result_is_of_the_type_of_phi(form, kind):
     if "z" not in signature(form).parameters:
         exact = form(10**9, 1, Fraction(1, 4), ONE, Fraction(2))
         assert float(found) == pytest.approx(float(exact), rel=1e-5)
-    for site in ((0, 2, 0, 8), (10, 2, 0, 8), (0, 8, 0, 8)):
-        assert type(closed_forms.bead_response(*site, quarter, one, one)) is type(quarter)
 
 
 REFUSED: list[tuple[str, tuple[Any, ...], str]] = [
@@ -152,12 +131,8 @@ REFUSED: list[tuple[str, tuple[Any, ...], str]] = [
     *(("bulk_diffusion", (M, 0), "M = .* is allowed") for M in (-3, float("inf"))),
     *(("surface_diffusion", (5, z), "z = .* is allowed") for z in (-0.1, 2, float("nan"))),
     ("bulk_diffusion", (5, np.array([0.1, 0.2])), "z = .* is allowed"),
-    ("contacts_mean_variance", (5, 0, 0), "N = 0"),
-    ("beads_mean_variance", (5, 5, 1), "j = .*allowed"),
-    ("bead_response", (0, 0, 1, 4), r"\(1, 4\) is not a site"),
-    ("bead_response", (0, -2, 0, 4), "j = -2: one whole number from 0 up"),
-    ("contact_response", (0, 0, float("nan"), 4, "+"), "k = nan"),
-    ("contact_response", (0, 0, 0, 4, 1), "branch = 1: '\\+' or '-' is allowed"),
+    ("response", (4, -2), "j = -2: one whole number from 0 up"),
+    ("response", (float("nan"), 2), "l = nan"),
 ]
 
 
