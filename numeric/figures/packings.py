@@ -196,9 +196,10 @@ def one_changed(ensemble: Plan) -> Plan:
 
     Of what is then found, sums of squares are variances in units of (σ/r)².
     """
-    beads, route = ensemble.problem.region.beads, Route.FIRST_ORDER
-    changed = {"radii": _OneChanged(), "route": route, "realisations": beads}
-    return replace(ensemble, problem=replace(ensemble.problem, **changed))
+    problem, radii, route = ensemble.problem, _OneChanged(), Route.FIRST_ORDER
+    beads = problem.region.beads
+    problem = replace(problem, radii=radii, route=route, realisations=beads)
+    return replace(ensemble, problem=problem)
 
 
 def gathered(
