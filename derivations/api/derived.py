@@ -11,7 +11,6 @@ from force_diffusion.symbolic.kernel.decisions import Verdict
 from ..export.document import DOCUMENT, document, fragment_name, statement_latex
 from ..export.terminal import (
     expected_text,
-    markdown_table,
     outcomes_data,
     summary_line,
     trouble_lines,
@@ -75,13 +74,6 @@ class Derived:
         return "\n".join([*chain.from_iterable(lines), f"{self.counts()}."])
 
     __repr__ = __str__
-
-    def _repr_markdown_(self) -> str:
-        rows = (
-            (str(of.derivation.number), of.words, of.derivation.title, f"{of.seconds:.2f}")
-            for of in self.outcomes
-        )
-        return markdown_table(("Eq.", "verdict", "title", "seconds"), rows)
 
 
 @checked

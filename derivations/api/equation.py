@@ -367,7 +367,8 @@ class Equation:
 
         It takes numbers and arrays that broadcast, computes in float64, and gives a float, an
         array, or a tuple of these if several lines are printed. Its signature and docstring say
-        what it takes. ``at`` is slower, but exact for exact numbers, and rounds floats only once.
+        what it takes; values are not checked. ``at`` is slower, but checks them, is exact for exact
+        numbers, and rounds floats only once.
 
         >>> import force_diffusion as fd
         >>> import numpy as np
@@ -379,14 +380,13 @@ class Equation:
         (<Signature (M, z, phi, sigma, r)>, 'Eq. 13: σ_f²(z)/⟨f⟩².')
 
         Raises:
-            ArgumentError: the right-hand side is not a number. The function itself raises it for
-                values outside the formula's domain.
+            ArgumentError: the right-hand side is not a number.
         """
-        from .numpy_function import NumpyFunction
+        from .numpy_function import numpy_function
 
         about = "; ".join(self._about(line) for line in self._derivation.printed)
         heading, meanings = f"Eq. {self.number}: {about}.", dict(self._derivation.symbols)
-        return NumpyFunction(self._numbers, self.name, heading, meanings, self)
+        return numpy_function(self._numbers, self.name, heading, meanings)
 
     # proofs
 

@@ -12,7 +12,6 @@ from ..export.terminal import (
     expected_text,
     follows_text,
     heading,
-    markdown_table,
     rests_text,
     steps_text,
     summary_line,
@@ -23,7 +22,7 @@ from ..framework.record import Check, ProofOutcome, Statement
 
 @dataclass(frozen=True)
 class Proof:
-    """What :meth:`Equation.prove` found; it prints as lines, and as a table in a notebook.
+    """What :meth:`Equation.prove` found; it prints as lines.
 
     >>> import force_diffusion as fd
     >>> proof = fd.equation(3).prove()
@@ -53,11 +52,11 @@ class Proof:
         """Printed statements that were refuted as expected: ERRATA.md says why."""
         return self.outcomes[-1].refuted
 
-    def _headline(self, mark: str = "") -> str:
+    def _headline(self) -> str:
         outcome, refuted = self.outcomes[-1], expected_text(len(self.refuted))
         number, verdict = outcome.derivation.number, f"{outcome.words}{refuted and f'; {refuted}'}"
         premises = f" {rests_text(outcome.derivation)}" if outcome.verdict.is_proved else ""
-        return f"{mark}Eq. {number} is {verdict}.{mark}{premises}"
+        return f"Eq. {number} is {verdict}.{premises}"
 
     def __str__(self) -> str:
         return "\n".join(
@@ -69,11 +68,6 @@ class Proof:
         )
 
     __repr__ = __str__
-
-    def _repr_markdown_(self) -> str:
-        rows = ((check.kind, check.words, check.name, check.note) for check in self.checks)
-        table = markdown_table(("kind", "verdict", "check", "note"), rows)
-        return f"{self._headline('**')}\n\n{table}"
 
 
 class StepList(tuple[Step, ...]):

@@ -7,9 +7,10 @@ from force_diffusion.derivations.beyond.variances import PAPER
 from force_diffusion.derivations.calculator.statistics import (
     covariance, mean_over, response, variance)
 from force_diffusion.derivations.framework.catalogue import Number
+from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Decide, Forms, Row, are_same, equals, goes_as, highest, leads, ruled)
+    Row, are_same, equals, form_of, goes_as, highest, leads, ruled)
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
@@ -62,8 +63,8 @@ def _contacts(number: Number, name: str, load: str) -> Row:
     leading = PAPER[load].PRINTED.rhs.doit()
     argument = f'load="{load}"'
 
-    def beside(places: int, share: Rational) -> Decide:
-        return goes_as("apart", share * leading, Eq(k, places), *_DEEP, at={j: z * M})
+    def beside(apart: ClosedForm, places: int, share: Rational) -> Ruling:
+        return goes_as(apart, share * leading, Eq(k, places), *_DEEP, at={j: z * M})
 
     return Row(
         number=number,
@@ -80,61 +81,49 @@ def _contacts(number: Number, name: str, load: str) -> Row:
             (FORCE_MEAN, "variance of the mean of f^± over N neighbours of one layer"),
             (APART, "covariance of two contacts of a layer that are k places apart"),
         ),
-        claimed={
+        claimed=lambda of: {
             "to leading order the correlation of a contact with its first neighbour is −2/3":
-                beside(1, Rational(-2, 3)),
-            "and with its second neighbour 1/6": beside(2, Rational(1, 6)),
+                beside(of["apart"], 1, Rational(-2, 3)),
+            "and with its second neighbour 1/6": beside(of["apart"], 2, Rational(1, 6)),
             "from the third neighbour on there is none, exactly, for k ≤ j − 2":
-                equals("apart", sympy.S.Zero, k >= 3, k <= j - 2),
-            "nor for k ≥ j + 3": equals("apart", sympy.S.Zero, k >= j + 3),
+                equals(of["apart"], sympy.S.Zero, k >= 3, k <= j - 2),
+            "nor for k ≥ j + 3": equals(of["apart"], sympy.S.Zero, k >= j + 3),
             f"of Eq. {PAPER[load].DERIVATION.number} a mean over few neighbours has 2/(3N²)":
-                goes_as("mean", Rational(2, 3) / N**2 * leading, N >= 2, j - 1 >= N, j + 2 <= M,
+                goes_as(of["mean"], Rational(2, 3) / N**2 * leading, N >= 2, j - 1 >= N, j + 2 <= M,
                         at={j: z * M}),
             "over many neighbours it falls as 1/N, and M does not count: as "
             "(1 − φ)²(σ/r)²/[2N(1 + φ)²]":
-                goes_as("mean", (1 - phi) ** 2 * sigma**2 / (2 * N * (1 + phi) ** 2 * r**2),
+                goes_as(of["mean"], (1 - phi) ** 2 * sigma**2 / (2 * N * (1 + phi) ** 2 * r**2),
                         *_LONG, growing=N),
         },
     )  # fmt: skip
 
 
-def uncorrelated(*domains: tuple[sympy.Basic, ...]) -> Decide:
+def uncorrelated(*domains: tuple[sympy.Basic, ...]) -> Ruling:
     """f⁺_ij and the f⁻ of layer l whose diagonals cross p layers above (i, j) are uncorrelated."""
-
-    def decide(_: Forms) -> Ruling:
-        for domain in domains:
-            where = (j <= l, *domain)
-            form = covariance(ForcePlus(i, j), ForceMinus(i + 2 * p + j - l, l), where=where)
-            if not form.function.weights.is_zero():
-                return ruled(False, f"they are correlated somewhere in {in_words(domain)}")
-        return ruled(True, "")
-
-    return decide
+    for domain in domains:
+        where = (j <= l, *domain)
+        form = covariance(ForcePlus(i, j), ForceMinus(i + 2 * p + j - l, l), where=where)
+        if not form.function.weights.is_zero():
+            return ruled(False, f"they are correlated somewhere in {in_words(domain)}")
+    return ruled(True, "")
 
 
-def _correlation(name: str, load: str, squared: Rational) -> Decide:
+def _correlation(form: ClosedForm, load: str, squared: Rational) -> Ruling:
     """The squared correlation of a contact at the base and one of its diagonal, as z′ → 1."""
-
-    def decide(forms: Forms) -> Ruling:
-        both = highest(forms[name].on(*_INSIDE).xreplace(AT_HEIGHTS), M)
-        lower = PAPER[load].PRINTED.rhs.doit()
-        upper = lower.xreplace({z: z_upper})
-        square = sympy.cancel(both**2 / (lower * upper)).subs(z, 0).subs(z_upper, 1)
-        return are_same(square, squared)
-
-    return decide
+    both = highest(form.on(*_INSIDE).xreplace(AT_HEIGHTS), M)
+    lower = PAPER[load].PRINTED.rhs.doit()
+    upper = lower.xreplace({z: z_upper})
+    square = sympy.cancel(both**2 / (lower * upper)).subs(z, 0).subs(z_upper, 1)
+    return are_same(square, squared)
 
 
-def _share_of_a_diagonal(name: str, load: str, share: Rational) -> Decide:
+def _share_of_a_diagonal(form: ClosedForm, load: str, share: Rational) -> Ruling:
     """The variance of the mean over a diagonal, over that of one of its contacts on average."""
-
-    def decide(forms: Forms) -> Ruling:
-        both = sympy.expand(highest(forms[name].on(*_INSIDE).xreplace(AT_HEIGHTS), M))
-        whole = 2 * sympy.integrate(sympy.integrate(both, (z, 0, z_upper)), (z_upper, 0, 1))
-        lower = sympy.expand(PAPER[load].PRINTED.rhs.doit())
-        return are_same(whole / sympy.integrate(lower, (z, 0, 1)), share)
-
-    return decide
+    both = sympy.expand(highest(form.on(*_INSIDE).xreplace(AT_HEIGHTS), M))
+    whole = 2 * sympy.integrate(sympy.integrate(both, (z, 0, z_upper)), (z_upper, 0, 1))
+    lower = sympy.expand(PAPER[load].PRINTED.rhs.doit())
+    return are_same(whole / sympy.integrate(lower, (z, 0, 1)), share)
 
 
 DERIVATIONS: dict[Number, Row] = {
@@ -154,14 +143,14 @@ DERIVATIONS: dict[Number, Row] = {
             (BEAD_MEAN, "variance of the mean of p over N neighbours of one layer"),
             (BEAD, "variance of the vertical force p that a bead gets from both upper contacts"),
         ),
-        claimed={
+        claimed=lambda of: {
             "of a single bead it is half of Eq. 13, to leading order: its two contacts are "
-            "uncorrelated to that order": leads("bead", eq13.PRINTED.rhs.doit() / 2),
+            "uncorrelated to that order": leads(of["bead"], eq13.PRINTED.rhs.doit() / 2),
             "of Eq. 13 a mean over few neighbours has 1/(3N²)":
-                goes_as("mean", eq13.PRINTED.rhs.doit() / (3 * N**2), N >= 2, j - 2 >= N,
+                goes_as(of["mean"], eq13.PRINTED.rhs.doit() / (3 * N**2), N >= 2, j - 2 >= N,
                         M - j - 1 >= N, at={j: z * M}),
             "the mean over many neighbours goes as 1/N², too":
-                goes_as("mean",
+                goes_as(of["mean"],
                         (8 * (M - j) ** 2 * (M + 2 * j) - 6 * (M - j) ** 2
                          + (M - j) * (6 * phi**2 + 24 * phi - 2) - 3 * (1 + phi) ** 2)
                         / (12 * N**2) * UNIT,
@@ -186,19 +175,19 @@ DERIVATIONS: dict[Number, Row] = {
             (BULK_LAYERS, "the same under a bulk load"),
             (l, "layer of the upper contact, j that of the lower one"),
         ),
-        claimed={
+        claimed=lambda of: {
             **{f"the leading order at the heights z = j/M and z′ = l/M, {load} load":
-                   goes_as(name, ON_DIAGONAL[load], *_INSIDE, at=AT_HEIGHTS)
+                   goes_as(of[name], ON_DIAGONAL[load], *_INSIDE, at=AT_HEIGHTS)
                for name, load in _BY_LOAD.items()},
             **{f"for l = j it is Eq. {PAPER[load].DERIVATION.number}":
-                   equals(name, (PAPER[load].DERIVATION.number, "layer"), Eq(j, l))
+                   equals(of[name], form_of(PAPER[load].DERIVATION.number, "layer"), Eq(j, l))
                for name, load in _BY_LOAD.items()},
             "along a diagonal from the base to the surface a correlation of √3/2 is left under a "
             "surface load, as M → ∞ and then z′ → 1":
-                _correlation("layers", "surface", Rational(3, 4)),
-            "and of √5/3 under a bulk load": _correlation("bulk", "bulk", Rational(5, 9)),
+                _correlation(of["layers"], "surface", Rational(3, 4)),
+            "and of √5/3 under a bulk load": _correlation(of["bulk"], "bulk", Rational(5, 9)),
             "the mean over a whole diagonal has 4/5 of the variance of one of its contacts, "
-            "surface load": _share_of_a_diagonal("layers", "surface", Rational(4, 5)),
+            "surface load": _share_of_a_diagonal(of["layers"], "surface", Rational(4, 5)),
             "f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
             "from both, from the base and from the surface, and, if q layers above both, where q "
             "and j differ by four or more":

@@ -7,7 +7,7 @@ from force_diffusion.derivations.calculator.statistics import mean
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Row, agrees_below_surface, equals, goes_as, has_sign, leads, turns_positive)
+    Row, agrees_below_surface, equals, form_of, goes_as, has_sign, leads, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, ForceMinus, ForcePlus, M, e_y, i, j, n_y, phi, r, sigma, t, z)
@@ -51,14 +51,15 @@ def _upright(
         meaning="Mean forces rise high up in the packing and fall further down, by shares of order "
         "M(σ/r)², whatever the law of the radii; their fluctuation is of order M³(σ/r)².",
         quantities=((symbol, "mean of f⁺, and of f⁻, over its value in the ordered packing"),),
-        claimed={
-            "the leading order": leads("force", leading * _UNIT),
+        claimed=lambda of: {
+            "the leading order": leads(of["force"], leading * _UNIT),
             f"to leading order forces rise above z = {'φ' if turns == phi else 'φ/(2 − φ)'}, "
-            "and fall below": turns_positive("force", z, turns),
-            "at j = 0 they rise": goes_as("force", 3 * M * (1 - 2 * phi) * share * _UNIT, *BASE),
+            "and fall below": turns_positive(of["force"], z, turns),
+            "at j = 0 they rise":
+                goes_as(of["force"], 3 * M * (1 - 2 * phi) * share * _UNIT, *BASE),
             "at j = 1 they fall for φ > −3/8, by shares that z → 0 does not give":
-                goes_as("force", -M * (3 + 8 * phi) * share * _UNIT, *ABOVE),
-            **(agrees_below_surface("force", ("B5", "force")) if load == "bulk" else {}),
+                goes_as(of["force"], -M * (3 + 8 * phi) * share * _UNIT, *ABOVE),
+            **agrees_below_surface(load, of["force"], form_of("B5", "force")),
         },
     )  # fmt: skip
 
@@ -80,12 +81,12 @@ def _leaning(number: Number, load: str, upright: Number, own: sympy.Expr, other:
             (PLUS, "mean of f⁺ over its value in the ordered packing"),
             (MINUS, "the same of f⁻"),
         ),
-        claimed={
-            "the leading order": leads("plus", M * (own + t * other) * UNIT),
+        claimed=lambda of: {
+            "the leading order": leads(of["plus"], M * (own + t * other) * UNIT),
             f"for t = 1 it is Eq. {upright}":
-                equals("plus", (upright, "force"), at={t: sympy.S.One}),
-            "f⁻ has 1/t in place of t": equals("minus", "plus", at={t: 1 / t}),
-            **(agrees_below_surface("plus", ("B15", "plus")) if load == "bulk" else {}),
+                equals(of["plus"], form_of(upright, "force"), at={t: sympy.S.One}),
+            "f⁻ has 1/t in place of t": equals(of["minus"], of["plus"], at={t: 1 / t}),
+            **agrees_below_surface(load, of["plus"], form_of("B15", "plus")),
         },
     )  # fmt: skip
 
@@ -105,10 +106,10 @@ DERIVATIONS: dict[Number, Row] = {
             (HEIGHT, "mean vertical displacement of bead (i, j); the horizontal one is 0"),
             (n_y, "vertical component of n^±"),
         ),
-        claimed={
-            "every layer above the base settles": has_sign("height", -1, j >= 1, at={j: j + 1}),
+        claimed=lambda of: {
+            "every layer above the base settles": has_sign(of["height"], -1, j >= 1, at={j: j + 1}),
             "by a share of its height that grows in proportion to that height": goes_as(
-                "height",
+                of["height"],
                 -2 * j**2 * n_y * sigma**2 / (r * (1 + phi) * (1 - phi**2)),
                 j >= 1,
                 growing=j,

@@ -120,18 +120,18 @@ DERIVATIONS: dict[Number, Row] = {
             (PUSH, "the same of p, the vertical force that bead (i, j) gets from both contacts"),
             (l, "layer of the loaded bead"),
         ),
-        claimed={
+        claimed=lambda of: {
             "the plateau of f is positive for φ > (√17 − 3)/4, and negative below":
-                turns_positive("contact", phi, (sqrt(17) - 3) / 4, j >= 2, Ge(_DOWN, 2),
+                turns_positive(of["contact"], phi, (sqrt(17) - 3) / 4, j >= 2, Ge(_DOWN, 2),
                                Ge(_ACROSS, 4)),
             "that of p for φ > 1/5, down to the base":
-                turns_positive("bead", phi, Rational(1, 5), Ge(_DOWN, 4), Ge(_ACROSS, 4)),
+                turns_positive(of["bead"], phi, Rational(1, 5), Ge(_DOWN, 4), Ge(_ACROSS, 4)),
             "a leg loses 2φ² + φ + 1 per layer in f, in units of (σ/r)²/(1−φ²)²":
-                goes_as("contact", (2 * phi**2 + phi + 1) * j * UNIT, sympy.Eq(i, j + k - l),
+                goes_as(of["contact"], (2 * phi**2 + phi + 1) * j * UNIT, sympy.Eq(i, j + k - l),
                         j >= 2, j <= l - 2, growing=j),
             "in p nothing is lost: in each layer all beads add up to no change":
-                adds_up_to_zero("bead", i),
-            "outside the cone no mean changes": equals("bead", sympy.S.Zero, Le(_ACROSS, -2)),
+                adds_up_to_zero(of["bead"], i),
+            "outside the cone no mean changes": equals(of["bead"], sympy.S.Zero, Le(_ACROSS, -2)),
         },
     ),
     "B19": Row(
@@ -153,15 +153,15 @@ DERIVATIONS: dict[Number, Row] = {
             (q, "steps along that contact's own vector, from the leg where its path branches off"),
             (p, "steps down that leg"),
         ),
-        claimed={
+        claimed=lambda of: {
             "on a face, for p = q = zl, the vertical force on a bead goes as (2/3)(1 + 2φ + "
             "2φ²)(l + j), in units of (σ/r)²/[(1−φ)(1+2φ)]²":
-                goes_as("bead", Rational(4, 3) * SHARE * l * (1 - z) * IN_SPACE, p >= 1, q >= 1,
+                goes_as(of["bead"], Rational(4, 3) * SHARE * l * (1 - z) * IN_SPACE, p >= 1, q >= 1,
                         p + q >= 3, p + q <= l - 3, growing=l, at={p: z * l, q: z * l}),
             "on a leg it goes as [2(3 + 6φ + 5φ²)l + 4j]/9, at p = zl":
-                goes_as("leg", (2 * (3 + 6 * phi + 5 * phi**2) + 4 * (1 - z)) * l / 9 * IN_SPACE,
-                        p >= 2, p <= l - 2, growing=l, at={p: z * l}),
-            "inside the cone no force changes": equals("inside", sympy.S.Zero),
+                goes_as(of["leg"], (2 * (3 + 6 * phi + 5 * phi**2) + 4 * (1 - z)) * l / 9
+                        * IN_SPACE, p >= 2, p <= l - 2, growing=l, at={p: z * l}),
+            "inside the cone no force changes": equals(of["inside"], sympy.S.Zero),
         },
     ),
     "B22": Row(
@@ -180,16 +180,17 @@ DERIVATIONS: dict[Number, Row] = {
             (N, "number of neighbouring loads, or beads, or both, all beads inside all cones"),
             (l, "layer of the loaded beads, j that of the beads whose p is averaged"),
         ),
-        claimed={
+        claimed=lambda of: {
             "over loads it goes as 3(l + j)/2 − N/2, in units of (σ/r)²/(1−φ²)², as l → ∞ at "
             "fixed j/l and N/l":
-                goes_as("loads", (3 * (1 + z) - _X) / 2 * l * UNIT, *_far(j >= 3), growing=l,
+                goes_as(of["loads"], (3 * (1 + z) - _X) / 2 * l * UNIT, *_far(j >= 3), growing=l,
                         at=_AT),
             **{f"over beads as (l + j)/N², {words}":
-                   goes_as("beads", (1 + z) / (_X**2 * l) * UNIT, *_far(*where), growing=l, at=_AT)
+                   goes_as(of["beads"], (1 + z) / (_X**2 * l) * UNIT, *_far(*where), growing=l,
+                           at=_AT)
                for words, *where in (("N < j", j >= N + 3), ("N > j", j >= 3, j + 3 <= N))},
             **{f"over both as (l + j)/N² − 1/(3N), {words}":
-                   goes_as("both", ((1 + z) / _X**2 - 1 / (3 * _X)) / l * UNIT, *_far(*where),
+                   goes_as(of["both"], ((1 + z) / _X**2 - 1 / (3 * _X)) / l * UNIT, *_far(*where),
                            growing=l, at=_AT)
                for words, *where in (("N < j", j >= N + 3), ("N > j", j >= 3, j + 3 <= N))},
         },
@@ -214,13 +215,13 @@ DERIVATIONS: dict[Number, Row] = {
             (N, "number of neighbouring loads, and of beads"),
             (l, "layer of the loaded beads, j that of the beads"),
         ),
-        claimed={
+        claimed=lambda of: {
             "over many pairs it goes as (1 − φ)²/(4N), in units of (σ/r)²/(1−φ²)², whatever "
             "the height":
-                goes_as("pairs", (1 - phi) ** 2 / (4 * N) * UNIT, j >= 2, j + 3 <= N,
+                goes_as(of["pairs"], (1 - phi) ** 2 / (4 * N) * UNIT, j >= 2, j + 3 <= N,
                         Ge(k - i, 3), growing=N),
             "over few as (l + j)/N²: of Eq. 16 two thirds, over N²":
-                goes_as("pairs", (1 + z) * l / N**2 * UNIT, N >= 2, j - 2 >= N, Ge(k - i, 3),
+                goes_as(of["pairs"], (1 + z) * l / N**2 * UNIT, N >= 2, j - 2 >= N, Ge(k - i, 3),
                         growing=l, at={j: z * l}),
         },
     ),

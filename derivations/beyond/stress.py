@@ -11,7 +11,7 @@ from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Forms, Row, adds_up_to_zero, equals, is_free_of, leads, turns_positive)
+    Forms, Row, adds_up_to_zero, equals, form_of, is_free_of, leads, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, L_plus, M, e_x, e_y, i, j, n_x, n_y, phi, r, t, z)
@@ -89,12 +89,6 @@ def _shear_forms(load: str) -> Forms:
 
 
 def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -> Row:
-    agree = {
-        f"one layer below the surface both loads agree: {name}": equals(
-            name, ("B10", name), Eq(j, M - 1)
-        )
-        for name in ("ratio", "vertical", "flux")
-    }
     return Row(
         number=number,
         name="stress" if load == "surface" else "stress_bulk",
@@ -112,16 +106,18 @@ def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -
             (VERTICAL, "the vertical one over its value in the ordered packing"),
             (BY_FLUX, "⟨S_yy⟩ over width and mean height of the layer; over load by width"),
         ),
-        claimed={
-            "the leading order of the ratio": leads("ratio", leading * UNIT),
+        claimed=lambda of: {
+            "the leading order of the ratio": leads(of["ratio"], leading * UNIT),
             "it is larger than in the ordered packing above "
             f"z = {'2φ/(1 + φ)' if load == 'surface' else 'φ'} and smaller below":
-                turns_positive("ratio", z, turns),
-            **{f"it does not depend on the load's direction: {name}": is_free_of(name, t)
+                turns_positive(of["ratio"], z, turns),
+            **{f"it does not depend on the load's direction: {name}": is_free_of(of[name], t)
                for name in ("ratio", "vertical", "flux")},
             "over all layers, weighted as the ordered stress is, moments and flux agree":
-                adds_up_to_zero("flux", j, LAYERS[load]),
-            **(agree if load == "bulk" else {}),
+                adds_up_to_zero(of["flux"], j, LAYERS[load]),
+            **{f"one layer below the surface both loads agree: {name}":
+                   equals(of[name], form_of("B10", name), Eq(j, M - 1))
+               for name in ("ratio", "vertical", "flux") if load == "bulk"},
         },
     )  # fmt: skip
 
@@ -149,22 +145,22 @@ DERIVATIONS: dict[Number, Row] = {
             *((AXES[load], f"ψ: angle of a principal axis of ⟨S⟩ to the vertical, {load} load")
               for load in LAYERS),
         ),
-        claimed={
+        claimed=lambda of: {
             "the leading order under a surface load":
-                leads("shear_surface", 2 * M * (1 - 3 * z) * UNIT * (1 - phi)),
+                leads(of["shear_surface"], 2 * M * (1 - 3 * z) * UNIT * (1 - phi)),
             "the leading order under a bulk load":
-                leads("shear_bulk", M * (1 - 5 * z) * UNIT * (1 - phi)),
+                leads(of["shear_bulk"], M * (1 - 5 * z) * UNIT * (1 - phi)),
             **{f"the axes turn as −2j (1 − 3φ), in units of (σ/r)²/[(1−φ²)(1+φ)]: {load} load":
-                   leads(f"axes_{load}", -2 * M * z * (1 - 3 * phi) * UNIT * (1 - phi))
+                   leads(of[f"axes_{load}"], -2 * M * z * (1 - 3 * phi) * UNIT * (1 - phi))
                for load in LAYERS},
             **{f"they turn the other way for φ > 1/3: {load} load":
-                   turns_positive(f"axes_{load}", phi, sympy.Rational(1, 3))
+                   turns_positive(of[f"axes_{load}"], phi, sympy.Rational(1, 3))
                for load in LAYERS},
             **{f"it does not depend on the load's direction: {name}_{load}":
-                   is_free_of(f"{name}_{load}", t)
+                   is_free_of(of[f"{name}_{load}"], t)
                for name in ("shear", "axes") for load in LAYERS},
             **{f"moments and flux differ for T_xy as for T_yy, with the opposite sign: {load} load":
-                   equals(f"flux_{load}", (number, "flux"), factor=-sympy.S.One)
+                   equals(of[f"flux_{load}"], form_of(number, "flux"), factor=-sympy.S.One)
                for load, number in zip(LAYERS, ("B10", "B17"), strict=True)},
         },
     ),

@@ -12,7 +12,7 @@ from force_diffusion.derivations.calculator.statistics import variance
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Row, agrees_below_surface, averages_to, equals, goes_as, leads)
+    Row, agrees_below_surface, averages_to, equals, form_of, goes_as, leads)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceAlong, ForceMinus, ForcePlus, M, i, j, phi, r, sigma, t, t_2, t_3, z)
@@ -67,20 +67,21 @@ def _of_discs(number: Number, load: str) -> Row:
         "fluctuation by that of the other branch: the branch that carries less fluctuates more, "
         "and the height M* at which forces turn tensile falls as min(t, 1/t)^(2/3).",
         quantities=((PLUS, "variance of f⁺ over its mean squared"), (MINUS, "the same of f⁻")),
-        claimed={
+        claimed=lambda of: {
             "to the two highest orders it is t² times that of a vertical load":
-                leads("plus", leading, t**2 * paper.NEXT_ORDER * UNIT),
+                leads(of["plus"], leading, t**2 * paper.NEXT_ORDER * UNIT),
             f"for t = 1 it is Eq. {paper.DERIVATION.number}":
-                equals("plus", (paper.DERIVATION.number, "layer"), at={t: sympy.S.One}),
-            "f⁻ has 1/t in place of t": equals("minus", "plus", at={t: 1 / t}),
+                equals(of["plus"], paper.DERIVATION.exact_forms["layer"], at={t: sympy.S.One}),
+            "f⁻ has 1/t in place of t": equals(of["minus"], of["plus"], at={t: 1 / t}),
             "as t → 0 only the tilt of the contact itself is left, at every M: "
             "φ²(4j + φ²)/2 in units of (σ/r)²/(1−φ²)², for j ≥ 1":
-                equals("plus", phi**2 * (4 * j + phi**2) / 2 * UNIT, j >= 1, at={t: sympy.S.Zero}),
-            "at the base it goes as at z → 0": goes_as("plus", at_base, *BASE),
+                equals(of["plus"], phi**2 * (4 * j + phi**2) / 2 * UNIT, j >= 1,
+                       at={t: sympy.S.Zero}),
+            "at the base it goes as at z → 0": goes_as(of["plus"], at_base, *BASE),
             "one layer below the surface it goes as 2(t² + φ²) M (σ/r)²/(1−φ²)²":
-                goes_as("plus", 2 * M * (t**2 + phi**2) * UNIT, *TOP),
+                goes_as(of["plus"], 2 * M * (t**2 + phi**2) * UNIT, *TOP),
             "its mean over all heights goes as t² M³: M* is that of a vertical load divided "
-            "by t^(2/3)": averages_to("plus", at_base * _AVERAGE[load]),
+            "by t^(2/3)": averages_to(of["plus"], at_base * _AVERAGE[load]),
         },
     )  # fmt: skip
 
@@ -97,13 +98,14 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
         meaning="The profile over the height is that of discs; at finite M sums along all three "
         "base vectors contribute.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
-        claimed={
-            "the two highest orders": leads("first", in_dimensions(load, 3), following * IN_SPACE),
+        claimed=lambda of: {
+            "the two highest orders":
+                leads(of["first"], in_dimensions(load, 3), following * IN_SPACE),
             "at the base it goes as at z → 0":
-                goes_as("first", in_dimensions(load, 3).xreplace({z: sympy.S.Zero}), *BASE),
+                goes_as(of["first"], in_dimensions(load, 3).xreplace({z: sympy.S.Zero}), *BASE),
             "one layer below the surface it goes as 6(1 + 2φ + 3φ²) M (σ/r)²/[(1−φ)(1+2φ)]²":
-                goes_as("first", 6 * (1 + 2 * phi + 3 * phi**2) * M * IN_SPACE, *TOP),
-            **(agrees_below_surface("first", ("B13", "first")) if load == "bulk" else {}),
+                goes_as(of["first"], 6 * (1 + 2 * phi + 3 * phi**2) * M * IN_SPACE, *TOP),
+            **agrees_below_surface(load, of["first"], form_of("B13", "first")),
         },
     )  # fmt: skip
 
@@ -127,18 +129,19 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
         meaning="A force is fed by the loads along the other vectors: it fluctuates the more, in "
         "units of its own mean, the less of the load points along its own.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
-        claimed={
+        claimed=lambda of: {
             "the leading order, with τ_n = t₂ⁿ + t₃ⁿ in the factor 2τ₁² + τ₂":
-                leads("first", leading),
+                leads(of["first"], leading),
             f"for t₂ = t₃ = 1 it is Eq. {upright}":
-                equals("first", (upright, "first"), at={t_2: sympy.S.One, t_3: sympy.S.One}),
+                equals(of["first"], form_of(upright, "first"),
+                       at={t_2: sympy.S.One, t_3: sympy.S.One}),
             "without load along the other vectors only the tilt of the contact itself is left, at "
             "every M: φ²(4j + 1 + 2φ²) in units of (σ/r)²/[(1−φ)(1+2φ)]², for j ≥ 2":
-                equals("first", phi**2 * (4 * j + 1 + 2 * phi**2) * IN_SPACE, j >= 2, j <= M - 2,
-                       at={t_2: sympy.S.Zero, t_3: sympy.S.Zero}),
+                equals(of["first"], phi**2 * (4 * j + 1 + 2 * phi**2) * IN_SPACE, j >= 2,
+                       j <= M - 2, at={t_2: sympy.S.Zero, t_3: sympy.S.Zero}),
             "one layer below the surface it goes as M [τ₁²(1 + φ)² + τ₂(1 + 2φ + 3φ²) + "
             "2φ²(τ₁ + 2)] (σ/r)²/[(1−φ)(1+2φ)]²":
-                goes_as("first", below_surface * M * IN_SPACE, *TOP),
+                goes_as(of["first"], below_surface * M * IN_SPACE, *TOP),
         },
     )  # fmt: skip
 
@@ -161,9 +164,9 @@ def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
             (paper.RELATIVE_VARIANCE, "of discs"),
             (FIRST, "of spheres, for the force along base vector 1"),
         ),
-        claimed={
-            "the leading order of discs": leads("discs", in_dimensions(load, 2)),
-            "the leading order of spheres": leads("spheres", in_dimensions(load, 3)),
+        claimed=lambda of: {
+            "the leading order of discs": leads(of["discs"], in_dimensions(load, 2)),
+            "the leading order of spheres": leads(of["spheres"], in_dimensions(load, 3)),
         },
     )
 

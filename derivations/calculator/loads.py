@@ -2,14 +2,13 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache, partial
+from functools import partial
 
 import sympy
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.domain import Loading
 from force_diffusion.symbolic.kernel.statistics import SPHERES
-from force_diffusion.symbolic.kernel.theorem import Group
 from force_diffusion.symbolic.symbols import L_plus, M, f_load, j, k, l, m_g, n_y, t, t_2, t_3
 
 from .. import eq03_extrapolation as eq03
@@ -18,6 +17,7 @@ from .. import eq11_total_force as eq11
 from .. import eq14_bulk_diffusion as eq14
 from .. import eq16_response as eq16
 from .. import leaning as tilted
+from ..framework.vocabulary import Groups
 
 PLANE = 2
 """The dimension of a packing of discs."""
@@ -27,21 +27,14 @@ class ObservableError(ForceDiffusionError, ValueError):
     """An observable or load that the calculator doesn't take; the message says what it takes."""
 
 
-@cache
-def in_radii(load: str = "") -> tuple[Group, ...]:
-    """What forces under a load are in the radii, with contact directions and positions."""
-    match load.split():
-        case ["surface"]:
-            groups = eq11.in_radii()
-        case ["bulk"]:
-            groups = eq14.in_radii()
-        case ["point"]:
-            groups = eq16.in_radii()
-        case ["leaning", below]:
-            groups = tilted.in_radii(below)
-        case _:
-            groups = (eq05.directions(),)
-    return (*groups, eq03.positions())
+def without_load() -> Groups:
+    """What contact directions and positions are in the radii."""
+    return eq05.directions(), eq03.positions()
+
+
+def _with_positions(forces: Callable[[], Groups]) -> Groups:
+    """What forces, contact directions and positions are in the radii."""
+    return *forces(), eq03.positions()
 
 
 @dataclass(frozen=True)
@@ -61,7 +54,7 @@ class LoadCase:
     loading: Loading
     top: sympy.Symbol
     ordered: tuple[sympy.Expr, ...]
-    groups: Callable[[], tuple[Group, ...]]
+    groups: Callable[[], Groups]
     values: tuple[tuple[sympy.Symbol, sympy.Expr], ...] = ()
 
     @property
@@ -75,19 +68,22 @@ class LoadCase:
         return sympy.Add(*self.ordered) * (n_y if self.dimension == PLANE else 1)
 
 
-def _vertical(load: str, loading: Loading, top: sympy.Symbol, force: sympy.Expr) -> LoadCase:
-    return LoadCase(loading, top, (force / (2 * n_y),) * 2, partial(in_radii, load))
+def _vertical(
+    forces: Callable[[], Groups], loading: Loading, top: sympy.Symbol, force: sympy.Expr
+) -> LoadCase:
+    return LoadCase(loading, top, (force / (2 * n_y),) * 2, partial(_with_positions, forces))
 
 
 def _leaning(load: str, loading: Loading, layers: sympy.Expr) -> LoadCase:
     ordered = layers * L_plus, layers * t * L_plus
-    return LoadCase(loading, M, ordered, partial(in_radii, f"leaning {load}"))
+    forces = partial(tilted.in_radii, load)
+    return LoadCase(loading, M, ordered, partial(_with_positions, forces))
 
 
-_POINT_LOAD = _vertical("point", axioms.POINT, l, f_load)
+_POINT_LOAD = _vertical(eq16.in_radii, axioms.POINT, l, f_load)
 _BY_NAME = {
-    "surface": _vertical("surface", axioms.SURFACE, M, f_load),
-    "bulk": _vertical("bulk", axioms.BULK, M, (M - j) * m_g),
+    "surface": _vertical(eq11.in_radii, axioms.SURFACE, M, f_load),
+    "bulk": _vertical(eq14.in_radii, axioms.BULK, M, (M - j) * m_g),
 }
 _LEANING = {
     "surface": _leaning("surface", axioms.SURFACE_TILTED, sympy.S.One),

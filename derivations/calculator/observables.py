@@ -1,7 +1,6 @@
 """Observables of the calculator: what may stand in them, and where all that they name exists."""
 
 from collections.abc import Iterable
-from functools import partial
 from keyword import iskeyword
 from typing import Any
 
@@ -37,14 +36,13 @@ NAMED = {symbol.name: symbol for symbol in (*INDICES, *_PARAMETERS, *sy.VECTORS)
 """The symbols of ``force_diffusion.symbols``."""
 
 _PLACE = f"only whole numbers and {', '.join(map(text, INDICES))}, times whole numbers, are allowed"
-_WRITTEN = "write sums, products, integer powers and quotients of rational numbers and symbols"
 
 
-def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
-    """An observable, if it holds only what the calculator knows.
+def read(observable: Any, dimension: int) -> sympy.Expr:
+    """An observable, if it holds only symbols and quantities that the calculator knows.
 
     Raises:
-        ObservableError: it holds something else, is a vector, or should be linear and is not.
+        ObservableError: it holds others, a float, or is a vector.
     """
     if isinstance(observable, str):
         raise ObservableError(
@@ -56,18 +54,16 @@ def read(observable: Any, dimension: int, *, linear: bool) -> sympy.Expr:
         expression = sympy.sympify(observable, strict=True)  # else SymPy evaluates text
     except sympy.SympifyError:
         expression = None
-    if not isinstance(expression, sympy.Expr):
+    if not isinstance(expression, sympy.Expr) or expression.is_Matrix:
         raise ObservableError(f"{observable!r} is not a SymPy expression")
     _check_symbols(expression)
-    degree = _degree(expression, dimension, linear)
+    for number in expression.atoms(sympy.Float):
+        raise ObservableError(f"{number} is a float: write a fraction, such as Rational(1, 2)")
+    for quantity in by_name(expression.atoms(sy.SiteFunction, sy.ForceAlong)):
+        _check_quantity(quantity, dimension)
     if is_vector(expression):
         raise ObservableError(
             f"{text(expression)} is a vector: take a component, such as dot(e_y, …)"
-        )
-    if linear and degree > 1:
-        raise ObservableError(
-            f"{text(expression)} is not linear in quantities that depend on the radii; "
-            "mean(…, order=2) accepts products"
         )
     return expression
 
@@ -99,45 +95,6 @@ def _check_symbols(observable: sympy.Expr) -> None:
                 "a valid name of a Python argument"
             )
         own[symbol.name] = symbol
-
-
-def _degree(part: sympy.Basic, dimension: int, linear: bool) -> int:
-    """The degree of a part of an observable in what depends on the radii.
-
-    Args:
-        part: of an observable, or all of it.
-        dimension: of the packing.
-        linear: whether the observable has to be linear.
-
-    Raises:
-        ObservableError: it is not read.
-    """
-    degree = partial(_degree, dimension=dimension, linear=linear)
-    if isinstance(part, sympy.Symbol) or (isinstance(part, sympy.Rational) and part.is_finite):
-        return 0
-    if isinstance(part, sy.SiteFunction | sy.ForceAlong):
-        _check_quantity(part, dimension)
-        return 1
-    if isinstance(part, sympy.Add):
-        return max(map(degree, part.args))
-    if isinstance(part, sympy.Mul | sy.Dot):
-        return sum(map(degree, part.args))
-    if isinstance(part, sy.MeanOver):
-        return degree(part.args[0])
-    if isinstance(part, sympy.Pow) and isinstance(part.exp, sympy.Integer):
-        of_base = degree(part.base)
-        if is_vector(part.base):
-            raise ObservableError(f"{text(part.base)} is a vector, which has no powers")
-        if of_base and part.exp < 0:
-            raise ObservableError(f"{text(part)} divides by a quantity that depends on the radii")
-        return of_base * int(part.exp)
-    if isinstance(part, sympy.Float):
-        raise ObservableError(f"{part} is a float: write a fraction, such as Rational(1, 2)")
-    if linear and part.has(sy.SiteFunction, sy.ForceAlong):
-        raise ObservableError(f"{text(part)} is not linear in quantities that depend on the radii")
-    raise ObservableError(
-        f"{text(part)} can't be used: {_WRITTEN}; for another constant use a symbol of your own"
-    )
 
 
 def _check_quantity(quantity: sympy.Expr, dimension: int) -> None:

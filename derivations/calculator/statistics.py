@@ -1,7 +1,6 @@
 """Mean, variance and covariance of what is linear in the radii, as exact closed forms."""
 
 from collections.abc import Iterable
-from functools import partial
 
 import sympy
 from force_diffusion.numeric.arithmetic.errors import checked, quoted
@@ -12,8 +11,13 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 
 from ..framework.closed_form import ClosedForm
-from .loads import PLANE, LoadCase, ObservableError, in_radii, load_of
+from .loads import PLANE, LoadCase, ObservableError, load_of, without_load
 from .observables import ACROSS, SPHERES, domain, layer_of, read, relations_of
+
+_ALLOWED = (
+    "Allowed are sums of quantities times rational numbers and symbols; in mean(…, order=2) also "
+    "products and whole powers of quantities"
+)
 
 
 def response(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
@@ -165,13 +169,13 @@ def _closed(
     dimension: int,
     where: sympy.Basic | Iterable[sympy.Basic],
 ) -> ClosedForm:
-    under, linear = load_of(load, dimension), kind is not sy.Shift
-    statistic = kind(*(read(each, under.dimension, linear=linear) for each in observables))
+    under = load_of(load, dimension)
+    statistic = kind(*(read(each, under.dimension) for each in observables))
     on = domain(statistic.args, under, *relations_of(where))
     scales = _scales(statistic, under) if relative else {}
     groups = under.groups
     if under.dimension == PLANE and not on.loading:
-        groups = partial(in_radii, "")
+        groups = without_load
     multiple, divisor = _without_divisors(statistic.xreplace(scales))
     divisor = divisor.xreplace(dict(under.values))
     if divisor == 0:
@@ -179,6 +183,8 @@ def _closed(
     form = ClosedForm(statistic, multiple, on, groups, divisor=divisor, values=dict(under.values))
     try:
         _ = form.function
+    except NotExactError as reason:
+        raise ObservableError(f"{text(statistic)}: {reason}. {_ALLOWED}") from None
     except NotProvedError as reason:
         raise ObservableError(f"{text(statistic)}: {reason}") from None
     return form

@@ -107,16 +107,13 @@ class CoqStatement:
 
     @property
     def acceptance(self) -> str:
-        """The file that compares both; it ends by naming the axioms."""
+        """The file that compares both, and names the axioms."""
         compared = (
             f"Definition accepted_{part.name} : {LIBRARY}.{self.statement_in}.{part.name} :=\n"
-            f"  {LIBRARY}.{self.module}.{part.name}.\n"
+            f"  {LIBRARY}.{self.module}.{part.name}.\nPrint Assumptions accepted_{part.name}.\n"
             for part in self.parts
         )
-        return (
-            f"From {LIBRARY} Require {self.statement_in} {self.module}.\n{''.join(compared)}"
-            "Print Assumptions accepted_statement.\n"
-        )
+        return f"From {LIBRARY} Require {self.statement_in} {self.module}.\n{''.join(compared)}"
 
     @property
     def hash(self) -> str:

@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from textwrap import fill
 from typing import Any
 
@@ -146,13 +146,6 @@ def trouble_lines(outcome: ProofOutcome) -> list[str]:
         for check in outcome.checks
         if not (check.verdict.is_proved or check.is_expected)
     ]
-
-
-def markdown_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table as Markdown; the cells are text."""
-    lines = (head, ("---",) * len(head), *rows)
-    escaped = ([cell.replace("|", r"\|") for cell in line] for line in lines)
-    return "\n".join(f"| {' | '.join(line)} |" for line in escaped)
 
 
 def statement_data(derivation: Statement) -> dict[str, Any]:

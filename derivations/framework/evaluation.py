@@ -35,7 +35,7 @@ _ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], Any]]] = {
     sy.j: ("a whole number from 0 up", lambda value: value >= 0),
     sy.l: ("a whole number from 0 up", lambda value: value >= 0),
 }
-TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], Any]]] = {
+_TOGETHER: dict[tuple[sympy.Symbol, ...], tuple[str, Callable[[Any, Any], Any]]] = {
     (sy.j, sy.M): ("0 ≤ j < M", lambda j, height: j < height),
     (sy.j, sy.l): ("0 ≤ j ≤ l", lambda j, level: j <= level),
 }
@@ -108,7 +108,7 @@ def read_arguments(
             number, (words, allowed) = value, _WHOLE
         if not allowed(value) or (symbol.is_integer and not value.is_integer):
             raise ArgumentError(f"{name} = {quoted(number)}: {words} is allowed")
-    for pair, (words, together) in TOGETHER.items() if in_packing else ():
+    for pair, (words, together) in _TOGETHER.items() if in_packing else ():
         if set(pair) <= set(values) and not together(*(values[symbol] for symbol in pair)):
             raise ArgumentError(f"{with_values(pair, values)}: {words} is allowed")
     if sy.z in needed - {*values}:

@@ -8,7 +8,7 @@ from functools import cached_property
 import sympy
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic.algebra.exact import FIELD
-from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted
+from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted, undecided
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Theorem
@@ -30,8 +30,8 @@ from .record import FIRST_ORDER, SECOND_ORDER, Statement, usual
 Forms = Mapping[str, ClosedForm]
 """Closed forms by name; the first is the usual one."""
 
-Decide = Callable[[Forms], Ruling]
-"""Rules on a statement about closed forms."""
+Claims = Callable[[Forms], Mapping[str, Ruling]]
+"""Rules on statements about closed forms, which are their keys."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -48,7 +48,7 @@ class Row(Statement):
         exact: gives the closed forms by name; the quantity of each holds a symbol of its own.
         meaning: what they say, in a sentence.
         quantities: symbols with their meanings, where these are not the usual ones.
-        claimed: further statements, and what decides each from the closed forms.
+        claimed: further statements, and what is found of each from the closed forms.
     """
 
     number: Number
@@ -58,7 +58,7 @@ class Row(Statement):
     exact: Callable[[], Forms]
     meaning: str
     quantities: tuple[tuple[sympy.Basic, str], ...]
-    claimed: Mapping[str, Decide]
+    claimed: Claims
 
     @property
     def remarks(self) -> tuple[str, ...]:  # type: ignore[override]
@@ -110,7 +110,7 @@ class Row(Statement):
     @cached_property
     def claims(self) -> tuple[tuple[str, Ruling], ...]:
         """Further statements, and what is found of them."""
-        return tuple((words, decide(self.exact_forms)) for words, decide in self.claimed.items())
+        return tuple(self.claimed(self.exact_forms).items())
 
     @property
     def theorems(self) -> tuple[Theorem, ...]:
@@ -136,120 +136,97 @@ class Row(Statement):
 copyreg.pickle(Row, pickled)
 
 
-# what may be claimed of the form of some name
+def form_of(number: Number, name: str) -> ClosedForm:
+    """A closed form of an equation or a row."""
+    return load(number).exact_forms[name]
+
+
+# what may be claimed of a form
 
 Values = Mapping[sympy.Symbol, sympy.Expr]
 _HALF = sympy.Rational(1, 2)
 
 
-def leads(name: str, *terms: sympy.Expr) -> Decide:
+def leads(form: ClosedForm, *terms: sympy.Expr) -> Ruling:
     """The highest powers of M at fixed z come with these terms."""
-
-    def decide(forms: Forms) -> Ruling:
-        return are_same(forms[name].leading(len(terms)), sympy.Add(*terms))
-
-    return decide
+    return are_same(form.leading(len(terms)), sympy.Add(*terms))
 
 
 def goes_as(
-    name: str,
+    form: ClosedForm,
     value: sympy.Expr,
     *where: sympy.Basic,
     growing: sympy.Symbol = M,
     at: Values | None = None,
-) -> Decide:
+) -> Ruling:
     """On a part of the domain, other symbols put in, the highest power has this value."""
-    return lambda forms: are_same(
-        highest(forms[name].on(*where).xreplace(at or {}), growing), value
-    )
+    return are_same(highest(form.on(*where).xreplace(at or {}), growing), value)
 
 
-def averages_to(name: str, value: sympy.Expr) -> Decide:
+def averages_to(form: ClosedForm, value: sympy.Expr) -> Ruling:
     """That is the mean of the leading order over all heights, 0 < z < 1."""
-
-    def decide(forms: Forms) -> Ruling:
-        return are_same(sympy.integrate(sympy.expand(forms[name].leading(1)), (z, 0, 1)), value)
-
-    return decide
+    return are_same(sympy.integrate(sympy.expand(form.leading(1)), (z, 0, 1)), value)
 
 
 def equals(
-    name: str,
-    value: sympy.Expr | str | tuple[Number, str],
+    form: ClosedForm,
+    value: sympy.Expr | ClosedForm,
     *where: sympy.Basic,
     at: Values | None = None,
     factor: sympy.Expr = sympy.S.One,
-) -> Decide:
-    """It is an expression, or a form of some row times a factor, on a part of its domain."""
-
-    def decide(forms: Forms) -> Ruling:
-        form = forms[name]
-        function = form.function.put_in(at or {}).part(*where)
-        if isinstance(value, sympy.Expr):
-            other = PiecewiseFunction.of(value, form.kernel_domain.also(*where))
-        elif isinstance(value, tuple):
-            other = load(value[0]).exact_forms[value[1]].function
-        else:
-            other = forms[value].function
-        apart = function.weights - other.weights.scaled(FIELD.from_sympy(factor))
-        return ruled(apart.on(function.points).is_zero(), f"{text(form.quantity)} is another one")
-
-    return decide
+) -> Ruling:
+    """It is an expression, or another form, times a factor, on a part of its domain."""
+    function = form.function.put_in(at or {}).part(*where)
+    if isinstance(value, ClosedForm):
+        other = value.function
+    else:
+        other = PiecewiseFunction.of(value, form.kernel_domain.also(*where))
+    apart = function.weights - other.weights.scaled(FIELD.from_sympy(factor))
+    return ruled(apart.on(function.points).is_zero(), f"{text(form.quantity)} is another one")
 
 
-def agrees_below_surface(name: str, surface: tuple[Number, str]) -> dict[str, Decide]:
-    """The claim that under a bulk load the highest layer is that of a surface load."""
+def agrees_below_surface(under: str, form: ClosedForm, surface: ClosedForm) -> dict[str, Ruling]:
+    """The claim, under a bulk load, that the highest layer is that of a surface load."""
     words = "one layer below the surface both loads agree"
-    return {words: equals(name, surface, sympy.Eq(j, M - 1))}
+    return {words: equals(form, surface, sympy.Eq(j, M - 1))} if under == "bulk" else {}
 
 
-def adds_up_to_zero(name: str, index: sympy.Symbol, weight: sympy.Expr = sympy.S.One) -> Decide:
+def adds_up_to_zero(
+    form: ClosedForm, index: sympy.Symbol, weight: sympy.Expr = sympy.S.One
+) -> Ruling:
     """The weighted sum over all layers j, or over all beads i of a layer, vanishes."""
-
-    def decide(forms: Forms) -> Ruling:
-        total = forms[name].function.total(index, weight)
-        return ruled(total.is_zero(), "the sum is not zero")
-
-    return decide
+    try:
+        return ruled(form.function.total(index, weight).is_zero(), "the sum is not zero")
+    except sets.OpenSumError as reason:
+        return undecided(str(reason))
 
 
-def is_free_of(name: str, symbol: sympy.Symbol) -> Decide:
+def is_free_of(form: ClosedForm, symbol: sympy.Symbol) -> Ruling:
     """No formula holds a symbol."""
-
-    def decide(forms: Forms) -> Ruling:
-        depends = any(piece.expr.has(symbol) for piece in forms[name].pieces)
-        return ruled(not depends, f"a formula holds {text(symbol)}")
-
-    return decide
+    depends = any(piece.expr.has(symbol) for piece in form.pieces)
+    return ruled(not depends, f"a formula holds {text(symbol)}")
 
 
 def turns_positive(
-    name: str, symbol: sympy.Symbol, threshold: sympy.Expr, *where: sympy.Basic
-) -> Decide:
+    form: ClosedForm, symbol: sympy.Symbol, threshold: sympy.Expr, *where: sympy.Basic
+) -> Ruling:
     """The leading order is positive above a value of z or φ alone, and negative below it."""
-
-    def decide(forms: Forms) -> Ruling:
-        form = forms[name]
-        leading = highest(form.on(*where), M) if where else form.leading(1)
-        factor = symbol - threshold
-        if threshold.is_number:
-            factor = sympy.minimal_polynomial(threshold, symbol)
-            rising = sympy.diff(factor, symbol).subs(symbol, threshold) > 0
-            if not rising or sympy.Poly(factor, symbol).count_roots(-_HALF, _HALF) != 1:
-                return refuted(f"{text(factor)} does not only rise through zero")
-        return _has_sign(sympy.cancel(leading / factor), 1)
-
-    return decide
+    leading = highest(form.on(*where), M) if where else form.leading(1)
+    factor = symbol - threshold
+    if threshold.is_number:
+        factor = sympy.minimal_polynomial(threshold, symbol)
+        rising = sympy.diff(factor, symbol).subs(symbol, threshold) > 0
+        if not rising or sympy.Poly(factor, symbol).count_roots(-_HALF, _HALF) != 1:
+            return refuted(f"{text(factor)} does not only rise through zero")
+    return _has_sign(sympy.cancel(leading / factor), 1)
 
 
-def has_sign(name: str, expected: int, *where: sympy.Basic, at: Values | None = None) -> Decide:
+def has_sign(
+    form: ClosedForm, expected: int, *where: sympy.Basic, at: Values | None = None
+) -> Ruling:
     """It is positive (1) or negative (−1) on a part of its domain; indices put in may be zero."""
-
-    def decide(forms: Forms) -> Ruling:
-        value = forms[name].on(*where).xreplace(at or {})
-        return _has_sign(value, expected, sets.where(*(symbol >= 0 for symbol in at or ())))
-
-    return decide
+    value = form.on(*where).xreplace(at or {})
+    return _has_sign(value, expected, sets.where(*(symbol >= 0 for symbol in at or ())))
 
 
 def highest(value: sympy.Expr, symbol: sympy.Symbol) -> sympy.Expr:

@@ -84,12 +84,6 @@ def test_a_proof_runs_its_premises():
     assert "It rests on no other equation." in repr(fd.equation(1).prove())
 
 
-@pytest.mark.long
-def test_a_table_of_checks_for_notebooks():
-    proof = fd.equation(1).prove()
-    lines = proof._repr_markdown_().splitlines()
-    table = [line for line in lines if line.startswith("|")]
-    assert len(table) == len(proof.checks) + 2
-    assert {len(re.findall(r"(?<!\\)\|", line)) for line in table} == {5}
+def test_steps_in_notebooks_have_formulas():
     steps = fd.equation(13).steps()
     assert steps._repr_markdown_().count("$$") == 2 * len(steps)

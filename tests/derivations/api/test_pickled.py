@@ -1,11 +1,8 @@
 """Equations and what is found of them after a journey: the same, and no theorem comes of it."""
 
-import inspect
 import pickle
-import pydoc
 from typing import Any
 
-import numpy as np
 import pytest
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load
@@ -39,15 +36,3 @@ def test_proofs_and_steps():
     assert again(ruling) == ruling
     form = fd.equation(13).exact()
     assert again(form).decide(form.expr).verdict == "proved"
-
-
-def test_a_function_goes_to_other_processes():
-    equation = fd.equation(13)
-    function = equation.function()
-    found = again(function)
-    given = {"M": np.array([3, 10]), "z": 0.5, "phi": 0.1, "sigma": 0.01, "r": 1}
-    assert np.array_equal(found(**given), function(**given))
-    assert inspect.signature(found) == inspect.signature(function)
-    assert inspect.getdoc(found) == inspect.getdoc(function)
-    assert repr(found) == repr(function)
-    assert "0 ≤ z ≤ 1" in pydoc.render_doc(equation.function())

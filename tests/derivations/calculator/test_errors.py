@@ -18,15 +18,12 @@ IN_SPACE = f_along(1, i, j, k)
 own = sympy.Symbol
 
 OBSERVABLES = [
-    (
-        FORCE * f_minus(i, j),
-        r"f⁻_ij f⁺_ij is not linear in quantities that depend on the radii; mean\(",
-    ),
-    (FORCE / f_minus(i, j), "divides by a quantity that depends on the radii"),
-    (sympy.sin(FORCE), r"sin\(f⁺_ij\) is not linear"),
-    (sympy.exp(phi) * FORCE, r"exp\(φ\) can't be used: .* a symbol of your own"),
+    (FORCE * f_minus(i, j), r"f⁻_ij f⁺_ij\): a product of two .* in mean\(…, order=2\) also"),
+    (FORCE / f_minus(i, j), r"f⁺_ij/f⁻_ij\): a product of two .* is not linear"),
+    (sympy.sin(FORCE), r"sin\(f⁺_ij\)\): sin.* is not a rational function"),
+    (sympy.exp(phi) * FORCE, r"exp\(φ\) is not a rational function of the symbols"),
     (0.5 * FORCE, r"is a float: write a fraction, such as Rational\(1, 2\)"),
-    (sympy.oo * FORCE, "oo can't be used"),
+    (sympy.oo * FORCE, "oo is not a number"),
     (own("phi") * FORCE, "phi is not the phi of force_diffusion.symbols: import"),
     (f_plus(own("i"), j), "i is not the i of force_diffusion.symbols"),
     (own("a") * own("a", real=True) * FORCE, "two symbols have the name a"),
@@ -43,9 +40,9 @@ OBSERVABLES = [
     (IN_SPACE, "is a force between spheres: give dimension=3"),
     (Position(i, j), "x_ij does not depend on the radii, or is not known"),
     (delta_x(i, j), r"δx_ij is a vector: take a component, such as dot\(e_y, …\)"),
-    (delta_x(i, j) ** 2, "δx_ij is a vector, which has no powers"),
+    (delta_x(i, j) ** 2, "δx_ij² is a vector"),
     ([FORCE], "is not a SymPy expression"),
-    (sympy.eye(2), "can't be used"),
+    (sympy.eye(2), "is not a SymPy expression"),
     (f_plus, r"needs a place, as in f_plus\(i, j\)"),
 ]
 
@@ -73,7 +70,7 @@ CALLS: list[tuple[Callable[[Any], Any], tuple[Any, ...], str]] = [
      "that is not known in three dimensions"),
     (lambda order: fd.mean(FORCE, order=order), (0, 3, "2", None), "1 and 2 are allowed"),
     (lambda one: fd.mean(one, order=2), (FORCE**5,), "the power 5 of f⁺_ij is not a whole number"),
-    (lambda one: fd.mean(one, order=2), (1 / FORCE,), "divides by a quantity that depends on"),
+    (lambda one: fd.mean(one, order=2), (1 / FORCE,), "f⁺_ij is not determined by .* whole"),
     (lambda where: fd.variance(FORCE, where=where),
      ("j >= 2", [j], phi > 0, None, [j > 2, "M"], j**2 > 3),
      "relations between indices are allowed, such as"),

@@ -140,7 +140,7 @@ def test_exact_displays_are_the_closed_forms(tag):
     forms = load(tag).exact_forms
     for name, (relation, value) in zip(EXACT[tag], displays()[tag], strict=True):
         assert relation == "="
-        assert equals(name, value, *DOMAINS[tag])(forms).verdict.is_proved
+        assert equals(forms[name], value, *DOMAINS[tag]).verdict.is_proved
 
 
 @pytest.mark.parametrize("tag", each(LEADING))
@@ -164,8 +164,8 @@ def test_limits_are_those_of_the_closed_forms(tag):
     ):
         assert relation == r"\sim"
         in_layer = value.subs(j, LAYER[name]) if tag == "B19" else value.xreplace(at)
-        decide = goes_as(name, in_layer, *where, growing=growing, at=at)
-        assert decide(load(label).exact_forms).verdict.is_proved
+        form = load(label).exact_forms[name]
+        assert goes_as(form, in_layer, *where, growing=growing, at=at).verdict.is_proved
 
 
 @pytest.mark.long
@@ -198,12 +198,13 @@ def test_the_force_under_a_leaning_load_is_the_printed_one():
 )
 def test_formulas_within_sentences(words, label, name, where, at):
     assert TEXT.count(f"${words}$") == 1
-    decide = (
-        equals(name, read(words), *where, at=at)
+    form, value = load(label).exact_forms[name], read(words)
+    ruling = (
+        equals(form, value, *where, at=at)
         if isinstance(at, dict)
-        else goes_as(name, read(words), *where, growing=at)
+        else goes_as(form, value, *where, growing=at)
     )
-    assert decide(load(label).exact_forms).verdict.is_proved
+    assert ruling.verdict.is_proved
 
 
 @pytest.mark.long
