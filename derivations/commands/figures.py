@@ -1,18 +1,19 @@
 """The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
+from collections.abc import Collection
 from enum import StrEnum
 from fractions import Fraction
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import printable
+from force_diffusion.numeric.arithmetic.decimals import parse
+from force_diffusion.numeric.arithmetic.errors import printable, quoted
 from force_diffusion.numeric.figures.names import (
     FIGURES,
     HEIGHTS,
     KINDS,
-    LEAST_REALISATIONS,
     MODELS,
     OF_ENSEMBLES,
     OF_MODELS,
@@ -32,8 +33,6 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure
     from force_diffusion.numeric.figures.packings import Notice
 
-MOST_REALISATIONS = 1_000_000
-HIGHEST, MOST_HEIGHTS = 10_000, 6
 STATUSES = (
     "Exit status: 0 made, 2 wrong usage, 3 matplotlib is missing, or the disk or the memory "
     "failed, 130 interrupted."
@@ -47,31 +46,32 @@ class Model(StrEnum):
     DOUBLE_Y = "double-y"
 
 
-def _heights(text: str | None) -> tuple[int, ...] | None:
+def _heights(text: str) -> tuple[int, ...]:
     """Read heights from outside text: whole numbers between commas."""
-    if text is None:
-        return None
     try:
-        heights = tuple(map(int, text.split(",")))
+        return tuple(map(int, text.split(",")))
     except ValueError:
-        heights = ()
-    different = len(set(heights)) == len(heights) <= MOST_HEIGHTS
-    if not heights or not different or not all(1 <= M <= HIGHEST for M in heights):
         raise typer.BadParameter(
-            f"'{text}' doesn't name heights. Give up to {MOST_HEIGHTS} different whole numbers "
-            f"from 1 to {HIGHEST}, with commas between them, such as 32,128.",
-            param_hint="--heights",
-        )
-    return heights
+            f"{quoted(text)}: give whole numbers with commas between them, such as 32,128."
+        ) from None
 
 
-def _number(option: str, text: str | None) -> Fraction | None:
-    from force_diffusion.numeric.arithmetic.decimals import parse
-
+def _number(text: str) -> Fraction:
+    """Read a decimal from outside text."""
     try:
-        return None if text is None else parse(text)
+        return parse(text)
     except ValueError as error:
-        raise typer.BadParameter(f"{error}.", param_hint=option) from None
+        raise typer.BadParameter(f"{error}.") from None
+
+
+def _figure(word: str) -> str:
+    """Read the name of a figure, or of a scene's file."""
+    if word not in FIGURES and not word.endswith(".toml"):
+        raise typer.BadParameter(
+            f"There is no figure '{printable(word)}'. Give any of {', '.join(FIGURES)}, or a "
+            "scene, FILE.toml."
+        )
+    return word
 
 
 def figures(
@@ -79,6 +79,7 @@ def figures(
         list[str] | None,
         typer.Argument(
             metavar="WHICH",
+            parser=_figure,
             help=f"Figures: {', '.join(FIGURES)}; by default all. Or your own scene, FILE.toml, "
             f"that asks for {either(answered('figures'))}; of spheres for "
             f"{either(answered('figures', dimension=3))}.",
@@ -86,17 +87,17 @@ def figures(
     ] = None,
     out: Annotated[Path, out_option("PNG, SVG, PDF and CSV")] = Path("figures"),
     heights: Annotated[
-        str | None,
+        Collection[int] | None,
         typer.Option(
-            metavar="M,M...", help=f"Heights of figure 3; {','.join(map(str, HEIGHTS))} by default."
+            metavar="M,M...",
+            parser=_heights,
+            help=f"Heights of figure 3; {','.join(map(str, HEIGHTS))} by default.",
         ),
     ] = None,
     realisations: Annotated[
         int | None,
         typer.Option(
             metavar="N",
-            min=LEAST_REALISATIONS,
-            max=MOST_REALISATIONS,
             help="Packings of each ensemble; by default "
             + ", ".join(f"{FIGURES[name].realisations} in {name}" for name in OF_ENSEMBLES)
             + ".",
@@ -117,13 +118,19 @@ def figures(
         ),
     ] = None,
     spacing: Annotated[
-        str | None,
-        typer.Option(metavar="S", help=f"s/r of figures {', '.join(OWN_SPACING)}; 3 by default."),
+        Fraction | None,
+        typer.Option(
+            metavar="S",
+            parser=_number,
+            help=f"s/r of figures {', '.join(OWN_SPACING)}; 3 by default.",
+        ),
     ] = None,
     relative_std: Annotated[
-        str | None,
+        Fraction | None,
         typer.Option(
-            metavar="X", help=f"σ/r of figures {', '.join(OWN_STD)}, instead of the defaults."
+            metavar="X",
+            parser=_number,
+            help=f"σ/r of figures {', '.join(OWN_STD)}, instead of the defaults.",
         ),
     ] = None,
     as_json: Json = False,
@@ -131,23 +138,15 @@ def figures(
 ) -> None:
     """Draw the paper's figures from new simulations of exact packings."""
     wanted = list(dict.fromkeys(which or FIGURES))
-    scenes = [name for name in wanted if name.endswith(".toml")]
-    for name in wanted:
-        if name not in FIGURES and name not in scenes:
-            raise typer.BadParameter(
-                f"There is no figure '{printable(name)}'. Give any of {', '.join(FIGURES)}, or a "
-                "scene, FILE.toml.",
-                param_hint="WHICH",
-            )
-    limited: dict[str, tuple[Any, tuple[str, ...]]] = {
-        "heights": (_heights(heights), ("3",)),
+    scenes = [name for name in wanted if name not in FIGURES]
+    options: dict[str, tuple[Any, tuple[str, ...]]] = {
+        "heights": (heights, ("3",)),
         "realisations": (realisations, OF_ENSEMBLES),
-        "spacing": (_number("--spacing", spacing), OWN_SPACING),
-        "relative_std": (_number("--relative-std", relative_std), OWN_STD),
+        "spacing": (spacing, OWN_SPACING),
+        "relative_std": (relative_std, OWN_STD),
     }
-    for key, (value, those) in [
-        *limited.items(), *((f"with {model}", (model, (MODELS[model],))) for model in beside or [])
-    ]:  # fmt: skip
+    models = {f"with {model}": (model, (MODELS[model],)) for model in beside or ()}
+    for key, (value, those) in {**options, **models}.items():
         if value is not None and not set(those) & set(wanted):
             add = those[0] if len(those) == 1 else "one of them"
             raise typer.BadParameter(
@@ -177,16 +176,14 @@ def figures(
             if name in scenes:
                 made = _own(Path(name), data["command"], notice)
             else:
-                chosen: dict[str, Any] = {
+                own = {
                     key: value
-                    for key, (value, those) in limited.items()
+                    for key, (value, those) in options.items()
                     if value is not None and name in those
                 }
-                chosen["beside"] = [model for model in beside or [] if MODELS[model] == name]
-                seeded = 1 if seed is None else seed
-                made = fd.figure(
-                    name, seed=seeded, notice=notice, command=data["command"], **chosen
-                )
+                own["beside"] = [model for model in beside or () if MODELS[model] == name]
+                own["seed"] = 1 if seed is None else seed
+                made = fd.figure(name, notice=notice, command=data["command"], **own)
         entry = {"title": made.title, "files": list(made.files), "says": made.lines, **made.facts}
         data["figures"][name] = entry
         text = json.dumps({"command": data["command"], **entry}, indent=2, allow_nan=False)

@@ -34,8 +34,9 @@ USAGE = [
 WRONG = [
     ("show 13 12 --exact", "Eq. 12 has no exact form at finite size; these have one: 13, 14"),
     ("figures 5", "no figure '5'"),
-    ("figures 3 --heights 0", "1 to 10000"),
-    ("figures 3 --heights 1,2,3,4,5,6,7", "up to 6"),
+    ("figures 3 --heights 0", "packing.height = 0: must be from 1"),
+    ("figures 3 --heights 1,b", "'1,b': give whole numbers"),
+    ("figures 3 --realisations 3", "a whole number from 16 up"),
     ("figures 1 --heights 8", "add 3"),
     ("figures 2 --realisations 100", "3, 4, pf, B2, B5, B7, B9, B13 only"),
     ("figures 3 --with triple-z", "'q-model', 'double-y'"),
