@@ -27,13 +27,17 @@ OFFSET = np.uint64(2**62)
 TOGETHER, AT_ONCE = 200_000, 8192
 
 
-class RadiusError(ForceDiffusionError, ValueError):
-    """A radius is missing or not positive; ``site`` names the bead."""
+class BeadError(ForceDiffusionError, ValueError):
+    """A packing can't be built; the message names the bead, as does ``site``, and says why."""
 
     def __init__(self, site: tuple[int, ...], reason: str) -> None:
         """Name the bead and what is wrong."""
         super().__init__(f"bead {site}: {reason}")
         self.site, self.reason = site, reason
+
+
+class RadiusError(BeadError):
+    """A radius is missing or not positive; ``site`` names the bead."""
 
 
 class Radii(Protocol):

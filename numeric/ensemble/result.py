@@ -11,7 +11,7 @@ from .. import tables
 from ..accuracy import known_digits, of_errors
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import Array
-from ..lattice.branch import ORDER, direction
+from ..lattice.branch import ORDER, Branch
 from ..quantities.base import RATIO, SCATTER_OF
 from ..scene.scene import source_of
 from ..statistics.confidence import half_width
@@ -187,7 +187,7 @@ class Ensemble(tables.Answered):
         if theory is None or "j" not in self.index or "component" in self.index:
             return None
         contacts = zip(self.index["branch"], self.index["j"], strict=True)
-        return np.array([float(theory(j)[direction(b).number]) for b, j in contacts]) * self._unit
+        return np.array([float(theory(j)[Branch(b).number]) for b, j in contacts]) * self._unit
 
     @property
     def tensile(self) -> Array:

@@ -17,12 +17,12 @@ import numpy as np
 
 from ..arithmetic.errors import ArgumentError, quoted
 from ..arithmetic.systems import FLOAT64, Array
+from ..disorder.radii import BeadError
 from ..mechanics import engine
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
 from ..planning.plan import Plan
 from ..planning.planner import plan
-from ..quantities.answer import UNBUILDABLE
 from ..quantities.base import ContactQuantity, first_order_std
 from ..scene.scene import CheckedScene, refuse
 from ..scene.sections import SceneError
@@ -248,7 +248,7 @@ def _solved(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:
     try:
         packings = engine.packings(problem, numbers, FLOAT64)
         yield from [_measured(m, solved, some) for solved, some in packings]
-    except UNBUILDABLE:
+    except BeadError:
         if len(numbers) > 1:
             half = len(numbers) // 2
             yield from _solved(m, numbers[:half])
@@ -278,6 +278,6 @@ def why_left_out(m: Measurement, number: int) -> Exception | None:
     try:
         with FLOAT64.active():
             list(engine.packings(m.problem, [number], FLOAT64))
-    except UNBUILDABLE as error:
+    except BeadError as error:
         return error
     return None

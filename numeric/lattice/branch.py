@@ -6,69 +6,44 @@ from typing import NamedTuple
 Site = tuple[int, int]
 
 
-class Direction(StrEnum):
-    """Along which base vector a contact leads up."""
+class Branch(StrEnum):
+    """Along which base vector a contact leads up: two branches of discs, three axes of spheres.
 
-    @property
-    def side(self) -> int:
-        """The change of i; 0 in three dimensions, where nothing is called i."""
-        return 0
+    Those of discs are orientations, from the lower bead (i, j) up to (i + side, j + 1).
 
-    @property
-    def number(self) -> int:
-        """0, 1, …, in the order in which they are named."""
-        return list(type(self)).index(self)
-
-
-class Branch(Direction):
-    """Orientation of a contact: from its lower bead (i, j) up to (i + side, j + 1).
-
-    >>> [(branch.value, branch.side) for branch in Branch]
-    [('+', 1), ('-', -1)]
+    >>> [(branch.value, branch.side, branch.number) for branch in directions(2)]
+    [('+', 1, 0), ('-', -1, 1)]
     """
 
     PLUS = "+"
     MINUS = "-"
-
-    @property
-    def side(self) -> int:
-        """+1 for the contacts that lead up and to the right, −1 for the others."""
-        return 1 if self is Branch.PLUS else -1
-
-    @property
-    def other(self) -> "Branch":
-        """The other branch."""
-        return Branch.MINUS if self is Branch.PLUS else Branch.PLUS
-
-
-class Axis(Direction):
-    """One of the three base vectors in three dimensions.
-
-    >>> [(axis.value, axis.number) for axis in Axis], Branch.MINUS.number
-    ([('1', 0), ('2', 1), ('3', 2)], 1)
-    """
-
     FIRST = "1"
     SECOND = "2"
     THIRD = "3"
 
+    @property
+    def side(self) -> int:
+        """The change of i; 0 in three dimensions, where nothing is called i."""
+        return {"+": 1, "-": -1}.get(self, 0)
 
-def directions(dimension: int) -> tuple[Direction, ...]:
+    @property
+    def number(self) -> int:
+        """0, 1, …, in the order in which they are named."""
+        return ("+-" if self.side else "123").index(self)
+
+    @property
+    def other(self) -> "Branch":
+        """The other branch of discs."""
+        return Branch.MINUS if self is Branch.PLUS else Branch.PLUS
+
+
+def directions(dimension: int) -> tuple[Branch, ...]:
     """Give the directions along which contacts lead up.
 
     >>> [one.value for one in directions(2)], [one.value for one in directions(3)]
     (['+', '-'], ['1', '2', '3'])
     """
-    return tuple(Branch if dimension == 2 else Axis)
-
-
-def direction(name: str) -> Direction:
-    """Give a branch or an axis by its name.
-
-    >>> direction("-"), direction("2")
-    (<Branch.MINUS: '-'>, <Axis.SECOND: '2'>)
-    """
-    return Axis(name) if name.isdigit() else Branch(name)
+    return tuple(map(Branch, "+-" if dimension == 2 else "123"))
 
 
 ORDER = ("branch", "q", "p", "i", "j")

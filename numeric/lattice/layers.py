@@ -18,7 +18,7 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .branch import Direction, Site, bead_names, direction, directions
+from .branch import Branch, Site, bead_names, directions
 
 Array = NDArray[Any]
 _NONE = np.empty(0, dtype=np.int64)
@@ -318,7 +318,7 @@ def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: A
 class Block(NamedTuple):
     """Contacts of one branch below a row of upper beads."""
 
-    branch: Direction
+    branch: Branch
     row: Layer
 
 
@@ -329,7 +329,7 @@ class Naming(NamedTuple):
     side: int | None
 
     @property
-    def branches(self) -> tuple[Direction, ...]:
+    def branches(self) -> tuple[Branch, ...]:
         """Along which contacts lead up."""
         return directions(self.dimension)
 
@@ -367,7 +367,7 @@ class Naming(NamedTuple):
     def contact(self, at: Sequence[Any]) -> Block:
         """Give the contact that a scene names by its lower bead and its branch."""
         *below, name = at
-        branch = direction(name)
+        branch = Branch(name)
         steps = [int(axis == branch.number) for axis in range(self.dimension)]
         i, j = self.site(self.beyond([*map(int, below)], steps))
         return Block(branch, Layer(j, i, 1))

@@ -6,7 +6,7 @@ a layer that are the same modulo 2W. For exact forces it is enough to look at la
 stand on images. There the triangle below a loaded bead (k, l) ends at k − l and k + l.
 """
 
-from itertools import combinations
+import numpy as np
 
 from ..lattice.branch import Contact
 from . import first_order
@@ -57,22 +57,14 @@ def _of_spheres(problem: Problem) -> bool:
 
 
 def _first_order(contact: Contact, load: LoadSpec, width: int) -> bool:
-    """Look at the diagonals that decide a contact, and at the loads above it."""
+    """Say whether loads stand on a contact twice, or its diagonals hold a bead and its image."""
     i, j = contact.upper
     for k, m in load.loaded or []:
         rise = m - j
         if rise >= 0 and (k - i + rise) % (2 * width) + 2 * width <= 2 * rise:
             return True  # the load stands on the contact twice
-    lines = first_order.lines_read(contact, load).values()
-    return any(_coincide(a, b, 2 * width) for a, b in combinations(lines, 2))
-
-
-def _coincide(a: first_order.Line, b: first_order.Line, period: int) -> bool:
-    """Say whether two diagonals hold different sites of a layer that are images of each other."""
-    start, end = (a.at(m) - b.at(m) for m in (0, min(a.top, b.top)))
-    # The distance changes by 2 from layer to layer, or not at all: no multiple is jumped over.
-    least, most = min(start, end), max(start, end)
-    return any(
-        high >= period and high // period * period >= low
-        for low, high in ((least, most), (-most, -least))
-    )
+    sites = np.zeros(0, complex)  # i + √−1 j
+    for line in first_order.lines_read(contact, load).values():
+        i_of, j_of = line.rows.sites
+        sites = np.union1d(sites, i_of + 1j * j_of)
+    return len(np.unique(sites.real % (2 * width) + 1j * sites.imag)) < len(sites)

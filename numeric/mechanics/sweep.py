@@ -15,34 +15,21 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arithmetic.carried import CARRYING, NONE, Carried, Carrying, Sizes
-from ..arithmetic.errors import ForceDiffusionError, UndecidedError
+from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
-from ..disorder.radii import Radii, RadiusError
+from ..disorder.radii import BeadError, Radii, RadiusError
 from ..lattice.layers import Layer, Region, Rows, pick
 from .loads import LoadSpec
 from .local import balance, balance_linear, cosine, metric, nested, rest, rest_linear
 from .loops import Loops, loops
 
 
-class UnbuildableError(ForceDiffusionError, ValueError):
+class UnbuildableError(BeadError):
     """A bead can't rest on its supports; ``site`` names it."""
 
-    def __init__(self, site: tuple[int, ...], reason: str) -> None:
-        """Name the bead and what is wrong with it."""
-        super().__init__(f"bead {site}: {reason}")
-        self.site = site
 
-
-class NotStandingError(ForceDiffusionError, ValueError):
+class NotStandingError(BeadError):
     """No forces can hold a bead, because its contacts lie in a line or plane; ``site`` names it."""
-
-    def __init__(self, site: tuple[int, ...]) -> None:
-        """Name the bead."""
-        why = "the two contacts below it are parallel"
-        if len(site) > 2:
-            why = "the contacts below it lie in one plane"
-        super().__init__(f"bead {site}: {why}")
-        self.site = site
 
 
 class SolvedPacking(NamedTuple):
@@ -443,7 +430,10 @@ def check_standing(det: Any, layer: Layer, region: Region, system: NumberSystem)
     good, bad = system.signs(det * det)
     if not good.all():
         wrong = ~good if not bad.any() else bad
-        raise NotStandingError(_site(wrong, layer, region))
+        why = "the contacts below it lie in one plane"
+        if region.dimension == 2:
+            why = "the two contacts below it are parallel"
+        raise NotStandingError(_site(wrong, layer, region), why)
 
 
 def _site(bad: Array, layer: Layer, region: Region) -> tuple[int, ...]:

@@ -8,19 +8,16 @@ import numpy as np
 
 from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import Balls, NumberSystem
-from ..disorder.radii import ArrayRadii, RadiusError
+from ..disorder.radii import ArrayRadii, BeadError
 from ..mechanics.engine import chunk_size, packings
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
-from ..mechanics.sweep import NotStandingError, Solved, UnbuildableError
+from ..mechanics.sweep import Solved
 from ..mechanics.work import Work
 from ..statistics.bins import histogram
 from ..unilateral.network import Network, Relaxed
 from .base import RATIO, Quantity, Table
 from .histogram import Histogram
-
-# What the sweeps raise for a packing that can't be built.
-UNBUILDABLE = (UnbuildableError, NotStandingError, RadiusError)
 
 
 class Answer(NamedTuple):
@@ -104,7 +101,7 @@ def _solved(
         ):
             yield solved, chunk
             done += len(chunk)
-    except UNBUILDABLE as error:
+    except BeadError as error:
         if len(realisations) > 1:
             error.add_note(_which(problem, realisations[done:], system))
         raise
@@ -129,6 +126,6 @@ def _which(problem: Problem, realisations: Sequence[int], system: NumberSystem) 
     for k in realisations[: chunk_size(problem, system)]:
         try:
             list(packings(problem, [k], system))
-        except UNBUILDABLE:
+        except BeadError:
             return f"{word} {k}"
     return f"of {word}s {realisations[0]} on"

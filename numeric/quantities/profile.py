@@ -6,7 +6,7 @@ import numpy as np
 
 from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array, NumberSystem
-from ..lattice.branch import direction
+from ..lattice.branch import Branch
 from ..lattice.layers import Block, Region, full_layer
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
@@ -62,7 +62,7 @@ class Profile(Merged):
         if theory is not None:
             unit = self.scene.load.magnitude
             contacts = zip(index["branch"], index["j"].tolist(), strict=True)
-            stds = [short(theory(j)[direction(b).number] * unit, 12) for b, j in contacts]
+            stds = [short(theory(j)[Branch(b).number] * unit, 12) for b, j in contacts]
             index["first_order_std"] = np.array(stds, dtype="U")
         numbers = {
             "mean": statistics.ordered + statistics.mean,

@@ -26,8 +26,8 @@ from ..arithmetic.errors import (
     printable,
 )
 from ..arithmetic.systems import Array, Balls, BigFloat, as_ball, largest_of
+from ..disorder.radii import BeadError
 from ..mechanics.problem import Route
-from ..mechanics.sweep import NotStandingError, UnbuildableError
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.answer import answer
@@ -46,9 +46,7 @@ FEW = 4
 SHORT, RUNS = 0.2, 3
 # Of a run in which the processor's clock did not tick.
 TICK = 1e-6
-FAILURES = (
-    UnbuildableError, NotStandingError, UndecidedError, ToleranceError, SceneError, ArithmeticError
-)  # fmt: skip
+FAILURES = (BeadError, UndecidedError, ToleranceError, SceneError, ArithmeticError)
 MEASURED, CERTIFIED, STATED, ESTIMATED = "measured", "certified", "stated", "estimated"
 HEAD = f"{'way':<9}{'digits':>6}  {'error':<10}{'':<10}{'seconds':>10}  relative cost"
 

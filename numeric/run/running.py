@@ -13,7 +13,7 @@ from typing import Any
 from ..accuracy import Accuracy, ToleranceError, enclosed, estimated, shortfall
 from ..arithmetic.decimals import Exact, exact, parse
 from ..arithmetic.errors import WrongTypeError, check_progress, checked, quoted
-from ..mechanics.sweep import NotStandingError, UnbuildableError
+from ..disorder.radii import BeadError
 from ..mechanics.work import Progress, Work, bar
 from ..planning.plan import Plan
 from ..planning.planner import in_balls
@@ -67,7 +67,7 @@ def _answered(plan: Plan, work: Work) -> tuple[Plan, Answer, list[Accuracy]]:
         try:
             answer, judged = estimated(plan, work)
             missed = shortfall(plan, answer, judged)
-        except (UnbuildableError, NotStandingError, ArithmeticError) as error:
+        except (BeadError, ArithmeticError) as error:
             if plan.tolerance is None:
                 raise
             missed = str(error)  # rounding may have made it so: balls tell

@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.systems import Array
-from ..lattice.branch import Branch
+from ..lattice.branch import directions
 from ..mechanics.sweep import Solved
 
 
@@ -92,7 +92,7 @@ class Network(NamedTuple):
         (k, upper), (i, j) = self.names(pair[0]), self.names(pair[1])
         if upper != j + 1:
             return ""
-        for branch in Branch:
+        for branch in directions(2):
             if (i + branch.side - k) % (2 * self.width) == 0:
                 return branch.value
         return ""

@@ -14,7 +14,7 @@ from force_diffusion.numeric.arithmetic.carried import CARRYING, Carried
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Balls, as_floats
 from force_diffusion.numeric.disorder import drawing
 from force_diffusion.numeric.disorder.radii import DrawnRadii, RadiusError
-from force_diffusion.numeric.lattice.branch import Branch, Contact
+from force_diffusion.numeric.lattice.branch import Contact, directions
 from force_diffusion.numeric.lattice.layers import Region, Rows, standing_on_base, whole
 from force_diffusion.numeric.lattice.regions import contact_rows, downward_cone, upward_cone
 from force_diffusion.numeric.mechanics import local, loops, sweep
@@ -40,7 +40,7 @@ def regions(draw: st.DrawFn) -> tuple[Region, Rows]:
     top, i = draw(st.integers(1, 8)), draw(st.integers(-9, 9))
     rows = downward_cone([(2 * i + top % 2, top)], width)
     if draw(st.booleans()):
-        contact = Contact(2 * i, 0, draw(st.sampled_from(Branch)))
+        contact = Contact(2 * i, 0, draw(st.sampled_from(directions(2))))
         rows = contact_rows(contact, upward_cone(contact.upper, top, width), width)
     return standing_on_base(rows, width), rows
 
