@@ -7,7 +7,7 @@ matplotlib (the extra ``plots``).
 from . import style  # first: it says what to install
 
 # isort: split
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from math import ceil, cos, radians, sin, sqrt
 from typing import Any
 
@@ -345,10 +345,4 @@ def response(plan: Plan, columns: Columns, errors: Columns, network: Network | N
     return figure
 
 
-DRAWN: dict[str, Callable[[Plan, Columns, Columns, Network | None], Figure]] = {
-    "contact_forces": contact_forces,
-    "positions": positions,
-    "profile": profile,
-    "histogram": histogram,
-    "response": response,
-}
+DRAWN = {own.__name__: own for own in (contact_forces, positions, profile, histogram, response)}

@@ -1,12 +1,13 @@
 """Radii that were measured in an image: their beads are put on the lattice, which is fitted."""
 
 import math
-from collections import deque
 from dataclasses import dataclass
 from numbers import Real
 from pathlib import Path
 
 import numpy as np
+from scipy.sparse import csr_array
+from scipy.sparse.csgraph import breadth_first_order
 from scipy.spatial import cKDTree
 
 from ..arithmetic.errors import WrongTypeError, checked, quoted
@@ -177,21 +178,16 @@ def _placed(places: Array, pixels: Array, wheres: list[str]) -> tuple[Array, Arr
     steep = np.abs(apart.real) < math.tan(LEVEL) * np.abs(apart.imag)
     across, up = np.where(level, 2 * across, across * ~steep), np.where(steep, 2 * up, up * ~level)
     steps = np.stack([across, up], axis=1).astype(np.int64)
-    neighbours: list[list[tuple[int, Array]]] = [[] for _ in wheres]
+    step_of = {}
     for (a, b), step in zip(pairs.tolist(), steps, strict=True):
-        neighbours[a].append((b, step))
-        neighbours[b].append((a, -step))
+        step_of[a, b], step_of[b, a] = step, -step
+    graph = csr_array((np.ones(len(pairs)), pairs.T), (len(wheres), len(wheres)))
+    reached, before = breadth_first_order(graph, 0, directed=False)
     names = np.zeros((len(wheres), 2), dtype=np.int64)
-    reached, waiting = {0}, deque([0])
-    while waiting:
-        a = waiting.popleft()
-        for b, step in neighbours[a]:
-            if b not in reached:
-                reached.add(b)
-                names[b] = names[a] + step
-                waiting.append(b)
+    for b in reached[1:].tolist():
+        names[b] = names[before[b]] + step_of[before[b], b]
     if len(reached) < len(wheres):
-        alone = next(k for k in range(len(wheres)) if k not in reached)
+        alone = np.setdiff1d(np.arange(len(wheres)), reached)[0]
         raise TableError(f"{wheres[alone]}: the bead touches none of those above it in the table")
     wrong = (names[pairs[:, 1]] - names[pairs[:, 0]] != steps).any(axis=1)
     if wrong.any():
