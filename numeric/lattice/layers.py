@@ -9,9 +9,9 @@ one entry a bead, or a contact, row by row.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache, partial
+from functools import cached_property, lru_cache
 from itertools import pairwise
 from typing import Any, NamedTuple, overload
 
@@ -208,19 +208,17 @@ class Region:
         """Give so many steps along one base vector."""
         return tuple(count if a == axis else 0 for a in range(self.dimension))
 
-    def look(
-        self, source: Layer, layer: Layer, steps: tuple[int, ...], zero: Any = None
-    ) -> Callable[[Array], Array]:
-        """Give the function that reads what belongs to row ``source`` at x + Σ steps_a e_a.
+    def columns(self, source: Layer, layer: Layer, steps: tuple[int, ...]) -> Array:
+        """Say where in row ``source`` the beads x + Σ steps_a e_a are, for each x of ``layer``.
 
-        For each x of ``layer``: shapes (…, source.count) → (…, layer.count). Sites that ``source``
-        lacks read ``zero``; without a ``zero`` they raise ``LookupError``.
+        −1 where ``source`` lacks one; shape (layer.count,).
         """
         if self.dimension == 2:
             first = layer.first + steps[0] - steps[1]
             wanted = Layer(layer.j + sum(steps), first, layer.count)
-            return partial(pick, source=source, wanted=wanted, width=self.width, zero=zero)
-        return partial(_turned, side=self.side, steps=steps[:-1]) if any(steps[:-1]) else _itself
+            return columns_of(source, wanted, self.width)
+        numbers = np.arange(layer.count).reshape(self.side, self.side)
+        return np.roll(numbers, [-step for step in steps[:-1]], (0, 1)).ravel()
 
     @cached_property
     def starts(self) -> Array:
@@ -253,16 +251,6 @@ class Region:
         return self.width is not None and self.rows.alike == self.width
 
 
-def _itself(values: Array) -> Array:
-    return values
-
-
-def _turned(values: Array, side: int, steps: tuple[int, ...]) -> Array:
-    """Turn the columns p and q of a layer, each by its step."""
-    columns = values.reshape(*values.shape[:-1], side, side)
-    return np.roll(columns, tuple(-step for step in steps), (-2, -1)).reshape(values.shape)
-
-
 @lru_cache(maxsize=4)
 def whole(width: int, height: int, dimension: int = 2) -> Region:
     """Give all beads of a periodic packing, (M + 1) rows of ``width``."""
@@ -289,29 +277,24 @@ def closed_below(j: Array, first: Array, last: Array, width: int | None) -> Rows
     return Rows.between(left[::-1] + j, right[::-1] - j, width)
 
 
-def pick(values: Array, source: Layer, wanted: Layer, width: int | None, zero: Any = None) -> Array:
-    """Read ``values`` of row ``source`` at the sites of ``wanted`` (its i may lie one off).
-
-    Shapes: (…, source.count) → (…, wanted.count). Sites that ``source`` lacks read ``zero``;
-    without a ``zero`` they raise ``LookupError``.
-    """
-    offset = (wanted.first - source.first) // 2
-    if offset >= 0 and offset + wanted.count <= source.count:
-        return values[..., offset : offset + wanted.count]
-    if source.count == wanted.count == width:  # a whole layer, turned
-        turn = offset % width
-        return np.concatenate((values[..., turn:], values[..., :turn]), axis=-1)
-    index = np.arange(offset, offset + wanted.count)
+def columns_of(source: Layer, wanted: Layer, width: int | None) -> Array:
+    """Say in which columns of row ``source`` the beads of ``wanted`` are; −1 where it lacks one."""
+    columns = (wanted.first - source.first) // 2 + np.arange(wanted.count)
     if width is not None:
-        index %= width
-    missing = (index < 0) | (index >= source.count)
-    if not missing.any():
-        return values[..., index]
-    if zero is None:
-        raise LookupError(f"layer {source.j} lacks supports of layer {wanted.j}")
-    picked = np.empty((*values.shape[:-1], wanted.count), dtype=values.dtype)
-    picked[...] = zero
-    picked[..., ~missing] = values[..., index[~missing]]
+        columns %= width
+    return np.where((columns >= 0) & (columns < source.count), columns, -1)
+
+
+def taken(values: Any, columns: Array, zero: Any = None) -> Any:
+    """Take ``values`` of a row, (…, beads), at ``columns``; where these are −1, ``zero``.
+
+    Without a ``zero`` that raises ``LookupError``.
+    """
+    picked, lacking = values[..., columns], columns < 0
+    if lacking.any():
+        if zero is None:
+            raise LookupError("a row lacks beads that are asked for")
+        picked[..., lacking] = zero
     return picked
 
 

@@ -14,7 +14,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from .branch import Contact, Site
-from .layers import Layer, Region, Rows, closed_below
+from .layers import Layer, Region, Rows, closed_below, taken
 
 
 def triangle(i: int, j: int, width: int | None) -> Region:
@@ -54,7 +54,8 @@ def reached(loaded: Iterable[Site], rows: Rows, region: Region) -> list[Layer]:
         here = np.zeros(row.count, bool)
         here[columns % (region.width or max(row.count, 1))] = True
         for axis in range(region.dimension if upper.count else 0):
-            here |= region.look(upper, row, region.step(axis, 1), False)(above)
+            columns = region.columns(upper, row, region.step(axis, 1))
+            here |= taken(above, columns, False)
         ends = np.flatnonzero(np.diff(here, prepend=False, append=False)).reshape(-1, 2)
         layers += [Layer(row.j, row.first + 2 * a, b - a) for a, b in ends[::-1].tolist()]
         upper, above = row, here

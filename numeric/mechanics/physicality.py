@@ -240,12 +240,12 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
     for j in range(max(region.top + 1 - rise, 0)):
         own = slice(starts[j], starts[j + 1])
         over = slice(starts[j + rise], starts[j + rise + 1])
-        look = region.look(layers[j + rise], layers[j], steps, np.float64(0))
-        known = look(np.ones(layers[j + rise].count)) > 0
+        columns = region.columns(layers[j + rise], layers[j], steps)
+        known = columns >= 0
         if not known.any():
             continue
-        u = tuple(look(block[:, a, over]) - block[:, a, own] for a in range(d))
-        both = look(rho[:, over]) + rho[:, own]
+        u = tuple(block[:, a, over][:, columns] - block[:, a, own] for a in range(d))
+        both = rho[:, over][:, columns] + rho[:, own]
         with FLOAT64.active():
             gap = local.gap(steps, square, excess, u, both, metric)
         gaps[:, own] = np.where(known, gap, math.inf)

@@ -18,7 +18,7 @@ from ..arithmetic.carried import CARRYING, NONE, Carried, Carrying, Sizes
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem
 from ..disorder.radii import BeadError, Radii, RadiusError
-from ..lattice.layers import Layer, Region, Rows, pick
+from ..lattice.layers import Layer, Region, Rows, columns_of, taken
 from .loads import LoadSpec
 from .local import balance, balance_linear, cosine, metric, nested, rest, rest_linear
 from .loops import Loops, loops
@@ -192,9 +192,9 @@ def _deposited(
             _check_radii(radii, layer, region, system)
         if not j:
             continue
-        looks = [region.look(layers[j - 1], layer, region.step(a, -1)) for a in range(d)]
-        under = tuple(tuple(moved(look, block[:, b, below]) for b in range(d)) for look in looks)
-        rho_under = tuple(moved(look, rho[:, below]) for look in looks)
+        columns = [region.columns(layers[j - 1], layer, region.step(a, -1)) for a in range(d)]
+        under = tuple(tuple(taken(block[:, b, below], x) for b in range(d)) for x in columns)
+        rho_under = tuple(taken(rho[:, below], x) for x in columns)
         rested = (rest_linear if linear else rest)(under, radii, rho_under, m)
         _check_rest(rested.holds, layer, region, system, partial(nested, under, rho_under, m))
         for k, x in enumerate([*rested.c, *(x for of in rested.dn for x in of)]):
@@ -235,17 +235,17 @@ def _balanced(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool) -> An
         for a in range(d if j < top else 0):
             force, bead = slice(at[j + 1], at[j + 2]), slice(beads[j + 1], beads[j + 2])
             up = region.step(a, 1)
-            look = region.look(layers[j + 1], layer, up, zero)
-            packed = region.look(deposited[j + 1], layer, up, zero)
+            bearing = region.columns(layers[j + 1], layer, up)
+            resting = region.columns(deposited[j + 1], layer, up)
             turns = (block[:, d + a * d + b, bead] for b in range(d))
             above[a] = (
-                moved(look, F[a, force]),
-                moved(look, g[:, a, force]),
-                tuple(moved(packed, x) for x in turns),
+                taken(F[a, force], bearing, zero),
+                taken(g[:, a, force], bearing, zero),
+                tuple(taken(x, resting, zero) for x in turns),
             )
-        part = partial(pick, source=deposited[j], wanted=layer, width=region.width)
+        place = columns_of(deposited[j], layer, region.width)
         dn = tuple(
-            tuple(moved(part, block[:, d + a * d + b, here]) for b in range(d)) for a in range(d)
+            tuple(taken(block[:, d + a * d + b, here], place) for b in range(d)) for a in range(d)
         )
         F_here = tuple(F[a, own] for a in range(d))
         rule: Any = balance_linear if linear else balance
@@ -368,13 +368,6 @@ def _compiled_balance(packing: SolvedPacking, rows: Rows, F: Any) -> Any:
     loop = made.sweep_down_carried if f else made.sweep_down
     good = loop(forces, where, changes, table.ctypes.data, *sizes, *e, *f, *h)
     return g[..., :beads] if good else None
-
-
-def moved(function: Callable[[Array], Array], values: Any) -> Any:
-    """Look values up at other sites; those that carry errors with them."""
-    if isinstance(values, Carried):
-        return Carried(function(values.value), function(values.error))
-    return function(values)
 
 
 def _check_radii(rho: Any, layer: Layer, region: Region, system: NumberSystem) -> None:

@@ -17,7 +17,7 @@ from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import ORDER
-from ..lattice.layers import Block, Naming, Region, Rows, pick, standing_on_base, whole
+from ..lattice.layers import Block, Naming, Region, Rows, columns_of, standing_on_base, taken, whole
 from ..mechanics.engine import solve
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
@@ -292,13 +292,14 @@ def contact_forces(
     zero = system.zeros(1)[0]
     F, g = [system.zeros(0)], [system.zeros(realisations, 0)]
     for branch, row in blocks:
-        if row.j >= len(forces.rows):  # above every load
+        j, a = row.j, branch.number
+        if j >= len(forces.rows) or not forces.rows[j].count:  # no load reaches this layer
             F.append(system.zeros(row.count))
             g.append(system.zeros(realisations, row.count))
             continue
-        own, a = forces.rows[row.j], branch.number
-        F.append(pick(forces.ordered(a, row.j), own, row, row.count, zero))
-        g.append(pick(forces.change(a, row.j), own, row, row.count, zero))
+        columns = columns_of(forces.rows[j], row, forces.region.width)
+        F.append(taken(forces.ordered(a, j), columns, zero))
+        g.append(taken(forces.change(a, j), columns, zero))
     return np.concatenate(F), np.concatenate(g, axis=1)
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from ..arithmetic.systems import Array, NumberSystem
 from ..lattice import regions
 from ..lattice.branch import axis_names
-from ..lattice.layers import Layer, Region, Rows, pick, whole
+from ..lattice.layers import Layer, Region, Rows, columns_of, taken, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
@@ -70,8 +70,9 @@ class Positions(Quantity):
         if packing is None:
             return [system.zeros(sum(row.count for row in rows))] * len(self.branches)
         region = packing.region
+        columns = [columns_of(region.rows[row.j], row, self.width) for row in rows]
         parts = (
-            [pick(packing.c(a, row.j)[0], region.rows[row.j], row, self.width) for row in rows]
+            [taken(packing.c(a, row.j)[0], at) for row, at in zip(rows, columns, strict=True)]
             for a in range(region.dimension)
         )
         return [np.concatenate([system.array([]), *each]) for each in parts]

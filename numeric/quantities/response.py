@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.systems import Array, NumberSystem
-from ..lattice.layers import Block, Region, pick
+from ..lattice.layers import Block, Region, columns_of, taken
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
 from .base import Table, contact_forces, slope
@@ -58,8 +58,8 @@ class Response(Merged):
         region, tilts = solved.packing.region, [solved.system.zeros(realisations, 0)]
         for branch, row in blocks:
             normal = solved.packing.dn(branch.number, row.j)
-            parts = [pick(v, region.rows[row.j], row, region.width) for v in normal]
-            tilts.append(sum(parts[1:], parts[0]))
+            columns = columns_of(region.rows[row.j], row, region.width)
+            tilts.append(taken(sum(normal[1:], normal[0]), columns))
         return np.concatenate(tilts, axis=1)
 
     def table(self, problem: Problem, system: NumberSystem, statistics: Statistics) -> Table:
