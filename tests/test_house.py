@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_182,
     "derivations": 7_645,
-    "numeric": 9_280,
+    "numeric": 9_225,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from ..arithmetic.machine import memory_limit
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..lattice.layers import Region, Rows
 from ..mechanics.engine import chunk_size
@@ -50,13 +51,13 @@ def memory(
     return _bytes(quantities, region, at_once, n, system, text=text) + loops
 
 
-def refuse_beads(quantities: Sequence[Quantity], beads: int, limit: int, *, text: bool) -> None:
+def refuse_beads(quantities: Sequence[Quantity], beads: int, *, text: bool) -> None:
     """Refuse what surely takes too much memory for so many ``beads``, and for the plan itself."""
     scene = quantities[0].scene
     layers = 0 if quantities[0].single and not beads else scene.packing.height + 1
     nothing = Region(scene.packing.width, Rows())
     needed = _bytes(quantities, nothing, beads, 1, FLOAT64, text=text)
-    refuse_memory(scene, needed + layers * PLAN_LAYER, limit)
+    refuse_memory(scene, needed + layers * PLAN_LAYER)
 
 
 def _bytes(
@@ -85,12 +86,12 @@ def _bytes(
     return needed
 
 
-def refuse_memory(scene: CheckedScene, needed: int, limit: int) -> None:
-    """Raise ``TooLargeError`` where a scene needs more than ``limit`` bytes.
+def refuse_memory(scene: CheckedScene, needed: int) -> None:
+    """Raise ``TooLargeError`` where a scene needs more than most of the bytes that are free.
 
     Of the height, the width and the realisations the largest is named.
     """
-    if needed > limit:
+    if needed > (limit := memory_limit()):
         packing = scene.packing
         sizes = {
             "packing.height": packing.height,

@@ -15,7 +15,6 @@ from math import isqrt
 
 from ..arithmetic.carried import PRINTED, UNIT
 from ..arithmetic.decimals import short
-from ..arithmetic.machine import memory_limit as free_memory
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import DrawnRadii, Radii
 from ..lattice.layers import Region, Rows
@@ -38,7 +37,6 @@ SOUND = 0.5
 def plan(
     scene: CheckedScene,
     tolerance: Fraction | None = None,
-    memory_limit: int | None = None,
     *,
     certified: bool = False,
     text: bool = True,
@@ -47,40 +45,39 @@ def plan(
 
     With a tolerance balls are chosen where float64 should not meet it; ``certified`` keeps the
     choice to balls. Room is left for rows as ``text``, as files and screens have them. Reads the
-    scene's files. Raises ``SceneError`` for a scene that is too large for the memory
-    (``memory_limit`` bytes, by default most of what is free), and ``TableError``.
+    scene's files. Raises ``SceneError`` for a scene that is too large for what is free of the
+    memory, and ``TableError``.
     """
     tolerance = tolerance or scene.ask.tolerance
     certified = certified or scene.ask.certified
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, such as tolerance = 1e-30")
-    limit = free_memory() if memory_limit is None else memory_limit
     quantities = quantities_of(scene)
-    problem, skipped = _problem(scene, quantities, limit, text=text)
+    problem, skipped = _problem(scene, quantities, text=text)
     error = expected(FLOAT64, quantities, problem)
     made = Plan(scene, quantities, problem, tolerance, FLOAT64, "", error, 0, skipped)
     reason = why_balls(made, certified=certified)
     if reason:
-        return in_balls(made, reason, limit, text=text)
+        return in_balls(made, reason, text=text)
     needed = memory(quantities, problem, FLOAT64, text=text)
-    refuse_memory(scene, needed, limit)
+    refuse_memory(scene, needed)
     return replace(made, memory=needed)
 
 
-def in_balls(made: Plan, reason: str, limit: int | None = None, *, text: bool = True) -> Plan:
+def in_balls(made: Plan, reason: str, *, text: bool = True) -> Plan:
     """Plan the same in balls. Raises ``TooLargeError`` where they take too much memory."""
     tolerance, height = made.tolerance or UNIT, made.problem.height
     if made.problem.route == Route.UNILATERAL:
         tolerance, height = made.tolerance or TOUCHING, 1
     system = Balls(initial_bits(tolerance, height))
     needed = memory(made.quantities, made.problem, system, text=text)
-    refuse_memory(made.scene, needed, free_memory() if limit is None else limit)
+    refuse_memory(made.scene, needed)
     error = expected(system, made.quantities, made.problem)
     return replace(made, system=system, reason=reason, error=error, memory=needed)
 
 
 def _problem(
-    scene: CheckedScene, quantities: Sequence[Quantity], limit: int, *, text: bool
+    scene: CheckedScene, quantities: Sequence[Quantity], *, text: bool
 ) -> tuple[Problem, dict[str, str]]:
     """Say which beads are solved, by which theory, and what that leaves out.
 
@@ -95,7 +92,7 @@ def _problem(
     if not single:
         beads = max(quantity.fewest_beads for quantity in quantities)
     swept = not ordered or scene.packing.dimension > 2
-    refuse_beads(quantities, beads * swept, limit, text=text)
+    refuse_beads(quantities, beads * swept, text=text)
 
     load = load_of(scene)
     needs_forces = any(quantity.needs_forces for quantity in quantities)
@@ -107,7 +104,7 @@ def _problem(
         rows = max((rows for rows, _ in needed), key=len)
         region = max((region for _, region in needed), key=lambda region: region.beads)
         beads = int(region.rows.counts.sum(dtype=float))  # whole numbers could overflow
-        refuse_beads(quantities, beads * swept, limit, text=text)
+        refuse_beads(quantities, beads * swept, text=text)
     alike = DrawnRadii("uniform", Fraction(0), 0, load.width)
     radii: Radii = alike
     if not ordered:

@@ -1,7 +1,6 @@
 """Counting changes of forces into bins whose edges are exact decimals."""
 
 import math
-from bisect import bisect_right
 from fractions import Fraction
 
 import numpy as np
@@ -23,17 +22,17 @@ def histogram(
     """
     if not len(values):
         return []
-    unit = Fraction(1)
+    unit, rough, off = Fraction(1), values, np.zeros(len(values))
     if isinstance(system, Balls):
-        unit, rough = _scaled(values)
-    else:
-        rough = as_floats(values)
+        unit, rough, off = _scaled(values)
+    rough = as_floats(rough)
     edges = edges_between(float(rough.min()), float(rough.max()), bins)
-    if isinstance(system, Balls):
-        edges = [edge * unit for edge in edges]
-        counts = _count(values, edges, system)
-    else:
-        counts = counted(rough, edges).tolist()
+    inner = [float(edge) for edge in edges[1:-1]]
+    before, at = (np.searchsorted(inner, rough + side, "right") for side in (-off, off))
+    if (before != at).any():
+        raise UndecidedError("a change lies across the edge of a bin")
+    counts = np.bincount(at, minlength=len(edges) - 1).tolist()
+    edges = [edge * unit for edge in edges]
     return list(zip(edges[:-1], edges[1:], counts, strict=True))
 
 
@@ -50,11 +49,6 @@ def edges_between(least: float, most: float, bins: int) -> list[Fraction]:
     return [Fraction(start + each * k, below * bins) for k in range(bins + 1)]
 
 
-def counted(values: Array, edges: list[Fraction]) -> Array:
-    """Count float64 into bins, shape (bins,)."""
-    return np.histogram(values, [float(edge) for edge in edges])[0]
-
-
 def printed(bins: list[tuple[Fraction, Fraction, int]]) -> dict[str, list[str]]:
     """Print bins as columns, edges as the decimals that they are; each begins where one ends."""
     highs = [decimal_string(high) for _, high, _ in bins]
@@ -62,23 +56,17 @@ def printed(bins: list[tuple[Fraction, Fraction, int]]) -> dict[str, list[str]]:
     return {"low": lows, "high": highs, "count": [str(count) for *_, count in bins]}
 
 
-def _scaled(values: Array) -> tuple[Fraction, Array]:
-    """Give midpoints as floats of order 1, and the power of two that they were divided by."""
+def _scaled(values: Array) -> tuple[Fraction, Array, Array]:
+    """Give the power of two near balls, and in its units their midpoints and how far off these are.
+
+    They are floats of order 1, rounded.
+    """
     if not all(value.is_finite() for value in values):
         raise UndecidedError("a change has no finite enclosure")
     exact = [midpoint(value) for value in values]
     largest = max(abs(value) for value in exact)
     shift = largest.numerator.bit_length() - largest.denominator.bit_length() if largest else 0
     unit = Fraction(2) ** shift
-    return unit, np.array([float(value / unit) for value in exact])
-
-
-def _count(values: Array, edges: list[Fraction], system: Balls) -> list[int]:
-    bounds = [system.number(edge) for edge in edges]
-    counts = [0] * (len(edges) - 1)
-    for value in values:
-        at = bisect_right(bounds, value)  # which a comparison that is open may have led astray
-        if not (0 < at < len(bounds) and bounds[at - 1] <= value < bounds[at]):
-            raise UndecidedError(f"the ball {value} lies across the edge of a bin")
-        counts[at - 1] += 1
-    return counts
+    rough = np.array([float(value / unit) for value in exact])
+    radii = np.array([float(midpoint(value.rad()) / unit) for value in values])
+    return unit, rough, 2 * radii + 2.0**-52 * np.abs(rough)

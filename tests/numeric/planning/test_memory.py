@@ -6,6 +6,7 @@ import sys
 import tracemalloc
 
 import pytest
+from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
 
@@ -81,6 +82,7 @@ def test_too_high_a_slab_is_refused_before_its_layers_are_listed(load):
     tracemalloc.stop()
 
 
-def test_the_memory_that_may_be_used_is_an_argument():
+def test_no_more_memory_is_used_than_may_be(monkeypatch):
+    monkeypatch.setattr(memory, "memory_limit", lambda: 100_000_000)
     with pytest.raises(SceneError, match=r"of memory.*100 MB may be used"):
-        plan(scene(basic(100, 201)), memory_limit=100_000_000)
+        plan(scene(basic(100, 201)))
