@@ -6,7 +6,6 @@ import sys
 import tracemalloc
 
 import pytest
-from force_diffusion.numeric.planning import memory
 from force_diffusion.numeric.planning.planner import plan
 from force_diffusion.numeric.scene.sections import SceneError
 
@@ -83,6 +82,6 @@ def test_too_high_a_slab_is_refused_before_its_layers_are_listed(load):
 
 
 def test_no_more_memory_is_used_than_may_be(monkeypatch):
-    monkeypatch.setattr(memory, "memory_limit", lambda: 100_000_000)
+    monkeypatch.setattr("force_diffusion.numeric.planning.memory.memory_limit", lambda: 10**8)
     with pytest.raises(SceneError, match=r"of memory.*100 MB may be used"):
         plan(scene(basic(100, 201)))
