@@ -48,8 +48,8 @@ def calls() -> Iterator[Line]:
     """Each call, and what it is to ``import sympy``."""
     for call, target in TARGETS.items():
         asked = [sys.executable, __file__, "--probe", call]
-        found = [subprocess.check_output(asked, text=True).split() for _ in range(3)]
-        imported, seconds = (min(map(float, column)) for column in zip(*found, strict=True))
+        runs = [subprocess.check_output(asked, text=True).split() for _ in range(3)]
+        imported, seconds = (min(map(float, column)) for column in zip(*runs, strict=True))
         yield Line(f"`{call}`", seconds, " s", "<", target)
         yield Line("  / import sympy", seconds / imported)
 

@@ -97,11 +97,11 @@ def summary(rows: list[Any]) -> Iterator[dict[str, Any]]:
     """Give mean and standard error by load and height."""
     for (load, height), group in groupby(rows, lambda row: (row["load"], row["height"])):
         own = list(group)
-        found: dict[str, Any] = {"load": load, "height": height, "packings": len(own)}
+        means: dict[str, Any] = {"load": load, "height": height, "packings": len(own)}
         for name in ("of_critical", "layer", *SHARES):
             values = np.array([row[name] for row in own])
-            found |= {name: values.mean(), f"{name}_error": values.std(ddof=1) / len(own) ** 0.5}
-        yield found
+            means |= {name: values.mean(), f"{name}_error": values.std(ddof=1) / len(own) ** 0.5}
+        yield means
 
 
 def drawn(means: list[Any]) -> Figure:
@@ -130,8 +130,8 @@ def main() -> None:
     asked.folder.mkdir()
     rows: list[Any] = []
     for load, height in product(LOADS, asked.heights):
-        found = filter(None, (opened(load, height, seed) for seed in count()))
-        rows += islice(found, asked.packings)
+        cascades = filter(None, (opened(load, height, seed) for seed in count()))
+        rows += islice(cascades, asked.packings)
     means = list(summary(rows))
     (asked.folder / "cascade.csv").write_text(csv_text(rows))
     (asked.folder / "summary.csv").write_text(csv_text(means))

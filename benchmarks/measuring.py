@@ -73,15 +73,15 @@ def program(
     print(head + "\n")
     print("| measured | value | target | |")
     print("|---|---:|---|---|")
-    missed = 0
+    failures = 0
     for name, part in parts.items():
         if name in options.skip:
             continue
         print(f"| **{name}** | | | |")
         for line in part():
             print(line, flush=True)
-            missed += not line.met
-    return 1 if missed else 0
+            failures += not line.met
+    return 1 if failures else 0
 
 
 def csv_text(rows: Sequence[Mapping[str, Any]]) -> str:

@@ -41,7 +41,7 @@ def forces() -> Iterator[Line]:
     problem = Problem(HEIGHT, WIDTH)
     compiled = problem.solver()
     numpy = by_numpy(compiled)
-    solved, found = numpy()
+    solved, change = numpy()
     n = axes(problem.n_x, FLOAT64)
     reference = as_floats(stacked(problem.solver(Balls(106))()[1]))
 
@@ -61,9 +61,9 @@ def forces() -> Iterator[Line]:
     yield Line("fast sweep", 1e3 * quick["fast"], " ms")
     yield Line("spsolve (NATURAL) / NumPy sweep", peer / quick["numpy"], "", ">", 2)
     yield Line("spsolve (NATURAL) / fast sweep", peer / quick["fast"], "", ">", 20)
-    own = error(stacked(found))
+    own = error(stacked(change))
     yield Line("error of change, sweep (NumPy and fast alike)", own)
-    assert np.array_equal(stacked(found), stacked(compiled()[1]))
+    assert np.array_equal(stacked(change), stacked(compiled()[1]))
     times = error(changes(best(), 1 / (2 * n[1]), WIDTH)) / own
     yield Line("error of spsolve (NATURAL), geometry given / sweep", times, "", ">", 300)
 
@@ -121,9 +121,9 @@ def digits() -> Iterator[Line]:
     balls, floats = Balls(bits), BigFloat(int(bits * 0.30103))
     solve = problem.solver(balls)
     with balls.active():
-        found = stacked(solve()[1]).reshape(-1)
-        largest = max(abs(float(value)) for value in found)
-        radius = max(float(value.rad()) for value in found)
+        values = stacked(solve()[1]).reshape(-1)
+        largest = max(abs(float(value)) for value in values)
+        radius = max(float(value.rad()) for value in values)
     yield Line(
         "balls, 32 × 66: certified relative error of change", radius / largest, "", "<", 1e-50
     )
@@ -173,9 +173,9 @@ def probe_solve(height: int, width: int) -> str:
 
     solve, spent = fd.solve, []
     radii = np.random.default_rng(1).uniform(1 - 1e-4, 1 + 1e-4, (17, height + 1, width))
-    for one in radii:
+    for packing_radii in radii:
         start = process_time()
-        solve(one, spacing=3).force  # noqa: B018 - an attribute that is calculated
+        solve(packing_radii, spacing=3).force  # noqa: B018 - an attribute that is calculated
         spent.append(process_time() - start)
     problem = Problem(height, width, Fraction(1, 10**4))
     packing, _ = problem.solver()()
@@ -213,8 +213,8 @@ def running() -> Iterator[Line]:
             return fd.read_scene(path).run()
 
         def written() -> Any:
-            found = run()
-            return files_of([found], found.data(rows=False), "csv")
+            result = run()
+            return files_of([result], result.data(rows=False), "csv")
 
         def planned() -> Any:
             return fd.read_scene(path).explain()

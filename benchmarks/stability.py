@@ -131,10 +131,10 @@ def bits_lost(solve: Callable[[NumberSystem], Any]) -> float | None:
     """Give the bits lost where 50 digits are left; None: it does not stand, or 8192 are too few."""
     for bits in (256, 512, 1024, 2048, 4096, 8192):
         try:
-            found = solve(Balls(bits))
+            changes = solve(Balls(bits))
         except fd.ForceDiffusionError:
             continue
-        radius = largest(np.array([ball.rad() for ball in found.flat])) / largest(found)
+        radius = largest(np.array([ball.rad() for ball in changes.flat])) / largest(changes)
         if radius < flint.arb(2) ** -GOAL:
             return bits + float(radius.log_base(2))
     return None

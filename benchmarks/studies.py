@@ -36,7 +36,7 @@ def ensemble() -> Iterator[Line]:
     generator = np.random.Generator(np.random.Philox(1))
     for quantity in ("profile", "histogram"):
         asked = scene(quantity)
-        found = in_turn(
+        times = in_turn(
             {
                 "fewer": partial(fd.ensemble, asked, FEWER),
                 "more": partial(fd.ensemble, asked, MORE),
@@ -46,10 +46,10 @@ def ensemble() -> Iterator[Line]:
             process_time,
             min,
         )
-        marginal = (found["more"] - found["fewer"]) / more
+        marginal = (times["more"] - times["fewer"]) / more
         target = ("<", 6) if quantity == "profile" else ("", 0)
         yield Line(f"ensemble, {quantity}", 1e9 * marginal / BEADS, " ns per bead")
-        draws = found["draws"] / more
+        draws = times["draws"] / more
         yield Line("  ensemble / as many doubles of NumPy's Philox", marginal / draws, "", *target)
 
 

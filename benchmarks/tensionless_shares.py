@@ -37,16 +37,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--seeds", type=int, nargs=2, default=[1000, 1400])
     asked = parser.parse_args()
-    found: Counter[str] = Counter()
+    counts: Counter[str] = Counter()
     for seed in range(*asked.seeds):
         try:
             ends = scene(seed).run().data()["network"]["rest"]
         except fd.ForceDiffusionError as error:
             ends = "no packing can stand" if "can stand" in str(error) else "not found"
             print(f"{seed}: {error}")
-        found[ends] += 1
-    for ends, count in found.most_common():
-        print(f"{count} of {found.total()} ({count / found.total():.0%}): {ends}")
+        counts[ends] += 1
+    for ends, count in counts.most_common():
+        print(f"{count} of {counts.total()} ({count / counts.total():.0%}): {ends}")
 
 
 if __name__ == "__main__":

@@ -99,7 +99,7 @@ def _bars(_app: Any, _what: str, _name: str, _of: Any, _options: Any, lines: lis
 def _calls() -> str:
     """Every equation beyond the paper: its call, and the formula that the call gives."""
     parts = []
-    for label in (one for one in modules() if isinstance(one, str)):
+    for label in (label for label in modules() if isinstance(label, str)):
         row = load(label)
         parts.append(f"## {label}: {row.title}")
         if not isinstance(row, Row):

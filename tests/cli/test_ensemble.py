@@ -51,9 +51,9 @@ def test_kept_in_a_file_and_written_out(small, tmp_path, call):
     assert status == 0
     assert ("sound, 40 realisations" in shown, "[]" in shown) == (True, False)
     assert f"version: force-diffusion = {version('force-diffusion')}\n" in shown
-    held = json.loads(call("ensemble-status", store, "--json")[1])
-    assert held["ranges"] == [[0, 40]]
-    assert held["ensemble"]["disorder"]["seed"] == 1
+    contents = json.loads(call("ensemble-status", store, "--json")[1])
+    assert contents["ranges"] == [[0, 40]]
+    assert contents["ensemble"]["disorder"]["seed"] == 1
 
 
 def test_more_are_added_and_a_rule_stops_early(small, tmp_path, call):

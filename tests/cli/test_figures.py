@@ -46,16 +46,16 @@ def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
     assert contents[0] == contents[1]  # the second time by the command that the first one noted
     assert "inside the simultaneous 99% band" in printed or "outside" in printed
     for name in ("1", "2", "3"):
-        one = json.loads((out / f"figure{name}.json").read_text())
-        assert shlex.split(one["command"])[:5] == ["force-diffusion", "figures", "1", "2", "3"]
-        check_images(out, f"figure{name}", one["command"])
-        for file in one["files"]:
+        record = json.loads((out / f"figure{name}.json").read_text())
+        assert shlex.split(record["command"])[:5] == ["force-diffusion", "figures", "1", "2", "3"]
+        check_images(out, f"figure{name}", record["command"])
+        for file in record["files"]:
             assert file in contents[0]
             if file.endswith(".csv"):
                 lines = (out / file).read_text().splitlines()
-                assert lines[:2] == [f"# {one['title']}", f"# {one['command']}"]
+                assert lines[:2] == [f"# {record['title']}", f"# {record['command']}"]
                 assert len(list(csv.DictReader(lines[2:]))) > 1
-    assert [row["of"].partition(":")[0] for row in one["comparisons"]] == ["M = 2", "M = 4"]
+    assert [row["of"].partition(":")[0] for row in record["comparisons"]] == ["M = 2", "M = 4"]
 
 
 def test_heights_that_cannot_be_built(tmp_path, call):

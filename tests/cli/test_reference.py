@@ -110,7 +110,7 @@ def test_json_has_the_keys_that_are_named(tmp_path, call):
     commands = [
         ("run", columns, "contact_forces", pulling),
         ("run", columns, "contact", PACKING, "--tolerance", "1e-9"),
-        *(("ensemble", "", one, PACKING) for one in ("profile", "histogram", "response")),
+        *(("ensemble", "", quantity, PACKING) for quantity in ("profile", "histogram", "response")),
     ]
     for command, more, quantity, packing, *words in commands:
         scene = _asking(tmp_path, quantity, 40 if command == "ensemble" else 1, packing)

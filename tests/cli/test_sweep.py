@@ -42,12 +42,12 @@ def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(scene, tmp_pat
     words = ("--set", "packing.height=2,3,4", "--set", "disorder.seed=0,1", "--out", out)
     status, _, err = call("run", scene, *words, "--set", "load.kind=bulk")
     assert (status, err) == (0, "")
-    assert sorted(one.name for one in out.iterdir()) == [
+    assert sorted(folder.name for folder in out.iterdir()) == [
         f"packing.height={M},disorder.seed={seed}" for M in (2, 3, 4) for seed in (0, 1)
     ]
-    for one in out.iterdir():
-        height = int(one.name[len("packing.height=")])
-        assert len(rows((one / "profile.csv").read_text())) == 2 * height
+    for folder in out.iterdir():
+        height = int(folder.name[len("packing.height=")])
+        assert len(rows((folder / "profile.csv").read_text())) == 2 * height
     status, printed, _ = call("run", scene, "--set", "packing.height=2,3")
     assert status == 0
     assert "# packing.height = 2\n" in printed

@@ -49,17 +49,17 @@ def coq(folder: Path, certified: Certification) -> CoqFolder:
 
 def accepted(coq: CoqFolder, asked: dict[str, CoqStatement]) -> dict[str, Certificate]:
     """What Coq says of statements, each in files of its own."""
-    named = {key: replace(one, name=f"asked_{n}") for n, (key, one) in enumerate(asked.items())}
-    coq.compile({name: text for one in named.values() for name, text in one.files.items()}, print)
-    return {key: certificate(coq, 0, [one]) for key, one in named.items()}
+    named = {key: replace(goal, name=f"asked_{n}") for n, (key, goal) in enumerate(asked.items())}
+    coq.compile({name: text for goal in named.values() for name, text in goal.files.items()}, print)
+    return {key: certificate(coq, 0, [goal]) for key, goal in named.items()}
 
 
 def test_every_equation_is_accepted(certified):
     assert certified.passed
-    assert [one.number for one in certified.equations] == paper()
-    for one in certified.equations:
-        assert one.accepted, one
-        assert set(one.axioms) <= ALLOWED
+    assert [verdict.number for verdict in certified.equations] == paper()
+    for verdict in certified.equations:
+        assert verdict.accepted, verdict
+        assert set(verdict.axioms) <= ALLOWED
 
 
 def wrong(number: int) -> CoqStatement:
@@ -82,7 +82,7 @@ def wrong_variance(number: int) -> CoqStatement:
     wrong_value = first.expr + sympy.Rational(1, 1000) * sy.phi
     other = SimpleNamespace(where=first.where, expr=wrong_value)
     changed = replace(derivation, exact=lambda: {name: SimpleNamespace(pieces=(other, *others))})
-    (made,) = (one for one in statements(changed) if one.name.endswith("_exact"))
+    (made,) = (goal for goal in statements(changed) if goal.name.endswith("_exact"))
     return replace(made, companions=())
 
 
@@ -112,9 +112,9 @@ def test_what_is_false_is_not_accepted(coq):
     asked = {f"Eq. {number}": wrong(number) for number in paper()}
     asked |= {f"the variance of Eq. {number}": wrong_variance(number) for number in (13, 14)}
     for name, true, false in BESIDE:
-        (made,) = (one for one in statements(load(int(name.split("_")[1]))) if one.name == name)
+        (made,) = (goal for goal in statements(load(int(name.split("_")[1]))) if goal.name == name)
         asked[f"{name}: {false}"] = reworded(made, true, false)
-    assert not [what for what, found in accepted(coq, asked).items() if found.accepted]
+    assert not [what for what, verdict in accepted(coq, asked).items() if verdict.accepted]
 
 
 UNPROVED = {
@@ -128,9 +128,9 @@ UNPROVED = {
 
 def test_what_is_not_proved_is_not_accepted(coq):
     asked = {says: Planted("", (), says, proof) for says, (proof, _) in UNPROVED.items()}
-    for says, found in accepted(coq, asked).items():
-        assert not found.accepted
-        assert UNPROVED[says][1] in found.note
+    for says, verdict in accepted(coq, asked).items():
+        assert not verdict.accepted
+        assert UNPROVED[says][1] in verdict.note
 
 
 class Planted(CoqStatement):
@@ -180,20 +180,20 @@ class Bent(CoqStatement):
 def test_no_file_of_the_theory_can_change_what_is_stated(coq):
     """Twice the right side of Eq. 3, with a tactic that proves what is bent at once."""
     twice = {field.name: getattr(wrong(3), field.name) for field in fields(CoqStatement)}
-    found = accepted(coq, {kind: Bent(**twice, bent=source) for kind, source in BENT.items()})
-    for number, (kind, one) in enumerate(found.items()):
-        assert not one.accepted
+    verdicts = accepted(coq, {kind: Bent(**twice, bent=source) for kind, source in BENT.items()})
+    for number, (kind, verdict) in enumerate(verdicts.items()):
+        assert not verdict.accepted
         files = [f"Asked_{number}_{part}.v" for part in ("bent", "statement")]
         assert not coq.trouble(files)
-        assert (kind == "an axiom") == (one.note == f"it rests on Asked_{number}_bent.trust_me")
+        assert (kind == "an axiom") == (verdict.note == f"it rests on Asked_{number}_bent.trust_me")
 
 
 def test_a_theory_that_does_not_compile_accepts_nothing(monkeypatch):
     broken = {**theory(), "Model.v": "Definition r := ."}
     monkeypatch.setattr(certificates, "theory", lambda: broken)
-    (one,) = certify([1]).equations
-    assert not one.accepted
-    assert "Model.v" in one.note
+    (verdict,) = certify([1]).equations
+    assert not verdict.accepted
+    assert "Model.v" in verdict.note
 
 
 def test_coqchk_finds_what_was_never_compiled(tmp_path, monkeypatch):
@@ -207,6 +207,6 @@ def test_coqchk_finds_what_was_never_compiled(tmp_path, monkeypatch):
     checker = shutil.which("coqchk")
     assert checker
     monkeypatch.setenv("PATH", f"{tmp_path}{os.pathsep}{Path(checker).parent}{os.pathsep}/bin")
-    (one,) = certify([1]).equations
-    assert not one.accepted
-    assert "coqchk" in one.note
+    (verdict,) = certify([1]).equations
+    assert not verdict.accepted
+    assert "coqchk" in verdict.note

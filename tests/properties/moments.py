@@ -119,13 +119,13 @@ def carries(slab: Slab, at: At, layer: int, origin: Site) -> bool:
 def moment(slab: Slab, statistic: sympy.Expr, at: At) -> Number:
     """A variance, a covariance, or the shift of a mean at second order, from differences."""
     step = CHANGE * exactly(slab.geometry[1])
-    ordered = [read(slab, one, at, 0, 0, (0,) * (len(slab.shares) - 1)) for one in statistic.args]
+    ordered = [read(slab, arg, at, 0, 0, (0,) * (len(slab.shares) - 1)) for arg in statistic.args]
     total = mp.mpf(0)
     for layer, origin in product(range(slab.height + 1), slab.origins):
         if not carries(slab, at, layer, origin):
             continue
         larger, smaller = (
-            [read(slab, one, at, layer, by, origin) for one in statistic.args]
+            [read(slab, arg, at, layer, by, origin) for arg in statistic.args]
             for by in (step, -step)
         )
         if isinstance(statistic, sy.Shift):

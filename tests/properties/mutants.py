@@ -83,8 +83,8 @@ def _here(node: sympy.Basic) -> Iterator[Change]:
             flipped = node.func(*before, -term, *after, evaluate=False)
             yield f"sign of {_brief(term)} flipped", flipped
             others = (*before, *after)
-            left = others[0] if len(others) == 1 else node.func(*others, evaluate=False)
-            yield f"{_brief(term)} dropped", left
+            rest = others[0] if len(others) == 1 else node.func(*others, evaluate=False)
+            yield f"{_brief(term)} dropped", rest
     elif isinstance(node, sympy.Integer) and node not in (sympy.S.Zero, sympy.S.NegativeOne):
         yield f"{node} changed to {node + 1}", node + 1
     elif isinstance(node, sympy.Rational) and not isinstance(node, sympy.Integer):

@@ -70,5 +70,5 @@ def is_identity(equation: sympy.Eq, drawn: Drawn, places: Iterable[At]) -> None:
 def differ(at: At, sizes: Iterable[Number], small: tuple[Number, Number] = STRENGTHS) -> str:
     """Where, and by how much, the two sides of an equation differ."""
     place = ", ".join(f"{symbol} = {value}" for symbol, value in at.items())
-    by, strengths = (" and ".join(mp.nstr(one, 3) for one in two) for two in (sizes, small))
+    by, strengths = (" and ".join(mp.nstr(size, 3) for size in two) for two in (sizes, small))
     return f"at {place} both sides differ by {by} for ε = {strengths}"

@@ -83,10 +83,10 @@ def base_vectors(d: int, cosine: Number) -> tuple[Vector, ...]:
     for k in range(2, d):
         # a new corner on top; the others move down, so that their cosines become −1/k
         down = mp.mpf(-1) / k
-        corners = [(*times(mp.sqrt(1 - down**2), one), down) for one in corners]
+        corners = [(*times(mp.sqrt(1 - down**2), corner), down) for corner in corners]
         corners.append((*(mp.mpf(0),) * (k - 1), mp.mpf(1)))
     rise = mp.sqrt((1 + (d - 1) * cosine) / d)
-    return tuple((*times(mp.sqrt(1 - rise**2), one), rise) for one in corners)
+    return tuple((*times(mp.sqrt(1 - rise**2), corner), rise) for corner in corners)
 
 
 class FallsThroughError(ArithmeticError):
@@ -100,7 +100,7 @@ def upper_meeting_point(centres: Sequence[Vector], reaches: Sequence[Number]) ->
         FallsThroughError: there is none.
     """
     first, *others = centres
-    edges = [minus(one, first) for one in others]
+    edges = [minus(centre, first) for centre in others]
     d = len(centres)
     # at right angles to all edges: the vector product
     cut = [[(*edge[:c], *edge[c + 1 :]) for edge in edges] for c in range(d)]
@@ -112,10 +112,10 @@ def upper_meeting_point(centres: Sequence[Vector], reaches: Sequence[Number]) ->
     ]
     rows = [*edges, across]
     foot = solve(list(zip(*rows, strict=True)), (*along, mp.mpf(0)))
-    left = reaches[0] ** 2 - dot(foot, foot)
-    if left < 0:
+    height_squared = reaches[0] ** 2 - dot(foot, foot)
+    if height_squared < 0:
         raise FallsThroughError
-    height = mp.sqrt(left / dot(across, across))
+    height = mp.sqrt(height_squared / dot(across, across))
     upwards = height if across[-1] > 0 else -height
     return plus(plus(first, foot), times(upwards, across))
 
@@ -179,28 +179,28 @@ class Packing:
     @cached_property
     def _disturbed(self) -> set[Site]:
         """Beads of another radius than r, and all that rest on such; others lie on the lattice."""
-        found = {self.home(site) for site, by in self.change.items() if by}
+        disturbed = {self.home(site) for site, by in self.change.items() if by}
         for layer in range(1, self.height + 1):
-            found.update(
+            disturbed.update(
                 site
                 for site in self.sites(layer)
-                if any(self.home(below) in found for below in self._below(site))
+                if any(self.home(below) in disturbed for below in self._below(site))
             )
-        return found
+        return disturbed
 
     @cached_property
     def _centres(self) -> dict[Site, Vector]:
-        found = {site: self.ordered(site) for site in self.sites(0)}
+        positions = {site: self.ordered(site) for site in self.sites(0)}
         for layer in range(1, self.height + 1):
             for site in self.sites(layer):
                 if site not in self._disturbed:
-                    found[site] = self.ordered(site)
+                    positions[site] = self.ordered(site)
                     continue
                 below = self._below(site)
-                centres = [self._image(found, one) for one in below]
-                reaches = [self.radius(site) + self.radius(one) for one in below]
-                found[site] = upper_meeting_point(centres, reaches)
-        return found
+                centres = [self._image(positions, bead) for bead in below]
+                reaches = [self.radius(site) + self.radius(bead) for bead in below]
+                positions[site] = upper_meeting_point(centres, reaches)
+        return positions
 
     def direction(self, contact: Contact) -> Vector:
         """The unit vector from the bead below to the one above."""
@@ -222,7 +222,7 @@ class Packing:
 
         They are kept by the contact's home; a contact that carries nothing is left out.
         """
-        found: dict[Contact, Number] = {}
+        forces: dict[Contact, Number] = {}
         carried = dict(loads)
         nothing = (mp.mpf(0),) * self.d
         for layer in range(self.height, 0, -1):
@@ -233,10 +233,10 @@ class Packing:
                 columns = [self.direction(contact) for contact in contacts]
                 shares = solve(columns, times(-1, carried[site]))
                 for contact, share, column in zip(contacts, shares, columns, strict=True):
-                    found[contact] = share
+                    forces[contact] = share
                     below = carried.get(contact[0], nothing)
                     carried[contact[0]] = minus(below, times(share, column))
-        return found
+        return forces
 
     def along(
         self, shares: Sequence[Number], weight: Number, sites: Iterable[Site]

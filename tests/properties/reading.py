@@ -181,8 +181,8 @@ class Reading:
                 return _sum([self.having({index: m}).value(expression.function) for m in layers])
             case sy.SecondDifference():
                 r, s = map(self.index, expression.args)
-                one, two, three = (self.quantity("DeltaR", r + by, s) for by in (-2, 0, 2))
-                return 2 * two - one - three
+                before, here, after = (self.quantity("DeltaR", r + by, s) for by in (-2, 0, 2))
+                return 2 * here - before - after
             case sy.SiteFunction():
                 i, j = map(self.index, expression.args)
                 return self.quantity(type(expression).__name__, i, j)
@@ -194,7 +194,7 @@ class Reading:
             case sy.MeanOver():
                 quantity, count, *indices = expression.args
                 moved = [
-                    self.having({one: self.symbols[one] + 2 * n for one in indices})
+                    self.having({index: self.symbols[index] + 2 * n for index in indices})
                     for n in range(self.index(count))
                 ]
                 return _sum([neighbour.value(quantity) for neighbour in moved]) / len(moved)
@@ -219,7 +219,7 @@ class Reading:
 
     def case(self, cases: sympy.Piecewise) -> sympy.Expr:
         """The formula whose condition these indices meet."""
-        whole = {one: value for one, value in self.symbols.items() if isinstance(value, int)}
+        whole = {symbol: value for symbol, value in self.symbols.items() if isinstance(value, int)}
         for formula, condition in cases.args:
             if condition.xreplace(whole) == sympy.true:
                 return formula

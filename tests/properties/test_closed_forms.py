@@ -115,18 +115,18 @@ def test_closed_forms_are_moments_of_packings(form, data, geometry, sd):
     shares = [first] * form.dimensions
     if form.leaning:
         shares[1:] = (data.draw(lengths, "L⁻") for _ in shares[1:])
-    stated = fd.equation(form.number).exact(form.name)
+    closed_form = fd.equation(form.number).exact(form.name)
     for height in range(1, form.highest + 1):
         slab = Slab(geometry, height, form.load, tuple(shares), form.reach, form.order)
         for place in form.places(height):
             at = {M: height, **place, sigma: exactly(sd)}
-            value = stated_value(stated, slab, at)
-            measured = moment(slab, stated.statistic, at)
+            value = stated_value(closed_form, slab, at)
+            measured = moment(slab, closed_form.statistic, at)
             assert abs(measured - value) < ACCURATE, (
                 f"at {at}: {mp.nstr(measured, 5)}, where {mp.nstr(value, 5)} is stated"
             )
 
 
-def stated_value(stated: fd.ClosedForm, slab: Slab, at: At) -> Number:
+def stated_value(closed_form: fd.ClosedForm, slab: Slab, at: At) -> Number:
     nowhere = (0,) * (len(slab.shares) - 1)
-    return read(slab, stated.expr * stated.divisor, at, 0, mp.mpf(0), nowhere)
+    return read(slab, closed_form.expr * closed_form.divisor, at, 0, mp.mpf(0), nowhere)

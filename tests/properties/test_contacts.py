@@ -41,8 +41,8 @@ def test_the_change_of_a_direction_is_at_right_angles_to_it(drawn):
     for a, b in drawn.contacts():
         for name, c in (("DeltaNPlus", 0), ("DeltaNMinus", 1)):
             planes = [solved(drawn, epsilon) for epsilon in STRENGTHS]
-            along = [abs(dot(one.quantity(name, a, b), one.packing.base[c])) for one in planes]
-            assert falls(along, 2)
+            dots = [abs(dot(plane.quantity(name, a, b), plane.packing.base[c])) for plane in planes]
+            assert falls(dots, 2)
 
 
 GUIDE = Path(__file__).parents[2] / "docs" / "guides" / "properties.md"
@@ -51,7 +51,7 @@ GUIDE = Path(__file__).parents[2] / "docs" / "guides" / "properties.md"
 def test_the_guide_shows_what_a_changed_sign_gives():
     (line,) = printed(4)
     (changed,) = (
-        one.equation for one in mutants(line) if one.change == "sign of −δr_(i+j,0) flipped"
+        case.equation for case in mutants(line) if case.change == "sign of −δr_(i+j,0) flipped"
     )
     one = Fraction(1)
     smallest = Drawn(Fraction(0), 1, 2, one, (1, 0, 0), "surface", one, (0, 2))

@@ -18,14 +18,14 @@ EQUATION = equation(
 
 
 def test_every_kind_occurs_and_nothing_twice():
-    found = list(mutants(EQUATION))
-    words = " ".join(mutant.change for mutant in found)
+    all_mutants = list(mutants(EQUATION))
+    words = " ".join(mutant.change for mutant in all_mutants)
     for kind in ("flipped", "dropped", "changed", "bound m", "case m", "δr_(i+2,j)", "replaced"):
         assert kind in words
-    equations = [one.equation for one in found]
+    equations = [mutant.equation for mutant in all_mutants]
     assert len(set(equations)) == len(equations)
     assert EQUATION not in equations
-    for one in found:
-        changed_left = one.equation.lhs != EQUATION.lhs
-        assert changed_left != (one.equation.rhs != EQUATION.rhs)
-        assert one.change.startswith("left: ") == changed_left
+    for mutant in all_mutants:
+        changed_left = mutant.equation.lhs != EQUATION.lhs
+        assert changed_left != (mutant.equation.rhs != EQUATION.rhs)
+        assert mutant.change.startswith("left: ") == changed_left

@@ -49,10 +49,10 @@ def with_loads(draw: st.DrawFn) -> tuple[Packing, dict[Site, Vector]]:
 
 @given(disordered())
 def test_base_vectors_are_of_unit_length_and_have_one_cosine(packing):
-    for one, other in product(packing.base, repeat=2):
-        cosine = 1 if one is other else packing.cosine
-        assert abs(dot(one, other) - cosine) < ROUNDING
-    assert max(abs(one[-1] - packing.base[0][-1]) for one in packing.base) < ROUNDING
+    for vector, other in product(packing.base, repeat=2):
+        cosine = 1 if vector is other else packing.cosine
+        assert abs(dot(vector, other) - cosine) < ROUNDING
+    assert max(abs(vector[-1] - packing.base[0][-1]) for vector in packing.base) < ROUNDING
 
 
 @given(disordered())
@@ -61,7 +61,7 @@ def test_beads_lie_on_top_of_those_that_they_touch(packing):
         for c in range(packing.d):
             below = step(site, c, -1)
             apart = minus(packing.centre(site), packing.centre(below))
-            deltas = (packing.change[packing.home(one)] for one in (site, below))
+            deltas = (packing.change[packing.home(bead)] for bead in (site, below))
             reach = 2 * packing.r + sum(deltas)
             assert abs(dot(apart, apart) - reach**2) < ROUNDING
             turned = minus(times(reach, packing.direction((below, c))), apart)
@@ -96,7 +96,7 @@ def test_the_base_is_held_and_carries_all_loads(packing):
         assert len(load) == beads
         forces = packing.forces(load)
         onto = [(lower, c) for lower, c in forces if sum(lower) == 0]
-        carried = sum(forces[one] * packing.direction(one)[-1] for one in onto)
+        carried = sum(forces[contact] * packing.direction(contact)[-1] for contact in onto)
         assert abs(carried - weight * beads) < ROUNDING
     for site in packing.sites(0):
         assert packing.centre(site) == packing.ordered(site)
@@ -108,7 +108,7 @@ def test_a_packing_of_twice_the_width_with_the_same_radii_is_the_same(drawn):
     """So that it makes no difference where the seam is."""
     packing, loads = drawn
     wide = replace(packing, width=2 * packing.width)
-    wide = replace(wide, change={one: packing.change[packing.home(one)] for one in every(wide)})
+    wide = replace(wide, change={site: packing.change[packing.home(site)] for site in every(wide)})
     carried = wide.forces({site: loads[packing.home(site)] for site in every(wide, 1)})
     forces = packing.forces(loads)
     assert len(carried) == 2 ** (packing.d - 1) * len(forces)

@@ -70,14 +70,14 @@ OF_RESPONSE = is_the_leading_order(growth.deep_response, 1)
 @pytest.mark.parametrize("load", LOADS.values())
 @pytest.mark.parametrize("place", [(9, 2), (9, 5), (9, 7)])
 def test_small_packings_tell_the_variances_of_taller_ones(load, place):
-    found = growth.variance(GEOMETRY, load, *place)
-    assert abs(found / growth.tall_variance(GEOMETRY, load, *place) - 1) < ACCURATE
+    variance = growth.variance(GEOMETRY, load, *place)
+    assert abs(variance / growth.tall_variance(GEOMETRY, load, *place) - 1) < ACCURATE
 
 
 @pytest.mark.parametrize("place", [(8, 3), (8, 4), (8, 5)])
 def test_small_packings_tell_the_responses_of_taller_ones(place):
-    found = growth.response(GEOMETRY, *place, across=place[1] % 2)
-    assert abs(found / growth.deep_response(GEOMETRY, *place) - 1) < ACCURATE
+    response = growth.response(GEOMETRY, *place, across=place[1] % 2)
+    assert abs(response / growth.deep_response(GEOMETRY, *place) - 1) < ACCURATE
 
 
 # Eq. 15: the mean over all layers
@@ -103,12 +103,12 @@ def is_the_general_form(equation: sympy.Eq, systems: tuple[System, System]) -> N
             }
             left, right = (numbers(geometry).read(side, at) for side in equation.args)
             quotients.append(left / right)
-        one, other = quotients
+        first, second = quotients
         # the next order of either side, and M* is a whole number: together less than 5/M (an
         # exponent that is another by one half is a factor of two)
         shown = [mp.nstr(quotient, 5) for quotient in quotients]
         assert min(quotients) > 0, f"{load} load: left over right is {' and '.join(shown)}"
-        assert abs(other / one - 1) < mp.mpf(5) / systems[0][0], (
+        assert abs(second / first - 1) < mp.mpf(5) / systems[0][0], (
             f"{load} load: left over right is {' and '.join(shown)}, which is not constant"
         )
 

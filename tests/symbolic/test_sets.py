@@ -49,7 +49,7 @@ def points_of(points):
 
 
 def expected(given_relations):
-    return {point for point in BOX if all(holds(one, point) for one in given_relations)}
+    return {point for point in BOX if all(holds(relation, point) for relation in given_relations)}
 
 
 @given(several)
@@ -80,7 +80,7 @@ def test_a_map_is_put_in(given_relations, form):
     assert points_of(moved) == {
         (a, b, c)
         for a, b, c in BOX
-        if all(holds(one, (a, value(form, (a, b, c)), c)) for one in given_relations)
+        if all(holds(relation, (a, value(form, (a, b, c)), c)) for relation in given_relations)
     }
 
 
@@ -92,28 +92,28 @@ def test_even_forms(form):
 @given(several)
 def test_ranges_reach_every_value_once(given_relations):
     points = sets.where(*given_relations, *IN_BOX)
-    found = []
+    triples = []
     for there, low, high in sets.ranges(points, j):
         for a, b, c in points_of(there):
             if b == 0:  # the set does not depend on j
-                first, last = (_at(one, {i: a, M: c}) for one in (low, high))
+                first, last = (_at(bound, {i: a, M: c}) for bound in (low, high))
                 assert first.is_Integer
                 assert last.is_Integer
-                found += [(a, n, c) for n in range(int(first), int(last) + 1)]
-    assert sorted(found) == sorted(expected(given_relations))
+                triples += [(a, n, c) for n in range(int(first), int(last) + 1)]
+    assert sorted(triples) == sorted(expected(given_relations))
 
 
 def _at(value, at):
-    return value.substitute({one: FIELD.constant(n) for one, n in at.items()}).to_sympy()
+    return value.substitute({symbol: FIELD.constant(n) for symbol, n in at.items()}).to_sympy()
 
 
 @given(several)
 def test_what_is_fixed_is_so_at_every_point(given_relations):
     points = sets.where(*given_relations)
-    for symbol, held in sets.fixed(points).items():
+    for symbol, formula in sets.fixed(points).items():
         for point in points_of(points):
             at = dict(zip(SYMBOLS, point, strict=True))
-            assert _at(held, at) == at[symbol]
+            assert _at(formula, at) == at[symbol]
 
 
 @given(several, several, several)
@@ -121,16 +121,16 @@ def test_conditions_tell_a_part_from_the_rest_of_its_context(first, second, arou
     context = sets.where(*around, *IN_BOX)
     whole = (sets.where(*first) | sets.where(*second)) & context
     try:
-        found = shortest.conditions(whole, context)
+        cases = shortest.conditions(whole, context)
     except sets.OpenSumError:  # a remainder, which equations leave
         return
     reached = set()
-    for equations, bounds in found:
-        conditions = [Eq(_form(one), 0, evaluate=False) for one in equations]
-        conditions += [Ge(_form(one), 0, evaluate=False) for one in bounds]
+    for equations, bounds in cases:
+        conditions = [Eq(_form(form), 0, evaluate=False) for form in equations]
+        conditions += [Ge(_form(form), 0, evaluate=False) for form in bounds]
         reached |= points_of(sets.where(*conditions) & context)
         for left_out in conditions:
-            others = [one for one in conditions if one is not left_out]
+            others = [condition for condition in conditions if condition is not left_out]
             assert not points_of(sets.where(*others) & context) <= points_of(whole)
     assert reached == points_of(whole)
 
@@ -153,7 +153,7 @@ def test_points_far_apart_are_not_joined_to_a_line():
     assert len(sets.parts(shortest.joined(apart))) == 2
     assert len(sets.parts(shortest.joined(together))) == 1
     both = shortest.joined(apart)
-    assert all(one.is_subset(both) for one in apart)
+    assert all(part.is_subset(both) for part in apart)
 
 
 def test_numbers_beyond_64_bits_are_read_whole():

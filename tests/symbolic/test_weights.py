@@ -24,10 +24,10 @@ def weights(drawn):
 
 
 def at(function, point):
-    known = dict(zip(SYMBOLS, point, strict=True))
-    numbers = [fmpq(known.get(one, 0)) for one in FIELD.generators]
-    found = function.numerator(*numbers) / function.denominator(*numbers)
-    return Fraction(int(found.p), int(found.q))
+    coordinates = dict(zip(SYMBOLS, point, strict=True))
+    numbers = [fmpq(coordinates.get(generator, 0)) for generator in FIELD.generators]
+    quotient = function.numerator(*numbers) / function.denominator(*numbers)
+    return Fraction(int(quotient.p), int(quotient.q))
 
 
 def added(pairs):
@@ -39,8 +39,8 @@ def added(pairs):
     return {point: number for point, number in table.items() if number}
 
 
-def table(found):
-    return added((points_of(points), function) for points, function in found.pieces)
+def table(result):
+    return added((points_of(points), function) for points, function in result.pieces)
 
 
 def drawn_table(drawn):
@@ -65,31 +65,31 @@ def test_a_function_that_is_zero_is_seen_to_be(drawn):
 
 @given(pieces, pieces)
 def test_sums_and_products_are_taken_at_each_point(first, second):
-    one, other = drawn_table(first), drawn_table(second)
+    first_values, second_values = drawn_table(first), drawn_table(second)
     left, right = weights(first), weights(second)
     total, product = table(left + right), table(left.times(right))
     for point in BOX:
-        assert total.get(point, 0) == one.get(point, 0) + other.get(point, 0)
-        assert product.get(point, 0) == one.get(point, 0) * other.get(point, 0)
+        assert total.get(point, 0) == first_values.get(point, 0) + second_values.get(point, 0)
+        assert product.get(point, 0) == first_values.get(point, 0) * second_values.get(point, 0)
 
 
 @given(pieces)
 def test_a_sum_over_a_symbol_has_the_sum_at_each_point(drawn):
-    found, wanted = table(weights(drawn).summed(j)), drawn_table(drawn)
+    result, expected = table(weights(drawn).summed(j)), drawn_table(drawn)
     for a, b, c in BOX:  # whatever j is
-        assert found.get((a, b, c), 0) == sum(wanted.get((a, n, c), 0) for n in RANGE)
+        assert result.get((a, b, c), 0) == sum(expected.get((a, n, c), 0) for n in RANGE)
 
 
 @given(pieces, forms)
 def test_a_form_is_put_in_for_a_symbol(drawn, form):
-    found, wanted = table(weights(drawn).at({j: form})), drawn_table(drawn)
+    result, expected = table(weights(drawn).at({j: form})), drawn_table(drawn)
     for a, b, c in BOX:
         image = (a, value(form, (a, b, c)), c)
-        assert found.get((a, b, c), 0) == wanted.get(image, 0)
+        assert result.get((a, b, c), 0) == expected.get(image, 0)
 
 
 @given(pieces, forms)
 def test_a_symbol_that_the_others_give_is_left_out(drawn, form):
     given_by = form.xreplace({j: 0 * j})
-    held = weights(drawn).on(sets.where(Eq(j, given_by, evaluate=False)))
-    assert table(held.without(j)) == table(held.summed(j))
+    restriction = weights(drawn).on(sets.where(Eq(j, given_by, evaluate=False)))
+    assert table(restriction.without(j)) == table(restriction.summed(j))

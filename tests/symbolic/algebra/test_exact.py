@@ -64,10 +64,10 @@ def test_direction_cosines_are_reduced():
 
 @given(st.integers(0, 5), st.integers(0, 5))
 def test_what_is_reduced_is_the_same(across, up):
-    one = FIELD.from_sympy(n_x**across * n_y**up + M)
-    assert (one.reduced() - one).is_zero()
-    assert one.reduced().degree(n_x) == across % 2
-    assert one.reduced().degree(n_y) == up % 2
+    element = FIELD.from_sympy(n_x**across * n_y**up + M)
+    assert (element.reduced() - element).is_zero()
+    assert element.reduced().degree(n_x) == across % 2
+    assert element.reduced().degree(n_y) == up % 2
 
 
 @pytest.mark.parametrize("expression", [sympy.sqrt(r), sympy.Float(0.5), sympy.exp(phi)])

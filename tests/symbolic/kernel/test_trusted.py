@@ -15,18 +15,18 @@ BESIDE = re.compile(
 
 def trusted() -> dict[str, int]:
     """The files of the kernel, and all that they import of the package, with their lines."""
-    left = list((ROOT / "symbolic/kernel").glob("*.py"))
-    found: dict[str, int] = {}
-    while left:
-        path = left.pop()
+    queue = list((ROOT / "symbolic/kernel").glob("*.py"))
+    counts: dict[str, int] = {}
+    while queue:
+        path = queue.pop()
         name = path.relative_to(ROOT / "symbolic").with_suffix("").as_posix()
-        if name not in found and not BESIDE.match(name):
-            found[name] = lines_of_code(path)
-            for one in imported(path):
-                parts = one.split(".")[1:]
+        if name not in counts and not BESIDE.match(name):
+            counts[name] = lines_of_code(path)
+            for module in imported(path):
+                parts = module.split(".")[1:]
                 places = (ROOT.joinpath(*parts[:length]) for length in (len(parts), len(parts) - 1))
-                left += [file for place in places if (file := place.with_suffix(".py")).is_file()]
-    return found
+                queue += [file for place in places if (file := place.with_suffix(".py")).is_file()]
+    return counts
 
 
 def in_tens(lines: int) -> int:

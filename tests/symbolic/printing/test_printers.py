@@ -123,15 +123,15 @@ def test_printers_take_any_scalar_and_balance_their_brackets(expression):
 def test_text_can_be_read_in_one_way(expression):
     """Put back into Python, the text has the value of the expression."""
     plain = text(expression).translate(str.maketrans("[]{}−φ", "()()-f")).replace("σ_δr", "s")
-    plain = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda found: "**" + sympy_digits(found[0]), plain)
+    plain = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda match: "**" + sympy_digits(match[0]), plain)
     plain = re.sub(r"\^\((-?\d+)\)", r"**(\1)", plain)
     plain = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", plain)
     names = {text(symbol)[0]: sympy.Integer(value) for symbol, value in POINT.items()}
     names["f"], names["s"] = names.pop("φ"), names.pop("σ")
     plain = re.sub(r"(?<![\w.])(\d+)", r"Integer(\1)", plain)
-    found = eval(plain, {"Integer": sympy.Integer}, names)
+    result = eval(plain, {"Integer": sympy.Integer}, names)
     expected = expression.subs(POINT)
-    assert found == expected or expected in (sympy.zoo, sympy.nan)
+    assert result == expected or expected in (sympy.zoo, sympy.nan)
 
 
 def sympy_digits(raised: str) -> str:
