@@ -17,9 +17,9 @@ Array = npt.NDArray[np.float64]
 POWERS = ((0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2))
 """Those of s and t that are kept."""
 PRODUCTS = [
-    (one, other, POWERS.index((a + c, b + d)))
-    for one, (a, b) in enumerate(POWERS)
-    for other, (c, d) in enumerate(POWERS)
+    (first, second, POWERS.index((a + c, b + d)))
+    for first, (a, b) in enumerate(POWERS)
+    for second, (c, d) in enumerate(POWERS)
     if (a + c, b + d) in POWERS
 ]
 
@@ -38,31 +38,31 @@ class Jet:
     def __mul__(self, other: "Jet | float") -> "Jet":
         if not isinstance(other, Jet):
             return Jet(tuple(a * other for a in self.terms))
-        found: list[Any] = [0.0] * len(POWERS)
+        terms: list[Any] = [0.0] * len(POWERS)
         for a, b, place in PRODUCTS:
-            found[place] = found[place] + self.terms[a] * other.terms[b]
-        return Jet(tuple(found))
+            terms[place] = terms[place] + self.terms[a] * other.terms[b]
+        return Jet(tuple(terms))
 
     def __sub__(self, other: "Jet | float") -> "Jet":
         return self + other * -1
 
     def inverse(self) -> "Jet":
         """By Newton: each step doubles the order that is right."""
-        found = constant(1 / self.terms[0])
+        result = constant(1 / self.terms[0])
         for _ in range(2):
-            found = found * ((self * found) * -1 + 2)
-        return found
+            result = result * ((self * result) * -1 + 2)
+        return result
 
     def root(self) -> "Jet":
         """The same of the root."""
-        found = constant(1 / np.sqrt(self.terms[0]))
+        result = constant(1 / np.sqrt(self.terms[0]))
         for _ in range(2):
-            found = found * ((self * found * found) * -0.5 + 1.5)
-        return self * found
+            result = result * ((self * result * result) * -0.5 + 1.5)
+        return self * result
 
     def rolled(self, places: int, around: float = 0.0) -> "Jet":
         """That of the bead so many places to the left; ``around`` is the width, of positions."""
-        first, *others = (np.roll(one, places, axis=1) for one in self.terms)
+        first, *others = (np.roll(term, places, axis=1) for term in self.terms)
         columns = np.arange(first.shape[1])
         beyond = np.where(columns < places, -around, 0.0) + np.where(
             columns >= len(columns) + places, around, 0.0
@@ -92,8 +92,8 @@ def forces(along_s: Array, along_t: Array, phi: float, bulk: bool) -> list[Jet]:
         rolls = (0, -1) if j % 2 else (1, 0)
         around = spacing * width
         return [
-            (one, x[j - 1].rolled(one, around), y[j - 1].rolled(one), radii[j - 1].rolled(one))
-            for one in rolls
+            (roll, x[j - 1].rolled(roll, around), y[j - 1].rolled(roll), radii[j - 1].rolled(roll))
+            for roll in rolls
         ]
 
     for j in range(1, layers):
@@ -106,7 +106,7 @@ def forces(along_s: Array, along_t: Array, phi: float, bulk: bool) -> list[Jet]:
         x.append(x_1 + share * across - rise * up)
         y.append(y_1 + share * up + rise * across)
 
-    found: list[Jet] = []
+    ratios: list[Jet] = []
     push_x = push_y = constant(none)
     for j in range(height, 0, -1):
         if bulk or j == height:
@@ -119,10 +119,10 @@ def forces(along_s: Array, along_t: Array, phi: float, bulk: bool) -> list[Jet]:
         over = (u_x * v_y - u_y * v_x).inverse()
         plus = (push_x * v_y - push_y * v_x) * over
         minus = (u_x * push_y - u_y * push_x) * over
-        found.append(plus.rolled(-roll_1) * (1 / (height - j + 1 if bulk else 1)))
+        ratios.append(plus.rolled(-roll_1) * (1 / (height - j + 1 if bulk else 1)))
         push_x = (plus * u_x).rolled(-roll_1) + (minus * v_x).rolled(-roll_2)
         push_y = (plus * u_y).rolled(-roll_1) + (minus * v_y).rolled(-roll_2)
-    return found[::-1]
+    return ratios[::-1]
 
 
 @cache
@@ -132,13 +132,13 @@ def variances(height: int, phi: float, bulk: bool) -> tuple[tuple[float, float],
     beads = (height + 1) * width
     each = np.eye(beads).reshape(beads, height + 1, width)
 
-    def one(layer: int) -> Array:
+    def unit(layer: int) -> Array:
         return np.broadcast_to(each[layer * width], each.shape)
 
     middle, squares, thirds = width // 2, np.zeros(height), np.zeros(height)
     weights = [of_layer.terms[1][:, middle] for of_layer in forces(each, 0 * each, phi, bulk)]
     for layer in range(height + 1):  # by translation, of one bead of a layer on all contacts
-        mixed = forces(each, one(layer), phi, bulk)
+        mixed = forces(each, unit(layer), phi, bulk)
         squares += [(of_layer.terms[3] ** 2).sum() / 4 for of_layer in mixed]
         for of, (of_layer, weight) in enumerate(zip(mixed, weights, strict=True)):
             rows = weight.reshape(height + 1, width)
@@ -157,12 +157,12 @@ def other_laws(height: int, phi: float, bulk: bool) -> tuple[tuple[float, float]
     width = 2 * height + 3
     beads, middle = (height + 1) * width, width // 2
     each = np.eye(beads).reshape(beads, height + 1, width)
-    found = []
+    values = []
     for of_layer in forces(each, each, phi, bulk):
         weight, twice, third = (of_layer.terms[place][:, middle] for place in (1, 4, 5))
         skew, kurtosis = 2 * (weight * twice).sum(), (twice**2 + 2 * weight * third / 3).sum()
-        found.append((float(skew), float(kurtosis)))
-    return tuple(found)
+        values.append((float(skew), float(kurtosis)))
+    return tuple(values)
 
 
 def surface_leading(phi: float) -> tuple[float, ...]:
@@ -175,4 +175,4 @@ def surface_leading(phi: float) -> tuple[float, ...]:
 def bulk_leading(phi: float) -> tuple[float, ...]:
     """Coefficients of K⁴, K³j and K²j², K = M − j, times (1 − φ²)⁴, under a bulk load; fitted."""
     a, b, c = (667, -1152, 1673), (4380, -6696, 10632), (7155, -13500, 19845)
-    return tuple((one[0] + one[1] * phi + one[2] * phi**2) / 360 for one in (a, b, c))
+    return tuple((row[0] + row[1] * phi + row[2] * phi**2) / 360 for row in (a, b, c))

@@ -12,9 +12,9 @@ SOON = {"B1", "B5", "B13", *paper()}
 
 def each(numbers: Iterable[Number], share: int = 1) -> list[Any]:
     """Mark what is derived late as long, of which CI runs one in so many."""
-    return [one if one in SOON else late([one], share)[0] for one in numbers]
+    return [number if number in SOON else late([number], share)[0] for number in numbers]
 
 
 def late(cases: Iterable[Any], share: int = 1) -> list[Any]:
     """Mark cases as long."""
-    return [pytest.param(one, marks=pytest.mark.long(share=share)) for one in cases]
+    return [pytest.param(case, marks=pytest.mark.long(share=share)) for case in cases]

@@ -33,8 +33,8 @@ def test_each_is_a_script_that_prints_its_steps_and_claims(number):
         assert f"{step.reason} " in whole
     for claim in proof.claims:
         assert re.search(f"- proved[^:]*: {re.escape(claim.reason)} \\(proof\\)", whole), claim
-    for one in proof.refuted:
-        assert f"- refuted: {one.reading} (refutation)" in whole
+    for refutation in proof.refuted:
+        assert f"- refuted: {refutation.reading} (refutation)" in whole
 
 
 @pytest.mark.long

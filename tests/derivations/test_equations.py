@@ -60,34 +60,34 @@ def test_a_term_that_is_not_of_the_cone_is_not_proved(stranger):
 
 def _named(words: str) -> Iterator[Number]:
     """The equations that words put in: By Eq. 3, With Eqs. 4 and 5."""
-    for found in re.finditer(r"\b(?:By|With) Eqs?\. (\d+)(?: and (\d+))?", words):
-        yield from (int(one) for one in found.groups() if one)
+    for match in re.finditer(r"\b(?:By|With) Eqs?\. (\d+)(?: and (\d+))?", words):
+        yield from (int(number) for number in match.groups() if number)
 
 
 def _rests_on(step: Step) -> set[Number]:
     """The equations whose theorems are among the premises of a step's, near and far."""
     shown = {
-        id(theorem): one.number
-        for one in map(load, paper())
-        for of in (*one.proof, *one.proof.claims)
+        id(theorem): derivation.number
+        for derivation in map(load, paper())
+        for of in (*derivation.proof, *derivation.proof.claims)
         for theorem in of.theorems
     }
-    left, seen = list(step.theorems), set()
-    while left:
-        theorem = left.pop()
+    queue, seen = list(step.theorems), set()
+    while queue:
+        theorem = queue.pop()
         if id(theorem) not in seen:
             seen.add(id(theorem))
-            left += theorem.premises
-    return {shown[one] for one in seen & {*shown}}
+            queue += theorem.premises
+    return {shown[key] for key in seen & {*shown}}
 
 
 @pytest.mark.parametrize("number", paper())
 def test_what_a_step_follows_from_is_among_its_premises(number):
     for step in load(number).proof:
-        found = _rests_on(step)
-        assert {*step.equations_used} <= found
+        premises = _rests_on(step)
+        assert {*step.equations_used} <= premises
         assert all(place < step.number for place in step.steps_used)
-        assert {*_named(step.reason)} <= found
+        assert {*_named(step.reason)} <= premises
 
 
 def test_the_kurtosis_of_the_forces_of_a_packing():

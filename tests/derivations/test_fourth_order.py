@@ -31,16 +31,16 @@ def by_taylor(height: int, layer: int, load: str) -> tuple[fmpq, fmpq]:
 
     def change(rho: dict[tuple[int, int], Fraction | fmpq]) -> list[fmpq]:
         solved = taylor.solve(width, height, n=N, rho=rho, loads=loads, order=3)
-        found = solved.force(layer % 2, layer, "+")
-        return [one / found[0] for one in found]
+        coefficients = solved.force(layer % 2, layer, "+")
+        return [coefficient / coefficients[0] for coefficient in coefficients]
 
     single = {bead: change({bead: Fraction(1)}) for bead in beads}
-    weights = {bead: one[1] for bead, one in single.items()}
-    squares = sum((one[2] ** 2 for one in single.values()), fmpq(0))
-    for a, one in enumerate(beads):
-        for other in beads[:a]:
-            both = change({one: Fraction(1), other: Fraction(1)})[2]
-            squares += (both - single[one][2] - single[other][2]) ** 2 / 2
+    weights = {bead: orders[1] for bead, orders in single.items()}
+    squares = sum((orders[2] ** 2 for orders in single.values()), fmpq(0))
+    for a, first in enumerate(beads):
+        for second in beads[:a]:
+            both = change({first: Fraction(1), second: Fraction(1)})[2]
+            squares += (both - single[first][2] - single[second][2]) ** 2 / 2
     # T is trilinear: what w + e and w − e have beyond twice w is 6 T(w, e, e)
     alone, third = change(weights)[3], fmpq(0)
     for bead in beads:
@@ -53,9 +53,9 @@ def by_taylor(height: int, layer: int, load: str) -> tuple[fmpq, fmpq]:
 @pytest.mark.parametrize("load", ["surface", "bulk"])
 @pytest.mark.parametrize(("height", "layer"), [(1, 0), (2, 0), (2, 1)])
 def test_floats_are_the_exact_coefficients(load, height, layer):
-    found = variances(height, float(PHI), load == "bulk")[layer]
+    orders = variances(height, float(PHI), load == "bulk")[layer]
     exact = by_taylor(height, layer, load)
-    assert found == pytest.approx(tuple(map(float, exact)), rel=1e-11)  # a few hundred roundings
+    assert orders == pytest.approx(tuple(map(float, exact)), rel=1e-11)  # a few hundred roundings
 
 
 @pytest.mark.long
@@ -80,14 +80,14 @@ def test_the_leading_order_is_as_fitted_at_another_cosine(bulk):
     table = np.array([[float(m) ** a * float(j) ** b for a, b in powers] for m, j in base])
     scale = np.abs(values)[:, None]
     columns = np.abs(table / scale).max(axis=0)
-    found, *_ = np.linalg.lstsq(table / scale / columns, values / scale[:, 0], rcond=None)
-    left = table / columns @ found / values - 1
-    assert np.abs(left).max() < 1e-11  # more values than coefficients
+    solution, *_ = np.linalg.lstsq(table / scale / columns, values / scale[:, 0], rcond=None)
+    residuals = table / columns @ solution / values - 1
+    assert np.abs(residuals).max() < 1e-11  # more values than coefficients
     degree = 6 if bulk else 4
-    of = {power: one / unit for power, one, unit in zip(powers, found, columns, strict=True)}
+    of = {power: value / unit for power, value, unit in zip(powers, solution, columns, strict=True)}
     highest = [of[a, b] for a, b in sorted(powers, reverse=True) if a + b == degree]
-    stated = (bulk_leading if bulk else surface_leading)(ANOTHER)
-    expected = [one / (1 - ANOTHER**2) ** 4 for one in stated]
+    coefficients = (bulk_leading if bulk else surface_leading)(ANOTHER)
+    expected = [coefficient / (1 - ANOTHER**2) ** 4 for coefficient in coefficients]
     assert highest == pytest.approx(expected, rel=1e-6)
 
 

@@ -26,9 +26,9 @@ def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure():
 def test_what_holds_for_one_contact_is_not_refuted():
     proof = Steps(16, eq16.CONE, eq16.MEANING)
     (of_contact,) = (
-        one.formula.rhs
-        for one in load(16).proof.claims
-        if one.reason.startswith("to leading order")
+        claim.formula.rhs
+        for claim in load(16).proof.claims
+        if claim.reason.startswith("to leading order")
     )
     rule = asymptotic(*eq16.in_radii())
     for rhs in (of_contact, of_contact * (1 + 1 / sy.l)):
@@ -47,9 +47,9 @@ def test_all_that_is_said_of_the_run_counts_it():
     for summary in (str(derived), str(proof), terminal.outcome_text(outcome)):
         assert words in summary
     assert terminal.trouble_lines(outcome) == []
-    (found,) = derived.data()["equations"]
-    assert found["refuted as expected"] == 1
-    assert [c["verdict"] for c in found["checks"] if c["kind"] == "refutation"] == ["refuted"]
+    (row,) = derived.data()["equations"]
+    assert row["refuted as expected"] == 1
+    assert [c["verdict"] for c in row["checks"] if c["kind"] == "refutation"] == ["refuted"]
     (reading,) = outcome.derivation.proof.refuted
     for document in (derived.latex()["equations.tex"], terminal.outcome_text(outcome)):
         assert reading.reading[1:] in " ".join(document.split())  # a sentence, or part of one

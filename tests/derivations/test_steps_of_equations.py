@@ -32,8 +32,8 @@ OF_ACROSS = (
 )
 OF_UP = tuple(change.replace("y", "x").replace("Y", "X") for change in OF_ACROSS)
 """Changes that a derivative by x, or by y, does not see."""
-UP_TO_ONE_MORE, UP_TO_ONE_LESS = (f"upper bound m = M shifted to M {one} 1" for one in "+−")
-CASE_LATER, CASE_EARLIER = (f"case m ≤ j shifted to j {one} 1" for one in "+−")
+UP_TO_ONE_MORE, UP_TO_ONE_LESS = (f"upper bound m = M shifted to M {sign} 1" for sign in "+−")
+CASE_LATER, CASE_EARLIER = (f"case m ≤ j shifted to j {sign} 1" for sign in "+−")
 CHANGES_OF_1 = "sign of 1 flipped", "1 dropped", "1 changed to 2"
 
 
@@ -86,21 +86,21 @@ SAME = {
 
 def is_the_same(shown: sympy.Eq, mutant: sympy.Eq, domain: Domain) -> bool:
     """Whether a mutant differs in powers alone of an index that is 1 there."""
-    here = {one.lhs: one.rhs for one in equations(domain.relations) if one.rhs == 1}
+    here = {eq.lhs: eq.rhs for eq in equations(domain.relations) if eq.rhs == 1}
     return bool(here) and mutant.subs(here) == shown.subs(here)
 
 
 @pytest.mark.parametrize("number", each(modules()))
 def test_the_steps_show_what_is_printed(number):
     statement = load(number)
-    shown = {one for step in statement.proof for one in step.equations}
+    shown = {line for step in statement.proof for line in step.equations}
     assert [step.number for step in statement.proof] == [*range(1, len(statement.proof) + 1)]
     if isinstance(statement, Row):  # a step for each formula
         forms = statement.exact_forms.values()
         assert shown == {
-            equation(form.divisor * form.quantity, form.divisor * one.expr)
+            equation(form.divisor * form.quantity, form.divisor * piece.expr)
             for form in forms
-            for one in form.pieces
+            for piece in form.pieces
         }
     else:
         assert shown >= {*statement.printed}
@@ -117,7 +117,7 @@ def proves(step: Step, part: int, candidate: sympy.Eq) -> bool:
 def test_a_changed_step_is_not_proved(number):
     statement = load(number)
     for step in statement.proof:
-        if all(one in statement.printed for one in step.equations):
+        if all(line in statement.printed for line in step.equations):
             continue  # its mutants are judged in tests/soundness
         tried, survived = 0, []
         for part, shown in enumerate(step.equations):

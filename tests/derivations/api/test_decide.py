@@ -83,9 +83,9 @@ def test_lines_that_are_left_out_are_not_proved(number):
     eq = fd.equation(number)
     lines = list(eq.expr)
     for some in (lines[:1], [*lines, lines[0]], ()):
-        found = eq.decide(some)
-        assert found.verdict is Verdict.NOT_A_STATEMENT
-        assert f"{len(lines)} lines" in found.note
+        ruling = eq.decide(some)
+        assert ruling.verdict is Verdict.NOT_A_STATEMENT
+        assert f"{len(lines)} lines" in ruling.note
     assert not eq.decide([lines[0]] * len(lines)).verdict.is_proved
 
 
@@ -129,9 +129,9 @@ def test_one_component_is_not_another(number):
 _TOO_LOW = sympy.Sum(1, (sy.m, 1, sy.j - 3)) + sy.j + 1
 
 
-def over_itself(one: sympy.Expr, side: sympy.Expr) -> sympy.Expr:
-    """What has no value where one has none, or vanishes, and is the side elsewhere."""
-    return sympy.Mul(one, sympy.Pow(one, -1), side, evaluate=False)
+def over_itself(factor: sympy.Expr, side: sympy.Expr) -> sympy.Expr:
+    """The side, but without a value where the factor has none or vanishes."""
+    return sympy.Mul(factor, sympy.Pow(factor, -1), side, evaluate=False)
 
 
 NO_STATEMENTS: list[tuple[int | str, str, Callable[[sympy.Eq], Any]]] = [
@@ -149,9 +149,9 @@ NO_STATEMENTS: list[tuple[int | str, str, Callable[[sympy.Eq], Any]]] = [
 def test_what_has_no_value_is_not_a_statement(number, reason, make):
     eq = fd.equation(number)
     line = eq.expr[0] if isinstance(eq.expr, Tuple) else eq.expr
-    found = eq.decide(make(line))
-    assert found.verdict is Verdict.NOT_A_STATEMENT, found
-    assert reason in found.note
+    ruling = eq.decide(make(line))
+    assert ruling.verdict is Verdict.NOT_A_STATEMENT, ruling
+    assert reason in ruling.note
 
 
 NOT_READ = [
@@ -169,10 +169,10 @@ NEVER_PROVED = [
 @pytest.mark.parametrize("number", [3, 13, 15, *late([12])])
 def test_what_is_not_read_is_undecided_with_the_reason(number):
     for candidate in NOT_READ + NEVER_PROVED:
-        found = fd.equation(number).decide(candidate)
-        assert found.note
-        assert not found.verdict.is_proved, candidate
-        assert found.verdict is Verdict.UNDECIDED or candidate in NEVER_PROVED, candidate
+        ruling = fd.equation(number).decide(candidate)
+        assert ruling.note
+        assert not ruling.verdict.is_proved, candidate
+        assert ruling.verdict is Verdict.UNDECIDED or candidate in NEVER_PROVED, candidate
 
 
 def test_which_line_is_meant_is_named_or_asked():
@@ -180,16 +180,16 @@ def test_which_line_is_meant_is_named_or_asked():
     assert "f⁺_(k−1,l−1)" in fd.equation(7).decide(first.rhs).note  # which is proved for it
     assert "f⁻_(k+1,l−1)" in fd.equation(7).decide(second.rhs).note
     assert fd.equation(7).decide(equal(first.lhs, second.rhs)).verdict is Verdict.REFUTED
-    found = fd.equation(7).decide(sympy.sin(sy.phi))
-    assert found.verdict is Verdict.UNDECIDED
-    assert "f⁺_(k−1,l−1) or f⁻_(k+1,l−1)" in found.note
+    ruling = fd.equation(7).decide(sympy.sin(sy.phi))
+    assert ruling.verdict is Verdict.UNDECIDED
+    assert "f⁺_(k−1,l−1) or f⁻_(k+1,l−1)" in ruling.note
 
 
 NO_EQUATIONS = [
-    *((one, f"and this is {type(one).__name__}") for one in ("1-z", None, object(), b"1")),
-    *((one, "made it of an Eq: write Eq(left, right, evaluate=False)")
-      for one in (True, sympy.true, sympy.Eq(1, 2))),
-    *((one, "") for one in (sympy.Matrix([[sy.M]]), sy.M < 3, sympy.S.EmptySet, (), [[sy.M]])),
+    *((value, f"and this is {type(value).__name__}") for value in ("1-z", None, object(), b"1")),
+    *((value, "made it of an Eq: write Eq(left, right, evaluate=False)")
+      for value in (True, sympy.true, sympy.Eq(1, 2))),
+    *((value, "") for value in (sympy.Matrix([[sy.M]]), sy.M < 3, sympy.S.EmptySet, (), [[sy.M]])),
 ]  # fmt: skip
 
 
@@ -213,14 +213,14 @@ def test_exact_forms_are_decided_on_their_own(number):
         same = [form.equation, right, equal(right, left)]
         if form.divisor == 1:  # else both sides are divided by what may vanish
             same.append(equal(times(2, left), times(2, right)))
-        for one in (*same, form, (form.equation,), right * sy.phi / sy.phi):
-            found = form.decide(one)
-            assert found.verdict is Verdict.PROVED, found
+        for candidate in (*same, form, (form.equation,), right * sy.phi / sy.phi):
+            ruling = form.decide(candidate)
+            assert ruling.verdict is Verdict.PROVED, ruling
         factors = (1 + MILLIONTH, -1) if right else ()  # zero, times anything, is the same
-        for wrong in (right + MILLIONTH, *(right * one for one in factors)):
-            found = form.decide(wrong)
-            assert found.verdict is Verdict.REFUTED, found
-            assert found.note.startswith("at ")
+        for wrong in (right + MILLIONTH, *(right * factor for factor in factors)):
+            ruling = form.decide(wrong)
+            assert ruling.verdict is Verdict.REFUTED, ruling
+            assert ruling.note.startswith("at ")
         assert form.decide(right + sympy.Symbol("y")).verdict is Verdict.NOT_A_STATEMENT
 
 
@@ -228,9 +228,9 @@ def test_one_formula_is_refuted_at_a_place_that_tells_it_apart():
     form = fd.equation(13).exact()
     at = {"phi": Fraction(1, 7), "sigma": 1, "r": 1}
     for piece in form.pieces:
-        found = form.decide(piece.expr)
-        assert found.verdict is Verdict.REFUTED
-        layer, height = map(int, re.match(r"at j = (\d+), M = (\d+): ", found.note).groups())
+        ruling = form.decide(piece.expr)
+        assert ruling.verdict is Verdict.REFUTED
+        layer, height = map(int, re.match(r"at j = (\d+), M = (\d+): ", ruling.note).groups())
         values = {sy.M: height, sy.j: layer, sy.phi: Rational(1, 7), sy.sigma: 1, sy.r: 1}
         assert form.at(M=height, j=layer, **at) != piece.expr.xreplace(values)
 
@@ -253,12 +253,12 @@ def test_a_leading_order_is_that_of_the_exact_form():
         (1 / sy.M, "left less right goes as "),
         (sympy.S.Zero, "left less right goes as "),
     ):
-        found = eq.decide(factor * eq.rhs)
-        assert found.verdict is Verdict.REFUTED
-        assert note in found.note
-    found = eq.decide(sympy.sqrt(2) * eq.rhs)
-    assert found.verdict is Verdict.UNDECIDED
-    assert "√2 is not a rational function" in found.note
+        ruling = eq.decide(factor * eq.rhs)
+        assert ruling.verdict is Verdict.REFUTED
+        assert note in ruling.note
+    ruling = eq.decide(sympy.sqrt(2) * eq.rhs)
+    assert ruling.verdict is Verdict.UNDECIDED
+    assert "√2 is not a rational function" in ruling.note
 
 
 def test_a_divisor_must_not_vanish_anywhere_in_the_domain():
@@ -280,9 +280,9 @@ def test_a_divisor_must_not_vanish_anywhere_in_the_domain():
 def test_pieces_that_leave_a_part_of_the_domain_out_are_no_statement():
     form = fd.equation(13).exact()
     some = sympy.Piecewise(*form.expr.args[:-1], evaluate=False)
-    found = form.decide(some)
-    assert found.verdict is Verdict.NOT_A_STATEMENT
-    assert found.note == "it has no value for M = 1"
+    ruling = form.decide(some)
+    assert ruling.verdict is Verdict.NOT_A_STATEMENT
+    assert ruling.note == "it has no value for M = 1"
 
 
 def test_z_stands_for_the_height_of_a_layer():
@@ -297,10 +297,10 @@ def test_z_stands_for_the_height_of_a_layer():
 
 def test_what_is_assumed_is_said_wherever_it_is_used():
     eq = Equation(replace(fakes.PREMISE, show_steps=_guess))
-    found = eq.decide(eq.expr)
-    assert found.verdict is Verdict.ASSUMING
-    assert found.assuming == (fakes.GUESS,)
-    assert str(found).startswith(f"proved, assuming {fakes.GUESS}: by a guess")
+    ruling = eq.decide(eq.expr)
+    assert ruling.verdict is Verdict.ASSUMING
+    assert ruling.assuming == (fakes.GUESS,)
+    assert str(ruling).startswith(f"proved, assuming {fakes.GUESS}: by a guess")
 
 
 def _guess(steps: Steps) -> None:

@@ -12,20 +12,20 @@ import force_diffusion as fd
 def test_premises_come_first_and_callbacks_are_told():
     notices: list[str] = []
     finished: list[int] = []
-    found = fd.derive(
+    derived = fd.derive(
         [5], notice=notices.append, finished=lambda o: finished.append(o.derivation.number)
     )
-    assert finished == list(found.verdicts) == [2, 3, 4, 5]
+    assert finished == list(derived.verdicts) == [2, 3, 4, 5]
     assert notices[0] == "Eq. 5"
     assert sorted(notices) == [f"Eq. {number}" for number in finished]
-    assert found.proved
-    assert found.counts() == f"{len(finished)} proved"
-    assert str(found).splitlines()[-1] == f"{found.counts()}."
+    assert derived.proved
+    assert derived.counts() == f"{len(finished)} proved"
+    assert str(derived).splitlines()[-1] == f"{derived.counts()}."
 
 
 @pytest.mark.parametrize("number", [0, 17, 5.5, "eleven", None, [11], True])
 def test_a_number_that_is_no_equation(number):
-    for ask in (fd.equation, lambda one: fd.derive([one])):
+    for ask in (fd.equation, lambda label: fd.derive([label])):
         with pytest.raises(NoSuchFormError, match="from 1 to 16, or B1 to B"):
             ask(number)
 
@@ -42,11 +42,11 @@ def test_one_number_in_place_of_several_is_told_in_words():
 def test_the_command_prints_and_writes_what_derive_gives(tmp_path, call):
     status, shown, _ = call("derive", 5, "--json", "--out", tmp_path / "out")
     assert status == 0
-    found = fd.derive([5])
+    derived = fd.derive([5])
 
     def timeless(data: dict[str, list[dict[str, object]]]) -> object:
-        return [{**one, "seconds": 0} for one in data["equations"]]
+        return [{**row, "seconds": 0} for row in data["equations"]]
 
-    assert timeless(json.loads(shown)) == timeless(found.data())
-    for name, text in found.latex().items():
+    assert timeless(json.loads(shown)) == timeless(derived.data())
+    for name, text in derived.latex().items():
         assert (tmp_path / "out" / name).read_text(encoding="utf-8") == text

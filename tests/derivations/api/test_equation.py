@@ -78,7 +78,7 @@ def test_the_lines_of_exact_forms_fit(number, columns):
 @pytest.mark.long
 def test_a_proof_runs_its_premises():
     proof = fd.equation(4).prove()
-    assert [one.derivation.number for one in proof.outcomes] == [2, 3, 4]
+    assert [outcome.derivation.number for outcome in proof.outcomes] == [2, 3, 4]
     assert proof.verdict is Verdict.PROVED
     assert str(proof).splitlines()[0] == "Eq. 4 is proved. It rests on Eq. 3."
     assert "It rests on no other equation." in repr(fd.equation(1).prove())

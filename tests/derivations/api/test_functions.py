@@ -26,8 +26,8 @@ EXACT = {"phi": Fraction(-1, 8), "sigma": Fraction(1, 100), "r": 1}
 
 REAL = np.array([0.25, 0.5])
 KINDS: list[tuple[Any, type]] = [
-    *((one, float) for one in (REAL, REAL.astype(np.float32), [0.25, 0.5], [Fraction(1, 4), 0.5])),
-    *((one, object) for one in (
+    *((z, float) for z in (REAL, REAL.astype(np.float32), [0.25, 0.5], [Fraction(1, 4), 0.5])),
+    *((z, object) for z in (
         [Fraction(1, 4), Decimal("0.5")], sympy.Tuple(Rational(1, 4), Rational(1, 2)),
         (fmpq(1, 4), fmpq(1, 2)), np.array([Fraction(1, 4), Fraction(1, 2)]),
     )),
@@ -36,12 +36,12 @@ KINDS: list[tuple[Any, type]] = [
 
 @pytest.mark.parametrize(("z", "kind"), KINDS, ids=repr)
 def test_one_float_makes_floats_of_all_and_else_all_is_exact(z, kind):
-    found = fd.equation(13).at(M=8, z=z, **EXACT)
-    alone = [fd.equation(13).at(M=8, z=one, **EXACT) for one in (Fraction(1, 4), Fraction(1, 2))]
-    assert all(isinstance(one, sympy.Rational) for one in alone)
-    assert found.dtype == kind
-    assert found.tolist() == (
-        alone if kind is object else [int(one.p) / int(one.q) for one in alone]
+    values = fd.equation(13).at(M=8, z=z, **EXACT)
+    alone = [fd.equation(13).at(M=8, z=z, **EXACT) for z in (Fraction(1, 4), Fraction(1, 2))]
+    assert all(isinstance(value, sympy.Rational) for value in alone)
+    assert values.dtype == kind
+    assert values.tolist() == (
+        alone if kind is object else [int(value.p) / int(value.q) for value in alone]
     )
 
 
@@ -59,9 +59,9 @@ def test_a_float_is_rounded_once(height, z, phi, sigma):
     exact = fd.equation(13).at(
         M=height, z=Fraction(z), phi=Fraction(phi), sigma=Fraction(sigma), r=1
     )
-    found = fd.equation(13).at(M=height, z=z, phi=phi, sigma=sigma, r=1)
-    assert type(found) is float
-    assert found == int(exact.p) / int(exact.q)
+    value = fd.equation(13).at(M=height, z=z, phi=phi, sigma=sigma, r=1)
+    assert type(value) is float
+    assert value == int(exact.p) / int(exact.q)
 
 
 def test_powers_that_are_no_fractions():
@@ -90,10 +90,10 @@ def test_numbers_of_thousands_of_digits_get_an_answer_or_a_sentence():
 
 def test_arrays_are_broadcast():
     heights, z = np.array([[4], [8]]), np.linspace(0, 1, 3)
-    found = fd.equation(13).at(M=heights, z=z, **FLOATS)
-    assert found.shape == (2, 3)
-    assert found[1, 2] == 0
-    assert found[1, 1] == fd.equation(13).at(M=8, z=0.5, **FLOATS)
+    values = fd.equation(13).at(M=heights, z=z, **FLOATS)
+    assert values.shape == (2, 3)
+    assert values[1, 2] == 0
+    assert values[1, 1] == fd.equation(13).at(M=8, z=0.5, **FLOATS)
 
 
 def test_two_lines_are_two_arrays():
@@ -103,8 +103,8 @@ def test_two_lines_are_two_arrays():
 
 
 def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same():
-    found = fd.equation(13).at(M=10, z=np.array([]), **FLOATS)
-    assert found.shape == (0,)
+    values = fd.equation(13).at(M=10, z=np.array([]), **FLOATS)
+    assert values.shape == (0,)
     with pytest.raises(ArgumentError, match="has no x"):
         fd.equation(13).at(M=10, x=[], **FLOATS)
 
@@ -183,9 +183,9 @@ def test_a_function_is_the_formula_in_floats(number):
         expected = formula.at(**given)
         assert function(**given) == pytest.approx(expected, rel=1e-13)
         shown = function(**{name: np.full((2, 1), value) for name, value in given.items()})
-        for one in shown if isinstance(shown, tuple) else (shown,):
-            assert one.shape == (2, 1)
-            assert one.dtype == np.float64
+        for array in shown if isinstance(shown, tuple) else (shown,):
+            assert array.shape == (2, 1)
+            assert array.dtype == np.float64
 
 
 @pytest.mark.parametrize("number", ["B5", "B13"])
@@ -200,8 +200,8 @@ def test_a_closed_form_takes_arrays_itself(number):
 @pytest.mark.parametrize("kind", [float, Fraction, Decimal, sympy.Rational, np.float32])
 def test_a_function_takes_numbers_of_any_kind(kind):
     half = kind("0.5") if kind in (Decimal, sympy.Rational) else kind(0.5)
-    found = fd.equation(13).function()(10**7, [half, 0], 0, half, r=1)  # M³ is no int64
-    assert found == pytest.approx([2.5e20, 5e20], rel=1e-14)
+    values = fd.equation(13).function()(10**7, [half, 0], 0, half, r=1)  # M³ is no int64
+    assert values == pytest.approx([2.5e20, 5e20], rel=1e-14)
     assert isinstance(fd.equation(13).function()(M=10, z=half, phi=0, sigma=1, r=1), float)
 
 

@@ -11,17 +11,17 @@ import force_diffusion as fd
 from tests.derivations.rows import each
 
 
-def again(thing: Any) -> Any:
-    return pickle.loads(pickle.dumps(thing))
+def again(value: Any) -> Any:
+    return pickle.loads(pickle.dumps(value))
 
 
 @pytest.mark.parametrize("number", each(modules(), share=2))
 def test_every_equation(number):
-    found = fd.equation(number)
-    assert str(again(found)) == str(found)
-    assert again(found).latex() == found.latex()
+    equation = fd.equation(number)
+    assert str(again(equation)) == str(equation)
+    assert again(equation).latex() == equation.latex()
     assert again(load(number)) is load(number)
-    for form in map(found.exact, found.forms):
+    for form in map(equation.exact, equation.forms):
         copy = again(form)
         assert (str(copy), copy.latex()) == (str(form), form.latex())
 

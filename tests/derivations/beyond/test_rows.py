@@ -23,9 +23,9 @@ GOLDEN = Path(__file__).parents[2] / "golden" / "rows"
 
 
 def row(number: str) -> Row:
-    found = load(number)
-    assert isinstance(found, Row)
-    return found
+    statement = load(number)
+    assert isinstance(statement, Row)
+    return statement
 
 
 @pytest.mark.parametrize("number", each(ROWS, share=3))
@@ -40,10 +40,10 @@ def test_formulas_are_those_on_record(number):
 def test_the_call_gives_the_first_form(number):
     names = {name: getattr(symbols, name) for name in symbols.__all__}
     names |= {name: getattr(fd, name) for name in CALLS}
-    found = eval(row(number).call, {"__builtins__": {}}, names)
-    stated = next(iter(row(number).exact_forms.values()))
-    assert found.domain == stated.domain
-    assert [piece.expr for piece in found.pieces] == [piece.expr for piece in stated.pieces]
+    form = eval(row(number).call, {"__builtins__": {}}, names)
+    first = next(iter(row(number).exact_forms.values()))
+    assert form.domain == first.domain
+    assert [piece.expr for piece in form.pieces] == [piece.expr for piece in first.pieces]
 
 
 CALLS = (
@@ -62,9 +62,9 @@ def changed(form: ClosedForm, everywhere: bool) -> ClosedForm:
         whole = formulas[0][0]
     more = FIELD.from_sympy(t * (M * l) ** 6 * sigma**2 / r**2)
     wrong = function.weights.scaled(FIELD.constant(-3)) + Weights(((whole, more),))
-    found = form.named(form.quantity)
-    found.function = replace(function, weights=wrong)
-    return found
+    copy = form.named(form.quantity)
+    copy.function = replace(function, weights=wrong)
+    return copy
 
 
 def refutations(number: str) -> Iterator[str]:

@@ -79,8 +79,8 @@ def certify(name: str, form: fd.ClosedForm, formulas: Sequence[Piece]) -> int:
     true = truth(name, form)
     for formula in formulas:
         for at in places.telling_apart(formula.where):
-            stated = form.value({s: sympy.Rational(n) for s, n in {**NUMBERS, **at}.items()})
-            assert exact(stated) == true(at), f"{name} at {at}"
+            value = form.value({s: sympy.Rational(n) for s, n in {**NUMBERS, **at}.items()})
+            assert exact(value) == true(at), f"{name} at {at}"
             count += 1
     return count
 
@@ -121,18 +121,18 @@ class Places:
 
     def __init__(self, form: fd.ClosedForm) -> None:
         self._form = form
-        self._symbols = [one for one in sy.INDICES if one in form.symbols.values()]
+        self._symbols = [symbol for symbol in sy.INDICES if symbol in form.symbols.values()]
 
     @cached_property
     def _top(self) -> sympy.Symbol:
         """The height of packings; or the layer of the loaded bead, or of the only one."""
-        return next(one for one in (sy.M, sy.l, sy.j) if one in self._symbols)
+        return next(symbol for symbol in (sy.M, sy.l, sy.j) if symbol in self._symbols)
 
     @cached_property
     def _powers(self) -> Grid:
         """Those of the indices in the terms of all formulas, times their divisors."""
-        places = [self._form.pieces[0].value.domain.position[one] for one in self._symbols]
-        terms = chain.from_iterable(one.value.numerator.to_dict() for one in self._form.pieces)
+        places = [self._form.pieces[0].value.domain.position[symbol] for symbol in self._symbols]
+        terms = chain.from_iterable(piece.value.numerator.to_dict() for piece in self._form.pieces)
         powers = [[int(term[place]) for place in places] for term in terms]
         return np.array(powers or [[0] * len(places)])
 
@@ -163,30 +163,30 @@ class Places:
     def _values(self, grid: Grid, form: sympy.Expr) -> Grid:
         """What a sum of indices is at each point."""
         terms = sympy.expand(form).as_coefficients_dict()
-        factors = [int(terms.get(one, 0)) for one in self._symbols]
+        factors = [int(terms.get(symbol, 0)) for symbol in self._symbols]
         return grid @ np.array(factors, dtype=np.int64) + int(terms.get(sympy.S.One, 0))
 
     def _meeting(self, grid: Grid, relations: Iterable[sympy.Basic]) -> np.ndarray[Any, Any]:
         """At which points all relations hold."""
-        found = np.ones(len(grid), dtype=bool)
-        for one in relations:
-            if not one.free_symbols <= {*self._symbols}:
+        mask = np.ones(len(grid), dtype=bool)
+        for relation in relations:
+            if not relation.free_symbols <= {*self._symbols}:
                 continue
-            left, right = (self._values(grid, side) for side in one.args)
+            left, right = (self._values(grid, side) for side in relation.args)
             compare = {
                 sympy.Eq: np.equal, sympy.Ge: np.greater_equal, sympy.Gt: np.greater,
                 sympy.Le: np.less_equal, sympy.Lt: np.less,
-            }[one.func]  # fmt: skip
-            found &= compare(left, right)
-        return found
+            }[relation.func]  # fmt: skip
+            mask &= compare(left, right)
+        return mask
 
     def telling_apart(self, parts: Sequence[Sequence[sympy.Basic]]) -> Iterator[Point]:
         """Points at which no polynomial of the degree but 0 vanishes on all of some parts.
 
         At least one is in each part.
         """
-        given = set.intersection(*({one.lhs for one in words.equations(part)} for part in parts))
-        free = [n for n, one in enumerate(self._symbols) if one not in given]
+        given = set.intersection(*({eq.lhs for eq in words.equations(part)} for part in parts))
+        free = [n for n, symbol in enumerate(self._symbols) if symbol not in given]
         if sy.k in self._symbols and sy.i in self._symbols:
             free.remove(self._symbols.index(sy.k))
         highest = self._powers.max(axis=0)[free]
@@ -221,7 +221,7 @@ class Basis:
 
     def __init__(self, highest: Grid, degree: int) -> None:
         ranges = (range(int(power) + 1) for power in highest)
-        self._monomials = [one for one in product(*ranges) if sum(one) <= degree]
+        self._monomials = [powers for powers in product(*ranges) if sum(powers) <= degree]
         self._rows = np.zeros((0, len(self._monomials)), dtype=np.int64)
         self._pivots: list[int] = []
 

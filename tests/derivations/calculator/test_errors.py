@@ -49,7 +49,7 @@ OBSERVABLES = [
 
 @pytest.mark.parametrize(("observable", "says"), OBSERVABLES)
 def test_observables(observable, says):
-    for ask in (fd.variance, lambda one: fd.covariance(FORCE, one)):
+    for ask in (fd.variance, lambda other: fd.covariance(FORCE, other)):
         with pytest.raises(ObservableError, match=says):
             ask(observable)
 
@@ -66,28 +66,28 @@ CALLS: list[tuple[Callable[[Any], Any], tuple[Any, ...], str]] = [
     (lambda d: fd.variance(FORCE, dimension=d), (1, "3", None, [3]), "2 and 3 are allowed"),
     (lambda d: fd.variance(FORCE, dimension=d), (3,), r"is a quantity of discs: .* take f_along"),
     (lambda a: fd.variance(f_along(a, i, j, k), dimension=3), (0, 4, i), "1, 2 and 3 are allowed"),
-    (lambda one: fd.mean(one, order=2, dimension=3), (IN_SPACE,),
+    (lambda f: fd.mean(f, order=2, dimension=3), (IN_SPACE,),
      "that is not known in three dimensions"),
     (lambda order: fd.mean(FORCE, order=order), (0, 3, "2", None), "1 and 2 are allowed"),
-    (lambda one: fd.mean(one, order=2), (FORCE**5,), "the power 5 of f⁺_ij is not a whole number"),
-    (lambda one: fd.mean(one, order=2), (1 / FORCE,), "f⁺_ij is not determined by .* whole"),
+    (lambda f: fd.mean(f, order=2), (FORCE**5,), "the power 5 of f⁺_ij is not a whole number"),
+    (lambda f: fd.mean(f, order=2), (1 / FORCE,), "f⁺_ij is not determined by .* whole"),
     (lambda where: fd.variance(FORCE, where=where),
      ("j >= 2", [j], phi > 0, None, [j > 2, "M"], j**2 > 3),
      "relations between indices are allowed, such as"),
     (lambda where: fd.variance(FORCE, where=where), (j >= M,), "no packing has these beads"),
     (lambda count: fd.variance(fd.mean_over(FORCE, count)),
      (0, -1, 2.5, "N", None, own("N"), N / 2, N**2), "a whole number from 1 up"),
-    (lambda one: fd.mean_over(one, N), (f_plus(1, j), f_plus(p, j), FORCE + f_plus(k, l)),
+    (lambda f: fd.mean_over(f, N), (f_plus(1, j), f_plus(p, j), FORCE + f_plus(k, l)),
      "write horizontal places with the index i"),
-    (lambda one: fd.mean_over(fd.mean_over(fd.mean_over(one, 2), 3), N), (FORCE,),
+    (lambda f: fd.mean_over(fd.mean_over(fd.mean_over(f, 2), 3), N), (FORCE,),
      "are not supported"),
     (fd.mean, (FORCE / (M - 2 * j),), "the divisor M − 2 j may be zero"),
-    (lambda one: fd.mean(one, load=fd.leaning(1)), (FORCE / (1 - t),), "divides by 0 under this"),
+    (lambda f: fd.mean(f, load=fd.leaning(1)), (FORCE / (1 - t),), "divides by 0 under this"),
 ]  # fmt: skip
 
 
 @pytest.mark.parametrize(
-    ("ask", "given", "says"), [(ask, one, says) for ask, values, says in CALLS for one in values]
+    ("ask", "given", "says"), [(ask, arg, says) for ask, values, says in CALLS for arg in values]
 )
 def test_calls(ask, given, says):
     with pytest.raises(ObservableError, match=says):

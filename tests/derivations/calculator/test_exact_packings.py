@@ -70,7 +70,7 @@ def value(terms: Terms, packing: Packing, bead: Bead) -> Value:
 
 def _terms(most: int) -> st.SearchStrategy[Terms]:
     """Different contacts, so that none cancels."""
-    one = st.builds(
+    term = st.builds(
         lambda factor, branch, across, up: Term(factor, branch, 2 * across + up % 2, up),
         st.integers(-3, 3).filter(bool),
         st.sampled_from("+-"),
@@ -78,7 +78,7 @@ def _terms(most: int) -> st.SearchStrategy[Terms]:
         st.integers(-1, 2),
     )
     return st.lists(
-        one, min_size=1, max_size=most, unique_by=lambda term: (term.branch, term.across, term.up)
+        term, min_size=1, max_size=most, unique_by=lambda term: (term.branch, term.across, term.up)
     ).map(tuple)
 
 
@@ -166,13 +166,13 @@ def test_variances(terms, drawn):
 @pytest.mark.long
 @FEW
 @given(_terms(1), _terms(1), loads, st.integers(-9, 8))
-def test_two_layers(one, other, drawn, apart):
+def test_two_layers(terms, others, drawn, apart):
     """At any distance; where the distance is of the wrong parity there is no bead."""
-    form = fd.covariance(observable(one, i, j), observable(other, i + p, l), load=drawn.load)
+    form = fd.covariance(observable(terms, i, j), observable(others, i + p, l), load=drawn.load)
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
         first, second = (at["j"] % 2, at["j"]), (at["j"] % 2 + at["p"], at["l"])
-        return covariance(value(one, packing, first), value(other, packing, second))
+        return covariance(value(terms, packing, first), value(others, packing, second))
 
     places = [{"j": a, "l": b, "p": c} for a, b, c in product(LAYERS, LAYERS, (apart, apart + 1))]
     compare(form, drawn, places, true, heights=(2, HIGHEST))
@@ -208,7 +208,7 @@ def test_second_order_of_products(terms, n):
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
         values = (term.value(packing, (at["j"] % 2, at["j"])) for term in terms)
-        return reduce(lambda one, other: one * other, values).shift
+        return reduce(lambda a, b: a * b, values).shift
 
     compare(form, drawn, beads(form), true)
 
@@ -223,9 +223,9 @@ def test_below_one_loaded_bead(terms, n):
         packing = Packing(level, n, "point", at={k: level % 2}, order=1)
         for layer, column in product(range(-2, level + 3), range(-level - 5, level + 7)):
             at = {"i": column, "j": layer, "k": level % 2, "l": level, "phi": cosine}
-            here = (column, layer)
             try:
-                whole = reduce(add, (one.bare(packing, here).scaled(one.factor) for one in terms))
+                forces = (term.bare(packing, (column, layer)).scaled(term.factor) for term in terms)
+                whole = reduce(add, forces)
             except AbsentError:
                 with pytest.raises(ArgumentError, match=r" is for .*, not for "):
                     form.at(**at, sigma=1, r=1)

@@ -40,7 +40,7 @@ def test_every_symbol_is_documented():
 
 def test_symbols_that_others_may_be_taken_for_are_those_of_the_module():
     given = {name: getattr(symbols, name) for name in symbols.__all__}
-    assert {name: one for name, one in given.items() if isinstance(one, sympy.Symbol)} == NAMED
+    assert {n: symbol for n, symbol in given.items() if isinstance(symbol, sympy.Symbol)} == NAMED
     assert {*INDICES} <= {*NAMED.values()}
 
 
@@ -159,7 +159,7 @@ def test_domains_in_words(observable, words):
 def test_a_domain_of_ones_own():
     whole, part = fd.variance(f_plus(i, j)), fd.variance(f_plus(i, j), where=(j >= 2, j <= M - 2))
     assert part.domain == "2 ≤ j ≤ M − 2"
-    assert [one.expr for one in part.pieces] == [whole.pieces[0].expr]
+    assert [piece.expr for piece in part.pieces] == [whole.pieces[0].expr]
     assert part.at(**HERE) == whole.at(**HERE)
     assert fd.variance(f_plus(i, j), where=j >= 0).domain == whole.domain
 
@@ -175,6 +175,6 @@ def test_layers_are_those_of_the_contact_and_not_of_the_index():
 def test_neighbours():
     form = fd.variance(fd.mean_over(f_plus(i, j), N))
     assert form.domain == "N ≥ 1, 0 ≤ j ≤ M − 1"
-    one, two = (f_plus(i + 2 * n, j) for n in (0, 1))
-    assert form.at(N=2, **HERE) == fd.variance((one + two) / 2).at(**HERE)
+    first, second = (f_plus(i + 2 * n, j) for n in (0, 1))
+    assert form.at(N=2, **HERE) == fd.variance((first + second) / 2).at(**HERE)
     assert form.at(N=1, **HERE) == fd.variance(fd.mean_over(f_plus(i, j), 1)).at(**HERE)

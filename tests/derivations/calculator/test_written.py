@@ -58,30 +58,30 @@ def points(form: fd.ClosedForm) -> Iterator[dict[str, int]]:
 
 def others(form: fd.ClosedForm) -> dict[str, Any]:
     """Numbers of what is no index."""
-    return {name: NUMBERS[name] for name, one in form.symbols.items() if not one.is_integer}
+    return {name: NUMBERS[name] for name, symbol in form.symbols.items() if not symbol.is_integer}
 
 
 def is_inside(form: fd.ClosedForm, at: dict[str, int]) -> bool:
     values = {form.symbols[name]: number for name, number in at.items()}
-    relations = [one.subs(values) for one in form.kernel_domain.relations]
-    even = [one.subs(values) for one in form.even]
-    relations += [values[one] >= 1 for one in values if one.is_positive]
+    relations = [relation.subs(values) for relation in form.kernel_domain.relations]
+    even = [expr.subs(values) for expr in form.even]
+    relations += [values[symbol] >= 1 for symbol in values if symbol.is_positive]
     return not {sympy.false, False} & {*relations} and not any(
-        one.is_Integer and one % 2 for one in map(sympy.sympify, even)
+        number.is_Integer and number % 2 for number in map(sympy.sympify, even)
     )
 
 
 def test_each_place_of_the_domain_is_in_one_piece(form):
     tests = [
-        [sympy.lambdify([*form.symbols.values()], sympy.And(*part), "math") for part in one.where]
-        for one in form.pieces
+        [sympy.lambdify([*form.symbols.values()], sympy.And(*part), "math") for part in piece.where]
+        for piece in form.pieces
     ]
     rest, inside = dict.fromkeys(others(form), 0), 0
     for at in points(form):
         if is_inside(form, at):
             values = [{**at, **rest}[name] for name in form.symbols]
             pieces = [any(holds(*values) for holds in parts) for parts in tests]
-            assert sum(pieces) == 1, (at, [one.domain for one in form.pieces])
+            assert sum(pieces) == 1, (at, [piece.domain for piece in form.pieces])
             inside += 1
     assert inside > 9 or form.symbols.keys() <= {"M", "phi", "sigma", "r"}
 
@@ -97,11 +97,11 @@ def test_python_gives_the_same_and_refuses_the_same(form):
             with pytest.raises(ValueError, match="outside of"):
                 names["function"](**at, **numbers)
             continue
-        found = names["function"](**at, **_fractions(numbers))
-        if isinstance(found, float):  # Python divides whole numbers in 1/m, and takes roots
-            assert found == pytest.approx(float(expected), rel=1e-13)
+        value = names["function"](**at, **_fractions(numbers))
+        if isinstance(value, float):  # Python divides whole numbers in 1/m, and takes roots
+            assert value == pytest.approx(float(expected), rel=1e-13)
         else:
-            assert found == expected
+            assert value == expected
 
 
 def _fractions(given: dict[str, Any]) -> dict[str, Fraction]:
@@ -114,8 +114,8 @@ def test_latex_says_the_same(form):
     numbers = _fractions(NUMBERS) | {name: Fraction(7, n) for n, name in enumerate("MijklNp", 5)}
     numbers["H_M"] = Fraction(5, 3)
     for formula, piece in zip(formulas, form.pieces, strict=True):
-        plain = {one: numbers[getattr(one, "in_code", one.name)] for one in piece.expr.free_symbols}
-        expected = piece.expr.subs({one: sympy.Rational(value) for one, value in plain.items()})
+        plain = {s: numbers[getattr(s, "in_code", s.name)] for s in piece.expr.free_symbols}
+        expected = piece.expr.subs({s: sympy.Rational(value) for s, value in plain.items()})
         assert eval(formula, {"__builtins__": {}}, dict(numbers)) == expected, formula
 
 

@@ -75,16 +75,16 @@ def test_a_program_that_checks_nothing_accepts_nothing(programs, script, trouble
     if "sleep" in script:
         monkeypatch.setattr(folder, "LIMIT", 2)  # a busy machine says its version within them
     put(programs, "coqc", VERSION + script)
-    found = fd.certify([1])
-    assert not found.passed
-    assert trouble in found.equations[0].note
+    certification = fd.certify([1])
+    assert not certification.passed
+    assert trouble in certification.equations[0].note
 
 
 def test_trouble_with_another_version_names_the_one_that_it_is_written_for(programs):
     put(programs, "coqc", 'case $1 in --print-version) echo "9.1.0 5.2";; *) exit 1;; esac')
-    found = fd.certify([1]).equations[0]
-    assert str(found) == "not accepted by Coq 9.1.0"
-    assert "written for Coq 8.16.1" in found.note
+    verdict = fd.certify([1]).equations[0]
+    assert str(verdict) == "not accepted by Coq 9.1.0"
+    assert "written for Coq 8.16.1" in verdict.note
 
 
 def test_statements_and_verdicts_are_written(programs, tmp_path, call):
@@ -100,8 +100,8 @@ def test_statements_and_verdicts_are_written(programs, tmp_path, call):
     ]
     assert printed[-1] == "0 of 2 accepted."
     certificate = json.loads((out / "certificate.json").read_text())
-    assert [one["accepted"] for one in certificate["equations"]] == [False, False]
-    (three, seven) = (one["theorems"] for one in certificate["equations"])
+    assert [row["accepted"] for row in certificate["equations"]] == [False, False]
+    (three, seven) = (row["theorems"] for row in certificate["equations"])
     for name, hashed in (three | seven).items():
         files = (f"{name.capitalize()}{end}.v" for end in ("_statement", "", "_accepted"))
         content = b"".join((out / file).read_bytes() for file in files)

@@ -16,11 +16,11 @@ import force_diffusion as fd
 
 def test_the_record_is_up_to_date():
     """If this fails, ask Coq again: CONTRIBUTING.md says how."""
-    assert [one["number"] for one in record()["equations"]] == paper()
+    assert [row["number"] for row in record()["equations"]] == paper()
     assert record()["theory"] == theory_hash()
-    for one in record()["equations"]:
-        assert one["accepted"]
-        assert one["theorems"] == {made.name: made.hash for made in statements(load(one["number"]))}
+    for row in record()["equations"]:
+        assert row["accepted"]
+        assert row["theorems"] == {made.name: made.hash for made in statements(load(row["number"]))}
 
 
 def test_only_what_was_accepted_counts(monkeypatch):

@@ -32,7 +32,7 @@ def test_its_hash_covers_all_that_is_written():
         replace(made, conclusion="True"), replace(made, tactic="exact I"),
         replace(made, companions=made.companions[:1]),
     )  # fmt: skip
-    assert len({made.hash, *(one.hash for one in changed)}) == 4
+    assert len({made.hash, *(statement.hash for statement in changed)}) == 4
 
 
 def test_a_statistic_is_the_one_that_is_printed():

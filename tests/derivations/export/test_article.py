@@ -25,7 +25,7 @@ from tests.derivations.rows import each
 WIDE = dict.fromkeys(FIGURES, False)
 TEXT = source()
 u, v, z_upper, tau = sympy.symbols("u v zp tau", positive=True)
-NAMES = {str(one): one for one in (M, N, j, l, r, t, z, u, v)} | {
+NAMES = {str(symbol): symbol for symbol in (M, N, j, l, r, t, z, u, v)} | {
     "phi": phi,
     "sigma": sigma,
     "tau": 3 * sy.t_2**2 + 4 * sy.t_2 * sy.t_3 + 3 * sy.t_3**2,
@@ -68,11 +68,11 @@ def read(words: str) -> sympy.Expr:
 @cache
 def displays() -> dict[str, list[tuple[str, sympy.Expr]]]:
     """By its tag, the relation and right-hand side of each statement of a display."""
-    found: dict[str, list[tuple[str, sympy.Expr]]] = {}
+    by_tag: dict[str, list[tuple[str, sympy.Expr]]] = {}
     for body, tag in re.findall(r"^\$\$\n((?:(?!\$\$).*\n)*?)\\tag\{(.*)\}\n\$\$", TEXT, re.M):
         if tag != "B1":
-            found[tag] = list(statements(body))
-    return found
+            by_tag[tag] = list(statements(body))
+    return by_tag
 
 
 def statements(body: str) -> Iterator[tuple[str, sympy.Expr]]:
@@ -209,14 +209,14 @@ def test_formulas_within_sentences(words, label, name, where, at):
 
 @pytest.mark.long
 def test_averaging_over_loads_lowers_the_variance_by_less_than_a_third():
-    one, many = load(16).exact_forms["bead"], load("B22").exact_forms["loads"]
+    single, many = load(16).exact_forms["bead"], load("B22").exact_forms["loads"]
     for cosine in (Rational(-2, 5), Rational(0), Rational(2, 5)):
         given = {"phi": cosine, "sigma": 1, "r": 1}
         for top in range(3, 15):
             for layer in range(top - 2):
                 for count in range(2, top - layer):
                     at = {"k": top, "l": top, "i": 2 * top - layer - 2, "j": layer, **given}
-                    assert many.at(N=count, **at) > Rational(2, 3) * one.at(**at)
+                    assert many.at(N=count, **at) > Rational(2, 3) * single.at(**at)
 
 
 @pytest.mark.long
@@ -266,7 +266,7 @@ def test_figures_and_references_are_in_the_order_of_the_text(whole):
     drawn = re.findall(r"\\label\{fig:(\w+)\}", whole)
     assert drawn == figures_of(TEXT)
     assert list(dict.fromkeys(re.findall(r"Fig\. (\w+)", TEXT))) == drawn
-    cited = [int(one) for some in re.findall(r"\[([\d, ]+)\]", TEXT) for one in some.split(",")]
+    cited = [int(key) for keys in re.findall(r"\[([\d, ]+)\]", TEXT) for key in keys.split(",")]
     listed = re.findall(r"\\bibitem\{(\d+)\}", whole)
     assert list(map(str, dict.fromkeys(cited))) == listed
 

@@ -62,8 +62,8 @@ def test_they_are_the_exact_forms(name):
     form, function = fd.equation(number).exact(of), getattr(closed_forms, name)
     for place in places(name):
         at = place | GIVEN
-        found = function(**{one: at[one] for one in signature(function).parameters})
-        assert found == form.at(**{one: at[one] for one in form.symbols})
+        value = function(**{key: at[key] for key in signature(function).parameters})
+        assert value == form.at(**{key: at[key] for key in form.symbols})
 
 
 @pytest.mark.parametrize("name", LEADING)
@@ -89,13 +89,13 @@ def test_float64_is_accurate(name, height, phi, data):
     j = data.draw(st.one_of(near, near.map(lambda k: height - 1 - k), st.integers(0, height - 1)))
     at = {"M": height, "j": j, "z": Fraction(j / height)}
     function = getattr(closed_forms, name)
-    where = [at[one] for one in list(signature(function).parameters)[:-3]]
+    where = [at[key] for key in list(signature(function).parameters)[:-3]]
     exact = function(*where, Fraction(float(phi)), ONE, ONE)
-    rounded = [float(one) if isinstance(one, Fraction) else one for one in where]
-    found = Fraction(function(*rounded, float(phi), 1.0, 1.0))
+    rounded = [float(value) if isinstance(value, Fraction) else value for value in where]
+    result = Fraction(function(*rounded, float(phi), 1.0, 1.0))
     # about 40 roundings, the least favourable, at M = 3, j = 1 or (1+φ)² near φ = −½, enlarged
     # fivefold to tenfold by mild cancellation
-    assert abs(found - exact) <= 200 * Fraction(2) ** -53 * exact
+    assert abs(result - exact) <= 200 * Fraction(2) ** -53 * exact
 
 
 EVERY = [getattr(closed_forms, name) for name in ("surface_variance", "bulk_variance", *LEADING)]
@@ -118,11 +118,11 @@ def test_whole_numbers_of_any_type_do_not_overflow(form, kind):
 @every
 def test_the_result_is_of_the_type_of_phi(form, kind):
     quarter, one, two = kind(1) / kind(4), kind(1), kind(2)
-    found = form(10**9, 1, quarter, one, two)
-    assert type(found) is type(quarter)
+    value = form(10**9, 1, quarter, one, two)
+    assert type(value) is type(quarter)
     if "z" not in signature(form).parameters:
         exact = form(10**9, 1, Fraction(1, 4), ONE, Fraction(2))
-        assert float(found) == pytest.approx(float(exact), rel=1e-5)
+        assert float(value) == pytest.approx(float(exact), rel=1e-5)
 
 
 REFUSED: list[tuple[str, tuple[Any, ...], str]] = [

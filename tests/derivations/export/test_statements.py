@@ -19,12 +19,12 @@ from tests.derivations.rows import each
 GOLDEN = Path(__file__).parents[2] / "golden"
 
 
-def compare(path: Path, found: str, update: bool) -> None:
+def compare(path: Path, text: str, update: bool) -> None:
     """Compare with a file, or write it anew."""
     if update:
         path.parent.mkdir(exist_ok=True)
-        path.write_text(found, encoding="utf-8")
-    assert path.read_text(encoding="utf-8") == found, "run pytest --update-golden and review"
+        path.write_text(text, encoding="utf-8")
+    assert path.read_text(encoding="utf-8") == text, "run pytest --update-golden and review"
 
 
 def step_shown(step: Step) -> str:
@@ -40,13 +40,13 @@ def step_shown(step: Step) -> str:
     return "\n\n".join(shown) + "\n"
 
 
-def refuted_shown(one: Refuted) -> str:
+def refuted_shown(refutation: Refuted) -> str:
     """A printed statement that does not hold, as text and below it as LaTeX."""
     shown = (
-        f"Printed as well: {one.reading}",
-        indent("\n".join(text_lines(one.formula, one.relation, TEXT_WIDTH)), "    "),
-        prose_latex(one.reading),
-        indent(latex_body([one.formula], RELATIONS[one.relation]), "    "),
+        f"Printed as well: {refutation.reading}",
+        indent("\n".join(text_lines(refutation.formula, refutation.relation, TEXT_WIDTH)), "    "),
+        prose_latex(refutation.reading),
+        indent(latex_body([refutation.formula], RELATIONS[refutation.relation]), "    "),
     )
     return "\n\n".join(shown) + "\n"
 
@@ -61,7 +61,7 @@ def test_statement(number, update_golden):
 def test_steps(number, update_golden):
     derivation = load(number)
     steps = [step_shown(step) for step in derivation.proof]
-    refuted = [refuted_shown(one) for one in derivation.proof.refuted]
-    found = "\n\n".join([f"{heading(derivation)}\n", *steps, *refuted])
+    refuted = [refuted_shown(refutation) for refutation in derivation.proof.refuted]
+    text = "\n\n".join([f"{heading(derivation)}\n", *steps, *refuted])
     path = GOLDEN / "steps" / fragment_name(derivation.number).replace(".tex", ".txt")
-    compare(path, found, update_golden)
+    compare(path, text, update_golden)

@@ -30,9 +30,9 @@ MAKERS = pytest.mark.parametrize("make", [fakes.with_claim, fakes.with_step])
 @pytest.fixture
 def catalogue(monkeypatch: pytest.MonkeyPatch) -> dict[int, Derivation]:
     """The derivations that are loaded by number in place of those of the paper."""
-    found = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
-    monkeypatch.setattr(loading, "load", found.__getitem__)
-    return found
+    derivations = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
+    monkeypatch.setattr(loading, "load", derivations.__getitem__)
+    return derivations
 
 
 @MAKERS
@@ -97,14 +97,14 @@ def test_a_refutation_of_what_holds_is_no_refutation():
     with pytest.raises(NotProvedError, match="was to be refuted: a reading"):
         steps.refute("a reading", fakes.TWICE, rewrite(), fakes.BEADS)
     steps.refute("another", equation(sy.DeltaR(sy.i, sy.j), 0), rewrite(), fakes.BEADS)
-    assert [one.reading for one in steps.refuted] == ["another"]
+    assert [refutation.reading for refutation in steps.refuted] == ["another"]
     with pytest.raises(NotProvedError):  # what is not decided is not refuted
         steps.refute("a third", equation(sy.DeltaX(sy.i, sy.j), 0), rewrite(base()), fakes.BEADS)
 
 
 def test_premises_come_first_and_once(catalogue):
     catalogue[3] = replace(fakes.CONCLUSION, number=3)
-    assert [one.number for one in with_premises([3, 2, 1])] == [1, 3, 2]
+    assert [derivation.number for derivation in with_premises([3, 2, 1])] == [1, 3, 2]
     assert fakes.CONCLUSION.premises == (1,)
 
 
