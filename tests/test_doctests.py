@@ -33,5 +33,5 @@ def test_examples(name):
         if missing.name not in EXTRAS:
             raise
         pytest.skip(f"{missing.name} is missing")
-    found = doctest.testmod(module)
-    assert not found.failed
+    results = doctest.testmod(module)
+    assert not results.failed

@@ -31,23 +31,23 @@ LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, token
 
 def lines_of_code(path: Path) -> int:
     """Count lines that hold code, and are not blank, comments or docstrings."""
-    held: set[int] = set()
+    lines: set[int] = set()
     statement: list[tokenize.TokenInfo] = []
     with tokenize.open(path) as file:
         for token in tokenize.generate_tokens(file.readline):
             if token.type == tokenize.NEWLINE:
                 if any(part.type != tokenize.STRING for part in statement):
                     for part in statement:
-                        held.update(range(part.start[0], part.end[0] + 1))
+                        lines.update(range(part.start[0], part.end[0] + 1))
                 statement = []
             elif token.type not in LAYOUT:
                 statement.append(token)
-    return len(held)
+    return len(lines)
 
 
-def over(found: int, limit: int) -> str:
+def over(count: int, limit: int) -> str:
     """Say by how much a number is above its limit."""
-    return f"{found} is {found - limit} above the limit of {limit}"
+    return f"{count} is {count - limit} above the limit of {limit}"
 
 
 @cache
@@ -81,25 +81,25 @@ def _is_program(node: ast.stmt) -> bool:
 
 def rooms(folder: str) -> dict[str, set[str]]:
     """Give the direct subfolders and files of a folder, each with those that it imports."""
-    found: dict[str, set[str]] = {}
+    graph: dict[str, set[str]] = {}
     for path in sorted((ROOT / folder).rglob("*.py")):
         room = path.relative_to(ROOT / folder).parts[0].removesuffix(".py")
         if room == "__init__":
             continue
-        here = found.setdefault(room, set())
+        here = graph.setdefault(room, set())
         for name in imported(path):
             parts = name.split(".")
             if parts[:2] == ["force_diffusion", folder] and len(parts) > 2:
                 here.add(parts[2])
-    return {room: (others - {room}) & set(found) for room, others in found.items()}
+    return {room: (others - {room}) & set(graph) for room, others in graph.items()}
 
 
 def floors(graph: dict[str, set[str]]) -> dict[str, int]:
     """Give the floor of each room, above all that it imports; a circle raises ``CycleError``."""
-    found: dict[str, int] = {}
+    levels: dict[str, int] = {}
     for room in TopologicalSorter(graph).static_order():
-        found[room] = 1 + max((found[below] for below in graph[room]), default=0)
-    return found
+        levels[room] = 1 + max((levels[below] for below in graph[room]), default=0)
+    return levels
 
 
 def modules(folder: str) -> dict[str, set[str]]:
@@ -110,10 +110,10 @@ def modules(folder: str) -> dict[str, set[str]]:
     }
     return {
         name: {
-            known
+            module
             for full in imported(path)
-            for known in (full, full.rpartition(".")[0])
-            if known in names and known != name
+            for module in (full, full.rpartition(".")[0])
+            if module in names and module != name
         }
         for name, path in names.items()
     }
@@ -121,8 +121,8 @@ def modules(folder: str) -> dict[str, set[str]]:
 
 @pytest.mark.parametrize("folder", LIMITS)
 def test_no_folder_grows(folder):
-    found = sum(map(lines_of_code, (ROOT / folder).rglob("*.py")))
-    assert found <= LIMITS[folder], f"{folder}: lines of code, {over(found, LIMITS[folder])}"
+    count = sum(map(lines_of_code, (ROOT / folder).rglob("*.py")))
+    assert count <= LIMITS[folder], f"{folder}: lines of code, {over(count, LIMITS[folder])}"
 
 
 def test_lines_of_code_are_neither_blank_nor_comments_nor_docstrings(tmp_path):
@@ -177,7 +177,7 @@ def test_the_rooms_of_numeric_are_few_floors_high():
 def test_rooms_on_the_ground_floor_are_blind(folder, never):
     for path in (ROOT / folder).rglob("*.py"):
         for name in imported(path):
-            assert not any(name == one or name.startswith(f"{one}.") for one in never), path
+            assert not any(name == top or name.startswith(f"{top}.") for top in never), path
 
 
 def test_nothing_imports_a_room_by_its_folder():

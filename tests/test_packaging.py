@@ -12,12 +12,12 @@ PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 
 def test_every_folder_of_the_rooms_is_a_package():
     setuptools = PROJECT["tool"]["setuptools"]
-    found = []
+    packages = []
     for name, room in setuptools["package-dir"].items():
         for module in (ROOT / room).rglob("*.py"):
             inner = module.parent.relative_to(ROOT / room).parts
-            found.append(".".join([name, *inner]))
-    assert sorted(setuptools["packages"]) == sorted(set(found))
+            packages.append(".".join([name, *inner]))
+    assert sorted(setuptools["packages"]) == sorted(set(packages))
 
 
 def test_one_version_everywhere():

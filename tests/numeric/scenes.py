@@ -158,7 +158,7 @@ class _Noted:
         return self.radii.relative_std
 
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
-        self.sites.extend(zip(*(one.tolist() for one in rows.sites), strict=True))
+        self.sites.extend(zip(*(column.tolist() for column in rows.sites), strict=True))
         return self.radii.of(rows, realisations, system)
 
 

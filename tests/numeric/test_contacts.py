@@ -83,8 +83,8 @@ def test_spheres_bear_any_load(load, forces, tmp_path):
         lines.append(f"{p},{q},{j + 1},{-x},{-y},{-z}")
     (tmp_path / "loads.csv").write_text("\n".join(lines))
     listed = fd.Load(kind="file", file=str(tmp_path / "loads.csv"))
-    found = borne(fd.solve(radii_of(4, 6, 6), dimension=3, load=load or listed))[36:]
-    assert found == pytest.approx(expected.reshape(-1, 3), abs=100 * ROUNDING)
+    result = borne(fd.solve(radii_of(4, 6, 6), dimension=3, load=load or listed))[36:]
+    assert result == pytest.approx(expected.reshape(-1, 3), abs=100 * ROUNDING)
 
 
 def test_columns_stand_side_by_side_with_the_lattice():
@@ -105,9 +105,9 @@ def test_columns_stand_side_by_side_with_the_lattice():
 
 def test_contact_forces_say_where_contacts_are():
     """Places are those of positions; beads that the answer doesn't depend on have none."""
-    found = question(["contact_forces", "positions"], 4, 9, std=1e-2).run().results
-    places = {(r["i"], r["j"]): (r["x"], r["y"]) for r in found["positions"].rows()}
-    for row in found["contact_forces"].rows():
+    results = question(["contact_forces", "positions"], 4, 9, std=1e-2).run().results
+    places = {(r["i"], r["j"]): (r["x"], r["y"]) for r in results["positions"].rows()}
+    for row in results["contact_forces"].rows():
         assert (row["x"], row["y"]) == pytest.approx(places[row["i"], row["j"]], abs=1e-10)
         i = row["i"] + (1 if row["branch"] == "+" else -1)
         turns, home = divmod(i, 18)
@@ -124,12 +124,12 @@ def test_contact_forces_say_where_contacts_are():
 def test_profiles_and_histograms_become_tables():
     for quantity, sizes in (("profile", {"layer": 4, "branch": 2}), ("histogram", None)):
         scene = question(quantity, 4, 10, kind="normal", realisations=3)
-        for found in (scene.run(), fd.ensemble(scene, 3)):
-            data = found.to_xarray()
-            assert dict(data.sizes) == (sizes or {"bin": len(found.arrays["low"])})
-            frame = found.to_dataframe()
-            assert list(frame) == list(found.arrays)
-    assert data["count"].values.tolist() == found.arrays["count"].tolist()
+        for outcome in (scene.run(), fd.ensemble(scene, 3)):
+            data = outcome.to_xarray()
+            assert dict(data.sizes) == (sizes or {"bin": len(outcome.arrays["low"])})
+            frame = outcome.to_dataframe()
+            assert list(frame) == list(outcome.arrays)
+    assert data["count"].values.tolist() == outcome.arrays["count"].tolist()
 
 
 def test_without_the_libraries_tables_say_what_to_install(monkeypatch):
@@ -143,13 +143,13 @@ def vtk_of(path: Path) -> dict[str, Any]:
     text = path.read_text().replace("\nLOOKUP_TABLE default", "")
     _, kind, data, *parts = re.split(r"\n(?=[A-Z]{3})", text)
     assert (kind, data) == ("ASCII", "DATASET POLYDATA")
-    found = {}
+    columns = {}
     for part in parts:
         head, *rows = part.splitlines()
         kind, name, *_ = head.split()
         numbers = np.array([row.split() for row in rows], float).squeeze()
-        found[name if kind in {"SCALARS", "VECTORS"} else kind] = numbers
-    return found
+        columns[name if kind in {"SCALARS", "VECTORS"} else kind] = numbers
+    return columns
 
 
 @pytest.mark.parametrize("name", ["discs", "spheres", "packings"])
@@ -168,13 +168,13 @@ def test_vtk_has_lines_as_long_as_two_radii(name, tmp_path):
     assert columns["wraps"].sum() == solution.contacts.wraps.sum() > 0
 
 
-def dumped(path: Path, item: str) -> tuple[list[list[float]], dict[str, Any]]:
+def dumped(path: Path, kind: str) -> tuple[list[list[float]], dict[str, Any]]:
     """Read bounds and columns of a dump of LAMMPS."""
     lines = path.read_text().splitlines()
-    assert lines[:3] == ["ITEM: TIMESTEP", "0", f"ITEM: NUMBER OF {item}"]
+    assert lines[:3] == ["ITEM: TIMESTEP", "0", f"ITEM: NUMBER OF {kind}"]
     assert lines[4].startswith("ITEM: BOX BOUNDS ")
     head, *names = lines[8].removeprefix("ITEM: ").split()
-    assert head == item
+    assert head == kind
     rows = np.array([line.split() for line in lines[9:]], float)
     assert len(rows) == int(lines[3])
     bounds = [[float(word) for word in line.split()] for line in lines[5:8]]
@@ -215,7 +215,7 @@ def test_a_plot_has_a_line_for_each_contact_that_bears_enough():
     solution = SOLVED["discs"]()
     figure, ax = plt.subplots()
     assert solution.plot(ax, color="change", least=0.7) is ax
-    (lines,) = (one for one in ax.collections if isinstance(one, LineCollection))
+    (lines,) = (c for c in ax.collections if isinstance(c, LineCollection))
     some = solution.contacts.force >= 0.7
     assert np.array_equal(lines.get_array(), solution.contacts.change[some])
     r = radii_of(5, 8).mean()

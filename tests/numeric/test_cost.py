@@ -22,8 +22,8 @@ def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(module, "SHORT", 0)
 
 
-def names(found: CostStudy) -> list[tuple[str, int]]:
-    return [(way.way, way.digits) for way in found.ways]
+def names(study: CostStudy) -> list[tuple[str, int]]:
+    return [(way.way, way.digits) for way in study.ways]
 
 
 SCENES: dict[str, dict[str, dict[str, Any]]] = {
@@ -37,15 +37,15 @@ SCENES: dict[str, dict[str, dict[str, Any]]] = {
 @pytest.mark.parametrize("name", SCENES)
 def test_errors_are_those_of_the_digits(name):
     asked = scene(SCENES[name])
-    found = fd.cost(asked)
-    assert names(found) == EVERY
-    assert not found.skipped
-    for way in found.ways:
+    study = fd.cost(asked)
+    assert names(study) == EVERY
+    assert not study.skipped
+    for way in study.ways:
         assert 0 < way.error < 10.0 ** (2 - way.digits)
         assert way.error_is == ("certified" if way.way == "balls" else "measured")
         assert not way.extrapolated
         assert way.seconds > 0
-        assert way.relative_cost == pytest.approx(way.seconds / found.ways[0].seconds)
+        assert way.relative_cost == pytest.approx(way.seconds / study.ways[0].seconds)
         assert max(map(len, str(way).splitlines())) <= 80
 
 
@@ -72,18 +72,18 @@ def test_what_takes_too_long_is_extrapolated_by_its_beads(monkeypatch):
         return module._Timed(1e-3 * beads, numbers, 0.0)
 
     monkeypatch.setattr(module, "_run", timed)
-    found = fd.cost(asked, seconds=0.4)
-    assert names(found) == EVERY
-    for way in found.ways:
+    study = fd.cost(asked, seconds=0.4)
+    assert names(study) == EVERY
+    for way in study.ways:
         assert way.extrapolated
         assert way.error_is == "estimated"
         assert way.error == float(f"1e-{way.digits}")
         assert "estimated" in str(way)
-    assert [way.seconds for way in found.ways] == pytest.approx([0.001 * 12 * 41] * 5)
+    assert [way.seconds for way in study.ways] == pytest.approx([0.001 * 12 * 41] * 5)
     assert set(layers) == {4, 8}  # 16 would take more than its share
     layers.clear()
-    found = fd.cost(asked, seconds=3)
-    assert not any(way.extrapolated for way in found.ways)
+    study = fd.cost(asked, seconds=3)
+    assert not any(way.extrapolated for way in study.ways)
     assert set(layers) == {4, 40}
 
 
@@ -95,9 +95,9 @@ def test_where_balls_take_too_long_the_error_of_float64_is_stated(monkeypatch):
 
     monkeypatch.setattr(module._Study, "_timed", slow_balls)
     asked = scene(basic(6, 14))
-    found = fd.cost(asked)
-    assert [way.error_is for way in found.ways] == ["stated", *["estimated"] * 4]
-    assert float(found.ways[0].error) == asked.run().accuracy.error_bound
+    study = fd.cost(asked)
+    assert [way.error_is for way in study.ways] == ["stated", *["estimated"] * 4]
+    assert float(study.ways[0].error) == asked.run().accuracy.error_bound
 
 
 def test_without_any_change_there_is_nothing_to_measure():
@@ -110,11 +110,11 @@ def test_without_any_change_there_is_nothing_to_measure():
 def test_disorder_that_float64_can_not_hold():
     sections = basic(3, 8)
     sections["disorder"] |= {"relative_std": "=1e-400"}
-    found = fd.cost(scene(sections))
-    assert names(found) == EVERY[1:]
-    assert found.ways[0].relative_cost == 1
-    assert "can't hold" in found.skipped["float64, 16 digits"]
-    assert "can't hold" in str(found)
+    study = fd.cost(scene(sections))
+    assert names(study) == EVERY[1:]
+    assert study.ways[0].relative_cost == 1
+    assert "can't hold" in study.skipped["float64, 16 digits"]
+    assert "can't hold" in str(study)
 
 
 @pytest.mark.parametrize("std", ["1e-200", "1e-5"])
@@ -122,13 +122,13 @@ def test_rows_and_tables_say_the_same(std):
     sections = basic(3, 8)
     sections["disorder"] |= {"relative_std": f"={std}"}
     seen: list[Way] = []
-    found = fd.cost(scene(sections), progress=seen.append)
-    assert tuple(seen) == found.ways
-    assert json.loads(json.dumps(found.data()))["rows"] == found.rows()
-    for way, row, line in zip(found.ways, found.rows(), str(found).splitlines()[1:], strict=True):
+    study = fd.cost(scene(sections), progress=seen.append)
+    assert tuple(seen) == study.ways
+    assert json.loads(json.dumps(study.data()))["rows"] == study.rows()
+    for way, row, line in zip(study.ways, study.rows(), str(study).splitlines()[1:], strict=True):
         assert row["error"] == way.error
         assert way.error <= float(line.split()[2]) <= 1.01 * way.error
-    assert found._repr_html_().count("<tr>") == 1 + len(found.ways)
+    assert study._repr_html_().count("<tr>") == 1 + len(study.ways)
 
 
 def test_the_plot_shows_every_way():

@@ -94,14 +94,14 @@ def truth(drawn: Drawn, geometry: str, read: Callable[[Plane], list[Any]]) -> li
     if geometry == "ordered":
         return [(value, mp.mpf(0)) for value in ordered]
     if geometry == "exact":
-        found = [(value, value - still) for value, still in
+        pairs = [(value, value - still) for value, still in
                  zip(read(drawn.strip(1)), ordered, strict=True)]  # fmt: skip
     else:
         step = mp.mpf(TINY)
         ends = read(drawn.strip(step)), read(drawn.strip(-step))
         slopes = [(up - down) / (2 * step) for up, down in zip(*ends, strict=True)]
-        found = [(still + slope, slope) for still, slope in zip(ordered, slopes, strict=True)]
-    return found
+        pairs = [(still + slope, slope) for still, slope in zip(ordered, slopes, strict=True)]
+    return pairs
 
 
 def holds(enclosure: Any, value: Any) -> bool:
@@ -146,8 +146,8 @@ def places(outcome: fd.Outcome, *names: str) -> list[tuple[Any, ...]]:
     return list(zip(*(outcome.arrays[name] for name in names), strict=True))
 
 
-def enclosed(outcome: fd.Outcome, names: tuple[str, str], found: list[tuple[Any, Any]]) -> None:
-    for enclosures, true in zip(places(outcome, *names), found, strict=True):
+def enclosed(outcome: fd.Outcome, names: tuple[str, str], pairs: list[tuple[Any, Any]]) -> None:
+    for enclosures, true in zip(places(outcome, *names), pairs, strict=True):
         assert all(holds(*pair) for pair in zip(enclosures, true, strict=True)), (names, true)
 
 
@@ -165,16 +165,16 @@ def test_every_question_about_a_strip(geometry, drawn):
         centres = [strip.packing.centre(steps_to(*bead)) for bead in beads]
         return [*forces, *vertical, *(centre[axis] for axis in (0, 1) for centre in centres)]
 
-    found = truth(drawn, geometry, read)
-    of_force = dict(zip(every, found, strict=False))
-    of_vertical = dict(zip(every, found[len(every) :], strict=False))
-    x, y = np.reshape(found[2 * len(every) :], (2, len(beads), 2)).tolist()
+    pairs = truth(drawn, geometry, read)
+    of_force = dict(zip(every, pairs, strict=False))
+    of_vertical = dict(zip(every, pairs[len(every) :], strict=False))
+    x, y = np.reshape(pairs[2 * len(every) :], (2, len(beads), 2)).tolist()
 
     contacts = drawn.outcome(geometry, "contact_forces")
     assert places(contacts, "i", "j", "branch") == every
     enclosed(contacts, ("force", "change"), [*of_force.values()])
-    one = drawn.outcome(geometry, "contact", list(drawn.contact))
-    enclosed(one, ("force", "change"), [of_force[drawn.contact]])
+    single = drawn.outcome(geometry, "contact", list(drawn.contact))
+    enclosed(single, ("force", "change"), [of_force[drawn.contact]])
 
     profile, means = drawn.outcome(geometry, "profile"), []
     for layer in places(profile, "j", "branch"):

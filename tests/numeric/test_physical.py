@@ -63,7 +63,7 @@ def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> tuple[Array,
     seams_of, shifts_of = np.array(seams), np.array(shifts)
     flat = centres[:, None, : d - 1] - centres[None, :, : d - 1]
     near = np.round(flat @ np.linalg.inv(shifts_of[:, : d - 1])).astype(int)
-    found, least = [], np.full((count, count), np.inf)
+    all_gaps, least = [], np.full((count, count), np.inf)
     for images in product(range(-4, 5), repeat=d - 1):
         around = near + images
         step = sites[None] - sites[:, None] + around @ seams_of
@@ -71,9 +71,9 @@ def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> tuple[Array,
         gaps = np.sqrt((apart**2).sum(axis=-1)) - radii[:, None] - radii[None]
         contact = (np.abs(step.sum(axis=-1)) == 1) & (np.abs(step).sum(axis=-1) == 1)
         once = np.triu(np.ones((count, count), dtype=bool), k=0 if images > (0,) * (d - 1) else 1)
-        found.append(gaps[once & ~contact])
+        all_gaps.append(gaps[once & ~contact])
         least = np.minimum(least, np.where(once & ~contact, gaps, np.inf))
-    return np.concatenate(found), np.minimum(least, least.T)
+    return np.concatenate(all_gaps), np.minimum(least, least.T)
 
 
 def agree(delta: Array, spacing: float) -> None:
@@ -107,7 +107,7 @@ def agree(delta: Array, spacing: float) -> None:
 def radii(draw: st.DrawFn, *shape: Any) -> Array:
     """Deviations of layers of one to four beads: small, or as large as beads themselves."""
     largest = draw(st.sampled_from([1, 10, 30, 70]))
-    size = [draw(one) for one in shape]
+    size = [draw(strategy) for strategy in shape]
     if len(size) == 3:
         size[2] = size[1]
     count = int(np.prod(size))

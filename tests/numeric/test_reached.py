@@ -14,14 +14,14 @@ Bead = tuple[int, ...]
 
 def below(loads: set[Bead], width: int | None) -> set[tuple[Any, ...]]:
     """Contacts (lower bead, branch) that loads reach, bead by bead; a width of discs."""
-    todo, found = set(loads), set()
+    todo, contacts = set(loads), set()
     while todo:
         i, j = todo.pop()
         for side, branch in ((-1, "+"), (1, "-")) if j else ():
             lower = (i + side if width is None else (i + side) % (2 * width)), j - 1
-            found.add((*lower, branch))
+            contacts.add((*lower, branch))
             todo.add(lower)
-    return found
+    return contacts
 
 
 def asked(
@@ -70,12 +70,12 @@ def loaded(draw: st.DrawFn) -> tuple[set[Bead], int | None, int]:
 def test_contacts_are_those_below_loads(tmp_path, drawn):
     loads, width, height = drawn
     expected = below(loads, width)
-    found = asked(tmp_path, loads, width, height, "contact_forces").run().arrays
-    contacts = list(zip(found["i"].tolist(), found["j"].tolist(), found["branch"], strict=True))
+    arrays = asked(tmp_path, loads, width, height, "contact_forces").run().arrays
+    contacts = list(zip(arrays["i"].tolist(), arrays["j"].tolist(), arrays["branch"], strict=True))
     if width is None:
         assert set(contacts) == expected
         assert len(contacts) == len(expected)
         return
     assert count(asked(tmp_path, loads, width, height, "histogram")) == len(expected)
-    pressed = {one for one, force in zip(contacts, found["force"], strict=True) if force}
+    pressed = {contact for contact, force in zip(contacts, arrays["force"], strict=True) if force}
     assert pressed <= expected

@@ -33,8 +33,8 @@ def numbers(outcome: Outcome, small_only: bool = False) -> Iterator[tuple[str, s
 
 
 def test_statistics_have_standard_errors_and_no_digits_beyond_them():
-    found = answer(basic(4, 9, quantity="profile", realisations=50))
-    for row, printed in zip(found.rows(), found.decimals(), strict=True):
+    outcome = answer(basic(4, 9, quantity="profile", realisations=50))
+    for row, printed in zip(outcome.rows(), outcome.decimals(), strict=True):
         for name, error in (
             ("mean", "mean_change_error"),
             ("mean_change", "mean_change_error"),
@@ -44,10 +44,10 @@ def test_statistics_have_standard_errors_and_no_digits_beyond_them():
             # two digits beyond the first of the error, and what is cut off at most half of the last
             assert abs(float(printed[name]) - row[name]) < row[error] / 20
             assert unit_of_last_digit(printed[name]) * 1000 > row[error] / 10
-    assert found.sampling_error is not None
-    assert 0.01 < found.sampling_error < 0.5
-    assert found.data()["accuracy"]["sampling_error"] == found.sampling_error
-    assert "sampling error 0." in str(found)
+    assert outcome.sampling_error is not None
+    assert 0.01 < outcome.sampling_error < 0.5
+    assert outcome.data()["accuracy"]["sampling_error"] == outcome.sampling_error
+    assert "sampling error 0." in str(outcome)
     alone = answer(basic(4, 9, quantity="profile"))
     assert alone.sampling_error is None
     assert {row["std_error"] for row in alone.decimals()} == {""}
@@ -74,18 +74,18 @@ def test_forces_come_back_in_the_unit_of_the_load(quantity, tolerance):
     if quantity == "contact":
         sections["ask"]["at"] = [0, 2, "+"]
     load = {"kind": "point", "at": [4, 4]} if quantity == "response" else {"kind": "surface"}
-    one, many = (answer({**sections, "load": {**load, **unit}}) for unit in ({}, {"magnitude": 64}))
-    for name, column in one.arrays.items():
+    low, high = (answer({**sections, "load": {**load, **unit}}) for unit in ({}, {"magnitude": 64}))
+    for name, column in low.arrays.items():
         same = column.dtype.kind in "iU" or name == "std_over_mean" or name[-1] in "xy"
-        expected, found = column if same else column * 64, many.arrays[name]
+        expected, result = column if same else column * 64, high.arrays[name]
         if column.dtype == object:
-            for a, b in zip(expected, found, strict=True):
+            for a, b in zip(expected, result, strict=True):
                 assert (a - b).contains(0) if hasattr(a, "contains") else a == b
         elif name == "first_order_std":  # twelve digits
-            np.testing.assert_allclose(found, expected, rtol=1e-11)
+            np.testing.assert_allclose(result, expected, rtol=1e-11)
         else:
-            np.testing.assert_array_equal(found, expected)
-    assert float(one.accuracy.error_bound) == pytest.approx(float(many.accuracy.error_bound))
+            np.testing.assert_array_equal(result, expected)
+    assert float(low.accuracy.error_bound) == pytest.approx(float(high.accuracy.error_bound))
 
 
 def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene():
@@ -93,15 +93,15 @@ def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene():
         load = fd.SurfaceLoad(magnitude=magnitude)
         return question("profile", 4, 9, radius=radius, spacing=3 * radius, load=load)
 
-    one, many = (fd.ensemble(asked(4, magnitude), 40) for magnitude in (1, 64))
+    low, high = (fd.ensemble(asked(4, magnitude), 40) for magnitude in (1, 64))
     for name in ("mean", "mean_change", "std", "std_error", "first_order_std"):
-        assert (one.arrays[name] * 64 == many.arrays[name]).all()
+        assert (low.arrays[name] * 64 == high.arrays[name]).all()
     wide, small = (asked(radius, 1).run() for radius in (4, 1))
-    gaps = [found.data()["physical"]["smallest_gap"] for found in (wide, small)]
+    gaps = [outcome.data()["physical"]["smallest_gap"] for outcome in (wide, small)]
     assert gaps[0] == 4 * gaps[1]
-    for found, gap in zip((wide, small), gaps, strict=True):  # one name, one unit
-        assert found.physical is not None
-        assert found.physical.smallest_gap == gap
+    for outcome, gap in zip((wide, small), gaps, strict=True):  # one name, one unit
+        assert outcome.physical is not None
+        assert outcome.physical.smallest_gap == gap
 
 
 @pytest.mark.long(sample=8)
@@ -123,23 +123,23 @@ def test_some_layers_of_a_response_are_those_of_the_whole(dimension, effects, mo
     for name, column in some.arrays.items():
         if column.dtype == object:
             error = abs(column - whole.arrays[name][asked])
-            assert all(float(one) < 2e-25 for one in error)
+            assert all(float(value) < 2e-25 for value in error)
         else:
             assert column.tobytes() == whole.arrays[name][asked].tobytes(), name
 
 
 @pytest.mark.parametrize(("beads", "size", "std"), [("ij", (24, 25), 1e-2), ("pqj", (5, 7), 2e-2)])
 def test_contacts_that_pull_are_counted_and_the_first_is_named(beads, size, std):
-    found = question("contact_forces", *size, dimension=len(beads), std=std).run("1e-12")
+    outcome = question("contact_forces", *size, dimension=len(beads), std=std).run("1e-12")
     pulling = [
         tuple(row[name] for name in (*beads, "branch"))
-        for row in found.decimals()
+        for row in outcome.decimals()
         if Fraction(row["force"]) < 0
     ]
-    assert found.physical is not None
-    assert found.physical.tensile == len(pulling) > 0
-    assert found.physical.first_tensile is not None
-    assert tuple(found.physical.first_tensile.values()) in pulling
+    assert outcome.physical is not None
+    assert outcome.physical.tensile == len(pulling) > 0
+    assert outcome.physical.first_tensile is not None
+    assert tuple(outcome.physical.first_tensile.values()) in pulling
 
 
 def test_a_sign_that_no_precision_settles_stays_open():
@@ -147,12 +147,12 @@ def test_a_sign_that_no_precision_settles_stays_open():
     delta = np.full((4, 20), 0.01)
     delta[1, 15] = 0.02
     radii, load = fd.GivenRadii(delta_r=delta), fd.PointLoad(at=(11, 3))
-    found = question("contact_forces", 3, 20, radii=radii, load=load).run(1e-12, certified=True)
-    assert found.accuracy.certified
-    assert found.physical is not None
-    assert found.physical.undecided_signs > 0
-    assert found.physical.tensile == 0
-    assert "open whether it is physical" in str(found)
+    outcome = question("contact_forces", 3, 20, radii=radii, load=load).run(1e-12, certified=True)
+    assert outcome.accuracy.certified
+    assert outcome.physical is not None
+    assert outcome.physical.undecided_signs > 0
+    assert outcome.physical.tensile == 0
+    assert "open whether it is physical" in str(outcome)
 
 
 def test_a_realisation_that_can_not_be_built_is_named():
@@ -171,20 +171,20 @@ def test_a_realisation_that_can_not_be_built_is_named():
 @pytest.mark.parametrize("power", [-400, 400])
 def test_a_profile_in_units_beyond_floats_is_that_in_others(power):
     loads = (fd.SurfaceLoad(magnitude=Fraction(10) ** k) for k in (0, power))
-    usual, other = (question("profile", 4, 10, load=one).run("1e-20").decimals() for one in loads)
-    for one, two in zip(usual, other, strict=True):
+    usual, other = (question("profile", 4, 10, load=load).run("1e-20").decimals() for load in loads)
+    for a, b in zip(usual, other, strict=True):
         for name in ("first_order_std", "std", "mean"):
-            shift = Fraction(one[name]) * Fraction(10) ** power / Fraction(two[name])
+            shift = Fraction(a[name]) * Fraction(10) ** power / Fraction(b[name])
             assert abs(shift - 1) < Fraction(1, 10**10), name
 
 
 def test_standard_errors_in_units_beyond_floats_are_not_known():
     """Some of the errors are 0 before they get their unit, as with radii that are drawn alike."""
-    found = question(
+    outcome = question(
         "response", 1, 4, dimension=3, kind="two-point", std=0.06, seed=556, realisations=3,
         load=fd.PointLoad(at=(3, 3, 1), magnitude=Fraction(10) ** 400),
     ).run("1e-20")  # fmt: skip
-    assert not any(np.isfinite(error).any() for error in found.standard_errors.values())
+    assert not any(np.isfinite(error).any() for error in outcome.standard_errors.values())
 
 
 def test_progress_is_shown(capsys, monkeypatch):

@@ -17,10 +17,10 @@ import force_diffusion as fd
 def test_radii_and_their_deviations_are_the_same_packing():
     delta = np.random.default_rng(3).normal(0, 1e-3, (5, 12))
     radii = 2 + delta  # rounded: what is solved are these doubles
-    one = fd.solve(radii, radius=2, spacing=6)
+    solution = fd.solve(radii, radius=2, spacing=6)
     other = fd.solve(delta_r=radii - 2, radius=2, spacing=6)
-    assert np.array_equal(one.force, other.force)
-    assert np.array_equal(one.position, other.position)
+    assert np.array_equal(solution.force, other.force)
+    assert np.array_equal(solution.position, other.position)
 
 
 @pytest.mark.parametrize(("shape", "dimension"), [((3, 4, 7), None), ((2, 3, 4, 4), 3)])
@@ -154,12 +154,12 @@ def test_units_of_length_change_no_digit(name, power, how):
 @pytest.mark.parametrize("power", [-980, 990])
 def test_units_in_which_errors_would_vanish_are_solved_in_balls(power):
     given = 1 + 1e-12 * np.random.default_rng(0).uniform(-1, 1, (4, 6))
-    found = fd.solve(np.ldexp(given, power), radius=Fraction(2) ** power)
+    solution = fd.solve(np.ldexp(given, power), radius=Fraction(2) ** power)
     usual = fd.solve(given, radius=1, tolerance="1e-20")
-    assert found.certified
+    assert solution.certified
     change = usual.change.astype(float)
     # float64 rounds a change by 1e-16 of itself
-    assert found.change.astype(float) == pytest.approx(change, rel=1e-15)
+    assert solution.change.astype(float) == pytest.approx(change, rel=1e-15)
 
 
 @given(

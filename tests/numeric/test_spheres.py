@@ -48,8 +48,8 @@ def test_images_are_seen_where_a_wider_packing_differs(quantity, geometry, M):
         j, p, q = np.unravel_index(
             np.flatnonzero(np.abs(values[:-1] - values[-1]) > 1e-15), (M + 1, wide, wide)
         )
-        unwrapped = ((one + middle) % wide - middle for one in (p, q))
-        matter.append({*zip(*(one.tolist() for one in (*unwrapped, j)), strict=True)})
+        unwrapped = ((axis + middle) % wide - middle for axis in (p, q))
+        matter.append({*zip(*(axis.tolist() for axis in (*unwrapped, j)), strict=True)})
     for width in range(1, 2 * M + 2):
         homes = [{(p % width, q % width, j) for p, q, j in beads} for beads in matter]
         sees = any(len(home) < len(beads) for home, beads in zip(homes, matter, strict=True))
@@ -70,12 +70,12 @@ def test_a_profile_and_a_histogram_are_drawn():
 def test_an_ensemble_has_the_width_of_theory(load):
     """With 400 packings σ_f is known to 1 %. Where images are seen there is no theory."""
     asked = scene("profile", height=4, width=6, std=1e-4, load=load)
-    found = fd.ensemble(asked, 400)
-    assert found.first_order_std is not None
-    off = (found.std - found.first_order_std) / found.std_error
+    ensemble = fd.ensemble(asked, 400)
+    assert ensemble.first_order_std is not None
+    off = (ensemble.std - ensemble.first_order_std) / ensemble.std_error
     # 12 rows: one beyond 4.5 standard errors has a chance below 1e-4; the seed is fixed
     assert np.abs(off).max() < 4.5
-    assert (found.std_error / found.std).max() < 0.02
+    assert (ensemble.std_error / ensemble.std).max() < 0.02
     assert fd.ensemble(scene("profile", height=4, width=5, load=load), 4).first_order_std is None
 
 
@@ -137,15 +137,15 @@ def test_radii_of_ones_own_have_many_forms(tmp_path):
         return asked.run(tolerance="1e-40").arrays["change"]
 
     np.save(tmp_path / "radii.npy", radii)
-    found = [changes(fd.Disorder(kind="file", file="radii.npy"))]
+    answers = [changes(fd.Disorder(kind="file", file="radii.npy"))]
     for name, unit in (("delta_r", Fraction(1)), ("r", Fraction(1, 8))):
         lines = [f"p,q,j,{name}"]
         for (j, p, q), r in reversed([*np.ndenumerate(radii)]):
             value = (Fraction(r) - (name == "delta_r")) * unit
             lines.append(f"{p},{q},{j},{decimal_string(value)}")
         (tmp_path / "radii.csv").write_text("\n".join(lines))
-        found.append(changes(fd.Disorder(kind="file", file="radii.csv"), unit))
-    for other in found:
+        answers.append(changes(fd.Disorder(kind="file", file="radii.csv"), unit))
+    for other in answers:
         for a, b in zip(changes(fd.GivenRadii(radii=radii)), other, strict=True):
             assert abs(float((a - b).mid())) < 1e-38
 
@@ -174,12 +174,12 @@ def test_a_file_without_loads_is_known_to_load_nothing(quantity, tmp_path):
     load = fd.Load(kind="file", file="loads.csv")
     at = (1, 1, 1, "1") if quantity == "contact" else None
     asked = scene(quantity, height=3, width=4, load=load, at=at)
-    found = asked.model_copy(update={"folder": tmp_path}).run()
-    reasons = [*found.plan.skipped.values()]
+    outcome = asked.model_copy(update={"folder": tmp_path}).run()
+    reasons = [*outcome.plan.skipped.values()]
     assert "no load reaches what is asked for: the forces are exactly zero" in reasons
-    assert found.accuracy.certified
+    assert outcome.accuracy.certified
     for name in ("force", "change", "mean", "std", "fz", "change_z"):
-        assert not any(float(f) for f in found.arrays.get(name, ()))
+        assert not any(float(f) for f in outcome.arrays.get(name, ()))
 
 
 def test_no_theory_is_said_of_loads_at_an_angle():

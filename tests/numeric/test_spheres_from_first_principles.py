@@ -55,8 +55,8 @@ def true_change(spacing: Any, delta: Any, load: fd.Load) -> Any:
     weight = mp.mpf(float(load.magnitude))
     loads = (ordered.bulk_load if load.kind == "bulk" else ordered.surface_load)(weight)
     before, after = (x.forces(loads) for x in (ordered, replace(ordered, change=change)))
-    found = np.empty((3, height, width, width), dtype=object)
+    changes = np.empty((3, height, width, width), dtype=object)
     for c, j, p, q in product(range(3), range(height), range(width), range(width)):
         contact = (p, q, j - p - q), c
-        found[c, j, p, q] = after[contact] - before[contact]
-    return found
+        changes[c, j, p, q] = after[contact] - before[contact]
+    return changes

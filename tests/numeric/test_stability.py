@@ -48,15 +48,15 @@ def solved(
 
 def measured(*strip: Any, **more: Any) -> tuple[float, fd.Solution, fd.Solution]:
     """Give the largest error in float64, and the solutions in float64 and in balls."""
-    found = solved(*strip, **more)
+    floats = solved(*strip, **more)
     balls = solved(*strip, **more, tolerance="1e-60", certified=True)
     assert balls.certified
     assert balls.error < 1e-6 * UNIT  # far better than what is measured by it
     with flint.ctx.workprec(500):
-        pairs = list(zip(found.change.flat, balls.change.flat, strict=True))
+        pairs = list(zip(floats.change.flat, balls.change.flat, strict=True))
         largest = max(abs(ball).lower() for _, ball in pairs)
         away = max((flint.arb(number) - ball).abs_upper() for number, ball in pairs)
-        return float((away / largest).upper()), found, balls
+        return float((away / largest).upper()), floats, balls
 
 
 def accurate(*arguments: Any, **more: Any) -> fd.Solution:
@@ -64,10 +64,10 @@ def accurate(*arguments: Any, **more: Any) -> fd.Solution:
 
     What is said has room for printing, which may round once more.
     """
-    error, found, _ = measured(*arguments, **more)
+    error, solution, _ = measured(*arguments, **more)
     assert error <= ONCE
-    assert error <= found.error <= 2.1 * ONCE
-    return found
+    assert error <= solution.error <= 2.1 * ONCE
+    return solution
 
 
 @cache
@@ -76,10 +76,10 @@ def lost(height: int, std: float) -> float:
     return bits_lost(solved(height, 16, std, tolerance="1e-40", certified=True))
 
 
-def bits_lost(found: fd.Solution) -> float:
+def bits_lost(solution: fd.Solution) -> float:
     """Give the bits of the arithmetic that the answer lacks; printing takes 20 radii of a ball."""
-    system = found.forces.plan.system
-    return system.bits + math.log2(found.error / 20)
+    system = solution.forces.plan.system
+    return system.bits + math.log2(solution.error / 20)
 
 
 @pytest.mark.parametrize(
@@ -102,22 +102,22 @@ def test_digits_depend_on_neither_disorder_nor_load_nor_height(height, width, st
 @pytest.mark.parametrize("std", [1e-6, 1e-14])
 def test_near_the_limits_of_the_spacing(spacing, std):
     """Next to 2 r and 2√3 r: beads of a layer nearly touch, or those two layers apart."""
-    found = accurate(16, 34, std, spacing=spacing)
-    assert found.physical is not None
+    solution = accurate(16, 34, std, spacing=spacing)
+    assert solution.physical is not None
     room = float(min(spacing - 2, 2 * math.sqrt(3) - spacing))
     # σ/r far above the room that there is left, or far below it
     if std > 100 * room:
-        assert found.physical.overlaps
+        assert solution.physical.overlaps
     if std < room / 100:
-        assert not found.physical.overlaps
+        assert not solution.physical.overlaps
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("height", [16, 256, 1024])
 def test_very_tall_packings(height):
     """Balls add up worst cases: M^(3/2) at most, and a constant from the operations of a bead."""
-    _, found, balls = measured(height, 16, 1e-6)
-    assert found.error <= 2.1 * ONCE
+    _, solution, balls = measured(height, 16, 1e-6)
+    assert solution.error <= 2.1 * ONCE
     assert bits_lost(balls) < 8 + 1.5 * math.log2(height)
 
 
@@ -128,19 +128,19 @@ def test_very_tall_packings(height):
 def test_beyond_the_critical_height(height, std, load):
     """Contacts pull there, and the packing is unstable: what is answered is as accurate."""
     assert height > critical_height(Fraction(str(std)))
-    found = accurate(height, 16, std, load=load)
-    assert found.physical is not None
-    assert found.physical.tensile
+    solution = accurate(height, 16, std, load=load)
+    assert solution.physical is not None
+    assert solution.physical.tensile
 
 
 def test_fifty_digits_are_certified_beyond_it_too():
-    found = solved(96, 16, 0.006, tolerance="1e-50", certified=True)
-    assert found.certified
-    assert found.error <= 1e-50
-    assert bits_lost(found) > 40  # and were made up for
+    solution = solved(96, 16, 0.006, tolerance="1e-50", certified=True)
+    assert solution.certified
+    assert solution.error <= 1e-50
+    assert bits_lost(solution) > 40  # and were made up for
     with flint.ctx.workprec(1000):
         more = solved(96, 16, 0.006, tolerance="1e-100").change
-        for a, b in zip(found.change.flat, more.flat, strict=True):
+        for a, b in zip(solution.change.flat, more.flat, strict=True):
             assert a.overlaps(b)
 
 

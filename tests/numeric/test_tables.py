@@ -46,8 +46,8 @@ def test_rows_are_those_of_the_libraries(rows):
         {"i": int(r["i"]), "branch": r["branch"], "force": float(r["force"] or "nan")} for r in read
     ]
     objects = json.loads(b"[" + tables.json_rows(written, ["i"]) + b"]")
-    for found in (same, [one | {"force": float(one["force"] or "nan")} for one in objects]):
-        assert len(found) == len(rows)
-        for one, (i, branch, force) in zip(found, rows, strict=True):
-            assert (one["i"], one["branch"]) == (i, branch)
-            assert one["force"] == force or math.isnan(force)
+    for records in (same, [row | {"force": float(row["force"] or "nan")} for row in objects]):
+        assert len(records) == len(rows)
+        for row, (i, branch, force) in zip(records, rows, strict=True):
+            assert (row["i"], row["branch"]) == (i, branch)
+            assert row["force"] == force or math.isnan(force)

@@ -35,23 +35,23 @@ def _often() -> Iterator[None]:
     sys.setswitchinterval(before)
 
 
-def said(number: int) -> Any:
+def answer(number: int) -> Any:
     """Answer one of many questions, each with other bits; say all that it says."""
     if number % 7 == 6:  # of packings whose contacts open, beside those that stay on the lattice
         return scene("contact_forces", number, contacts="unilateral").run().decimals()
     digits, certified = (None, 30, 40, 110, 150)[number % 5], bool(number % 2)
     tolerance = None if digits is None else Fraction(1, 10**digits)
     asked = scene(QUANTITIES[number % 4], number)
-    found = asked.run(tolerance, certified=certified and digits is not None)
-    return found.decimals(), found.accuracy, found.decimals()
+    outcome = asked.run(tolerance, certified=certified and digits is not None)
+    return outcome.decimals(), outcome.accuracy, outcome.decimals()
 
 
 @pytest.mark.usefixtures("_often")
 def test_threads_give_what_one_gives():
-    alone = [said(number) for number in range(20)]
+    alone = [answer(number) for number in range(20)]
     for threads in (1, 4):
         with ThreadPoolExecutor(threads) as pool:
-            assert list(pool.map(said, range(20))) == alone
+            assert list(pool.map(answer, range(20))) == alone
 
 
 @given(
@@ -78,12 +78,12 @@ RADII = 1 + 0.001 * np.random.default_rng(1).standard_normal((5, 10))
     "how", [{}, {"tolerance": "1e-30"}, {"tolerance": "1e-40", "certified": True}]
 )
 def test_solutions_can_be_pickled(how):
-    found = fd.solve(RADII, **how)
-    again = pickle.loads(pickle.dumps(found))
-    assert again.error == found.error
-    assert again.forces.decimals() == found.forces.decimals()
-    assert again.positions.decimals() == found.positions.decimals()
-    assert np.array_equal(again.force.astype(float), found.force.astype(float))
+    solution = fd.solve(RADII, **how)
+    again = pickle.loads(pickle.dumps(solution))
+    assert again.error == solution.error
+    assert again.forces.decimals() == solution.forces.decimals()
+    assert again.positions.decimals() == solution.positions.decimals()
+    assert np.array_equal(again.force.astype(float), solution.force.astype(float))
 
 
 @pytest.mark.parametrize(
@@ -94,10 +94,10 @@ def test_solutions_can_be_pickled(how):
     ],
 )
 def test_outcomes_can_be_pickled(quantity, effects):
-    found = scene(quantity, **effects).run()
-    assert pickle.loads(pickle.dumps(found)).data() == found.data()
+    outcome = scene(quantity, **effects).run()
+    assert pickle.loads(pickle.dumps(outcome)).data() == outcome.data()
 
 
 def test_ensembles_can_be_pickled():
-    found = fd.ensemble(scene("profile"), 40)
-    assert pickle.loads(pickle.dumps(found)).data() == found.data()
+    ensemble = fd.ensemble(scene("profile"), 40)
+    assert pickle.loads(pickle.dumps(ensemble)).data() == ensemble.data()

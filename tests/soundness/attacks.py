@@ -138,7 +138,7 @@ attack("a theorem by its class", lambda: Theorem(NOTHING, BEADS, "mine"),
        "only rules of the kernel", proof(REWRITE, (r, r), BEADS))
 attack("another formula of a theorem", lambda: replace(BASE, formula=NOTHING),
        "only rules of the kernel", proof(rules.follows(BASE), (2 * MOVE, 0), BASE.domain))
-for way in (copy.copy, copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))):
+for way in (copy.copy, copy.deepcopy, lambda thm: pickle.loads(pickle.dumps(thm))):
     attack("a theorem, copied", partial(way, BASE),
            "neither copied nor pickled", partial(way, (1, 2)))
 
@@ -153,13 +153,13 @@ class Forged(Theorem):
 FORGED = Forged(equation(MOVE, 2 * MOVED[1]), DISPLACED.domain, "mine")
 SAME = SimpleNamespace(formula=NOTHING, domain=BEADS, supposed=(), assuming=())
 for name, attempt in (
-    ("put in", lambda one: prove(rules.rewrite(one), *one.formula.args, one.domain)),
-    ("followed", lambda one: prove(rules.follows(one), *one.formula.args, one.domain)),
+    ("put in", lambda thm: prove(rules.rewrite(thm), *thm.formula.args, thm.domain)),
+    ("followed", lambda thm: prove(rules.follows(thm), *thm.formula.args, thm.domain)),
     ("mirrored", rules.mirror),
-    ("put elsewhere", lambda one: rules.instance(one, {i: i + 2}, one.domain)),
-    ("taken along a vector", lambda one: rules.along(one, sy.n_plus)),
-    ("solved", lambda one: prove(rules.solve([one], [MOVE]), *one.formula.args, one.domain)),
-    ("a premise", lambda one: made(equation(r, r), BEADS, "mine", (one,))),
+    ("put elsewhere", lambda thm: rules.instance(thm, {i: i + 2}, thm.domain)),
+    ("taken along a vector", lambda thm: rules.along(thm, sy.n_plus)),
+    ("solved", lambda thm: prove(rules.solve([thm], [MOVE]), *thm.formula.args, thm.domain)),
+    ("a premise", lambda thm: made(equation(r, r), BEADS, "mine", (thm,))),
 ):
     attack(f"a forged theorem, {name}", partial(attempt, FORGED),
            "theorems only", partial(attempt, DISPLACED))
@@ -551,7 +551,7 @@ table(moment(), ABOVE,
 
 
 def part_of(group: tuple[Theorem, ...], *relations: sympy.Basic) -> tuple[Theorem, ...]:
-    return tuple(rules.instance(one, {}, one.domain.also(*relations)) for one in group)
+    return tuple(rules.instance(theorem, {}, theorem.domain.also(*relations)) for theorem in group)
 
 
 SHIFTED = sy.Shift(FORCE), (
@@ -613,7 +613,7 @@ table(
 )
 KEPT = limits.drop_terms(
     eq12.DERIVATION.theorem,
-    *(one.theorem for one in (eq13.DERIVATION.proof[0], eq13.DERIVATION.proof[2])),
+    *(step.theorem for step in (eq13.DERIVATION.proof[0], eq13.DERIVATION.proof[2])),
 )
 OF_FORCE = eq13.PRINTED.rhs
 table(

@@ -6,14 +6,14 @@ def test_what_is_false_is_refused_and_what_is_true_is_proved():
 
     assert len(ATTACKS) > 130
     wrong = []
-    for one in ATTACKS:
-        if one.true() is None:
-            wrong.append(f"not proved, though it is true: {one.name}")
+    for attack in ATTACKS:
+        if attack.true() is None:
+            wrong.append(f"not proved, though it is true: {attack.name}")
         try:
-            one.false()
+            attack.false()
         except REFUSALS as reason:
-            if one.refused not in str(reason):
-                wrong.append(f"refused for another reason: {one.name}: {reason}")
+            if attack.refused not in str(reason):
+                wrong.append(f"refused for another reason: {attack.name}: {reason}")
         else:
-            wrong.append(f"proved, though it is false: {one.name}")
+            wrong.append(f"proved, though it is false: {attack.name}")
     assert not wrong

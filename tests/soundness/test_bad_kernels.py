@@ -99,12 +99,12 @@ def planted(monkeypatch: pytest.MonkeyPatch, where: str, name: str, old: str, ne
     module = importlib.import_module(f"force_diffusion.symbolic.{where}")
     owner: Any = module
     *path, last = name.split(".")
-    for one in path:
-        owner = getattr(owner, one)
-    found = inspect.getattr_static(owner, last)
+    for part in path:
+        owner = getattr(owner, part)
+    target = inspect.getattr_static(owner, last)
     for attribute in ("func", "fget", "__wrapped__"):
-        found = getattr(found, attribute, found)
-    source = textwrap.dedent(inspect.getsource(found))
+        target = getattr(target, attribute, target)
+    source = textwrap.dedent(inspect.getsource(target))
     assert source.count(old) >= 1, f"{old} does not stand in {name}"
     namespace = vars(module)
     before = namespace.get(last)
@@ -113,52 +113,52 @@ def planted(monkeypatch: pytest.MonkeyPatch, where: str, name: str, old: str, ne
     function = scratch[last]
     assert namespace.get(last) is before
     bad = getattr(function, "func", getattr(function, "__wrapped__", function))
-    right, wrong = found.__code__, bad.__code__
-    inner = {one.co_name: one for one in wrong.co_consts if isinstance(one, CodeType)}
-    for one in gc.get_objects():  # rules that were made before
-        if type(one) is FunctionType and one.__code__ in right.co_consts:
-            code = inner.get(one.__code__.co_name, right)
-            if code.co_freevars == one.__code__.co_freevars:
-                monkeypatch.setattr(one, "__code__", code)
-    monkeypatch.setattr(found, "__code__", wrong)
+    right, wrong = target.__code__, bad.__code__
+    inner = {const.co_name: const for const in wrong.co_consts if isinstance(const, CodeType)}
+    for rule in gc.get_objects():  # rules that were made before
+        if type(rule) is FunctionType and rule.__code__ in right.co_consts:
+            code = inner.get(rule.__code__.co_name, right)
+            if code.co_freevars == rule.__code__.co_freevars:
+                monkeypatch.setattr(rule, "__code__", code)
+    monkeypatch.setattr(target, "__code__", wrong)
 
 
 def forget() -> None:
     """Forget all that was worked out, since a planted fault may have had a part in it."""
-    for one in gc.get_objects():
-        if type(one) is _lru_cache_wrapper:  # a weak reference has no class any more
-            if _is_own(getattr(one.__wrapped__, "func", one.__wrapped__)):
-                one.cache_clear()
-        elif _is_own(type(one)) and hasattr(one, "__dict__"):
-            for name in [*vars(one)]:
-                if isinstance(inspect.getattr_static(type(one), name, None), cached_property):
-                    del vars(one)[name]
+    for obj in gc.get_objects():
+        if type(obj) is _lru_cache_wrapper:  # a weak reference has no class any more
+            if _is_own(getattr(obj.__wrapped__, "func", obj.__wrapped__)):
+                obj.cache_clear()
+        elif _is_own(type(obj)) and hasattr(obj, "__dict__"):
+            for name in [*vars(obj)]:
+                if isinstance(inspect.getattr_static(type(obj), name, None), cached_property):
+                    del vars(obj)[name]
     proof._PLACE_OF.clear()
 
 
-def _is_own(one: object) -> bool:
-    return str(getattr(one, "__module__", None)).startswith("force_diffusion.")
+def _is_own(obj: object) -> bool:
+    return str(getattr(obj, "__module__", None)).startswith("force_diffusion.")
 
 
 def noticed() -> Iterator[str]:
     """What goes wrong."""
     from tests.soundness.attacks import ATTACKS, REFUSALS
 
-    for one in ATTACKS:
+    for attack in ATTACKS:
         try:
-            one.false()
+            attack.false()
         except REFUSALS as reason:
-            if one.refused not in str(reason):
-                yield f"refused for another reason: {one.name}"
+            if attack.refused not in str(reason):
+                yield f"refused for another reason: {attack.name}"
         except Exception as error:  # a guard that stumbles guards nothing
-            yield f"{type(error).__name__} in {one.name}"
+            yield f"{type(error).__name__} in {attack.name}"
         else:
-            yield f"proved: {one.name}"
-    for one in ATTACKS:
+            yield f"proved: {attack.name}"
+    for attack in ATTACKS:
         try:
-            one.true()
+            attack.true()
         except Exception as error:
-            yield f"{type(error).__name__} where it is true: {one.name}"
+            yield f"{type(error).__name__} where it is true: {attack.name}"
     for number in (3, 13):
         try:
             yield from wrong_verdicts(number)

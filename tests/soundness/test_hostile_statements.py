@@ -60,8 +60,8 @@ MULTIPLES = (Integer(2), Integer(-3), sy.r, 1 + sy.phi, over(2 - sy.phi), sy.n_x
 def variations(number: int, printed: sympy.Eq) -> Iterator[Variation]:
     """Single mechanical changes, and others that are true or false everywhere."""
     left, right = printed.args
-    for one in mutants(printed):
-        yield one.change, one.equation
+    for mutant in mutants(printed):
+        yield mutant.change, mutant.equation
     for name, change in FACTORS.items():
         if right != 0:
             yield f"right-hand side times {name}", equation(left, change(right))
@@ -174,12 +174,12 @@ def judged(number: int | str) -> Iterator[tuple[str, bool | None, Ruling]]:
 
 @pytest.mark.parametrize("number", [13, *late((*ON_PACKINGS, 14, 16), share=6)])
 def test_what_is_decided_is_as_it_is(number):
-    found: Counter[Verdict] = Counter()
+    counts: Counter[Verdict] = Counter()
     for name, true, ruling in judged(number):
-        found[ruling.verdict] += 1
+        counts[ruling.verdict] += 1
         lower = number == 12 and name in OF_LOWER_ORDER
         assert not (ruling.verdict.is_proved and not true and not lower), (name, str(ruling))
         assert not (ruling.verdict is Verdict.REFUTED and true), (name, str(ruling))
-    assert found[Verdict.PROVED] > 20
-    assert found[Verdict.REFUTED] > 25
-    assert found[Verdict.UNDECIDED] <= 20
+    assert counts[Verdict.PROVED] > 20
+    assert counts[Verdict.REFUTED] > 25
+    assert counts[Verdict.UNDECIDED] <= 20

@@ -63,18 +63,18 @@ HEIGHT, LAYER = 12, 4
 @pytest.mark.long(share=3)
 @pytest.mark.parametrize("name", FORMS)
 @given(
-    ones=st.lists(st.sampled_from([*DISGUISES, *SUMS]), max_size=2),
+    disguises=st.lists(st.sampled_from([*DISGUISES, *SUMS]), max_size=2),
     terms=sums_of(*COSINES, M, j, M * phi, j**2),
     exponent=st.sampled_from([1, 2, -1]),
     at_one_place=st.booleans(),
     elsewhere=st.integers(0, 1),
 )
-def test_multiples_of_closed_forms(name, ones, terms, exponent, at_one_place, elsewhere):
+def test_multiples_of_closed_forms(name, disguises, terms, exponent, at_one_place, elsewhere):
     """At one place, also times what vanishes there alone."""
     form = FORMS[name]()
     zero = (M - HEIGHT) ** elsewhere * (j - LAYER) ** (1 - elsewhere) if at_one_place else 1
     factor = 1 + zero * total(terms)
-    candidate = Mul(*ones, Pow(factor, exponent, evaluate=False), form.expr, evaluate=False)
+    candidate = Mul(*disguises, Pow(factor, exponent, evaluate=False), form.expr, evaluate=False)
     place = {"M": HEIGHT, "j": LAYER} if at_one_place else {}
     true = at_one_place or sympy.expand(factor ** abs(exponent)) == 1
     check(form.decide(candidate, **place), true=true, about=candidate)
@@ -89,18 +89,18 @@ NOT_UNIFORM = (M / (1 + M**2 * phi**2), 1 / (1 + M * phi**2), 1 / (1 + M * (phi 
 @pytest.mark.long(share=2)
 @pytest.mark.parametrize("number", [13, 14])
 @given(
-    ones=st.lists(st.sampled_from([*DISGUISES, *SUMS]), max_size=2),
+    disguises=st.lists(st.sampled_from([*DISGUISES, *SUMS]), max_size=2),
     shrinking=sums_of(*SHRINKING, NOT_UNIFORM[2]),
     lasting=sums_of(*LASTING) | st.just({}),
     not_uniform=st.sampled_from([Integer(0), *NOT_UNIFORM[:2]]),
     inverse=st.booleans(),
 )
-def test_multiples_of_leading_orders(number, ones, shrinking, lasting, not_uniform, inverse):
+def test_multiples_of_leading_orders(number, disguises, shrinking, lasting, not_uniform, inverse):
     derivation = load(number)
     left, right = derivation.printed[0].args
     factor = Add(1, total(shrinking), total(lasting), not_uniform)
     power = Pow(factor, -1 if inverse else 1, evaluate=False)
-    candidate = equation(left, Mul(*ones, power, right, evaluate=False))
+    candidate = equation(left, Mul(*disguises, power, right, evaluate=False))
     true = not_uniform == 0 and not any(lasting.values())
     check(candidate_for(derivation, 0, candidate), true=true, about=candidate)
 
@@ -108,7 +108,7 @@ def test_multiples_of_leading_orders(number, ones, shrinking, lasting, not_unifo
 @pytest.mark.long(share=3)
 @pytest.mark.parametrize("number", [3, 5, 11])
 @given(
-    one=st.sampled_from(DISGUISES),
+    disguise=st.sampled_from(DISGUISES),
     weights=st.dictionaries(
         st.tuples(
             st.sampled_from([(i, j), (i + 1, j + 1)]), st.sampled_from([sy.b_plus, sy.n_minus])
@@ -118,7 +118,7 @@ def test_multiples_of_leading_orders(number, ones, shrinking, lasting, not_unifo
     ),
     order=st.integers(0, 2),
 )
-def test_radii_that_are_added(number, one, weights, order):
+def test_radii_that_are_added(number, disguise, weights, order):
     """Eq. 12 is one of leading orders: what it drops has weights of the order of M, or less."""
     derivation = load(number)
     left, right = derivation.printed[0].args
@@ -129,6 +129,6 @@ def test_radii_that_are_added(number, one, weights, order):
         elif vector == sy.b_plus:
             added.append(factor * function * M**order * sy.DeltaR(*place))
             highest = max(highest, order + int(function == j) if factor else 0)
-    candidate = equation(left, Add(Mul(one, right, evaluate=False), *added, evaluate=False))
+    candidate = equation(left, Add(Mul(disguise, right, evaluate=False), *added, evaluate=False))
     true = not any(added) or (number == 12 and highest < 2)
     check(candidate_for(derivation, 0, candidate), true=true, about=candidate)

@@ -21,10 +21,10 @@ def whole(number: Any) -> Fraction:
 
 
 @pytest.mark.parametrize("operation", [add, sub, mul, truediv])
-@given(one=numbers, other=numbers)
-def test_an_operation_carries_what_it_rounds(operation, one, other):
-    exact = operation(whole(one), whole(other))
-    assert abs(whole(operation(one, other)) - exact) <= 8 * NEARLY
+@given(first=numbers, second=numbers)
+def test_an_operation_carries_what_it_rounds(operation, first, second):
+    exact = operation(whole(first), whole(second))
+    assert abs(whole(operation(first, second)) - exact) <= 8 * NEARLY
 
 
 @given(numbers)

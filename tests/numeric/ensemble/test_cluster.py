@@ -57,11 +57,11 @@ def test_a_worker_is_killed_in_the_middle(client, monkeypatch):
             pids.clear()
 
     executor = client.get_executor(pure=False)
-    found = fd.ensemble(scene(PROFILE), 300, executor=executor, progress=kill_one)
+    ensemble = fd.ensemble(scene(PROFILE), 300, executor=executor, progress=kill_one)
     assert not pids
     assert done[-1] == 300
-    assert found.realisations == found.solved == 300  # none twice
-    assert found.sums.to_bytes() == bytes_of_first(M, 300)
+    assert ensemble.realisations == ensemble.solved == 300  # none twice
+    assert ensemble.sums.to_bytes() == bytes_of_first(M, 300)
 
 
 def test_another_version_on_a_worker_is_refused(client, monkeypatch):

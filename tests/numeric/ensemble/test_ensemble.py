@@ -15,16 +15,16 @@ from tests.numeric.scenes import basic, scene
 
 @pytest.mark.parametrize("name", CASES)
 def test_arrays_rows_and_data_say_the_same(name):
-    found = fd.ensemble(scene(CASES[name]), 20)
-    groups = len(found.mean)
-    for array in (found.mean, found.mean_change, found.mean_change_error, found.mean_square,
-                  found.std, found.std_error, found.tensile):  # fmt: skip
+    result = fd.ensemble(scene(CASES[name]), 20)
+    groups = len(result.mean)
+    for array in (result.mean, result.mean_change, result.mean_change_error, result.mean_square,
+                  result.std, result.std_error, result.tensile):  # fmt: skip
         assert array.shape == (groups,)
-    assert found.mean_square == pytest.approx(found.std**2 + found.mean_change**2, rel=1e-9)
-    data = json.loads(json.dumps(found.data()))
-    rows = rows_of(found.arrays)
-    assert found.rows == len(rows) == len(data["results"][found.quantity])
-    for row, printed in zip(rows, data["results"][found.quantity], strict=True):
+    assert result.mean_square == pytest.approx(result.std**2 + result.mean_change**2, rel=1e-9)
+    data = json.loads(json.dumps(result.data()))
+    rows = rows_of(result.arrays)
+    assert result.rows == len(rows) == len(data["results"][result.quantity])
+    for row, printed in zip(rows, data["results"][result.quantity], strict=True):
         assert list(row) == list(printed)
         for key, value in row.items():
             if not isinstance(value, float):
@@ -41,33 +41,33 @@ def test_arrays_rows_and_data_say_the_same(name):
                 error /= row["mean"] if key == "std_over_mean" else 1
                 allowed = error / 20 + abs(value) * (1e-11 if key == "first_order_std" else 0)
                 assert float(printed[key]) == value or abs(float(printed[key]) - value) <= allowed
-    assert 2 <= len(repr(found).splitlines()) <= 6
-    assert found._repr_html_().count("<tr>") == 1 + min(len(rows), 20)
-    assert found._repr_latex_().count(" & ") == (len(rows[0]) - 1) * (1 + min(len(rows), 20))
+    assert 2 <= len(repr(result).splitlines()) <= 6
+    assert result._repr_html_().count("<tr>") == 1 + min(len(rows), 20)
+    assert result._repr_latex_().count(" & ") == (len(rows[0]) - 1) * (1 + min(len(rows), 20))
 
 
 def test_layers_of_both_branches():
-    found = fd.ensemble(scene(PROFILE), 150)
-    assert found.mean - found.mean_change == pytest.approx(0.7559289460184544)
-    assert found.solved == 150
-    assert found.variance == pytest.approx(found.std**2)
-    assert found.z is not None
-    assert found.z.tolist() == [0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75]
-    assert f"known to {100 * found.half_width:.2g} % (95 %, simultaneous)" in repr(found)
+    ensemble = fd.ensemble(scene(PROFILE), 150)
+    assert ensemble.mean - ensemble.mean_change == pytest.approx(0.7559289460184544)
+    assert ensemble.solved == 150
+    assert ensemble.variance == pytest.approx(ensemble.std**2)
+    assert ensemble.z is not None
+    assert ensemble.z.tolist() == [0, 0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75]
+    assert f"known to {100 * ensemble.half_width:.2g} % (95 %, simultaneous)" in repr(ensemble)
 
 
 @pytest.mark.parametrize(("kind", "angle"), [("surface", 25), ("bulk", 25), ("surface", 0)])
 def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind, angle):
     load = {"kind": kind, "angle_deg": angle}
-    found = fd.ensemble(scene({**PROFILE, "load": load}), 400)
-    assert found.first_order_std is not None
-    assert (found.std_over_mean is None) == bool(angle)
-    ratio = found.std / found.first_order_std
-    error = found.std_error / found.std
+    ensemble = fd.ensemble(scene({**PROFILE, "load": load}), 400)
+    assert ensemble.first_order_std is not None
+    assert (ensemble.std_over_mean is None) == bool(angle)
+    ratio = ensemble.std / ensemble.first_order_std
+    error = ensemble.std_error / ensemble.std
     assert (abs(ratio - 1) < 5 * error).all()
-    plus = found.index["branch"] == "+"
+    plus = ensemble.index["branch"] == "+"
     # the theory of the other branch is refuted everywhere
-    other = found.std[plus] / found.first_order_std[~plus]
+    other = ensemble.std[plus] / ensemble.first_order_std[~plus]
     assert (abs(other - 1) > 5 * error[plus]).all() == bool(angle)
 
 
@@ -91,9 +91,9 @@ def test_squares_beyond_floats_are_refused_and_not_zero(magnitude):
     sections["disorder"]["relative_std"] = "=1e-2"
     usual = fd.ensemble(scene(sections), 32)
     sections["load"] = {"kind": "surface", "magnitude": magnitude}
-    found = fd.ensemble(scene(sections), 32)
+    ensemble = fd.ensemble(scene(sections), 32)
     for squares in ("mean_square", "variance"):
         with pytest.raises(fd.ForceDiffusionError, match="choose another unit"):
-            getattr(found, squares)
-    assert found.std / float(magnitude[1:]) == pytest.approx(usual.std, rel=1e-14)
-    str(found)
+            getattr(ensemble, squares)
+    assert ensemble.std / float(magnitude[1:]) == pytest.approx(usual.std, rel=1e-14)
+    str(ensemble)

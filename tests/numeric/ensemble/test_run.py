@@ -69,21 +69,21 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
 @given(st.integers(0, 10**6), st.integers(2, 150))
 def test_what_fails_goes_on_from_the_file(tmp_path_factory, seed, before):
     path = tmp_path_factory.mktemp("store") / "ensemble.fd"
-    held = []
+    counts = []
     with pytest.MonkeyPatch.context() as monkeypatch:
         monkeypatch.setattr(sums, "BEADS", 4 * BEADS)
         fd.ensemble(SCENE, before, store=path)
         while True:
             seed += 1
-            held.append(read_store(path).realisations)
+            counts.append(read_store(path).realisations)
             with suppress(WorkersError), Shuffled(seed, failing=True) as executor:
-                found = fd.ensemble(SCENE, 150, store=path, executor=executor)
+                ensemble = fd.ensemble(SCENE, 150, store=path, executor=executor)
                 break
         again = fd.ensemble(SCENE, 150, store=path, executor=Nobody())
-        assert bytes_of(again) == bytes_of(found) == bytes_of_first(M, 150)
-        first_ones = fd.ensemble(SCENE, before, store=path, executor=Nobody())
-        assert bytes_of(first_ones) == bytes_of_first(M, before)
-    assert held == sorted(held)  # nothing finished was lost
+        assert bytes_of(again) == bytes_of(ensemble) == bytes_of_first(M, 150)
+        first_part = fd.ensemble(SCENE, before, store=path, executor=Nobody())
+        assert bytes_of(first_part) == bytes_of_first(M, before)
+    assert counts == sorted(counts)  # nothing finished was lost
 
 
 @pytest.mark.long
@@ -101,12 +101,12 @@ def test_a_process_that_is_killed_loses_nothing_that_was_kept(tmp_path, monkeypa
 
     with pytest.raises(WorkersError, match=r"a worker died.* holds [1-9]"):
         fd.ensemble(SCENE, 4000, workers=2, store=store, progress=kill_one)
-    held = read_store(store).realisations
+    count = read_store(store).realisations
     with module._executor(M, 150, 2) as executor:
         assert isinstance(executor, ProcessPoolExecutor)
-    found = fd.ensemble(SCENE, 150, workers=2, store=store)
-    assert found.solved == 150 - min(held, 150)
-    assert bytes_of(found) == bytes_of_first(M, 150)
+    ensemble = fd.ensemble(SCENE, 150, workers=2, store=store)
+    assert ensemble.solved == 150 - min(count, 150)
+    assert bytes_of(ensemble) == bytes_of_first(M, 150)
 
 
 @settings(max_examples=settings.default.max_examples // 6)
@@ -116,23 +116,23 @@ def test_where_it_stops_depends_on_nothing_but_the_sums(seed):
         monkeypatch.setattr(sums, "BEADS", 4 * BEADS)
         usual = fd.ensemble(SCENE, 300, until=0.12, confidence=0.9)
         with Shuffled(seed) as executor:
-            found = fd.ensemble(SCENE, 300, until=0.12, confidence=0.9, executor=executor)
+            ensemble = fd.ensemble(SCENE, 300, until=0.12, confidence=0.9, executor=executor)
         assert bytes_of(usual) == bytes_of_first(M, usual.realisations)
     assert usual.reached
     assert 32 < usual.realisations < 300
     assert usual.half_width <= 0.12
-    assert bytes_of(found) == bytes_of(usual)
-    assert (found.looks, found.half_width) == (usual.looks, usual.half_width)
+    assert bytes_of(ensemble) == bytes_of(usual)
+    assert (ensemble.looks, ensemble.half_width) == (usual.looks, usual.half_width)
 
 
 def test_a_rule_that_is_not_met():
-    found = fd.ensemble(SCENE, 40, until=1e-6, confidence=0.9)
-    assert found.reached is False
-    assert found.looks == 2  # at 32, and at the end
-    assert found.realisations == 40
+    ensemble = fd.ensemble(SCENE, 40, until=1e-6, confidence=0.9)
+    assert ensemble.reached is False
+    assert ensemble.looks == 2  # at 32, and at the end
+    assert ensemble.realisations == 40
     fixed = fd.ensemble(SCENE, 40, confidence=0.9)
     assert (fixed.reached, fixed.looks) == (None, 0)
-    assert fixed.half_width < found.half_width
+    assert fixed.half_width < ensemble.half_width
 
 
 def test_packings_that_can_not_be_built_are_left_out_and_counted(tmp_path):
@@ -141,13 +141,13 @@ def test_packings_that_can_not_be_built_are_left_out_and_counted(tmp_path):
     assert 5 < len(bad) < 55
     store = tmp_path / "ensemble.fd"
     assert fd.ensemble(scene(WILD), 20, store=store).unbuildable == sum(k < 20 for k in bad)
-    found = fd.ensemble(scene(WILD), 60, store=store)
-    assert (found.realisations, found.unbuildable) == (60 - len(bad), len(bad))
-    assert found.sums.first_left_out == found.data()["ensemble"]["first_unbuildable"] == bad[0]
+    result = fd.ensemble(scene(WILD), 60, store=store)
+    assert (result.realisations, result.unbuildable) == (60 - len(bad), len(bad))
+    assert result.sums.first_left_out == result.data()["ensemble"]["first_unbuildable"] == bad[0]
     # single packings are solved one by one, and what is left out is not there
     good = [solve_block(wild, k, k + 1).means for k in range(60) if k not in bad]
-    assert found.sums.means == pytest.approx(np.mean(good, axis=0), rel=1e-12)
-    assert bytes_of(found) == bytes_of_first(wild, 60)
+    assert result.sums.means == pytest.approx(np.mean(good, axis=0), rel=1e-12)
+    assert bytes_of(result) == bytes_of_first(wild, 60)
 
 
 def test_a_pool_is_given_few_blocks_at_a_time_and_they_are_withdrawn():
@@ -159,7 +159,7 @@ def test_a_pool_is_given_few_blocks_at_a_time_and_they_are_withdrawn():
             return super().submit(*given, **more)
 
     with Counting(2) as executor:
-        found = module.solved_blocks(M, ((k, k + 1) for k in range(10_000)), executor)
-        next(found)
-        found.close()
+        blocks = module.solved_blocks(M, ((k, k + 1) for k in range(10_000)), executor)
+        next(blocks)
+        blocks.close()
     assert len(done) <= 2 * module.AHEAD

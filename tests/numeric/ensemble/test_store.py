@@ -51,11 +51,11 @@ def test_flipped_and_missing_bytes_are_refused_or_do_no_harm(sound, tmp_path_fac
     del wrong[data.draw(st.just(len(wrong)) | st.integers(1, len(wrong))) :]
     path.write_bytes(wrong)
     try:
-        found = on_file(path, SIZE)
+        ensemble = on_file(path, SIZE)
     except store.StoreError:
         assert path.read_bytes() == bytes(wrong)
     else:  # in a part of the file that holds nothing
-        assert found.sums.to_bytes() == bytes_of_first(M, SIZE)
+        assert ensemble.sums.to_bytes() == bytes_of_first(M, SIZE)
 
 
 def test_files_of_another_kind_are_refused(tmp_path):
@@ -119,12 +119,12 @@ def test_the_same_scene_in_other_words_is_the_same_ensemble():
 
 def test_two_runs_may_share_a_file(tmp_path):
     path = tmp_path / "ensemble.fd"
-    with closing(store.Store(path, KEY)) as one, closing(store.Store(path, KEY)) as other:
+    with closing(store.Store(path, KEY)) as first, closing(store.Store(path, KEY)) as second:
         for k, block in enumerate(M.blocks(SIZE)):
-            (one, other)[k % 2].put(block, solve_block(M, *block))
-            one.put(block, solve_block(M, *block))
-    found = fd.ensemble(scene(PROFILE), SIZE, store=path)
-    assert (found.solved, found.sums.to_bytes()) == (0, bytes_of_first(M, SIZE))
+            (first, second)[k % 2].put(block, solve_block(M, *block))
+            first.put(block, solve_block(M, *block))
+    ensemble = fd.ensemble(scene(PROFILE), SIZE, store=path)
+    assert (ensemble.solved, ensemble.sums.to_bytes()) == (0, bytes_of_first(M, SIZE))
 
 
 def test_a_full_disk_is_told_and_leaves_the_file_good(tmp_path, monkeypatch):
@@ -141,8 +141,8 @@ def test_a_full_disk_is_told_and_leaves_the_file_good(tmp_path, monkeypatch):
     with pytest.raises(store.StoreFailedError, match=r"full.* holds [1-9]\d* realisations"):
         fd.ensemble(scene(PROFILE), 400, store=path)
     monkeypatch.setattr(sqlite3, "connect", connect)
-    held = store.read_store(path).realisations
-    assert fd.ensemble(scene(PROFILE), 400, store=path).solved == 400 - held
+    count = store.read_store(path).realisations
+    assert fd.ensemble(scene(PROFILE), 400, store=path).solved == 400 - count
 
 
 @pytest.mark.parametrize("moment", ["CREATE 2", "INSERT 1", "INSERT 2", "INSERT 3", "INSERT 5"])
@@ -166,9 +166,9 @@ def test_stopped_before_a_statement_it_goes_on(moment, tmp_path, monkeypatch):
     # the first block is written by the second INSERT
     written = 4 * max(statements.count("INSERT") - 2, 0)
     assert (store.read_store(path).realisations if written else path.stat().st_size) == written
-    found = on_file(path, SIZE)
-    assert found.solved == SIZE - written
-    assert found.sums.to_bytes() == bytes_of_first(M, SIZE)
+    ensemble = on_file(path, SIZE)
+    assert ensemble.solved == SIZE - written
+    assert ensemble.sums.to_bytes() == bytes_of_first(M, SIZE)
 
 
 def test_a_store_in_memory_is_none(tmp_path, monkeypatch):

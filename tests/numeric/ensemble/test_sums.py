@@ -51,34 +51,34 @@ def test_batches_and_single_packings_give_the_same_bytes(name, kind, std, monkey
 def test_estimates_are_those_of_the_changes(name):
     """Within 10⁻¹³ of what they are made of; their standard errors are 10⁻² of them here."""
     m, N = case(name), 5
-    found = ensemble_of(m, N)
+    ensemble = ensemble_of(m, N)
     names = [n for n in ("j", "i", "p", "q", "branch", "component") if n in m.labels]
     rows = sorted(range(m.groups), key=lambda k: [m.labels[name][k] for name in names])
     g = np.array(changes(m, range(N)))[:, rows]  # (packings, groups, members)
     mean, std = g.mean(axis=(0, 2)), g.std(axis=(0, 2))
-    assert found.mean_change == pytest.approx(mean, rel=1e-13, abs=2e-15 * std.max())
-    assert found.std == pytest.approx(std, rel=1e-13)
-    assert found.mean_square == pytest.approx(std**2 + mean**2)
+    assert ensemble.mean_change == pytest.approx(mean, rel=1e-13, abs=2e-15 * std.max())
+    assert ensemble.std == pytest.approx(std, rel=1e-13)
+    assert ensemble.mean_square == pytest.approx(std**2 + mean**2)
     # scatter over packings
     own, square = g.mean(axis=2), (g * g).mean(axis=2)
     error, error_of_square = (
         x.std(axis=0, ddof=1) / math.sqrt(N) for x in (own, square - 2 * own.mean(axis=0) * own)
     )
-    assert found.mean_change_error == pytest.approx(error, rel=1e-12)
+    assert ensemble.mean_change_error == pytest.approx(error, rel=1e-12)
     with np.errstate(invalid="ignore"):  # where nothing varies no error is known
         expected = std * np.expm1(error_of_square / std**2) / 2
-    assert found.std_error == pytest.approx(expected, rel=1e-11, nan_ok=True)
+    assert ensemble.std_error == pytest.approx(expected, rel=1e-11, nan_ok=True)
 
 
 def test_a_profile_is_that_of_run():
     outcome = run(planned({**PROFILE, "ask": {"quantity": "profile", "realisations": 6}}))
-    found = ensemble_of(m := case("profile"), 6)
+    ensemble = ensemble_of(m := case("profile"), 6)
     assert m.labels == {n: [row[n] for row in outcome.decimals()] for n in ("j", "branch")}
     for name in ("samples", "mean", "mean_change", "std", "std_over_mean"):
-        same = pytest.approx(outcome.arrays[name], rel=1e-12, abs=1e-15 * max(found.std))
-        assert found.arrays[name] == same
+        same = pytest.approx(outcome.arrays[name], rel=1e-12, abs=1e-15 * max(ensemble.std))
+        assert ensemble.arrays[name] == same
     for name in ("std", "mean_change"):
-        errors = found.arrays[f"{name}_error"]
+        errors = ensemble.arrays[f"{name}_error"]
         assert errors == pytest.approx(outcome.standard_errors[name], rel=1e-9)
 
 
@@ -94,9 +94,9 @@ def test_labels_and_changes_are_those_of_run(name):
         vertical = "component" in m.labels and m.labels["component"][k] == "vertical"
         expected.append(rows[contact]["vertical_change" if vertical else "change"])
         ordered.append(rows[contact]["vertical" if vertical else "force"])
-    (found,) = changes(m, range(1))
-    assert found[:, 0].tolist() == pytest.approx(expected, rel=1e-9, abs=1e-16)
-    total = [float(F) + g for F, g in zip(m.ordered(), found[:, 0], strict=True)]
+    (values,) = changes(m, range(1))
+    assert values[:, 0].tolist() == pytest.approx(expected, rel=1e-9, abs=1e-16)
+    total = [float(F) + g for F, g in zip(m.ordered(), values[:, 0], strict=True)]
     assert total == pytest.approx(ordered, rel=1e-9, abs=1e-12)
     assert first(m, 1).tensile.tolist() == [force < 0 for force in total]
 
@@ -104,26 +104,26 @@ def test_labels_and_changes_are_those_of_run(name):
 @pytest.mark.parametrize("name", ["histogram of all", "histogram of one"])
 def test_bins_are_fixed_and_count_everything(name):
     m, N = case(name), 5
-    found = first(m, N)
+    totals = first(m, N)
     edges = np.array([-math.inf, *m.edges, math.inf])
     counts = [np.histogram(g, edges)[0] for g in changes(m, range(N))]
-    assert found.bins[0].tolist() == np.sum(counts, axis=0).tolist()
-    assert found.bins[1].tolist() == np.sum(np.square(counts), axis=0).tolist()
-    assert found.bins[0].sum() == N * m.members
+    assert totals.bins[0].tolist() == np.sum(counts, axis=0).tolist()
+    assert totals.bins[1].tolist() == np.sum(np.square(counts), axis=0).tolist()
+    assert totals.bins[0].sum() == N * m.members
     shares = np.array(counts) / m.members
-    stated = ensemble_of(m, N).bins
-    assert stated is not None
-    assert stated["share"] == pytest.approx(shares.mean(axis=0))
-    assert stated["share_error"] == pytest.approx(shares.std(axis=0, ddof=1) / math.sqrt(N))
+    bins = ensemble_of(m, N).bins
+    assert bins is not None
+    assert bins["share"] == pytest.approx(shares.mean(axis=0))
+    assert bins["share_error"] == pytest.approx(shares.std(axis=0, ddof=1) / math.sqrt(N))
     assert m.edges == tuple(-edge for edge in reversed(m.edges))
 
 
 def test_the_smallest_disorder_keeps_all_digits():
     def relative(std: str) -> Array:
         m = case("profile, first order", relative_std=f"={std}")
-        found = ensemble_of(m, 4)
-        assert (found.std_error > 0).all()
-        return np.array([found.std, found.std_error]) / float(std)
+        ensemble = ensemble_of(m, 4)
+        assert (ensemble.std_error > 0).all()
+        return np.array([ensemble.std, ensemble.std_error]) / float(std)
 
     usual = relative("1e-3")
     for std in ("1e-9", "1e-160", "1e-300"):

@@ -26,20 +26,18 @@ def scene(quantity: str, std: float = 1e-4, width: int = W, **more: Any) -> fd.S
 
 
 def lines(figure: Figure, panel: int = 0) -> tuple[LineCollection, LineCollection]:
-    pressing, pulling = (
-        one for one in figure.axes[panel].collections if isinstance(one, LineCollection)
-    )
+    pressing, pulling = (c for c in figure.axes[panel].collections if isinstance(c, LineCollection))
     return pressing, pulling
 
 
 def points(figure: Figure) -> list[tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]]:
     """Give x and y of each series with error bars."""
-    found = []
+    series = []
     for container in figure.axes[0].containers:
         assert isinstance(container, ErrorbarContainer)
         data = container.lines[0].get_data()
-        found.append((np.asarray(data[0]), np.asarray(data[1])))
-    return found
+        series.append((np.asarray(data[0]), np.asarray(data[1])))
+    return series
 
 
 def of_one_load(size: str, folder: Path) -> fd.Outcome:
@@ -162,16 +160,16 @@ def test_beads_have_their_radii():
 @pytest.mark.parametrize("quantity", ["profile", "histogram", "contact_forces", "response"])
 def test_an_ensemble_is_drawn_too(quantity):
     load = fd.PointLoad(at=(0, M)) if quantity == "response" else fd.SurfaceLoad()
-    found = fd.ensemble(scene(quantity, load=load), 20)
-    figure = found.plot()
+    ensemble = fd.ensemble(scene(quantity, load=load), 20)
+    figure = ensemble.plot()
     if quantity == "profile":
-        assert points(figure)[0][1] == pytest.approx(found.std[::2])
+        assert points(figure)[0][1] == pytest.approx(ensemble.std[::2])
         bars = figure.axes[0].containers[0].lines[2][0].get_segments()
         half = np.array([(bar[1, 1] - bar[0, 1]) / 2 for bar in bars])
-        assert half == pytest.approx(found.std_error[::2])
+        assert half == pytest.approx(ensemble.std_error[::2])
     if quantity == "contact_forces":
         widths = np.array(lines(figure)[0].get_linewidths())
-        assert widths == pytest.approx(np.maximum(3 * found.std / found.std.max(), 0.05))
+        assert widths == pytest.approx(np.maximum(3 * ensemble.std / ensemble.std.max(), 0.05))
     assert figure._repr_png_()[1:4] == b"PNG"  # type: ignore[attr-defined]
 
 

@@ -70,14 +70,14 @@ def test_widths_of_figure_2_are_those_of_line_sums():
 
 def drawn(axes: Axes, label: str) -> tuple[Any, Any]:
     """Give x and y of the markers with this name."""
-    (markers,) = (one.lines[0] for one in axes.containers if one.get_label() == label)
+    (markers,) = (bars.lines[0] for bars in axes.containers if bars.get_label() == label)
     return markers.get_data()
 
 
 def test_what_figure_3_says_draws_and_writes_is_the_same():
     made = comparison.figure(Options((2, 3), 16, models=frozenset({"q-model"})))
     assert json.loads(json.dumps(made.facts)) == made.facts
-    assert [one["inside"] for one in made.facts["comparisons"]] == [
+    assert [row["inside"] for row in made.facts["comparisons"]] == [
         "inside" in s for s in made.lines
     ]
     assert set(made.tables) == {"figure3", "figure3_q_model"}
@@ -147,8 +147,8 @@ def test_theory_of_figure_b7_is_eqs_b7_and_b8():
 
 
 def test_chains_bear_the_load_of_all_beads_in_every_layer():
-    found = chains.figure(Options(seed=2))
-    table = {name: np.array(column) for name, column in found.tables["chains"].items()}
+    made = chains.figure(Options(seed=2))
+    table = {name: np.array(column) for name, column in made.tables["chains"].items()}
     along = np.stack([table[f"{axis}_high"] - table[f"{axis}_low"] for axis in "xy"])
     forces = table["force"] / (2 * NY) * along / np.hypot(*along)
     for j in range(chains.HEIGHT):
@@ -156,7 +156,7 @@ def test_chains_bear_the_load_of_all_beads_in_every_layer():
         assert layer.shape == (2, 2 * chains.WIDTH)
         # ends are rounded to 1e-12 r, and the largest force is below four times the load
         assert layer.sum(axis=1) == pytest.approx([0, chains.WIDTH], abs=1e-11 * chains.WIDTH)
-    facts = found.facts
+    facts = made.facts
     assert 0 < facts["tensile"] < facts["contacts"] / 4
     assert chains.HEIGHT < facts["critical_height"] < 2 * chains.HEIGHT
 
@@ -164,8 +164,8 @@ def test_chains_bear_the_load_of_all_beads_in_every_layer():
 def test_distributions():
     o = Options(realisations=200)
     for number, (kind, M) in enumerate(distribution.CASES):
-        deviates, found = distribution.simulated(o, number)
-        assert (found["radii"], found["height"], len(deviates)) == (kind, M, 200)
+        deviates, facts = distribution.simulated(o, number)
+        assert (facts["radii"], facts["height"], len(deviates)) == (kind, M, 200)
         assert deviates.std() == pytest.approx(1, abs=5 / np.sqrt(2 * 200))
 
 
@@ -188,9 +188,9 @@ def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory():
     )
     assert narrow.deviation <= 1
     assert narrow.band.deviation(paper.theory) > 1
-    wide, known = (diffusion.displacement_std(4, Medium(s)) for s in (Fraction(33, 10), usual))
-    assert wide[0][-1] < known[0][-1]
-    assert wide[1][-1] > known[1][-1]
+    wide, reference = (diffusion.displacement_std(4, Medium(s)) for s in (Fraction(33, 10), usual))
+    assert wide[0][-1] < reference[0][-1]
+    assert wide[1][-1] > reference[1][-1]
     assert chains.figure(Options(relative_std=1e-4)).facts["tensile"] == 0
 
 
@@ -246,7 +246,7 @@ def test_points_with_bars_are_the_rows_of_the_table(module, name, rows):
     assert {len(column) for column in table.values()} == {rows}
     written = np.array([table[key] for key in ("band_low", "simulated", "band_high")])
     start = 0
-    for series in (one for axes in made.figure.axes for one in axes.containers if one.has_yerr):
+    for series in (c for axes in made.figure.axes for c in axes.containers if c.has_yerr):
         y, bars = series.lines[0].get_ydata(), np.array(series.lines[2][0].get_segments())[:, :, 1]
         own = written[:, start : start + len(y)]
         # the units of the axes are not those of the table: the shape of each series is the same

@@ -15,11 +15,11 @@ def simulated(loads: np.ndarray, depth: int) -> np.ndarray:
 
     What a bead carries goes to the two beads below it, of column i to i and i + 1.
     """
-    generator, found = np.random.default_rng(2), [loads]
+    generator, by_depth = np.random.default_rng(2), [loads]
     for _ in range(depth):
         share = generator.random(loads.shape)
-        found.append(share * found[-1] + np.roll((1 - share) * found[-1], 1, axis=1))
-    return np.stack(found, axis=1)
+        by_depth.append(share * by_depth[-1] + np.roll((1 - share) * by_depth[-1], 1, axis=1))
+    return np.stack(by_depth, axis=1)
 
 
 def test_the_recursion_of_the_q_model_is_what_simulation_finds():
@@ -62,11 +62,11 @@ def test_rays_conserve_the_vertical_force(splits):
 
 def test_the_response_turns_from_two_peaks_to_a_broad_one():
     def shares(splits: float) -> tuple[float, float]:
-        found = double_y.profile(splits, TILT, seed=4, rays=100_000)
+        profile = double_y.profile(splits, TILT, seed=4, rays=100_000)
         middle = np.abs(double_y.BINS[:-1] + double_y.BINS[1:]) / 2
-        whole = found.sum()
+        whole = profile.sum()
         cone = np.abs(middle - 1.134) < 0.1
-        return float(found[cone].sum() / whole), float(found[middle < 0.5].sum() / whole)
+        return float(profile[cone].sum() / whole), float(profile[middle < 0.5].sum() / whole)
 
     shallow, deep = shares(0.25), shares(8.0)
     assert shallow[0] > 0.6

@@ -23,13 +23,13 @@ def home(i: int, width: int | None) -> int:
 
 def walk(start: Iterable[tuple[int, int]], up: int, top: int, width: int | None) -> Sites:
     """All beads reached by steps up (or down) to either side, within layers 0 … top."""
-    found = {(home(i, width), j) for i, j in start}
-    edge = found
+    visited = {(home(i, width), j) for i, j in start}
+    edge = visited
     while edge:
         steps = {(home(i + by, width), j + up) for i, j in edge for by in (1, -1)}
-        edge = {site for site in steps if 0 <= site[1] <= top} - found
-        found = found | edge
-    return found
+        edge = {site for site in steps if 0 <= site[1] <= top} - visited
+        visited = visited | edge
+    return visited
 
 
 def sites(rows: Iterable[Layer], width: int | None) -> Sites:
@@ -48,12 +48,12 @@ def beads(draw: st.DrawFn, low: int, high: int, width: int | None) -> tuple[int,
 @given(st.data(), widths, st.integers(0, 8))
 def test_a_triangle_is_what_a_bead_stands_on(data, width, j):
     tip = data.draw(beads(j, j, width))
-    found = regions.triangle(*tip, width)
-    assert sites(found.rows, width) == walk([tip], -1, j, width)
-    assert [row.j for row in found.rows] == list(range(j + 1))
-    assert found.width == width
+    region = regions.triangle(*tip, width)
+    assert sites(region.rows, width) == walk([tip], -1, j, width)
+    assert [row.j for row in region.rows] == list(range(j + 1))
+    assert region.width == width
     if width is None:
-        assert found.beads == (j + 1) * (j + 2) // 2
+        assert region.beads == (j + 1) * (j + 2) // 2
 
 
 @often
@@ -79,13 +79,13 @@ def test_a_contact_needs_what_stands_on_it_and_bears_load(data, width, top, bran
     reach = regions.downward_cone(loaded, width)
     x = (i + (1 if branch == "+" else -1), j + 1)
     needed = walk([x], 1, len(reach) - 1, width) & sites(reach, width)
-    found = sites(regions.contact_rows(Contact(i, j, Branch(branch)), reach, width), width)
+    result = sites(regions.contact_rows(Contact(i, j, Branch(branch)), reach, width), width)
     if (home(x[0], width), x[1]) not in needed:
-        assert not found
+        assert not result
         return
-    assert needed <= found <= sites(reach, width)
+    assert needed <= result <= sites(reach, width)
     if width is None or all(
         up.count + row.count <= width or width in (up.count, row.count)
         for up, row in zip(regions.upward_cone(x, len(reach) - 1, width), reach, strict=True)
     ):
-        assert found == needed
+        assert result == needed

@@ -34,8 +34,8 @@ def test_a_radius_that_is_none_names_the_bead(wrong, layer):
 
 def row(radii: DrawnRadii, layer: Layer, k: int) -> np.ndarray[Any, Any]:
     """Give δr/r of a row of beads."""
-    (found,) = radii.of(Rows([layer.first], [layer.count], layer.j), [k], FLOAT64)
-    return found  # type: ignore[no-any-return]
+    (deviations,) = radii.of(Rows([layer.first], [layer.count], layer.j), [k], FLOAT64)
+    return deviations  # type: ignore[no-any-return]
 
 
 @pytest.mark.parametrize("kind", ["uniform", "normal", "two-point"])

@@ -20,7 +20,7 @@ from tests.numeric.scenes import basic, planned, question, radii_read
 
 
 @dataclass(frozen=True)
-class Known:
+class SiteRadii:
     """Radii by site: ``special`` ones, and the others by a rule, of (i modulo 2W, j)."""
 
     special: dict[tuple[int, int], Fraction]
@@ -35,7 +35,7 @@ class Known:
         return system.array(values)
 
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Array:
-        i, j = (one.tolist() for one in rows.sites)
+        i, j = (column.tolist() for column in rows.sites)
         return self.at(list(zip(i, j, strict=True)), 0, system)[None]
 
 
@@ -54,10 +54,12 @@ def slab_differs(sections: dict[str, dict[str, Any]], width: int, folder: Path =
         if home in met and (i, j) not in special:
             special[i, j] = _rule(*home) + Fraction(i - home[0] + 1, 7_000_000)
         met.add(home)
-    return _changes(strip, Known({}, 2 * width)) != _changes(slab, Known(special, 2 * width))
+    return _changes(strip, SiteRadii({}, 2 * width)) != _changes(
+        slab, SiteRadii(special, 2 * width)
+    )
 
 
-def _changes(plan: Plan, radii: Known) -> list[str]:
+def _changes(plan: Plan, radii: SiteRadii) -> list[str]:
     if isinstance(plan.problem.radii, DrawnRadii):
         plan = replace(plan, problem=replace(plan.problem, radii=radii))
     drop = {"i"}
@@ -123,12 +125,12 @@ def test_many_contacts_see_images_where_any_one_does(
     sections["packing"]["allow_images"] = True
     sections["effects"] = {"geometry": geometry}
     sections["load"] = {"kind": load, **({"at": [layer % 2, layer]} if load == "point" else {})}
-    ones = [
+    answers = [
         planned({**sections, "ask": {"quantity": "contact", "at": [i, j, branch]}}).sees_images
         for j, i, branch in product(range(height), range(2 * width), "+-")
         if (i + j) % 2 == 0
     ]
-    assert planned(sections).sees_images == any(ones)
+    assert planned(sections).sees_images == any(answers)
 
 
 def test_what_is_seen_does_not_depend_on_how_a_load_is_written(tmp_path):

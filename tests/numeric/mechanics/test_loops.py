@@ -34,8 +34,8 @@ PHI = st.fractions(Fraction(-32, 100), Fraction(47, 100), max_denominator=10**6)
 def regions(draw: st.DrawFn) -> tuple[Region, Rows]:
     """A whole packing, or beads that decide something of a slab or strip."""
     if draw(st.booleans()):
-        found = whole(draw(st.integers(1, 33)), draw(st.integers(1, 7)))
-        return found, found.rows
+        region = whole(draw(st.integers(1, 33)), draw(st.integers(1, 7)))
+        return region, region.rows
     width = draw(st.none() | st.integers(1, 14))
     top, i = draw(st.integers(1, 8)), draw(st.integers(-9, 9))
     rows = downward_cone([(2 * i + top % 2, top)], width)
@@ -80,21 +80,21 @@ def test_loops_and_numpy_agree_and_carried_errors_are_those_of_balls(phi, case, 
         for name in ("block",) if isinstance(ours, sweep.SolvedPacking) else ("g",):
             # LLVM and NumPy round alike
             assert getattr(ours, name).tobytes() == getattr(theirs, name).tobytes()
-    found, again = (Physicality(looks_at=range(len(rho))) for _ in range(2))
-    found.look_at_gaps(usual[0])
+    first, again = (Physicality(looks_at=range(len(rho))) for _ in range(2))
+    first.look_at_gaps(usual[0])
     with by_numpy():
         again.look_at_gaps(usual[0])
-    assert again == found
+    assert again == first
     balls = Balls(200)
     with balls.active():
         exact = solved(phi, region, balls.from_floats(rho[:1]), rows, balls.from_floats(F), balls)
         assert exact is not None
-        for one, true in ((carried[0].block, exact[0].block), (carried[1].g, exact[1].g)):
-            off = as_floats(true[0] - balls.from_floats(one.value[0]))
+        for numbers, true in ((carried[0].block, exact[0].block), (carried[1].g, exact[1].g)):
+            off = as_floats(true[0] - balls.from_floats(numbers.value[0]))
             # what is left out: products of errors, and their own roundings
-            largest = np.abs(one.value[0]).max(initial=0)
+            largest = np.abs(numbers.value[0]).max(initial=0)
             room = 1e-12 * np.abs(off).max(initial=0) + 2.0**-90 * largest
-            assert np.abs(one.error[0] - off).max(initial=0) <= room
+            assert np.abs(numbers.error[0] - off).max(initial=0) <= room
 
 
 def test_machine_code_on_disk_follows_each_of_its_sources(tmp_path, monkeypatch):
@@ -126,10 +126,10 @@ def _twice(p: Any, n: Any) -> int:
 def test_what_was_compiled_is_taken_from_disk(tmp_path, monkeypatch):
     monkeypatch.setattr(compiling, "CODES", tmp_path / "codes")
     for made in (1, 1):
-        found = compiling.compiled([(_twice, ("float", "number"))], [])
-        assert found is not None
+        functions = compiling.compiled([(_twice, ("float", "number"))], [])
+        assert functions is not None
         values = np.arange(3.0)
-        assert found[0](values.ctypes.data, 3) == 3
+        assert functions[0](values.ctypes.data, 3) == 3
         assert values.tolist() == [0, 2, 4]
         assert len(list((tmp_path / "codes").iterdir())) == made
         monkeypatch.setattr(compiling, "_made", None)  # nothing is compiled again
@@ -147,17 +147,17 @@ def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
 ):
     source = DrawnRadii(kind, Fraction(1, 10**6), seed, width)
     layers = Rows([2 * i + j % 2 for j, (i, _) in enumerate(rows)], [n for _, n in rows])
-    found = source.of(layers, realisations, FLOAT64)
+    values = source.of(layers, realisations, FLOAT64)
     with by_numpy():
-        assert source.of(layers, realisations, FLOAT64).tobytes() == found.tobytes()
+        assert source.of(layers, realisations, FLOAT64).tobytes() == values.tobytes()
     parts = [
         source.of(Rows([layer.first], [layer.count], layer.j), realisations, FLOAT64)
         for layer in layers
     ]
-    assert np.concatenate(parts, axis=1).tobytes() == found.tobytes()
+    assert np.concatenate(parts, axis=1).tobytes() == values.tobytes()
     if width is not None:
         around = Rows(layers.firsts + 2 * width, layers.counts)
-        assert source.of(around, realisations, FLOAT64).tobytes() == found.tobytes()
+        assert source.of(around, realisations, FLOAT64).tobytes() == values.tobytes()
 
 
 @pytest.mark.parametrize("dimension", [2, 3])
@@ -165,17 +165,17 @@ def test_a_drawn_radius_that_is_not_positive_is_named_alike(dimension):
     """Of spheres as (p, q, j), and not by the column in the row of W² beads."""
     asked = question("profile", 6, 13, dimension=dimension, spacing=2.9, kind="normal", std=0.45)
     for way in (nullcontext, by_numpy):
-        with way(), pytest.raises(RadiusError, match="the drawn radius is -") as found:
+        with way(), pytest.raises(RadiusError, match="the drawn radius is -") as error:
             asked.run()
-        bead = str(found.value).split(":")[0]
+        bead = str(error.value).split(":")[0]
         assert bead.count(",") == dimension - 1
 
 
 def test_logarithms_and_cosines_are_right_to_a_few_units_in_the_last_place():
-    ones = np.random.default_rng(5).random(2000)
-    for x in (ones, ones * 2.0**-50, 1 - ones * 2.0**-30):
+    numbers = np.random.default_rng(5).random(2000)
+    for x in (numbers, numbers * 2.0**-50, 1 - numbers * 2.0**-30):
         assert drawing.logarithm(x) == pytest.approx(np.log(x), rel=1e-15, abs=0)
-    assert drawing.cosine_of_turn(ones) == pytest.approx(np.cos(2 * np.pi * ones), abs=2e-15)
+    assert drawing.cosine_of_turn(numbers) == pytest.approx(np.cos(2 * np.pi * numbers), abs=2e-15)
 
 
 def test_without_numba_numpy_sweeps(monkeypatch):

@@ -41,26 +41,26 @@ def test_gaps_of_touching_beads_are_told_apart():
     """At s = 2r beads of a layer touch: no gap, to the last place."""
     region, rho = spheres([np.zeros((3, 3))] * 2)
     with FLOAT64.active():
-        found = Physicality()
-        found.look_at_gaps(sweep.deposit(Fraction(1, 2), region, rho, FLOAT64))
-    assert found.smallest_gap == 0
+        physicality = Physicality()
+        physicality.look_at_gaps(sweep.deposit(Fraction(1, 2), region, rho, FLOAT64))
+    assert physicality.smallest_gap == 0
     # three pairs a bead, in each of two layers
-    assert (found.overlaps, found.undecided_gaps) == (0, 3 * 9 * 2)
+    assert (physicality.overlaps, physicality.undecided_gaps) == (0, 3 * 9 * 2)
 
 
 @pytest.mark.parametrize(("dimension", "phi"), [(2, Fraction(-2, 5)), (3, Fraction(-3, 10))])
 def test_pairs_come_by_distance_each_once(dimension, phi):
-    found = [pair for pair, _ in zip(by_distance(dimension, float(phi)), range(400), strict=False)]
-    assert [distance for distance, _ in found] == sorted(distance for distance, _ in found)
-    steps = {one for _, one in found}
-    assert len(steps) == len(found)
-    assert not steps & {tuple(-s for s in one) for one in steps}
-    last = found[-1][0]
-    for one in product(range(-5, 6), repeat=dimension):
-        square = 4 * (sum(s * s for s in one) * (1 - phi) + sum(one) ** 2 * phi)
-        contact = sum(map(abs, one)) == 1
-        if any(one) and not contact and float(square) ** 0.5 < last - 1e-9:
-            assert one in steps or tuple(-s for s in one) in steps
+    pairs = [pair for pair, _ in zip(by_distance(dimension, float(phi)), range(400), strict=False)]
+    assert [distance for distance, _ in pairs] == sorted(distance for distance, _ in pairs)
+    steps = {step for _, step in pairs}
+    assert len(steps) == len(pairs)
+    assert not steps & {tuple(-s for s in step) for step in steps}
+    last = pairs[-1][0]
+    for step in product(range(-5, 6), repeat=dimension):
+        square = 4 * (sum(s * s for s in step) * (1 - phi) + sum(step) ** 2 * phi)
+        contact = sum(map(abs, step)) == 1
+        if any(step) and not contact and float(square) ** 0.5 < last - 1e-9:
+            assert step in steps or tuple(-s for s in step) in steps
 
 
 def test_a_support_that_is_too_large_is_named():

@@ -70,8 +70,8 @@ def assert_kept(outcome: Outcome, true: Outcome, tolerance: Fraction) -> None:
         if outcome.accuracy.certified:  # the last digit is off by one at most
             assert a == "0" or off <= unit_of_last_digit(a) * Fraction(11, 10)
         elif name != "std_over_mean":  # what is no change is rounded once more
-            stated = Fraction(outcome.accuracy.error_bound) * largest
-            assert off <= stated + abs(Fraction(b)) / 2**50, name
+            bound = Fraction(outcome.accuracy.error_bound) * largest
+            assert off <= bound + abs(Fraction(b)) / 2**50, name
 
 
 @pytest.mark.parametrize(("value", "near"), [(0.5, True), (0.5 + 1e-9, True), (0.51, False)])

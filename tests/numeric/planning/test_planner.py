@@ -97,8 +97,8 @@ def test_the_plan_is_what_runs(geometry, quantity, realisations):
 
 
 def test_memory_knows_what_is_solved_together():
-    one, batch = (planned(basic(quantity="profile", realisations=n)) for n in (1, 1000))
-    assert batch.memory > one.memory + 900 * one.problem.region.beads * float_bead(2)
+    single, batch = (planned(basic(quantity="profile", realisations=n)) for n in (1, 1000))
+    assert batch.memory > single.memory + 900 * single.problem.region.beads * float_bead(2)
 
 
 @pytest.mark.parametrize("quantity", ["contact", "histogram", "profile", "response"])

@@ -80,10 +80,10 @@ def test_what_is_odd_about_a_batch_names_the_packing():
 
 def test_a_shifted_mean_and_a_height_above_the_critical_one_are_said():
     delta = RADII[0] - 1
-    found = fd.solve(delta_r=delta + 0.01, spacing=2.88)
-    (note,) = found.forces.plan.notes
+    solution = fd.solve(delta_r=delta + 0.01, spacing=2.88)
+    (note,) = solution.forces.plan.notes
     assert "the mean of the given radii differs" in note
-    assert f"Note: {note}" in str(found)
+    assert f"Note: {note}" in str(solution)
     assert fd.solve(delta_r=delta, spacing=2.88).forces.plan.notes == []
     wide = 0.08 * np.random.default_rng(1).uniform(-1, 1, (9, 12))
     (note,) = fd.solve(delta_r=wide).forces.plan.notes

@@ -76,9 +76,9 @@ def test_what_is_no_array_of_numbers(content, says, tmp_path):
 def test_all_real_arrays_of_numpy_are_read(values, tmp_path):
     path = tmp_path / "radii.npy"
     path.write_bytes(npy(values))
-    found = read_numbers(path)
-    assert found.dtype == values.dtype
-    assert (found == values).all()
+    array = read_numbers(path)
+    assert array.dtype == values.dtype
+    assert (array == values).all()
     assert read(path).number_of_rows == 2 * WIDTH * (LAYERS - 1)
 
 

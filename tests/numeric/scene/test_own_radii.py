@@ -35,16 +35,16 @@ def reference(tmp_path: Path) -> Any:
     return solved(listed(tmp_path / "delta.csv", "i,j,delta_r", rows)).arrays["change"]
 
 
-def same(found: fd.Outcome, reference: Any) -> bool:
+def same(outcome: fd.Outcome, reference: Any) -> bool:
     """Radii that were rounded to doubles move forces by some 1e-16 / 1e-3 of their change."""
-    return bool(np.allclose(found.arrays["change"], reference, rtol=0, atol=1e-15))
+    return bool(np.allclose(outcome.arrays["change"], reference, rtol=0, atol=1e-15))
 
 
 def test_an_array(tmp_path, reference):
     np.save(tmp_path / "radii.npy", R + DELTA)
-    found = solved(tmp_path / "radii.npy")
-    assert same(found, reference)
-    assert set(found.source["sha256"]) == {"disorder.file"}
+    outcome = solved(tmp_path / "radii.npy")
+    assert same(outcome, reference)
+    assert set(outcome.source["sha256"]) == {"disorder.file"}
 
 
 def test_a_table_of_places(tmp_path, reference):
@@ -113,13 +113,13 @@ def image(
 @pytest.mark.parametrize("rotation", [-9.0, 0.0, 4.0])
 def test_a_packing_is_read_back(rotation, delimiter, tmp_path):
     """Centres lie off the lattice, by about 2 % of r: so near the fit comes."""
-    found = fd.read_radii(image(tmp_path, rotation, delimiter), spacing=SPACING)
-    assert found.radii / found.radii.mean() == pytest.approx(RADII / RADII.mean(), rel=1e-12)
-    assert found.scale == pytest.approx(SCALE, rel=1e-3)
-    assert found.rotation == pytest.approx(rotation, abs=0.1)
-    assert found.origin == pytest.approx(ORIGIN, abs=0.02 * 2.5 * SCALE)
-    assert 0.005 < found.residual < 0.05
-    solved = fd.solve(found.radii, spacing=found.spacing)
+    fit = fd.read_radii(image(tmp_path, rotation, delimiter), spacing=SPACING)
+    assert fit.radii / fit.radii.mean() == pytest.approx(RADII / RADII.mean(), rel=1e-12)
+    assert fit.scale == pytest.approx(SCALE, rel=1e-3)
+    assert fit.rotation == pytest.approx(rotation, abs=0.1)
+    assert fit.origin == pytest.approx(ORIGIN, abs=0.02 * 2.5 * SCALE)
+    assert 0.005 < fit.residual < 0.05
+    solved = fd.solve(fit.radii, spacing=fit.spacing)
     expected = fd.solve(RADII, spacing=SPACING)
     assert solved.force == pytest.approx(expected.force, abs=1e-3)
 
@@ -131,16 +131,16 @@ def test_a_packing_is_read_back(rotation, delimiter, tmp_path):
 def test_what_is_given_is_kept_and_the_rest_is_the_best(given, tmp_path):
     """No other value of what is fitted has a smaller residual."""
     path = image(tmp_path)
-    found = fd.read_radii(path, **given)
+    fit = fd.read_radii(path, **given)
     for name, value in given.items():
-        assert getattr(found, name) == pytest.approx(value, rel=1e-12)
-    everything = {name: getattr(found, name) for name in ("spacing", "scale", "rotation", "origin")}
+        assert getattr(fit, name) == pytest.approx(value, rel=1e-12)
+    everything = {name: getattr(fit, name) for name in ("spacing", "scale", "rotation", "origin")}
     again = fd.read_radii(path, **everything)
-    assert again.residual == pytest.approx(found.residual, rel=1e-4)
-    right, up = np.array(found.origin) + np.eye(2)
-    for name, value in (("rotation", found.rotation + 0.05), ("origin", right), ("origin", up)):
+    assert again.residual == pytest.approx(fit.residual, rel=1e-4)
+    right, up = np.array(fit.origin) + np.eye(2)
+    for name, value in (("rotation", fit.rotation + 0.05), ("origin", right), ("origin", up)):
         if name not in given:
-            assert fd.read_radii(path, **everything | {name: value}).residual > found.residual
+            assert fd.read_radii(path, **everything | {name: value}).residual > fit.residual
 
 
 def test_what_is_no_packing_is_refused(tmp_path):

@@ -27,24 +27,24 @@ def asking(*quantities: str, **more: Any) -> dict[str, dict[str, Any]]:
 def test_each_answer_is_as_if_asked_alone(pair, more):
     both = fd.run(planned(asking(*pair, **more)))
     assert tuple(both.results) == pair
-    for name, found in both.results.items():
+    for name, outcome in both.results.items():
         alone = asking(*pair, **more)
         alone["ask"]["quantity"] = name
-        assert found.decimals() == fd.run(planned(alone)).decimals()
+        assert outcome.decimals() == fd.run(planned(alone)).decimals()
 
 
 def test_all_are_answered_where_contacts_open():
     sections = basic(5, 7, quantity=["contact_forces", "positions"])
     sections["disorder"]["relative_std"] = "=0.03"
     sections["effects"] = {"contacts": "unilateral"}
-    found, heavy = (
+    light, heavy = (
         fd.run(scene({**sections, "load": {"magnitude": unit}})).results for unit in (1, 8)
     )
-    assert len(found["positions"].rows()) == 6 * 7
-    assert min(found["contact_forces"].arrays["force"]) >= 0
+    assert len(light["positions"].rows()) == 6 * 7
+    assert min(light["contact_forces"].arrays["force"]) >= 0
     for quantity, name, unit in (("positions", "x", 1), ("contact_forces", "force", 8)):
-        one, other = (of[quantity].arrays[name].astype(float) for of in (found, heavy))
-        assert one * unit == pytest.approx(other)  # lengths have no unit of force
+        a, b = (of[quantity].arrays[name].astype(float) for of in (light, heavy))
+        assert a * unit == pytest.approx(b)  # lengths have no unit of force
 
 
 def test_one_packing_is_solved(monkeypatch):
@@ -73,7 +73,7 @@ def test_files_hold_all_tables(tmp_path, call):
 
 def test_other_commands_take_one():
     asked = scene(asking("contact_forces", "positions", realisations=3))
-    for refused in (fd.cost, fd.ensemble, lambda one: one.run().plot()):
+    for refused in (fd.cost, fd.ensemble, lambda question: question.run().plot()):
         with pytest.raises(SceneError, match="must be one quantity"):
             refused(asked)
 

@@ -22,9 +22,9 @@ def test_a_true_curve_falls_outside_as_often_as_it_should(monkeypatch):
     outside = {0.9: 0, 0.99: 0}
     for k in range(repetitions):
         part = slice(k * n, (k + 1) * n)
-        found = log_relative_std(mean[part], square[part])
+        estimates = log_relative_std(mean[part], square[part])
         for level in outside:
-            outside[level] += simultaneous(*found, level, k).deviation(truth) > 1
+            outside[level] += simultaneous(*estimates, level, k).deviation(truth) > 1
     for level, count in outside.items():
         # a band of the right level gets past this in 999 of 1000 choices of the seed
         assert stats.binomtest(count, repetitions, 1 - level).pvalue > 1e-3, outside

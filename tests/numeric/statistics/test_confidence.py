@@ -27,40 +27,40 @@ from tests.numeric.scenes import question
     ],
 )
 def test_student(wrong, freedom, quantile):
-    found = half_width([1e-6], freedom + 1, 1 - wrong, 0)
-    assert math.log1p(found) == pytest.approx(1e-6 * quantile, rel=1e-6)
+    width = half_width([1e-6], freedom + 1, 1 - wrong, 0)
+    assert math.log1p(width) == pytest.approx(1e-6 * quantile, rel=1e-6)
 
 
 def test_student_becomes_normal_and_needs_two():
-    found = half_width([1.0], 10**8, 1 - 0.31731050786291404, 0)
-    assert found == pytest.approx(math.e - 1, rel=1e-6)
+    width = half_width([1.0], 10**8, 1 - 0.31731050786291404, 0)
+    assert width == pytest.approx(math.e - 1, rel=1e-6)
     assert half_width([1.0], 1, 0.95, 0) == math.inf
     assert half_width([], 1, 0.95, 0) == 0
 
 
 def test_looks_are_few_and_their_shares_add_up():
-    found = list(looks(10**9))
-    assert found == sorted(set(found))
-    assert len(found) < 60
-    assert sum(1 / (k * (k + 1)) for k in range(1, len(found) + 1)) < 1
+    counts = list(looks(10**9))
+    assert counts == sorted(set(counts))
+    assert len(counts) < 60
+    assert sum(1 / (k * (k + 1)) for k in range(1, len(counts) + 1)) < 1
 
 
 def test_more_looks_and_more_confidence_ask_for_more():
-    found = ensemble_of(m := case("profile"), 40)
+    ensemble = ensemble_of(m := case("profile"), 40)
     t = stdtrit(39, 1 - 0.05 / m.groups / 2)
-    error = max(e / s for e, s in zip(found.std_error, found.std, strict=True) if e)
+    error = max(e / s for e, s in zip(ensemble.std_error, ensemble.std, strict=True) if e)
     # σ (e^2ε − 1)/2 is stated of σ, of whose logarithm ε is the error
-    assert math.log1p(found.half_width) == pytest.approx(t * math.log1p(2 * error) / 2)
-    first, second = (replace(found, looks=k).half_width for k in (1, 2))
-    assert found.half_width < first < second
-    assert found.half_width < replace(found, confidence=0.99).half_width
+    assert math.log1p(ensemble.half_width) == pytest.approx(t * math.log1p(2 * error) / 2)
+    first, second = (replace(ensemble, looks=k).half_width for k in (1, 2))
+    assert ensemble.half_width < first < second
+    assert ensemble.half_width < replace(ensemble, confidence=0.99).half_width
     assert ensemble_of(m, 1).half_width == math.inf
 
 
 def test_two_packings_tell_not_how_well_the_scatter_of_a_contact_is_known():
-    found = replace(ensemble_of(case("contact of a slab"), 2), until=0.01)
-    assert math.isnan(found.std_error[0])
-    assert (found.half_width, found.reached) == (math.inf, False)
+    ensemble = replace(ensemble_of(case("contact of a slab"), 2), until=0.01)
+    assert math.isnan(ensemble.std_error[0])
+    assert (ensemble.half_width, ensemble.reached) == (math.inf, False)
 
 
 REPEATS, PACKINGS, LEVEL = 20_000, 48, 0.99

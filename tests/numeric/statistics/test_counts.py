@@ -58,7 +58,7 @@ def test_an_ensemble_counts_them_too():
     at: dict[str, Any] = {"realisations": 40, "bins": 6}
     every = fd.ensemble(layered("histogram", **at), reach=0.05)
     each = [fd.ensemble(layered("histogram", layers=[j], **at), reach=0.05) for j in range(6)]
-    total = np.sum([one.arrays["count"] for one in each], axis=0)
+    total = np.sum([ensemble.arrays["count"] for ensemble in each], axis=0)
     assert total.tolist() == every.arrays["count"].tolist()
     assert sum(each[2].arrays["count"]) == 40 * 2 * 14
     profile = fd.ensemble(layered("profile", realisations=40))
@@ -74,6 +74,6 @@ def test_its_bins_reach_as_far_as_these_layers_do():
 def test_it_is_drawn_with_the_gaussians_of_these_layers():
     pytest.importorskip("matplotlib")
     (axes,) = layered("histogram", layers=[5], realisations=20).run().plot().axes
-    line = next(one for one in axes.lines if len(one.get_xdata()) == 321)
+    line = next(curve for curve in axes.lines if len(curve.get_xdata()) == 321)
     v, gauss = line.get_xdata(), line.get_ydata()
     assert gauss == pytest.approx(np.exp(-(v**2) / 2) / np.sqrt(2 * np.pi))

@@ -41,8 +41,8 @@ def test_exact_packings_have_as_many(load, relative_std, packing, room):
     asked = scene(load, relative_std, packing)
     expected = asked.explain().data()["tension"]["expected_contacts"]
     assert expected > 1
-    found = fd.ensemble(asked, 120)
-    assert found.tensile.sum() / 120 == pytest.approx(expected, rel=room)
+    ensemble = fd.ensemble(asked, 120)
+    assert ensemble.tensile.sum() / 120 == pytest.approx(expected, rel=room)
 
 
 @pytest.mark.long(sample=9)

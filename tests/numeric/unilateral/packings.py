@@ -65,12 +65,12 @@ def must_hold(packing: Packing) -> tuple[float, np.ndarray]:
     r = np.array(packing.radii, dtype=float)
     load, period = np.array(packing.loads, dtype=float), float(packing.period)
     fixed, contacts = packing.fixed, np.array(packing.contacts).reshape(-1, 2)
-    held = np.isin(np.arange(len(x)), contacts) & (np.arange(len(x)) >= fixed)
+    supported = np.isin(np.arange(len(x)), contacts) & (np.arange(len(x)) >= fixed)
     assert period > 0
     assert (r > 0).all()
     assert (period > 2 * r).all()  # a bead and its image
     assert (x[fixed:, 1] > x[:fixed, 1].min()).all()
-    assert not load[fixed:][~held[fixed:]].any()
+    assert not load[fixed:][~supported[fixed:]].any()
     assert (contacts.max(axis=1) >= fixed).all()
     apart = x[:, None] - x[None]
     apart[..., 0] -= period * np.round(apart[..., 0] / period)
@@ -85,7 +85,7 @@ def must_hold(packing: Packing) -> tuple[float, np.ndarray]:
     direction = apart[a, b] / np.linalg.norm(apart[a, b], axis=1)[:, None]
     balance, number = np.zeros((len(x), 2, len(contacts))), np.arange(len(contacts))
     balance[a, :, number], balance[b, :, number] = direction, -direction
-    rows, pushed = balance[held].reshape(-1, len(contacts)), load[held].ravel()
+    rows, pushed = balance[supported].reshape(-1, len(contacts)), load[supported].ravel()
     assert rows.shape[0] == rows.shape[1]
     room = 1e-13 * np.linalg.cond(rows) * np.abs(pushed).max()
     forces = np.linalg.solve(rows, -pushed)

@@ -168,14 +168,14 @@ def test_what_is_no_equilibrium_is_not_proved(packing):
 
 
 @cache
-def found(kind: str) -> Packing:
+def solved_packing(kind: str) -> Packing:
     """Packings that ``run`` certified, with and without rattlers."""
     load = fd.PointLoad(at=[0, 4]) if kind == "rattlers" else fd.SurfaceLoad()
     return packing_of(network_of(strip(height=4, width=6, std=0.04, seed=2, load=load).run()))
 
 
-def known(kind: str) -> Packing:
-    return pile() if kind == "pile" else deepcopy(found(kind))
+def example(kind: str) -> Packing:
+    return pile() if kind == "pile" else deepcopy(solved_packing(kind))
 
 
 KINDS = ("pile", "pressed", "rattlers")
@@ -183,10 +183,10 @@ KINDS = ("pile", "pressed", "rattlers")
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_packings_to_be_changed_are_proved(kind):
-    packing = known(kind)
+    packing = example(kind)
     assert refused(packing) == ""
-    held = {bead for pair in packing.contacts for bead in pair}
-    assert (len(held) < len(packing.radii)) == (kind == "rattlers")
+    beads = {bead for pair in packing.contacts for bead in pair}
+    assert (len(beads) < len(packing.radii)) == (kind == "rattlers")
     must_hold(packing)
 
 
@@ -206,7 +206,7 @@ def plus(value: str, amount: str) -> str:
 @st.composite
 def changes(draw: st.DrawFn, kind: str) -> Packing:
     """One or two changes of a load, a radius, a centre, the contacts, the period, or a new bead."""
-    packing = known(kind)
+    packing = example(kind)
     for _ in range(draw(st.integers(1, 2))):
         bead, other = (draw(st.integers(0, len(packing.radii) - 1)) for _ in range(2))
         axis, amount = draw(st.integers(0, 1)), draw(amounts)

@@ -64,9 +64,9 @@ def test_positions_are_those_of_the_network(relaxed):
     assert positions["x"].astype(float).tolist() == network.x[:, 0].astype(float).tolist()
     assert (positions["contacts"] > 0).sum() == len(np.unique(network.pairs))
     assert (positions["contacts"][network.rattlers] == 0).all()
-    (one,) = strip("positions", at=[3, 5]).run().rows()
+    (single,) = strip("positions", at=[3, 5]).run().rows()
     (same,) = (row for row in strip("positions").run().rows() if (row["i"], row["j"]) == (3, 5))
-    assert one == same
+    assert single == same
 
 
 @pytest.mark.parametrize("seed", [0, 2])
@@ -76,9 +76,9 @@ def test_without_tension_forces_are_as_deposited(seed):
         seed=seed, contacts="bilateral", tolerance=Fraction(1, 10**20), certified=True
     ).run()
     assert network_of(unilateral).programs == 0
-    known = {(row["i"], row["j"], row["branch"]): row for row in bilateral.decimals()}
+    rows = {(row["i"], row["j"], row["branch"]): row for row in bilateral.decimals()}
     for row in unilateral.decimals():
-        other = known[row["i"], row["j"], row["branch"]]
+        other = rows[row["i"], row["j"], row["branch"]]
         apart = abs(Fraction(row["force"]) - Fraction(other["force"]))
         assert apart < Fraction(1, 10**19)
 

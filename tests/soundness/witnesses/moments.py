@@ -90,9 +90,9 @@ class Value:
         return Value(self.ordered, weights, self.shift)
 
 
-def covariance(one: Value, other: Value) -> fmpq:
+def covariance(first: Value, second: Value) -> fmpq:
     """Σ w w′ over all beads."""
-    few, many = sorted((one.weights, other.weights), key=len)
+    few, many = sorted((first.weights, second.weights), key=len)
     return sum((w * many[site] for site, w in few.items() if site in many), ZERO)
 
 
@@ -241,8 +241,8 @@ class Packing:
             return Value(ZERO, {(i, j): ONE})
         if name.startswith("Force") and self.load == "point":
             across = int(self.symbols()[sy.k])
-            found = below_one(self.height, self.n, self.order).get((name, (i - across, j)), Value())
-            return found.at(across, 0)
+            value = below_one(self.height, self.n, self.order).get((name, (i - across, j)), Value())
+            return value.at(across, 0)
         load = "surface" if self.load == "point" else self.load
         return below_many(self.height, self.n, load, self.ratio, self.order)[name + axis, j].at(
             i, 0
@@ -251,7 +251,7 @@ class Packing:
 
 def exactly(symbols: Numbers) -> Numbers:
     """The same, with fractions for whole numbers."""
-    return {one: n if isinstance(n, tuple) else fmpq(n) for one, n in symbols.items()}
+    return {symbol: n if isinstance(n, tuple) else fmpq(n) for symbol, n in symbols.items()}
 
 
 class _Reading(Reading):
@@ -320,14 +320,14 @@ def spheres(
             packing = deposit(phi, region, rho, system)
             forces = sweep_down(packing, region.rows, F)
             for axis, upper in product(range(3), range(1, height + 1)):
-                found = forces.ordered(axis, upper) + forces.change(axis, upper)[0]
-                for place, force in enumerate(found):
+                series = forces.ordered(axis, upper) + forces.change(axis, upper)[0]
+                for place, force in enumerate(series):
                     x, y = divmod(place, width)  # of the upper one; the enlarged one is at (0, 0)
                     lower = [x, y, upper - x - y]
                     lower[axis] -= 1
                     there = (0, 0, source)
                     bead = tuple(a - b for a, b in zip(there, lower, strict=True))
-                    steps = tuple((one + height + 1) % width - height - 1 for one in bead[:2])
+                    steps = tuple((step + height + 1) % width - height - 1 for step in bead[:2])
                     sums.add(
                         (axis + 1, upper - 1),
                         (*steps, source - (upper - 1) - sum(steps)),
