@@ -76,7 +76,7 @@ def test_a_wrong_input_is_answered_in_three_lines(name):
     assert len(message) < LONGEST + 300
 
 
-def test_attributes_say_what_was_meant():
+def test_a_misspelt_attribute_suggests_the_right_one():
     with pytest.raises(AttributeError, match=r"did you mean fd\.solve\?"):
         fd.slove  # noqa: B018
     assert re.fullmatch(r"\d+\.\d+\.\d+", fd.__version__)

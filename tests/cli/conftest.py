@@ -7,7 +7,7 @@ import pytest
 
 @pytest.fixture
 def without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Matplotlib is not installed, as it seems, and nothing has loaded it."""
+    """Make it look as if Matplotlib were not installed."""
     loaded = [name for name in sys.modules if name.split(".")[0] == "matplotlib"]
     for name in ("force_diffusion.numeric.figures.style", *loaded):
         monkeypatch.delitem(sys.modules, name, raising=False)

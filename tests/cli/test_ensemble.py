@@ -33,7 +33,7 @@ def small(tmp_path: Path) -> Path:
     return path
 
 
-def test_kept_in_a_file_and_written_out(small, tmp_path, call):
+def test_an_ensemble_is_stored_and_written_out(small, tmp_path, call):
     store, out = tmp_path / "ensemble.fd", tmp_path / "out"
     arguments = [small, "--store", store, "--out", out, "--json"]
     status, shown, err = call("ensemble", *arguments)
@@ -56,7 +56,7 @@ def test_kept_in_a_file_and_written_out(small, tmp_path, call):
     assert contents["ensemble"]["disorder"]["seed"] == 1
 
 
-def test_more_are_added_and_a_rule_stops_early(small, tmp_path, call):
+def test_realisations_are_added_and_a_rule_stops_early(small, tmp_path, call):
     store = tmp_path / "ensemble.fd"
     assert call("ensemble", small, "--store", store)[0] == 0
     status, shown, _ = call(

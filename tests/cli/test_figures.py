@@ -30,9 +30,7 @@ def check_images(folder: Path, name: str, command: str) -> None:
 
 
 @pytest.mark.long
-def test_figures_are_files_that_say_what_made_them_and_come_again_byte_for_byte(
-    tmp_path, call, monkeypatch
-):
+def test_figures_name_the_command_that_makes_them_again_byte_for_byte(tmp_path, call, monkeypatch):
     words = ["1", "2", "3", "--heights", "2,4", "--realisations", "16", "--out", "out"]
     contents = []
     for folder in ("a", "b"):
@@ -79,7 +77,7 @@ def test_without_matplotlib(tmp_path, call):
 
 
 @pytest.mark.long
-def test_simpler_models_are_drawn_and_leave_with_their_figures(tmp_path, call):
+def test_simpler_models_are_drawn_and_overwritten_with_their_figures(tmp_path, call):
     out, models = tmp_path / "out", ["--with", "q-model", "--with", "double-y"]
     words = [3, 4, "--heights", "3", "--realisations", 32, *models, "--out", out]
     assert call("figures", *words)[0] == 0

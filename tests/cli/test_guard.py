@@ -92,7 +92,7 @@ def waiting(seconds: float, *before: str) -> subprocess.Popen[str]:
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_all_that_ends_a_program_ends_it_alike(how):
+def test_every_signal_ends_a_program_in_the_same_way(how):
     with waiting(60) as process:
         process.send_signal(how)
         _, errors = process.communicate(timeout=600)
@@ -100,7 +100,7 @@ def test_all_that_ends_a_program_ends_it_alike(how):
     assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
 
 
-def test_what_a_program_was_started_to_ignore_is_ignored():
+def test_a_hangup_is_ignored_under_nohup():
     with waiting(0.5, "nohup") as process:
         process.send_signal(signal.SIGHUP)
         process.communicate(timeout=600)
@@ -125,7 +125,7 @@ OUT_OF_RANGE = "a number left the range of the arithmetic (too large)"
         (ZeroDivisionError("too large"), 3, OUT_OF_RANGE),
     ],
 )
-def test_an_error_is_told_once_with_what_it_is_about(error, status, says, capsys):
+def test_an_error_is_printed_once_with_its_context(error, status, says, capsys):
     def program() -> int:
         with about("file"), about("part"), in_range():
             raise error

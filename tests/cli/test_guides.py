@@ -89,5 +89,5 @@ def test_its_links_lead_somewhere(page):
 
 
 @pytest.mark.parametrize("page", [DESCRIPTION, SCENES], ids=_name)
-def test_what_is_read_elsewhere_has_no_links_into_the_repository(page):
+def test_pages_read_elsewhere_have_no_links_into_the_repository(page):
     assert _relative_links(page) == []

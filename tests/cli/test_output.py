@@ -40,7 +40,7 @@ def everything() -> list[str]:
 
 
 @pytest.mark.parametrize("out", ["out", "deep/er/out", "a/../out"])
-def test_a_new_folder_holds_the_files_and_nothing_is_beside_it(out):
+def test_a_new_folder_holds_the_files_and_no_others_lie_beside_it(out):
     Path("a").mkdir()
     write(out, OLD)
     assert contents(out) == OLD
@@ -49,7 +49,7 @@ def test_a_new_folder_holds_the_files_and_nothing_is_beside_it(out):
     assert Path(out).stat().st_mode == Path("usual").stat().st_mode  # as the user's umask has it
 
 
-def test_what_is_there_is_replaced_if_that_is_asked_for_and_it_is_ours_alone():
+def test_earlier_results_are_replaced_on_request():
     write("out", OLD)
     with pytest.raises(OutputError, match=r"^'out' exists already\. .* --overwrite\.$"):
         write("out", NEW)
@@ -68,7 +68,7 @@ def test_what_is_there_is_replaced_if_that_is_asked_for_and_it_is_ours_alone():
     ],
     ids=["another file", "a folder", "a link"],
 )
-def test_what_others_put_there_is_never_replaced(put):
+def test_a_folder_with_other_files_is_never_replaced(put):
     write("out", NEW)
     before = Output(Path("out"), NAMES, True)
     put(Path("out"))
@@ -90,7 +90,7 @@ def test_what_others_put_there_is_never_replaced(put):
         (lambda: Path("out.old").mkdir(), "out", "'out.old' exists: .* stopped while it"),
     ],
 )
-def test_what_is_in_the_way_is_named(put, out, says):
+def test_an_obstacle_to_writing_is_named(put, out, says):
     put()
     before = everything()
     with pytest.raises(OutputError, match=says):
@@ -99,7 +99,7 @@ def test_what_is_in_the_way_is_named(put, out, says):
 
 
 @pytest.mark.parametrize("failure", [OSError(errno.ENOSPC, "No space left"), KeyboardInterrupt()])
-def test_a_failed_write_leaves_what_was_there(monkeypatch, failure):
+def test_a_failed_write_leaves_the_earlier_results(monkeypatch, failure):
     write("deep/out", OLD)
     before, real = everything(), Path.write_bytes
 
@@ -145,7 +145,7 @@ def killed(calls: int) -> bool:
     return ended != 0
 
 
-def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is():
+def test_a_killed_write_loses_nothing_and_the_next_one_says_where_it_is():
     seen = set()
     for calls in range(100):
         write("out", OLD)
@@ -168,7 +168,7 @@ def test_killed_at_any_change_nothing_is_lost_and_the_next_one_says_where_it_is(
     assert everything() == ["out", "out/a", "out/b"]
 
 
-def test_of_two_that_found_the_place_free_the_second_has_its_answer_beside():
+def test_the_second_of_two_writers_puts_its_results_beside_the_folder():
     first, second = (Output(Path("out"), NAMES, False) for _ in range(2))
     first.write(OLD)
     with pytest.raises(
@@ -192,7 +192,7 @@ def test_of_two_that_found_the_place_free_the_second_has_its_answer_beside():
         "certify 1",
     ],
 )
-def test_every_command_refuses_before_it_solves(command, monkeypatch, call):
+def test_every_command_refuses_an_existing_folder_before_it_solves(command, monkeypatch, call):
     for name in ("framework.runner.run", "commands.scenes._answer", "commands.figures._own"):
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
     for name in ("derive", "figure", "ensemble", "cost", "certify"):

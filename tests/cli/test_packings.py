@@ -25,7 +25,7 @@ def test_run_says_what_is_proved(tmp_path, call):
     assert network["programs"] > 0
 
 
-def test_no_packing_ends_in_words_with_status_3(tmp_path, call):
+def test_a_search_without_a_packing_ends_with_a_message_and_status_3(tmp_path, call):
     status, _, err = call("run", asked(tmp_path, most_programs=1))
     assert status == 3
     assert "no packing was found, though one may exist: beads still slide after 1 linear" in err

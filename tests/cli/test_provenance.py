@@ -76,7 +76,7 @@ def test_an_answer_says_where_it_came_from(command, written, tmp_path, call):
 
 
 @pytest.mark.parametrize("written", ["npz", "parquet"])
-def test_numbers_of_longer_arithmetics_are_decimals(written, tmp_path, call):
+def test_numbers_of_more_digits_than_float64_are_decimals(written, tmp_path, call):
     scene = SCENES / "one_contact.toml"
     out = tmp_path / "out"
     assert call("run", scene, "--out", out, "--format", written, "-q")[0] == 0
@@ -110,7 +110,7 @@ def test_a_format_needs_its_library(tmp_path, call, monkeypatch):
     assert not (tmp_path / "x").exists()
 
 
-def test_an_array_of_ones_own_is_known_by_its_hash():
+def test_an_array_of_radii_is_identified_by_its_hash():
     radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (5, 12))
     source = fd.solve(radii).forces.source
     assert source["sha256"] == {"disorder.radii": hashlib.sha256(radii.tobytes()).hexdigest()}

@@ -69,12 +69,12 @@ def test_it_leads_to_a_guide_for_each_of_the_tasks():
     assert guides == [f"guides/{n}.md" for n in ("ask", "profile", "radii", "conjecture")]
 
 
-def test_every_exit_status_is_told():
+def test_every_exit_status_is_listed():
     for status in re.findall(r"\d+", STATUSES):
         assert f"\n| {status} |" in REFERENCE
 
 
-def test_continuous_integration_takes_the_readme_s_test_command():
+def test_continuous_integration_runs_the_readme_s_test_command():
     script = ROOT / ".ci" / "run"
     assert script.stat().st_mode & 0o111
     extract = "sed -n '/^```sh$/,/^```$/{/^```/d;p}' README.md"

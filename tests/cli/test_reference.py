@@ -48,7 +48,7 @@ def _asking(folder: Path, quantity: str, realisations: int = 1, packing: str = P
 
 
 @pytest.mark.parametrize("section", SECTIONS)
-def test_a_section_has_the_keys_that_are_named(section, tmp_path, call):
+def test_documented_keys_are_those_of_a_section(section, tmp_path, call):
     whole = {
         "packing": "height = 2",
         "disorder": "kind = 'uniform'\nrelative_std = 1e-3",
@@ -65,7 +65,7 @@ def test_a_section_has_the_keys_that_are_named(section, tmp_path, call):
     assert _first_cells(_part(SCENES, f"`[{section}]`")) == set(allowed[1].strip().split(", "))
 
 
-def test_the_sections_and_quantities_are_named(tmp_path, call):
+def test_sections_and_quantities_are_documented(tmp_path, call):
     _, _, err = call("explain", _scene(tmp_path, f"{PACKING}[nonsense]\n[ask]\nquantity = 'a'\n"))
     assert {*SECTIONS} <= {*re.findall(r"\w+", err)}
     _, _, err = call("explain", _asking(tmp_path, "nonsense"))
@@ -76,7 +76,7 @@ def test_the_sections_and_quantities_are_named(tmp_path, call):
 
 @pytest.mark.parametrize("realisations", [1, 3])
 @pytest.mark.parametrize("quantity", QUANTITIES)
-def test_an_answer_has_the_columns_that_are_named(quantity, realisations, tmp_path, call):
+def test_documented_columns_are_those_of_an_answer(quantity, realisations, tmp_path, call):
     status, shown, _ = call("run", _asking(tmp_path, quantity, realisations))
     assert status == 0
     columns = set(shown.splitlines()[0].split(","))
@@ -89,7 +89,7 @@ def test_an_answer_has_the_columns_that_are_named(quantity, realisations, tmp_pa
 
 
 @pytest.mark.long
-def test_a_study_of_costs_has_the_columns_that_are_named(tmp_path, call):
+def test_documented_columns_are_those_of_a_study_of_costs(tmp_path, call):
     assert call("cost", _asking(tmp_path, "contact"), "--out", tmp_path / "cost")[0] == 0
     with (tmp_path / "cost" / "cost.csv").open(newline="", encoding="utf-8") as file:
         columns = next(csv.reader(file))
@@ -103,7 +103,7 @@ def _keys(value: object) -> set[str]:
     return set().union(*map(_keys, value)) if isinstance(value, list) else set()
 
 
-def test_json_has_the_keys_that_are_named(tmp_path, call):
+def test_keys_of_json_are_documented(tmp_path, call):
     """Rows of an answer are in it, too, with the names of their columns."""
     pulling = PACKING.replace("1e-3", "0.1").replace("height = 2", "height = 6")
     columns = _part(SCENES, "`contact`") + _part(SCENES, "`contact_forces`")
@@ -120,7 +120,7 @@ def test_json_has_the_keys_that_are_named(tmp_path, call):
         assert _keys(json.loads(shown)) <= {*named, *QUANTITIES}
 
 
-def test_every_command_is_named(call):
+def test_documented_commands_are_those_of_the_program(call):
     listed = call("--help")[1].partition("Commands:\n")[2].partition("\n\n")[0]
     commands = set(re.findall(r"^  ([\w-]+) ", listed, re.MULTILINE))
     page = (REFERENCE / "commands.md").read_text(encoding="utf-8")

@@ -25,7 +25,7 @@ def rows(text: str) -> list[dict[str, str]]:
     return list(csv.DictReader(io.StringIO(text)))
 
 
-def test_a_value_is_that_of_a_changed_file(scene, call):
+def test_set_gives_the_results_of_a_changed_file(scene, call):
     changed = scene.with_name("changed.toml")
     text = SCENE.replace("height = 3", "height = 4")
     changed.write_text(text.replace('"uniform"', '"normal", seed = 7'))

@@ -35,7 +35,7 @@ def on_a_terminal(*arguments: str, term: str = "xterm-256color") -> tuple[int, s
 
 
 @pytest.mark.long
-def test_what_is_proved_is_named_and_a_line_left_for_each_equation():
+def test_the_current_equation_is_named_and_each_leaves_a_line():
     status, shown = on_a_terminal("derive", "1", "2")
     assert status == 0
     assert "\x1b[KEq. 2\r\x1b[K" in shown

@@ -106,7 +106,7 @@ def test_help_and_no_arguments(call):
 
 
 @pytest.mark.parametrize("name", COMMANDS)
-def test_the_list_of_commands_says_what_they_say(name, call):
+def test_the_list_of_commands_has_the_summaries_of_their_help(name, call):
     shown = " ".join(call(name, "--help")[1].split())
     assert shown.startswith(f"Usage: force-diffusion {name} ")
     assert f" {COMMANDS[name][1]} " in shown

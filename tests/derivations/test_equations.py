@@ -1,4 +1,4 @@
-"""Every printed equation: proved, and felt when it is wrong."""
+"""Every printed equation is proved, and a wrong one is not."""
 
 import re
 from collections.abc import Iterator

@@ -36,7 +36,7 @@ def test_what_holds_for_one_contact_is_not_refuted():
             proof.refute("true", equation(eq16.ONE_CONTACT, rhs), rule, eq16.CONE)
 
 
-def test_all_that_is_said_of_the_run_counts_it():
+def test_every_report_of_the_run_counts_it():
     outcome = runner.run(load(16))
     words = "1 printed statement refuted, as expected (see ERRATA)"
     derived, proof = Derived((outcome,)), Proof((outcome,))

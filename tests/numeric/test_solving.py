@@ -109,7 +109,7 @@ def test_a_stack_of_squares_needs_its_dimension(shape):
 
 @pytest.mark.parametrize("how", [{}, {"tolerance": "1e-20"}])
 @pytest.mark.parametrize("dimension", [2, 3])
-def test_of_a_bead_that_no_supports_hold_it_is_said_why(dimension, how):
+def test_the_error_says_why_supports_do_not_hold_a_bead(dimension, how):
     """A bead of 0.2 r falls through a gap of r; one on a disc of 3.5 r misses that beside it."""
     radii = np.ones((2, 6, 6)[:dimension])
     place = (2,) * (dimension - 1)

@@ -133,7 +133,7 @@ def test_beyond_the_critical_height(height, std, load):
     assert solution.physical.tensile
 
 
-def test_fifty_digits_are_certified_beyond_it_too():
+def test_fifty_digits_are_certified_beyond_the_critical_height():
     solution = solved(96, 16, 0.006, tolerance="1e-50", certified=True)
     assert solution.certified
     assert solution.error <= 1e-50
@@ -144,7 +144,7 @@ def test_fifty_digits_are_certified_beyond_it_too():
             assert a.overlaps(b)
 
 
-def test_where_no_packing_exists_it_is_said():
+def test_the_error_names_the_bead_where_no_packing_exists():
     for tolerance in (None, "1e-40"):
         with pytest.raises(UnbuildableError, match=r"^bead \(\d+, \d+\): its supports are too far"):
             solved(128, 16, 0.03, tolerance=tolerance)
@@ -167,7 +167,7 @@ def test_balls_lose_a_power_of_the_height(low, high):
     assert lost(high, 1e-8) - lost(low, 1e-8) < 1.5 * 2 + 0.1
 
 
-def test_beyond_it_balls_lose_exponentially():
+def test_beyond_the_critical_height_balls_lose_digits_exponentially():
     """The packing itself is unstable there: half a bit a layer and more at σ/r = 1e-2."""
     assert critical_height(Fraction(1, 100)) < 32
     beyond = (lost(64, 1e-2) - lost(32, 1e-2)) / 32

@@ -1,4 +1,4 @@
-"""Several threads, and pickles: the same answers, whoever asks, and after a journey."""
+"""Answers are the same from several threads, and after pickling."""
 
 import copy
 import pickle
@@ -36,7 +36,7 @@ def _often() -> Iterator[None]:
 
 
 def answer(number: int) -> Any:
-    """Answer one of many questions, each with other bits; say all that it says."""
+    """Answer one of many questions, each with other bits, and give all of the answer."""
     if number % 7 == 6:  # of packings whose contacts open, beside those that stay on the lattice
         return scene("contact_forces", number, contacts="unilateral").run().decimals()
     digits, certified = (None, 30, 40, 110, 150)[number % 5], bool(number % 2)

@@ -124,8 +124,8 @@ def times(factor: Any, theorem: Theorem) -> Sides:
     return factor * left, factor * right
 
 
-def as_it_is(theorem: Theorem) -> Attempt:
-    """A rule that takes whatever is asked for this theorem."""
+def rule_returning(theorem: Theorem) -> Attempt:
+    """A rule that returns this theorem, whatever is to be proved."""
     return partial(rules.proved_by, lambda *_: theorem)
 
 
@@ -163,13 +163,13 @@ for name, attempt in (
 ):
     attack(f"a forged theorem, {name}", partial(attempt, FORGED),
            "theorems only", partial(attempt, DISPLACED))
-THE_BASE = partial(as_it_is(BASE), BASE.formula, BASE.domain)
+THE_BASE = partial(rule_returning(BASE), BASE.formula, BASE.domain)
 beside("a rule that is no rule", THE_BASE,
-       ("but a forged theorem", partial(as_it_is(FORGED), FORGED.formula, FORGED.domain),
+       ("but a forged theorem", partial(rule_returning(FORGED), FORGED.formula, FORGED.domain),
         "the rule made no theorem"),
-       ("but something like a theorem", partial(as_it_is(SAME), SAME.formula, BEADS),
+       ("but something like a theorem", partial(rule_returning(SAME), SAME.formula, BEADS),
         "the rule made no theorem"),
-       ("but another statement", partial(as_it_is(BASE), NOTHING, BASE.domain),
+       ("but another statement", partial(rule_returning(BASE), NOTHING, BASE.domain),
         "another statement"))
 
 # domains, loads and limits

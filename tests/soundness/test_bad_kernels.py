@@ -177,8 +177,8 @@ def wrong_verdicts(number: int) -> Iterator[str]:
 
 
 @pytest.fixture
-def nothing_is_remembered() -> Iterator[None]:
-    """Neither does the test see what was worked out before, nor others what it has planted."""
+def empty_caches() -> Iterator[None]:
+    """Empty all caches before the test and after it, so that no planted fault outlives it."""
     importlib.import_module("tests.soundness.attacks")  # proves equations, by the right kernel
     gc.unfreeze()  # a command that another test has called hides what was loaded from get_objects
     places = dict(proof._PLACE_OF)
@@ -189,13 +189,13 @@ def nothing_is_remembered() -> Iterator[None]:
 
 
 @pytest.mark.long
-@pytest.mark.usefixtures("nothing_is_remembered")
+@pytest.mark.usefixtures("empty_caches")
 def test_the_kernel_without_a_fault_is_right():
     assert not list(noticed())
 
 
 @pytest.mark.long(sample=2, share=2)
-@pytest.mark.usefixtures("nothing_is_remembered")
+@pytest.mark.usefixtures("empty_caches")
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_noticed(monkeypatch, fault):
     planted(monkeypatch, *FAULTS[fault])

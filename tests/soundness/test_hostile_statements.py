@@ -1,4 +1,4 @@
-"""True and false variations of each printed equation: what is decided of them is as it is.
+"""True and false variations of each printed equation: every verdict on them is true.
 
 Whether a variation is true is found numerically: on exact packings (Eqs. 1–12), or at a large
 height (Eqs. 13, 14 and 16). None that is false may be proved, and none that is true refuted.
@@ -173,7 +173,7 @@ def judged(number: int | str) -> Iterator[tuple[str, bool | None, Ruling]]:
 
 
 @pytest.mark.parametrize("number", [13, *late((*ON_PACKINGS, 14, 16), share=6)])
-def test_what_is_decided_is_as_it_is(number):
+def test_every_verdict_is_true(number):
     counts: Counter[Verdict] = Counter()
     for name, true, ruling in judged(number):
         counts[ruling.verdict] += 1

@@ -64,7 +64,7 @@ IN_CASES = {
 @pytest.mark.parametrize(
     ("verdict", "cases"), [(verdict, cases) for verdict in IN_CASES for cases in IN_CASES[verdict]]
 )
-def test_of_several_cases_a_limit_sees_the_one_that_holds_in_all_of_it(verdict, cases):
+def test_a_limit_takes_the_case_that_holds_all_the_way(verdict, cases):
     eq = fd.equation(13)
     assert eq.decide(sympy.Piecewise(*cases(eq.rhs))).verdict is verdict
 
@@ -167,7 +167,7 @@ NEVER_PROVED = [
 
 
 @pytest.mark.parametrize("number", [3, 13, 15, *late([12])])
-def test_what_is_not_read_is_undecided_with_the_reason(number):
+def test_unreadable_candidates_are_undecided_with_the_reason(number):
     for candidate in NOT_READ + NEVER_PROVED:
         ruling = fd.equation(number).decide(candidate)
         assert ruling.note
@@ -175,7 +175,7 @@ def test_what_is_not_read_is_undecided_with_the_reason(number):
         assert ruling.verdict is Verdict.UNDECIDED or candidate in NEVER_PROVED, candidate
 
 
-def test_which_line_is_meant_is_named_or_asked():
+def test_the_note_names_the_line_compared_or_asks_for_it():
     first, second = fd.equation(7).expr
     assert "f⁺_(k−1,l−1)" in fd.equation(7).decide(first.rhs).note  # which is proved for it
     assert "f⁻_(k+1,l−1)" in fd.equation(7).decide(second.rhs).note
@@ -194,7 +194,7 @@ NO_EQUATIONS = [
 
 
 @pytest.mark.parametrize(("given", "says"), NO_EQUATIONS)
-def test_what_is_no_equation_is_told_by_its_type(given, says):
+def test_what_is_no_equation_is_refused_by_its_type(given, says):
     for ask in (fd.equation(13).decide, fd.equation(13).exact().decide):
         ruling = ask(given)
         assert ruling.verdict is Verdict.NOT_A_STATEMENT
@@ -295,7 +295,7 @@ def test_z_stands_for_the_height_of_a_layer():
 # what is assumed
 
 
-def test_what_is_assumed_is_said_wherever_it_is_used():
+def test_an_assumption_is_named_wherever_it_is_used():
     eq = Equation(replace(fakes.PREMISE, show_steps=_guess))
     ruling = eq.decide(eq.expr)
     assert ruling.verdict is Verdict.ASSUMING
@@ -318,7 +318,7 @@ def test_assumptions_add_up():
             Ruling(verdict, "", assuming)
 
 
-def test_what_can_not_be_read_is_told_with_what_to_write():
+def test_the_note_on_decimals_says_what_to_write_instead():
     eq = fd.equation(13)
     M = eq.symbols["M"]
     for candidate, decimal in ((1.5 * M, 1.5), (M + 0.1, 0.1), (M**2.5, 2.5), (1e200 * M, 1e200)):

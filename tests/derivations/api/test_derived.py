@@ -9,7 +9,7 @@ import force_diffusion as fd
 
 
 @pytest.mark.long
-def test_premises_come_first_and_callbacks_are_told():
+def test_premises_come_first_and_callbacks_are_called():
     notices: list[str] = []
     finished: list[int] = []
     derived = fd.derive(
@@ -30,7 +30,7 @@ def test_a_number_that_is_no_equation(number):
             ask(number)
 
 
-def test_one_number_in_place_of_several_is_told_in_words():
+def test_the_error_for_one_number_in_place_of_a_list_shows_the_call():
     for given in (13, fd.equation(13)):
         with pytest.raises(TypeError, match=r"^derive takes a list: .*derive\(\[13\]\)$"):
             fd.derive(given)  # type: ignore[arg-type]

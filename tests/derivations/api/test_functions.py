@@ -102,7 +102,7 @@ def test_two_lines_are_two_arrays():
     assert height.tolist() == [4, 4]
 
 
-def test_no_elements_are_no_values_and_names_are_looked_at_all_the_same():
+def test_empty_arrays_give_empty_arrays_and_names_are_still_checked():
     values = fd.equation(13).at(M=10, z=np.array([]), **FLOATS)
     assert values.shape == (0,)
     with pytest.raises(ArgumentError, match="has no x"):
@@ -152,7 +152,7 @@ def test_what_is_not_allowed_is_named(change, says):
         (15, {"M": 10}, "a profile needs a form that depends on the layer j"),
     ],
 )
-def test_what_a_profile_does_not_take_is_named(number, given, says):
+def test_a_wrong_argument_of_a_profile_is_named(number, given, says):
     with pytest.raises(fd.ForceDiffusionError, match=says):
         fd.equation(number).exact().profile(**FLOATS | given)
 

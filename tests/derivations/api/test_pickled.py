@@ -1,4 +1,4 @@
-"""Equations and what is found of them after a journey: the same, and no theorem comes of it."""
+"""Equations and their results after pickling: the same, but no theorem is made by it."""
 
 import pickle
 from typing import Any

@@ -130,7 +130,7 @@ def test_values(change, says):
         fd.variance(FORCE).at(**{**HERE, **change})
 
 
-def test_of_spheres_and_where_no_bead_is():
+def test_cosines_of_spheres_and_places_without_a_bead():
     in_space = fd.variance(IN_SPACE, dimension=3)
     with pytest.raises(ArgumentError, match="−1/3 < φ < 1/2 is allowed"):
         in_space.at(**{**HERE, "phi": -0.4, "i": 0, "k": 2})

@@ -156,7 +156,7 @@ def test_domains_in_words(observable, words):
     assert fd.variance(observable).domain == words
 
 
-def test_a_domain_of_ones_own():
+def test_a_domain_that_the_caller_gives():
     whole, part = fd.variance(f_plus(i, j)), fd.variance(f_plus(i, j), where=(j >= 2, j <= M - 2))
     assert part.domain == "2 ≤ j ≤ M − 2"
     assert [piece.expr for piece in part.pieces] == [whole.pieces[0].expr]

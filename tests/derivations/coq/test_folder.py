@@ -25,7 +25,7 @@ def test_assumptions_are_read_whole():
     assert axioms_in("Axioms:\nf is assumed to be guarded.\n") == ("f",)
 
 
-def test_without_coq_it_is_said_how_to_have_it(monkeypatch, tmp_path, call):
+def test_without_coq_the_message_says_how_to_install_it(monkeypatch, tmp_path, call):
     monkeypatch.setenv("PATH", "")
     status, shown, err = call("certify", "--out", tmp_path / "out")
     assert (status, shown) == (CoqAbsentError.exit_status, "")
@@ -119,7 +119,7 @@ def test_a_program_without_a_version_is_no_coq(programs, tmp_path, script):
 
 
 @pytest.mark.long
-def test_an_interrupt_ends_what_is_under_way_and_leaves_nothing(programs, tmp_path):
+def test_an_interrupt_ends_coq_and_leaves_no_files(programs, tmp_path):
     put(programs, "coqc", VERSION + f'echo $$ >> "{tmp_path}/started"\nexec sleep 600')
     out, scratch = tmp_path / "out", tmp_path / "scratch"
     scratch.mkdir()

@@ -34,7 +34,7 @@ def test_only_what_was_accepted_counts(monkeypatch):
     assert recorded(load(1)) == "not on record"
 
 
-def test_lists_and_documents_say_so(call):
+def test_lists_and_documents_give_the_verdict_of_coq(call):
     assert "& proved & accepted" in document([run(load(13))])
     assert "accepted by Coq 8.16.1" in call("show", 13)[1]
     assert fd.equation(13).coq == "accepted by Coq 8.16.1"

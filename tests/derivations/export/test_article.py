@@ -152,7 +152,7 @@ def test_leading_orders_are_those_of_the_closed_forms(tag):
         assert sympy.cancel(load(label).exact_forms[name].leading(1, *several) - value) == 0
 
 
-def test_those_of_the_paper():
+def test_leading_orders_of_the_paper():
     for number, (_, value) in zip((13, 14), displays()["13, 14"], strict=True):
         assert sympy.cancel(load(number).exact_forms["layer"].leading(1) - value) == 0
 
@@ -272,7 +272,7 @@ def test_figures_and_references_are_in_the_order_of_the_text(whole):
 
 
 @pytest.mark.long
-def test_nothing_is_left_of_the_source(whole):
+def test_no_markup_of_the_source_is_in_the_latex(whole):
     assert "{{" not in whole.replace("{{\\", "")
     assert "```" not in whole
     assert r"\text{[" not in whole  # a character without LaTeX
@@ -293,7 +293,7 @@ def test_the_supplement_has_every_form_and_its_domains():
 
 
 @pytest.mark.long
-def test_the_page_has_the_same():
+def test_the_web_page_has_the_same_displays_and_figures():
     made = page(TEXT)
     assert "(B7, B21)\n\n$$\n\\begin{aligned}" in made
     assert "\\tag" not in made
@@ -312,7 +312,7 @@ def test_what_latex_would_read_is_escaped():
     assert written("*a* **b & c**") == "\\emph{a} \\textbf{$b$ \\& $c$}\n\n"
 
 
-def test_what_is_written():
+def test_markdown_becomes_latex():
     assert written("Eqs. 1\nand B5 [3, 4]") == "Eqs.~1\nand B5 \\cite{3, 4}\n\n"
     assert written("$$\nx\n\\tag{B5}\n$$") == "\\begin{equation}\nx\n\\tag{B5}\n\\end{equation}\n"
     assert written("1. A. B. C, **5**.\n").splitlines()[1] == r"\bibitem{1} A. B. C, \textbf{5}."

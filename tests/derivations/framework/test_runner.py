@@ -36,7 +36,7 @@ def catalogue(monkeypatch: pytest.MonkeyPatch) -> dict[int, Derivation]:
 
 
 @MAKERS
-def test_what_is_not_proved_spoils_the_verdict(make):
+def test_one_undecided_check_makes_the_verdict_undecided(make):
     outcome = run(make(fakes.baffled))
     assert outcome.verdict is Verdict.UNDECIDED
     (line,) = trouble_lines(outcome)
@@ -52,7 +52,7 @@ def test_a_printed_equation_that_no_step_shows_is_undecided():
 
 
 @MAKERS
-def test_what_is_assumed_is_told_everywhere(make):
+def test_an_assumption_is_named_in_every_report(make):
     outcome = run(make(fakes.guessed))
     assert outcome.verdict is Verdict.ASSUMING
     assert outcome.assuming == (fakes.GUESS,)

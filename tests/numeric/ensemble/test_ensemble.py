@@ -72,7 +72,7 @@ def test_a_load_at_an_angle_has_its_own_theory_for_either_branch(kind, angle):
 
 
 @pytest.mark.parametrize("reach", [-1, 0, math.nan])
-def test_no_bins_reach_so_far(reach):
+def test_a_reach_that_is_not_positive_is_refused(reach):
     with pytest.raises(ArgumentError, match=r"reach = .*must be greater than 0"):
         fd.ensemble(scene(CASES["histogram of all"]), 9, reach=reach)
 

@@ -67,7 +67,7 @@ def small_blocks(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @settings(max_examples=settings.default.max_examples // 6)
 @given(st.integers(0, 10**6), st.integers(2, 150))
-def test_what_fails_goes_on_from_the_file(tmp_path_factory, seed, before):
+def test_a_failed_run_continues_from_its_file(tmp_path_factory, seed, before):
     path = tmp_path_factory.mktemp("store") / "ensemble.fd"
     counts = []
     with pytest.MonkeyPatch.context() as monkeypatch:
@@ -88,7 +88,7 @@ def test_what_fails_goes_on_from_the_file(tmp_path_factory, seed, before):
 
 @pytest.mark.long
 @pytest.mark.usefixtures("small_blocks")
-def test_a_process_that_is_killed_loses_nothing_that_was_kept(tmp_path, monkeypatch):
+def test_a_killed_process_loses_no_stored_realisation(tmp_path, monkeypatch):
     monkeypatch.setattr(module.engine, "compiles", lambda *_, **__: False)
     others, store = active_children(), tmp_path / "ensemble.fd"
 

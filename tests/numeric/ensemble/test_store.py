@@ -127,7 +127,7 @@ def test_two_runs_may_share_a_file(tmp_path):
     assert (ensemble.solved, ensemble.sums.to_bytes()) == (0, bytes_of_first(M, SIZE))
 
 
-def test_a_full_disk_is_told_and_leaves_the_file_good(tmp_path, monkeypatch):
+def test_a_full_disk_is_reported_and_the_file_stays_sound(tmp_path, monkeypatch):
     path = tmp_path / "ensemble.fd"
     monkeypatch.setattr(sums, "BEADS", 4 * M.problem.region.beads)
     connect = sqlite3.connect
@@ -146,7 +146,7 @@ def test_a_full_disk_is_told_and_leaves_the_file_good(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize("moment", ["CREATE 2", "INSERT 1", "INSERT 2", "INSERT 3", "INSERT 5"])
-def test_stopped_before_a_statement_it_goes_on(moment, tmp_path, monkeypatch):
+def test_a_run_stopped_before_any_statement_continues(moment, tmp_path, monkeypatch):
     word, count = moment.split()
     statements = []
 
@@ -171,7 +171,7 @@ def test_stopped_before_a_statement_it_goes_on(moment, tmp_path, monkeypatch):
     assert ensemble.sums.to_bytes() == bytes_of_first(M, SIZE)
 
 
-def test_a_store_in_memory_is_none(tmp_path, monkeypatch):
+def test_special_names_of_sqlite_are_plain_files(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     # names that SQLite could obey
     for name in (":memory:", "file:here?mode=memory", "file::memory:"):

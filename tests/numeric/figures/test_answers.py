@@ -173,7 +173,7 @@ def test_an_ensemble_is_drawn_too(quantity):
     assert figure._repr_png_()[1:4] == b"PNG"  # type: ignore[attr-defined]
 
 
-def test_it_looks_the_same_whatever_a_user_has_set():
+def test_a_figure_ignores_the_user_s_matplotlib_settings():
     import matplotlib as mpl
 
     figure = scene("profile").run().plot()

@@ -87,7 +87,7 @@ def test_tolerances_below_the_smallest_float():
     assert outcome.accuracy.error_bound <= Fraction(bound) <= Fraction(1, 10**400)
 
 
-def test_the_limit_of_tolerances_is_said_as_it_is():
+def test_the_error_states_a_tolerance_that_can_be_met():
     sections = basic(4, None, quantity="contact", at=[0, 0, "+"], tolerance="=1e-5000")
     with pytest.raises(ToleranceError, match=r"1e-5000 .* needs 16\d\d\d bits") as caught:
         answer(sections)

@@ -57,7 +57,7 @@ def test_without_disorder_nothing_is_swept():
         assert plan.beads == 0
 
 
-def test_where_no_load_is_nothing_is_swept(tmp_path):
+def test_without_a_load_nothing_is_swept(tmp_path):
     (tmp_path / "loads.csv").write_text("i,j,fx,fy\n4,4,0,0\n")
     sections = basic() | {"load": {"kind": "file", "file": "loads.csv"}}
     plan = planned(sections, tmp_path)

@@ -66,7 +66,7 @@ def test_a_huge_number_can_be_shown():
     assert "radius=2.5" in repr(fd.Packing(height=4, width=9, radius=2.5))
 
 
-def test_what_is_odd_about_a_batch_names_the_packing():
+def test_warnings_and_errors_of_a_batch_name_the_packing():
     radii = RADII.copy()
     radii[2] += 0.13 * np.random.default_rng(2).uniform(-1, 1, (5, 12))
     physical = fd.solve(radii).forces.data()["physical"]
@@ -78,7 +78,7 @@ def test_what_is_odd_about_a_batch_names_the_packing():
     assert caught.value.__notes__ == ["packing 3"]
 
 
-def test_a_shifted_mean_and_a_height_above_the_critical_one_are_said():
+def test_a_shifted_mean_and_a_height_above_the_critical_one_are_noted():
     delta = RADII[0] - 1
     solution = fd.solve(delta_r=delta + 0.01, spacing=2.88)
     (note,) = solution.forces.plan.notes

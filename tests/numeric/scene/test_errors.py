@@ -112,7 +112,7 @@ HUGE, LONG = 10**6000, "9" * 5000
         (fd.Ask, {"quntity": LONG}),
     ],
 )
-def test_what_is_huge_is_quoted_in_a_few_words(section, keys):
+def test_huge_values_are_quoted_briefly(section, keys):
     with pytest.raises(SceneError, match=r"must|unknown") as caught:
         section(**keys)
     assert len(str(caught.value)) <= 200

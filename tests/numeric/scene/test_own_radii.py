@@ -128,7 +128,7 @@ def test_a_packing_is_read_back(rotation, delimiter, tmp_path):
     "given",
     [{"scale": SCALE}, {"scale": SCALE, "rotation": 4.0}, {"spacing": SPACING, "origin": ORIGIN}],
 )
-def test_what_is_given_is_kept_and_the_rest_is_the_best(given, tmp_path):
+def test_given_values_stay_and_the_others_fit_best(given, tmp_path):
     """No other value of what is fitted has a smaller residual."""
     path = image(tmp_path)
     fit = fd.read_radii(path, **given)

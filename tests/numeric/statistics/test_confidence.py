@@ -57,7 +57,7 @@ def test_more_looks_and_more_confidence_ask_for_more():
     assert ensemble_of(m, 1).half_width == math.inf
 
 
-def test_two_packings_tell_not_how_well_the_scatter_of_a_contact_is_known():
+def test_two_packings_do_not_tell_how_well_the_scatter_of_a_contact_is_known():
     ensemble = replace(ensemble_of(case("contact of a slab"), 2), until=0.01)
     assert math.isnan(ensemble.std_error[0])
     assert (ensemble.half_width, ensemble.reached) == (math.inf, False)
@@ -70,7 +70,7 @@ where 1.5 % do, as do σ ± t errors that come straight from the squares."""
 
 
 @pytest.mark.long
-def test_of_a_single_std_99_percent_are_held():
+def test_99_percent_of_the_intervals_hold_the_true_std():
     """Far below M*: what is nonlinear is a share M³(σ/r)² of σ_f, 6e-7."""
     m = measurement(question("profile", 4, 6, std=1e-4, seed=7))
     theory = m.theory()

@@ -211,7 +211,7 @@ def test_a_small_bead_is_held_at_the_side_of_a_large_one():
         ),
     ],
 )  # fmt: skip
-def test_it_is_said_why_there_is_no_answer(scene, words):
+def test_the_error_says_why_there_is_no_answer(scene, words):
     with pytest.raises(UnfinishedError, match=words):
         scene.run()
 
@@ -255,6 +255,6 @@ def test_enough_programs_change_nothing(relaxed):
     ("width", "effects", "key"),
     [(2, {}, "packing.width"), (16, {"most_seconds": 0}, "effects.most_seconds")],
 )
-def test_what_has_no_meaning_is_refused(width, effects, key):
+def test_wrong_effects_are_refused(width, effects, key):
     with pytest.raises(fd.SceneError, match=f"^{key}.*(unilateral|greater than 0)"):
         strip(width=width, effects=effects)
