@@ -1,4 +1,4 @@
-"""Every command asked every question of every kind of packing: as the table says, and no other."""
+"""Every command answers exactly the questions, of each kind of packing, that the table says."""
 
 import json
 from itertools import product
@@ -92,7 +92,7 @@ def options(command: str, quantity: str) -> list[str]:
 
 
 def why_not(command: str, quantity: str, kind: str, load: str, setting: str) -> str:
-    """Say what is refused of a cell, and see that the guide says the same."""
+    """Give the reason why a cell is refused, and check that the guide gives the same."""
     section, keys, features = SETTINGS[setting] if setting else ("", {}, {})
     for need in NEEDS:
         here = need.other == "quantity" and need.key in {f"{section}.{key}" for key in keys}

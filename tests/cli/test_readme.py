@@ -1,4 +1,4 @@
-"""The README: two commands, and nothing said that the program does not do."""
+"""The README has two commands, and claims nothing that the program does not do."""
 
 import doctest
 import re

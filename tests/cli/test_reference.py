@@ -21,7 +21,7 @@ QUANTITIES = ("contact", "contact_forces", "positions", "profile", "histogram", 
 
 
 def _part(page: Path, title: str) -> str:
-    """What stands below a heading, up to the next one as high."""
+    """The text below a heading, up to the next one of its level."""
     text = page.read_text(encoding="utf-8")
     part = re.search(
         rf"^(#+) {re.escape(title)}\n(.*?)(?=^\1 |^## |\Z)", text, re.MULTILINE | re.DOTALL

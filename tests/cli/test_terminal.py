@@ -1,4 +1,4 @@
-"""On a terminal: what is proved just now is named, and the lines are the same in the end."""
+"""On a terminal the equation under proof is named, and the final lines are the same."""
 
 import os
 import pty

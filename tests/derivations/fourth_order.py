@@ -54,7 +54,7 @@ class Jet:
         return result
 
     def root(self) -> "Jet":
-        """The same of the root."""
+        """The square root, in the same way."""
         result = constant(1 / np.sqrt(self.terms[0]))
         for _ in range(2):
             result = result * ((self * result * result) * -0.5 + 1.5)

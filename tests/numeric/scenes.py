@@ -148,7 +148,7 @@ def site(draw: st.DrawFn, dimension: int, width: int, low: int, high: int) -> li
 
 @dataclass(frozen=True)
 class _Noted:
-    """Radii that note whose they are, as they are asked for."""
+    """Radii that note the sites for which they are asked."""
 
     radii: Radii
     sites: list[tuple[int, int]] = field(default_factory=list)

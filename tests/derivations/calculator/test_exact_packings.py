@@ -108,7 +108,7 @@ class Drawn:
         return Packing(height, self.n, self.kind, self.ratio or Fraction(1))
 
     def numbers(self, form: fd.ClosedForm, height: int) -> dict[str, Fraction | int]:
-        """What a form may ask for, beside where."""
+        """Values of a form's symbols, except those that place a bead."""
         given = {"M": height, "phi": self.n[1] ** 2 - self.n[0] ** 2, "sigma": 1, "r": 1}
         if self.as_symbol and self.ratio:
             given["t"] = self.ratio

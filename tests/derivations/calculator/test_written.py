@@ -57,7 +57,7 @@ def points(form: fd.ClosedForm) -> Iterator[dict[str, int]]:
 
 
 def others(form: fd.ClosedForm) -> dict[str, Any]:
-    """Numbers of what is no index."""
+    """Values of the symbols that are no indices."""
     return {name: NUMBERS[name] for name, symbol in form.symbols.items() if not symbol.is_integer}
 
 

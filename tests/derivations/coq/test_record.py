@@ -1,4 +1,4 @@
-"""What is on record of Coq's verdicts, and that it is about what is printed now."""
+"""The record of Coq's verdicts is about the equations as they are printed now."""
 
 from dataclasses import replace
 

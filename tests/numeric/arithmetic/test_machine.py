@@ -1,4 +1,4 @@
-"""Free memory, as Linux tells of it."""
+"""Free memory, as Linux reports it."""
 
 import os
 import subprocess

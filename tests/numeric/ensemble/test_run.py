@@ -49,7 +49,7 @@ class Shuffled(ThreadPoolExecutor):
 
 
 class Nobody(Executor):
-    """Nothing may be left to do."""
+    """An executor that must not get any work."""
 
     def submit(self, function: Any, /, *given: Any, **more: Any) -> Future[Any]:
         raise AssertionError(given)

@@ -32,7 +32,7 @@ PHI = st.fractions(Fraction(-32, 100), Fraction(47, 100), max_denominator=10**6)
 
 @st.composite
 def regions(draw: st.DrawFn) -> tuple[Region, Rows]:
-    """A whole packing, or beads that decide something of a slab or strip."""
+    """A whole packing, or the beads on which a contact of a slab or strip depends."""
     if draw(st.booleans()):
         region = whole(draw(st.integers(1, 33)), draw(st.integers(1, 7)))
         return region, region.rows

@@ -108,7 +108,7 @@ def test_any_scene_keeps_its_tolerance_compiled_or_not(sections, wanted):
 
 @pytest.mark.parametrize("tolerance", ["1e-3", "1e-13", "1e-15"])
 def test_float64_does_answer(tolerance):
-    """Were its estimates too careful, balls would answer everything, and the tests above hold."""
+    """Were its estimates too careful, balls would answer everything, and the tests above pass."""
     outcome = run(planned(basic(tolerance=f"={tolerance}")))
     assert outcome.plan.system is FLOAT64
     assert not outcome.plan.reason

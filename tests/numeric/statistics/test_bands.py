@@ -1,4 +1,4 @@
-"""Simultaneous bands: they hold what they should as often as they say."""
+"""Simultaneous bands contain the true curve as often as they claim."""
 
 import numpy as np
 import pytest

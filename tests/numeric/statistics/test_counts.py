@@ -1,4 +1,4 @@
-"""Counts beside what they have to be: counting one by one."""
+"""Counts in bins, compared with counting one by one."""
 
 from bisect import bisect_right
 from collections import Counter

@@ -1,4 +1,4 @@
-"""Packings without tension: where beads come to rest, and what is said where they don't."""
+"""Packings without tension: where beads come to rest, and the errors where they don't."""
 
 import sys
 from fractions import Fraction
