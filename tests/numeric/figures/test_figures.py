@@ -133,9 +133,9 @@ def test_theory_of_figure_4_is_eq_16():
     table, _ = point_load.simulated(Options(realisations=16))
     for name, of in (("variance_exact", "bead"), ("variance_upper_plus_contact", "contact")):
         form = fd.equation(16).exact(of)
-        for (i, j), found in zip(point_load.SITES, table[name], strict=True):
+        for (i, j), value in zip(point_load.SITES, table[name], strict=True):
             at = {"i": i, "j": j, "k": 0, "l": point_load.APEX, "phi": PHI, "sigma": 1, "r": 1}
-            assert found == pytest.approx(float(form.at(**at)), rel=1e-12, abs=1e-28)
+            assert value == pytest.approx(float(form.at(**at)), rel=1e-12, abs=1e-28)
 
 
 def test_theory_of_figure_b7_is_eqs_b7_and_b8():
