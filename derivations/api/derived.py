@@ -24,34 +24,34 @@ from .equation import equation
 
 @dataclass(frozen=True)
 class Derived:
-    """What :func:`derive` found; it prints one line for each equation, and below it what is wrong.
+    """What :func:`derive` found; it prints one line for each equation, followed by what is wrong.
 
     Attributes:
-        outcomes: of each equation its verdict and its checks, premises first.
+        outcomes: the verdict and the checks of each equation, premises first.
     """
 
     outcomes: tuple[ProofOutcome, ...]
 
     @property
     def verdicts(self) -> dict[Number, Verdict]:
-        """Proved; proved, assuming; refuted or undecided: by the equation's number."""
+        """Verdicts by the equation's number: proved; proved, assuming; refuted; or undecided."""
         return {outcome.derivation.number: outcome.verdict for outcome in self.outcomes}
 
     @property
     def proved(self) -> bool:
-        """Whether every one is proved, be it on assumptions, which ``counts`` tells.
+        """Whether all are proved, perhaps under assumptions; ``counts`` says how many.
 
-        Printed statements that are refuted as expected speak for nobody.
+        Printed statements that are refuted as expected make no difference.
         """
         return all(verdict.is_proved for verdict in self.verdicts.values())
 
     def counts(self) -> str:
-        """How many equations have which verdict, in words; and printed statements refuted."""
+        """How many equations have each verdict, and how many printed statements are refuted."""
         refuted = sum(len(outcome.refuted) for outcome in self.outcomes)
         return "; ".join(filter(None, [verdicts_text(self.outcomes), expected_text(refuted)]))
 
     def data(self) -> dict[str, Any]:
-        """What JSON can hold: verdicts and checks of each equation, times in seconds."""
+        """Data for JSON: verdicts and checks of each equation, times in seconds."""
         return outcomes_data(self.outcomes)
 
     def latex(self) -> dict[str, str]:

@@ -217,7 +217,7 @@ class Equation:
         return self._derivation.displays(columns)
 
     def data(self) -> dict[str, Any]:
-        """Its text and LaTeX as JSON can hold them, with those of its exact formulas.
+        """Data for JSON: its text and LaTeX, and those of its exact formulas.
 
         >>> import force_diffusion as fd
         >>> exact = fd.equation(13).data()["exact"]
@@ -442,7 +442,7 @@ class Equation:
             candidate: a SymPy ``Eq`` in the symbols of :attr:`symbols`; or an expression for the
                 right-hand side of a line; or a ``Tuple``, tuple or list with one of these for
                 each printed line.
-            at: whole numbers for indices, such as ``M=12, j=4``, if it need hold only there.
+            at: whole numbers for indices, such as ``M=12, j=4``, if it has to hold only there.
 
         Raises:
             ArgumentError: ``at`` names something that is no index, or its value is not whole.

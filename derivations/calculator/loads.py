@@ -108,7 +108,7 @@ _IN_THREE = {
 
 
 def point(across: sympy.Expr, layer: sympy.Expr) -> LoadCase:
-    """A load f_load straight down on bead (k, l), and none on any other.
+    """A load f_load straight down on bead (k, l), and none on the others.
 
     Args:
         across: k, of ``force_diffusion.symbols``.

@@ -1,8 +1,8 @@
-"""The command line: which commands there are; each one's module is imported when it is asked for.
+"""The command line: a table of commands. The module of a command is imported when it is called.
 
-A new command takes a function of a module of ``derivations.commands``, whose ``STATUSES`` stand
-below its help, and a line in ``COMMANDS``. It checks its words, calls what Python users call, and
-prints or writes the answer (``output``); errors it raises, and never catches: ``guard`` tells them.
+A new command needs a function in a module of ``derivations.commands``, whose ``STATUSES`` stand
+below its help, and a line in ``COMMANDS``. It checks its arguments, calls what Python users call,
+and prints or writes the answer (``output``). It never catches errors: ``guard`` reports them.
 """
 
 import difflib
@@ -58,7 +58,7 @@ _GIVEN: ContextVar[list[str]] = ContextVar("given")
 
 
 def command_line() -> str:
-    """What was typed, as one line for a shell; what no line may hold is spelled out."""
+    """The command as one line for a shell; characters that no line may hold are spelled out."""
     return printable(shlex.join(["force-diffusion", *_GIVEN.get()])).replace("\n", r"\n")
 
 
@@ -70,7 +70,7 @@ _USAGE: Any = typer.BadParameter.__base__  # of all that is wrong with a command
 
 
 class _Commands(TyperGroup):
-    """The commands of the table; ``--help`` builds none of them, and any other use the one."""
+    """The commands of the table; ``--help`` builds none of them, a call only its own."""
 
     def list_commands(self, ctx: Any) -> list[str]:
         """Names, in the order of the table."""
@@ -103,7 +103,7 @@ class _Commands(TyperGroup):
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: Any) -> Any:
-        """Run the command; of a wrong value say what is allowed as of one in a scene."""
+        """Run the command; a wrong value gets the same words as one in a scene."""
         try:
             return super().invoke(ctx)
         except _USAGE as error:

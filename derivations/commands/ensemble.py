@@ -101,9 +101,9 @@ def ensemble(
     if result.reached is False:
         more = result.half_width / (until or 1)
         remedy = (
-            f"about {more**2 * result.realisations:.2g} realisations may do"
+            f"about {more**2 * result.realisations:.2g} realisations may be enough"
             if more < 1e6
-            else "more realisations are needed than an ensemble may have"
+            else "that needs more realisations than an ensemble may have"
         )
         raise NotReachedError(
             f"the confidence is not reached: σ_f is known to {result.half_width:.2g}, not {until}; "

@@ -119,7 +119,7 @@ def _answer(
 
     warn(scene, planned)
     with named(scene.name), in_range():
-        # of one packing nobody knows how far it is
+        # the progress of a single packing is not known
         many = planned.problem.realisations > 1
         outcome = fd.run(planned, many and not quiet and sys.stderr.isatty())
     answers = list(outcome.results.values())
@@ -136,7 +136,7 @@ def _answer(
 def cost(
     scene: Annotated[Path, _scene("cost")],
     seconds: Annotated[
-        float, typer.Option(help="Time for the whole command; what takes longer is extrapolated.")
+        float, typer.Option(help="Time for the whole command; longer runs are extrapolated.")
     ] = 20,
     out: Annotated[Path | None, out_option("the study as CSV, JSON and a plot")] = None,
     as_json: Json = False,

@@ -18,10 +18,10 @@ class Certificate:
 
     Attributes:
         number: of the equation.
-        accepted: whether Coq proved all that is stated of it.
+                accepted: whether Coq proved all statements about it.
         checker: "Coq 8.16.1".
         theorems: SHA-256 of the statement of each theorem, by name.
-        axioms: what the theorems rest on.
+                axioms: on which the theorems rest.
         note: why it is not accepted.
         about: ranges of the indices and sites for which it is stated, in the words of Model.v.
     """
@@ -56,7 +56,7 @@ class Certification:
         return all(equation.accepted for equation in self.equations)
 
     def data(self) -> dict[str, Any]:
-        """What JSON can hold."""
+        """The verdicts as data for JSON."""
         return asdict(self)
 
 

@@ -1,8 +1,8 @@
 """Printed equations as statements for the proof assistant Coq, in the words of ``proofs/Model.v``.
 
-A statement is made from what a derivation prints, never typed: its formula from the SymPy object,
-its index ranges from the domain, its sites from the left-hand side. What is written here is only
-which hypotheses of ``Model.v`` an equation is about. Proofs are found by tactics in ``proofs/``.
+A statement is made from what a derivation prints, and never typed: its formula from the SymPy
+object, its index ranges from the domain, its sites from the left-hand side. This module adds only
+the hypotheses of ``Model.v`` that the equation needs. Tactics in ``proofs/`` find the proofs.
 """
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -57,7 +57,7 @@ class CoqLoad:
 
 
 def _entered(entering: str, other: str, loaded: str) -> CoqLoad:
-    """Any loads but on bead (r, s), which one force of the two contacts above it enters."""
+    """Any loads, but none on bead (r, s), which the force of one of its upper contacts enters."""
     alone = f"{other} F site_r site_s e = 0 /\\ {entering} F site_r site_s e <> 0"
     supposed = ("load site_r site_s = zero", f"near (fun e => {alone})")
     return CoqLoad("load", "", "(load : Z -> Z -> vector)", f"(single {loaded} 6 5)", supposed)
@@ -312,7 +312,7 @@ def _all_of(relations: Iterable[sympy.Basic]) -> str:
 
 
 def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> CoqStatement:
-    """Beside Eqs. 9 and 10: no other contact below a loaded bead bears a force to first order."""
+    """Besides Eqs. 9 and 10: no other contact below a loaded bead bears a force to first order."""
     force, across, name = sy.ForcePlus(sy.i, sy.j), ("k - i", "i - k"), "equation_10_else_nothing"
     if mirrored:
         force, across, name = mirror(force), across[::-1], f"{name}_mirrored"
@@ -329,7 +329,7 @@ def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> CoqState
 
 
 def _second_difference(_derivation: Derivation) -> CoqStatement:
-    """Beside Eq. 12: the variance of one Δ."""
+    """Besides Eq. 12: the variance of one Δ."""
     delta = words(sy.SecondDifference(sy.i, sy.j)).removesuffix(" e")
     window = "within W M (i - 2) j /\\ within W M i j /\\ within W M (i + 2) j"
     law = "(sigma : R) (M W : Z) (L : law W M sigma) (i j : Z)"
@@ -349,7 +349,7 @@ def _second_difference(_derivation: Derivation) -> CoqStatement:
 
 
 def _maximum(derivation: Derivation) -> CoqStatement:
-    """Beside Eq. 14: the printed form is largest at z = 1/6, and there alone."""
+    """Besides Eq. 14: the printed form is largest at z = 1/6, and only there."""
     printed = derivation.printed[0].rhs
     here, top = words(printed), words(printed.xreplace({sy.z: sympy.Rational(1, 6)}))
     layer = ("0 < sigma", "(0 <= j)%Z", "(j < M)%Z")
@@ -385,7 +385,7 @@ def printed(derivation: Derivation) -> list[CoqStatement]:
 
 
 def statements(derivation: Derivation) -> list[CoqStatement]:
-    """The printed equations in Coq, and what is stated beside them."""
+    """The printed equations in Coq, and the statements that go with them."""
     beside = BESIDE.get(derivation.number, ())
     return [*printed(derivation), *(state(derivation) for state in beside)]
 

@@ -33,7 +33,7 @@ _INTRODUCTION = (
 
 
 def supplement(outcomes: Sequence[ProofOutcome]) -> str:
-    """The supplement as LaTeX; it says what the run that writes it has derived."""
+    """The supplement as LaTeX; it reports what the present run has derived."""
     rows = map(load, modules())
     sections = "".join(_section(row) for row in rows if isinstance(row, Row))
     about = prose_latex(f"{_INTRODUCTION} {verdicts(outcomes)}")

@@ -393,7 +393,7 @@ class ClosedForm:
         return rf"$\displaystyle {self.latex()}$"
 
     def data(self) -> list[dict[str, str]]:
-        """Its pieces as JSON can hold them: domain, text and LaTeX of each.
+        """Data for JSON: domain, text and LaTeX of each piece.
 
         >>> import force_diffusion as fd
         >>> from force_diffusion.symbols import f_plus, i, j
@@ -470,7 +470,7 @@ class ClosedForm:
         Args:
             candidate: an expression, a ``Piecewise``, a closed form, or an ``Eq`` with the quantity
                 on the left.
-            at: whole numbers for indices, such as M=12, if it need hold only there.
+            at: whole numbers for indices, such as M=12, if it has to hold only there.
 
         Raises:
             ArgumentError: it doesn't depend on an index given, or its value is not whole.

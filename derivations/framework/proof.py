@@ -38,8 +38,8 @@ class Step:
         equation: the number of the derivation.
         reason: why it holds, in plain words (Unicode).
         formula: the equation, or a Tuple of equations, as shown.
-        rules: that prove them, and anything said in their place.
-        domains: where they hold.
+        rules: that prove them, and anything put in their place.
+                domains: where they hold.
         definitions: what symbols of each stand for.
         theorems: what the kernel made of them.
         number: its place among the steps, from 1; 0 of a claim.
@@ -78,7 +78,7 @@ class Step:
 
     @property
     def assuming(self) -> tuple[str, ...]:
-        """What its proof assumes and no rule ends."""
+        """What its proof assumes and no rule discharges."""
         return tuple(sorted(set().union(*(theorem.assuming for theorem in self.theorems))))
 
     @cached_property
@@ -111,7 +111,7 @@ _PLACE_OF: dict[Theorem, Place] = {}
 
 
 def shown(equation: Number, *theorems: Theorem) -> tuple[Theorem, ...]:
-    """Theorems that an equation shows, for those who need no other of its steps."""
+    """The theorems that an equation shows, without its other steps."""
     for theorem in theorems:
         _PLACE_OF.setdefault(theorem, (equation, 0))
     return theorems
@@ -138,13 +138,13 @@ def _sources(theorems: Iterable[Theorem]) -> Iterator[Place]:
 
 @dataclass(frozen=True)
 class Refuted:
-    """A printed statement that is false, which is expected.
+    """A printed statement that is false, as expected.
 
     Attributes:
-        reading: how the words of the paper are read in it.
+                reading: how the paper's words are read.
         formula: the equation.
-        domain: where it is to hold.
-        reason: how it is false, as the rule says.
+        domain: where it should hold.
+        reason: why it is false, as the rule says.
     """
 
     reading: str

@@ -1,7 +1,6 @@
-"""The errors that say what is wrong with what was given or asked for.
+"""The errors that users see.
 
-Every one of them derives from ``ForceDiffusionError``, which carries the exit status with which
-the command line ends.
+All derive from ``ForceDiffusionError``, which carries the exit status of the command line.
 """
 
 import difflib
@@ -34,7 +33,7 @@ def printable(text: str) -> str:
 class ForceDiffusionError(Exception):
     """Bad input or a failed environment; the message says what was wrong, where, and what to do.
 
-    ``exit_status``: 2 where the input is wrong; 3 where what was asked for can't be reached, or
+        ``exit_status``: 2 if the input is wrong; 3 if what was asked for can't be reached, or
     something outside the program failed.
     """
 
@@ -95,7 +94,7 @@ def suggestion(name: str, known: Iterable[str]) -> str:
 
 
 def checked(function: Callable[P, T]) -> Callable[P, T]:
-    """Let a function answer to a keyword that it doesn't take with ``WrongTypeError``."""
+    """Let a function raise ``WrongTypeError`` for a keyword that it doesn't take."""
     parameters = inspect.signature(function).parameters
     names = [name for name in parameters if name != "self"]
 
@@ -113,7 +112,7 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
 
 
 def check_progress(progress: object) -> None:
-    """Raise ``WrongTypeError`` where nothing can follow progress."""
+    """Raise ``WrongTypeError`` if ``progress`` is neither a truth value nor a function."""
     if not (isinstance(progress, bool) or callable(progress)):
         raise WrongTypeError(f"progress must be True, False or a function, not {quoted(progress)}")
 
@@ -128,7 +127,7 @@ def rule(error: "ValidationError") -> str:
         case "less_than_equal":
             return f"must be at most {context['le']}"
         case "int_type" | "int_parsing" | "int_from_float":
-            return "must be a whole number, written without point or exponent"
+            return "must be a whole number, written without a decimal point or exponent"
         case "float_type" | "float_parsing":
             return "must be a number"
         case "value_error":

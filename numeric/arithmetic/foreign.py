@@ -1,6 +1,6 @@
-"""The one door for files that other programs or people wrote.
+"""Reading files that other programs or people wrote; every such file is opened here.
 
-What is wrong is said without the name of the file, which who opens it puts before it.
+Messages say what is wrong without the name of the file; the caller puts the name before them.
 """
 
 import os
@@ -17,7 +17,7 @@ from .systems import Array
 
 
 class ForeignFileError(ForceDiffusionError, ValueError):
-    """A file can't be used; the message says why, and does not name it."""
+    """A file can't be used; the message says why, without the file's name."""
 
 
 @contextmanager

@@ -78,9 +78,9 @@ def ensemble(
 
     The scene asks for a ``profile``, ``contact``, ``contact_forces``, ``response`` or
     ``histogram``, and its radii are drawn. ``realisations`` is the number of packings, by default
-    that of the scene; with ``until``, fewer are solved if every σ_f is known to this relative error
-    before, all together with confidence ``confidence``. ``store`` is a file in which finished
-    blocks are saved, and from which a run continues. Results don't depend on ``workers``: threads
+    that of the scene; with ``until``, the run stops earlier if every σ_f is known to this relative
+    error, all together with confidence ``confidence``. ``store`` is a file in which finished blocks
+    are saved, and from which a run continues. Results don't depend on ``workers``: threads
     if loops are compiled (the extra ``fast``), otherwise processes, for which a script needs its
     ``if __name__ == "__main__"``; None chooses their number. Any ``executor`` of
     ``concurrent.futures`` may be used instead, such as that of a Dask cluster,
@@ -129,7 +129,7 @@ def ensemble(
             return _joined(m, size, solver, opened, until, confidence, follow)
     except (futures.BrokenExecutor, futures.CancelledError, MemoryError) as error:
         raise WorkersError(
-            f"a worker died, perhaps for want of memory ({error}): use fewer.{_kept(opened)}"
+            f"a worker died, perhaps because memory ran out ({error}): use fewer.{_kept(opened)}"
         ) from None
     except (WorkersError, StoreFailedError) as error:
         raise type(error)(f"{error}.{_kept(opened)}") from None

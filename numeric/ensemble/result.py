@@ -34,7 +34,7 @@ class Ensemble(tables.Answered):
     come from the scatter between packings, which are independent.
 
     ``half_width`` holds for all σ_f together with confidence ``confidence``. ``until`` is the
-    relative half-width that was asked for, or None; ``looks`` counts how often it was tested.
+    relative half-width that was asked for, or None; ``looks`` counts how often that was tested.
     ``solved`` packings were solved in this call; the others were read from a store.
     """
 
@@ -271,7 +271,7 @@ class Ensemble(tables.Answered):
         return source
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
-        """The same as JSON can hold it; numbers have all known digits.
+        """Data for JSON; numbers have all known digits.
 
         Without ``rows`` the list of results is empty, since it may have millions of rows.
         """

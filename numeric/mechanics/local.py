@@ -1,21 +1,21 @@
 """One bead: how it rests on its d supports, what its contacts bear, its gap to another; d = 2, 3.
 
-The one source of all sweeps, in +, −, ×, / and ``sqrt`` alone, without a decision. Vectors are
-tuples of components, and components are what the caller calculates with: NumPy arrays of floats or
-of objects (balls, mpmath), numbers that carry their rounding errors (``arithmetic.carried``), or
-where ``loops`` compiles these very functions, numbers of one bead. There each ``len`` is known
-beforehand, and of its two branches one is left.
+All sweeps use these functions. They calculate with +, −, ×, / and ``sqrt`` only, and no value
+decides what they do. Vectors are tuples of components. A component is a NumPy array of floats or of
+objects (balls, mpmath), a number that carries its rounding error (``arithmetic.carried``), or, where
+``loops`` compiles these functions, a number of one bead. The compiler knows every ``len``, and
+removes the branches for the other dimension.
 
 Base vectors n^1 … n^d have one mutual dot product φ; bead x rests on x − e_1 … x − e_d. A
 displacement is carried as c_a = n^a·δx: to first order each is a line sum of δr (Eqs. 2 and 3).
-With p^a = δx less the displacement of the support x − e_a, ρ^a the sum of the two δr, and r = 1,
-the contacts say exactly
+Let p^a be δx minus the displacement of the support x − e_a, ρ^a the sum of the two δr, and r = 1.
+Then the contacts say exactly
 
     n^a·p^a + |p^a|²/4 = R^a,        R^a = ρ^a + ρ^a²/4.
 
-Less that of a = d they are linear in p = p^d but for A = |p|²/4, which obeys a quadratic: its small
-root has a form without cancellation. Every |p^a|²/4 is found as a sum of terms of second order, so
-that no ordered value, and none of first order, is ever subtracted.
+With the equation of a = d subtracted, they are linear in p = p^d except for A = |p|²/4. A obeys a
+quadratic, whose small root has a form without cancellation. Every |p^a|²/4 is a sum of terms of
+second order, so no value of order zero or one is ever subtracted.
 """
 
 from collections.abc import Callable, Sequence
@@ -131,7 +131,7 @@ def dot(u: Any, v: Any) -> Any:
 class Rest(NamedTuple):
     """A bead at rest: c_a = n^a·δx, and δn^a = Σ_b dn[a][b] n^b of the contact with x − e_a.
 
-    ``holds`` are positive where it can rest: first a discriminant, then measures of tilt.
+    ``holds`` are positive if it can rest: first a discriminant, then measures of tilt.
     """
 
     c: Any
@@ -241,7 +241,7 @@ def balance(F_above: Any, g_above: Any, dn_above: Any, F: Any, dn: Any) -> Any:
     """Balance a bead (Eq. 6, exact): Σ g N (lower) = Σ g N + Σ F δn (upper) − Σ F δn (lower).
 
     What is ``above`` belongs to the contacts with x + e_a, ``F`` and ``dn`` to those below. All
-    that is ordered, and the load, has dropped out by itself.
+    ordered values, and the load, have cancelled.
     """
     bearing = turned(plus(F_above, g_above), dn_above)
     turn = less(bearing, turned(F, dn))

@@ -1,4 +1,4 @@
-"""What a run hands on from one pass to the next: whom it tells of its progress."""
+"""What a run passes on from one pass to the next: a listener for its progress, and positions."""
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -12,13 +12,13 @@ Progress = Callable[[str, int], None]
 
 @dataclass
 class Work:
-    """A run under way; ``settled``: where beads came to rest in float64, for more bits."""
+    """A run under way; ``settled``: float64 positions at rest, from which more bits start."""
 
     progress: Progress | None = None
     settled: Any = None
 
     def did(self, kind: str, beads: int) -> None:
-        """Tell that beads were "deposited", "balanced", "summed" or "checked"."""
+        """Report that beads were "deposited", "balanced", "summed" or "checked"."""
         if self.progress is not None:
             self.progress(kind, beads)
 

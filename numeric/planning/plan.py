@@ -70,8 +70,8 @@ class Plan:
     def tension(self) -> ExpectedTension | None:
         """How many contacts of a packing are expected to pull.
 
-        None where no theory says so: it knows drawn radii of packings wider than high, under
-        surface and bulk loads, of spheres straight down, whose contacts may pull.
+        None if there is no theory. There is one for drawn radii and packings wider than high,
+        under surface and bulk loads (for spheres straight down), whose contacts may pull.
         """
         load, problem = self.scene.load, self.problem
         known = self.scene.effects.contacts == "bilateral" and problem.needs_forces
@@ -83,7 +83,7 @@ class Plan:
 
     @cached_property
     def critical_height(self) -> float:
-        """M* = (σ/r)^(-2/3), where forces scatter by about their mean; infinite for equal radii."""
+        """M* = (σ/r)^(-2/3), the height where σ_f is about ⟨f⟩; infinite for equal radii."""
         return critical_height(self.problem.radii.relative_std)
 
     @property
@@ -103,18 +103,18 @@ class Plan:
         if isinstance(radii, MeasuredRadii | ArrayRadii) and abs(radii.mean) > float(spread) / 2:
             notes.append(
                 f"the mean of the given radii differs from packing.radius by {radii.mean:.3g} r: "
-                f"changes, σ/r = {short(spread)} and M* are about packing.radius"
+                f"changes, σ/r = {short(spread)} and M* are relative to packing.radius"
             )
         highest = self.critical_height
         if tension is None and problem.needs_forces and problem.height > highest:
             notes.append(
-                f"the height M = {problem.height} is above M* = {highest:.3g}, where forces "
-                "scatter by about their own mean: many contacts may pull"
+                f"the height M = {problem.height} is above M* = {highest:.3g}, where σ_f is "
+                "about as large as ⟨f⟩: many contacts may pull"
             )
         return notes
 
     def data(self) -> dict[str, Any]:
-        """Give it as JSON can hold it."""
+        """Data for JSON."""
         tension = self.tension
         expected = None
         if tension is not None:
@@ -156,9 +156,9 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     lines += [f"Skipped: {s['effect']}: {s['reason']}" for s in data["skipped"]]
     if tension:
         expected, height = tension["expected_contacts"], tension["height_of_one"]
-        low = "at no height allowed" if height is None else f"at a height of about {height}"
+        low = "at no allowed height" if height is None else f"at a height of about {height}"
         many = f"About {expected:.2g} contacts are" if expected >= 1e-3 else "No contact is"
-        lines.append(f"{many} expected to pull; the first one would {low}")
+        lines.append(f"{many} expected to pull; the first one pulls {low}")
     if data["sees_images"]:
         lines.append("The answer may depend on periodic images: it is for the strip, not the slab")
     return lines

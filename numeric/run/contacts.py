@@ -1,4 +1,4 @@
-"""Beads and contacts of solved packings as arrays side by side, and as files of other programs."""
+"""Beads and contacts of solved packings as arrays, and as files for other programs."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -11,10 +11,10 @@ from ..arithmetic.systems import Array, as_floats
 
 @dataclass(frozen=True, eq=False)
 class Beads:
-    """All beads, layer after layer from the base up; of N packings with a first axis of length N.
+    """All beads, layer by layer from the base up; for N packings there is a first axis of length N.
 
     Attributes:
-        positions: centres, (beads, 2), of spheres (beads, 3); in the unit of the radii.
+                positions: centres, (beads, 2), for spheres (beads, 3); in the unit of the radii.
         radii: (beads,).
         layers: j, (beads,).
     """
@@ -29,7 +29,7 @@ class Beads:
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
-    """All n contacts, in the order of rows: by layer and column of the lower bead, and branch.
+    """All n contacts, sorted by layer and column of the lower bead, then by branch.
 
     For N packings all but ``pairs``, ``branch`` and ``wraps`` have a first axis of length N.
     Points, normals and force vectors are float64.
@@ -39,7 +39,7 @@ class Contacts:
         branch: "+" or "-", for spheres "1", "2" or "3", (n,).
         wraps: whether the contact crosses the seam of the periodic packing, (n,). Its upper bead is
             then the image beside the lower one.
-        force: positive where it pushes, (n,).
+                force: positive if it pushes, (n,).
         change: the force minus that of the ordered packing, (n,).
         points: where the beads touch, (n, 2), for spheres (n, 3).
         normals: unit vectors from the lower to the upper bead, (n, 2) or (n, 3).
@@ -61,7 +61,7 @@ class Contacts:
         return f"<{len(self.pairs)} contacts, {int(self.wraps.sum())} of them across the seam>"
 
     def of(self, packing: int) -> "Contacts":
-        """Those of one of several packings."""
+        """The contacts of one of several packings."""
         if self.force.ndim == 1:
             return self
         shared = {"pairs", "branch", "wraps"}
@@ -72,7 +72,7 @@ class Contacts:
 def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:
     """Legacy VTK of the contacts of one packing: lines between centres, with forces.
 
-    Beads come first among the points; the images beside the seam that contacts end on follow.
+    The points are the beads, followed by the images across the seam at which contacts end.
     """
     ends = contacts.pairs.copy()
     images = np.flatnonzero(contacts.wraps)
@@ -108,7 +108,7 @@ def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:
 
 
 def dump_local(contacts: Contacts, box: list[str]) -> str:
-    """LAMMPS's format *dump local*: a line a contact, with the numbers of its beads, from 1."""
+    """LAMMPS's format *dump local*: a line per contact, with the numbers of its beads, from 1."""
     pairs = contacts.pairs + 1
     rows = zip(
         pairs.tolist(),
@@ -122,14 +122,14 @@ def dump_local(contacts: Contacts, box: list[str]) -> str:
 
 
 def dump(beads: Array, radii: Array, box: list[str]) -> str:
-    """LAMMPS's format *dump*: a line a bead, with its number, from 1."""
+    """LAMMPS's format *dump*: a line per bead, with its number, from 1."""
     header = _header("ATOMS", len(beads), box, "id type x y z radius")
     rows = zip(_three(beads).tolist(), radii.tolist(), strict=True)
     return "\n".join([*header, *(_words([k, 1, *x, r]) for k, (x, r) in enumerate(rows, 1)), ""])
 
 
 def box_of(beads: Array, radii: Array, period: float) -> list[str]:
-    """Bounds of a packing for LAMMPS: periodic across, open upwards; of spheres it leans."""
+    """Bounds of a packing for LAMMPS: periodic across, open upwards; for spheres the box leans."""
     low, high = (beads[:, -1] - radii).min(), (beads[:, -1] + radii).max()
     largest = float(radii.max())
     if beads.shape[1] == 2:

@@ -29,7 +29,7 @@ class Result(Answered):
     """The answer to one question, of a ``plan`` that asks it first.
 
     ``table`` holds the numbers in the arithmetic of the run.
-    ``accuracy`` says how large the error is, relative to the largest change, and how it is known.
+    ``accuracy`` gives the error, relative to the largest change, and whether it is certified.
     ``network``: where beads came to rest under unilateral contacts.
     """
 
@@ -142,7 +142,7 @@ class Outcome(Result):
         return source_of(self.plan.scene, self.files)
 
     def data(self, *, rows: bool = True) -> dict[str, Any]:
-        """The same as JSON can hold it; the page *Answers* explains the keys.
+        """Data for JSON; the page *Answers* explains the keys.
 
         Without ``rows`` the lists of results are empty, since they may have millions of rows. If
         there are several questions, ``accuracy`` is that of the least accurate answer.

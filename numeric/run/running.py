@@ -94,7 +94,7 @@ def read_tolerance(value: Any) -> Fraction:
 
 
 class Scene(CheckedScene):
-    """A scene, which can be explained and run; :func:`read_scene` makes one of a TOML file.
+    """A scene, which can be explained and run; :func:`read_scene` makes one from a TOML file.
 
     Its sections are ``packing``, ``disorder`` (None: all radii are equal), ``load`` (by default a
     surface load), ``effects`` and ``ask``; paths of files start at ``folder``. Raises

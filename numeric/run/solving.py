@@ -63,8 +63,8 @@ class Solution(Tabled):
         force: f^±_ij, shape (2, M, W): branch (0: "+", 1: "-"), layer j and column q of the lower
             bead. Compressive forces are positive. For spheres (3, M, W, W): axis, layer j, p and q.
         change: each force minus its value in the ordered packing, computed without cancellation.
-        accuracy: the error of the forces, relative to the largest change, and how it is known.
-        physical: overlaps and tensile contacts, over all packings; None where all radii are equal.
+            accuracy: the error of the forces, relative to the largest change: certified or estimated.
+        physical: overlaps and tensile contacts, over all packings; None if all radii are equal.
             ``physical.smallest_gap`` is in the unit of the radii.
     """
 
@@ -91,7 +91,7 @@ class Solution(Tabled):
 
     @property
     def sees_images(self) -> bool:
-        """Whether some bead bears on another in two ways round the period."""
+        """Whether some bead bears on another both directly and around the period."""
         return self.plan.sees_images
 
     @property
@@ -106,7 +106,7 @@ class Solution(Tabled):
 
     @cached_property
     def beads(self) -> Beads:
-        """All beads as arrays side by side: positions, radii and layers."""
+        """All beads, as arrays with a row for each: positions, radii and layers."""
         d, given, shape = self._dimension, self.sections["disorder"], self._shape
         radii = given.values
         if given.delta_r is not None:
@@ -120,7 +120,7 @@ class Solution(Tabled):
 
     @cached_property
     def contacts(self) -> Contacts:
-        """All contacts as arrays side by side; ``pairs`` holds row numbers of ``beads``.
+        """All contacts, as arrays with a row for each; ``pairs`` holds row numbers of ``beads``.
 
         >>> radii = 1 + 1e-3 * np.random.default_rng(1).uniform(-1, 1, (5, 12))
         >>> solution = solve(radii)
@@ -481,8 +481,8 @@ def solve(
         tolerance: the largest error allowed, relative to the largest change; balls are used if
             float64 doesn't meet it.
         certified: accept only a rigorous bound; needs a tolerance.
-        allow_images: allow W ≤ M, so that a bead bears on another in two ways round the period;
-            otherwise such an array, which may be transposed, is refused.
+                allow_images: allow W ≤ M, so that a bead may bear on another both directly and around the
+            period; otherwise such an array, which may be transposed, is refused.
 
     Raises:
         SceneError: an argument is not allowed; the message names it, and what is allowed.

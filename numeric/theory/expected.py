@@ -1,8 +1,7 @@
 """σ_f to first order, M*, and how many contacts of a packing are expected to pull.
 
 Estimates: to first order in δr (Eqs. 13, 14, B2, B3, B13 and B14), with Gaussian forces. M*
-(Eq. 15) is where forces scatter by about their own mean; in a packing of many contacts some
-pull far below it.
+(Eq. 15) is the height where σ_f is about ⟨f⟩; in a packing of many contacts some pull far below.
 """
 
 import math
