@@ -1,4 +1,4 @@
-"""Eq. 1: where the beads of the ordered packing are, and for which spacings it is a packing."""
+"""Eq. 1: positions of the beads in the ordered packing, and the spacings at which none overlap."""
 
 # fmt: off
 import sympy
@@ -47,7 +47,7 @@ def show_steps(steps: Steps) -> None:
         reach(origin, up),
     )
     steps.show(
-        "Beads of one layer are two indices apart, which defines the spacing s.",
+        "Neighbours in a layer are two indices apart. Their distance is the spacing s.",
         equation(spacing, 4 * r * n_x),
         rewrite(printed.theorem),
         definitions={spacing: Dot(e_x, Position(i + 2, j) - Position(i, j))},
@@ -65,8 +65,8 @@ def show_steps(steps: Steps) -> None:
         rewrite(printed.theorem),
     )
     steps.show(
-        "Every other pair has |p| ≥ 2 or |q| ≥ 2; the tightest are (2, 0) and (0, 2). They do "
-        "not overlap when both of these are positive.",
+        "Every other pair has |p| ≥ 2 or |q| ≥ 2; the closest are (2, 0) and (0, 2). They do "
+        "not overlap if both of these are positive.",
         sympy.Tuple(
             equation(D(2, 0) - 4 * r**2, spacing**2 - 4 * r**2),
             equation(D(0, 2) - 4 * r**2, 12 * r**2 - spacing**2),
@@ -76,7 +76,7 @@ def show_steps(steps: Steps) -> None:
     )
     steps.show(
         "All other pairs are at least as far apart: none of the terms is negative for |p| ≥ 2 "
-        "(first line) or |q| ≥ 2 (second line), and the last is that of the tightest pair.",
+        "(first line) or |q| ≥ 2 (second line), and the last is that of the closest pair.",
         sympy.Tuple(
             *(
                 equation(

@@ -37,14 +37,14 @@ BRANCH_IN_RADII = terms(
     times(sympy.Rational(1, 2) * (1 - phi), DeltaR(i + n + 1, j + n - 1)),
     minus(times(sympy.Rational(1, 2) * (1 - phi), DeltaR(i + n - 1, j + n + 1))),
 )
-"""One term of the sum in Eq. 11, times r: exact, and what Eq. 12 keeps of it is the sum alone."""
+"""One term of the sum in Eq. 11, times r, exactly. Eq. 12 keeps only the sum in it."""
 
 INSIDE = Domain.of(j >= 1, j < M)
 IN_THE_LIMIT = eq11.LOADED.also(j >= 1).in_the_limit(at_fixed_height("≈"))
 
 
 def weighted(count: sympy.Expr) -> sympy.Expr:
-    """The sum of Δ over the layers, each counted so many times."""
+    """The sum of Δ over the layers, each Δ taken ``count`` times."""
     return sympy.Sum(times(count, ON_DIAGONAL), (m, 1, M))
 
 
@@ -72,8 +72,8 @@ def show_steps(steps: Steps) -> None:
         negligible(*eq11.in_radii()),
     )
     steps.show(
-        "Exchanging the sums, Δ in layer m occurs for n = max(1, m−j), …, M−j: M − j times "
-        "for m ≤ j, and M − m + 1 times for m > j.",
+        "When the sums are exchanged, Δ in layer m occurs for n = max(1, m−j), …, M−j: M − j "
+        "times for m ≤ j, and M − m + 1 times for m > j.",
         equation(DOUBLE_SUM, weighted(FULL_COUNT)),
         rewrite(),
         INSIDE,

@@ -42,7 +42,7 @@ def _squares_to(last: sympy.Expr) -> sympy.Expr:
 
 
 def show_steps(steps: Steps) -> None:
-    """Six radii's worth for each Δ, the squared weights summed."""
+    """Each Δ has the variance 6σ²; the squares of its weights are added up."""
     groups = eq11.in_radii()
     variance = steps.show(
         "Each Δ holds one radius with the weight 2 and two with the weight −1: their squares add "

@@ -135,7 +135,7 @@ def show_steps(steps: Steps) -> None:
         LOADED.also(j >= 1).in_the_limit(at_fixed_height("≈")),
     )
     variance = steps.show(
-        "The variance of what is kept, six times the sum of the squares of its weights:",
+        "The variance of the kept terms is six times the sum of their squared weights:",
         equation(KEPT_VARIANCE, times(layers.UNIT, WEIGHTS)),
         moment(),
         definitions={KEPT_VARIANCE: Variance(AVERAGE_OF_EQ_12)},

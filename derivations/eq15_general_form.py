@@ -1,4 +1,4 @@
-"""Eq. 15: σ_f/⟨f⟩ averaged over the system, and the height M* at which forces turn tensile."""
+"""Eq. 15: σ_f/⟨f⟩ averaged over the system, and the height M* of packings with tensile forces."""
 
 # fmt: off
 import sympy
@@ -222,13 +222,13 @@ DERIVATION = Derivation(
         "M* is our definition; the paper says only that a finite fraction of the forces is "
         "negative there. The fraction above bears this out: it lies between 0 and ½, as half of an "
         "error function does, and depends on M/M* alone.",
-        "The fraction of tensile contacts is an estimate: the forces are Gaussian exactly for "
-        "normal radii and else in the limit, to first order in δr. The limit is Lindeberg's "
-        "theorem, which is quoted; its condition is decided.",
+        "The fraction of tensile contacts is an estimate: to first order in δr the forces are "
+        "Gaussian exactly for normal radii, and otherwise in the limit. The limit is Lindeberg's "
+        "theorem, which is quoted; its condition is proved here.",
         "For the expected number of tensile contacts to vanish, rather than their fraction, the "
         "paper expects a much lower M*. With Gaussian forces it is enough, to leading order, to "
         "divide M* by the cube root of 8c ln M, c > 1, if the packing is as wide as it is high: by "
-        "a logarithm, not by another power of σ/r. The bound on the variance, decided here, makes "
+        "a logarithm, not by another power of σ/r. The bound on the variance, proved here, makes "
         "1/(2σ_f²), with σ_f relative to the mean, at least 2c ln M; Chernoff's inequality, "
         "P(f<0) ≤ exp[−1/(2σ_f²)] = M^(−2c) for each of the M² contacts, is quoted.",
     ),

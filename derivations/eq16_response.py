@@ -113,9 +113,9 @@ def show_steps(steps: Steps) -> None:
         "left leg of the cone for q = 0, on its right leg for n = 0, inside the cone for n, q ≥ 1. "
         "The forces along n⁺ follow by balancing bead after bead, from the load down. They are, in "
         "this order: on the left leg the split of the load (as in Eq. 7), carried down (as in "
-        "Eq. 9); inside the cone what branches off the right leg (as in Eq. 10), which is of first "
-        "order; and zero on the right leg and outside the cone. The forces along n⁻ are their "
-        "mirror image.",
+        "Eq. 9); inside the cone the force that branches off the right leg (as in Eq. 10), which "
+        "is of first order; and zero on the right leg and outside the cone. The forces along n⁻ "
+        "are their mirror image.",
         sympy.Tuple(*(statement for statement, _ in FAMILY)),
         [same(theorem) for theorem in forces()[: len(FAMILY)]],
         [domain for _, domain in FAMILY],
@@ -196,7 +196,8 @@ def claims(steps: Steps) -> None:
         [DEEP, INSIDE.also(j >= 3, Eq(n, 1), Eq(q, 1))],
     )
     steps.claim(
-        "inside the cone a bead passes on what it gets: forces do not change along a diagonal",
+        "inside the cone a bead passes on the forces it receives: they do not change along a "
+        "diagonal",
         sympy.Tuple(
             equation(ForcePlus(i - 1, j - 1), ForcePlus(i, j)),
             equation(ForceMinus(i + 1, j - 1), ForceMinus(i, j)),

@@ -47,10 +47,10 @@ ROUNDED = 2.0**-50
 
 
 class Accuracy(NamedTuple):
-    """Error of the answer's small columns, relative to the largest entry of them.
+    """Error of the changes in an answer, relative to the largest of them.
 
     ``certified``: a rigorous bound (balls). Otherwise it is estimated, from errors that the sweep
-    carried. A bound below what a float can hold is a fraction.
+    carried. A bound that is too small for a float is a fraction.
     """
 
     error_bound: float | Fraction

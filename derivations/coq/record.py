@@ -18,10 +18,10 @@ class Certificate:
 
     Attributes:
         number: of the equation.
-                accepted: whether Coq proved all statements about it.
+        accepted: whether Coq proved all statements about it.
         checker: "Coq 8.16.1".
         theorems: SHA-256 of the statement of each theorem, by name.
-                axioms: on which the theorems rest.
+        axioms: on which the theorems rest.
         note: why it is not accepted.
         about: ranges of the indices and sites for which it is stated, in the words of Model.v.
     """

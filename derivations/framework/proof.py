@@ -39,7 +39,7 @@ class Step:
         reason: why it holds, in plain words (Unicode).
         formula: the equation, or a Tuple of equations, as shown.
         rules: that prove them, and anything put in their place.
-                domains: where they hold.
+        domains: where they hold.
         definitions: what symbols of each stand for.
         theorems: what the kernel made of them.
         number: its place among the steps, from 1; 0 of a claim.
@@ -141,7 +141,7 @@ class Refuted:
     """A printed statement that is false, as expected.
 
     Attributes:
-                reading: how the paper's words are read.
+        reading: how the paper's words are read.
         formula: the equation.
         domain: where it should hold.
         reason: why it is false, as the rule says.

@@ -33,7 +33,7 @@ def printable(text: str) -> str:
 class ForceDiffusionError(Exception):
     """Bad input or a failed environment; the message says what was wrong, where, and what to do.
 
-        ``exit_status``: 2 if the input is wrong; 3 if what was asked for can't be reached, or
+    ``exit_status``: 2 if the input is wrong; 3 if what was asked for can't be reached, or
     something outside the program failed.
     """
 

@@ -152,7 +152,7 @@ class StoreContent:
     """What the store of an ensemble holds, with every block checked.
 
     Attributes:
-                realisations: packings in all, including those that could not be built.
+        realisations: packings in all, including those that could not be built.
         ranges: of the packings' numbers, (first, stop).
         ensemble: the scene's sections that set the ensemble, as a scene file has them.
     """
@@ -162,7 +162,7 @@ class StoreContent:
     ensemble: dict[str, Any]
 
     def data(self) -> dict[str, Any]:
-                """Data for JSON."""
+        """Data for JSON."""
         return {**asdict(self), "ranges": [list(block) for block in self.ranges]}
 
     def __str__(self) -> str:

@@ -28,7 +28,7 @@ class PaperFigure:
     Attributes:
         title: what it shows.
         files: PNG, SVG, PDF and CSV by file name; the CSV files hold what is drawn.
-                facts: the findings and parameters, as data for JSON.
+        facts: the findings and parameters, as data for JSON.
         lines: the findings in words.
         wide: as wide as a page of a journal, not as a column.
     """

@@ -1,10 +1,10 @@
 """One bead: how it rests on its d supports, what its contacts bear, its gap to another; d = 2, 3.
 
 All sweeps use these functions. They calculate with +, −, ×, / and ``sqrt`` only, and no value
-decides what they do. Vectors are tuples of components. A component is a NumPy array of floats or of
-objects (balls, mpmath), a number that carries its rounding error (``arithmetic.carried``), or, where
-``loops`` compiles these functions, a number of one bead. The compiler knows every ``len``, and
-removes the branches for the other dimension.
+decides what they do. Vectors are tuples of components. A component is a NumPy array of floats or
+of objects (balls, mpmath), a number that carries its rounding error (``arithmetic.carried``), or,
+where ``loops`` compiles these functions, a number of one bead. The compiler knows every ``len``,
+and removes the branches for the other dimension.
 
 Base vectors n^1 … n^d have one mutual dot product φ; bead x rests on x − e_1 … x − e_d. A
 displacement is carried as c_a = n^a·δx: to first order each is a line sum of δr (Eqs. 2 and 3).

@@ -156,9 +156,9 @@ def plan_lines(data: dict[str, Any]) -> list[str]:
     lines += [f"Skipped: {s['effect']}: {s['reason']}" for s in data["skipped"]]
     if tension:
         expected, height = tension["expected_contacts"], tension["height_of_one"]
-        low = "at no allowed height" if height is None else f"at a height of about {height}"
+        low = "at no allowed height" if height is None else f"at a height of about {height} layers"
         many = f"About {expected:.2g} contacts are" if expected >= 1e-3 else "No contact is"
-        lines.append(f"{many} expected to pull; the first one pulls {low}")
+        lines.append(f"{many} expected to pull; one is expected {low}")
     if data["sees_images"]:
         lines.append("The answer may depend on periodic images: it is for the strip, not the slab")
     return lines

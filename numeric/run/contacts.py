@@ -14,7 +14,7 @@ class Beads:
     """All beads, layer by layer from the base up; for N packings there is a first axis of length N.
 
     Attributes:
-                positions: centres, (beads, 2), for spheres (beads, 3); in the unit of the radii.
+        positions: centres, (beads, 2), for spheres (beads, 3); in the unit of the radii.
         radii: (beads,).
         layers: j, (beads,).
     """
@@ -39,7 +39,7 @@ class Contacts:
         branch: "+" or "-", for spheres "1", "2" or "3", (n,).
         wraps: whether the contact crosses the seam of the periodic packing, (n,). Its upper bead is
             then the image beside the lower one.
-                force: positive if it pushes, (n,).
+        force: positive if it pushes, (n,).
         change: the force minus that of the ordered packing, (n,).
         points: where the beads touch, (n, 2), for spheres (n, 3).
         normals: unit vectors from the lower to the upper bead, (n, 2) or (n, 3).

@@ -55,10 +55,10 @@ class Way(NamedTuple):
     """An arithmetic with its decimal digits, error and time.
 
     ``error`` is relative to the largest |change|. It is "measured" (the distance from balls),
-    "certified" (the radius of balls), "stated" (of float64, where balls take too long) or
-    "estimated" (as is meant to be reached). ``seconds`` are those of the processor;
-    ``relative_cost`` is in units of those of float64. ``extrapolated``: seconds are extrapolated
-    from fewer layers.
+    "certified" (the radius of balls), "stated" (of float64, if balls take too long) or
+    "estimated" (the error that the arithmetic is set up for). ``seconds`` are processor time, and
+    ``relative_cost`` is that time over the time of float64. ``extrapolated``: the time is
+    extrapolated from fewer layers.
     """
 
     way: str
@@ -87,11 +87,11 @@ class CostStudy:
     skipped: dict[str, str]
 
     def rows(self) -> list[tables.Row]:
-        """One row a way, ready for a data frame."""
+        """A row for each arithmetic, ready for a data frame."""
         return [way._asdict() for way in self.ways]
 
     def data(self) -> dict[str, Any]:
-        """Give it as JSON can hold it."""
+        """Data for JSON."""
         relative = "the largest |change| of the answer"
         return {
             "quantity": self.quantity,

@@ -63,7 +63,7 @@ class Solution(Tabled):
         force: f^±_ij, shape (2, M, W): branch (0: "+", 1: "-"), layer j and column q of the lower
             bead. Compressive forces are positive. For spheres (3, M, W, W): axis, layer j, p and q.
         change: each force minus its value in the ordered packing, computed without cancellation.
-            accuracy: the error of the forces, relative to the largest change: certified or estimated.
+        accuracy: the error of the forces, relative to the largest change; certified or estimated.
         physical: overlaps and tensile contacts, over all packings; None if all radii are equal.
             ``physical.smallest_gap`` is in the unit of the radii.
     """
@@ -481,8 +481,8 @@ def solve(
         tolerance: the largest error allowed, relative to the largest change; balls are used if
             float64 doesn't meet it.
         certified: accept only a rigorous bound; needs a tolerance.
-                allow_images: allow W ≤ M, so that a bead may bear on another both directly and around the
-            period; otherwise such an array, which may be transposed, is refused.
+        allow_images: allow W ≤ M, so that a bead may bear on another both directly and around
+            the period; otherwise such an array, which may be transposed, is refused.
 
     Raises:
         SceneError: an argument is not allowed; the message names it, and what is allowed.

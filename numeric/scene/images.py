@@ -70,7 +70,7 @@ def read_radii(
             are ignored. Commas, semicolons or tabs separate them.
         spacing: s in units of length, which sets the scale.
         scale: pixels in a unit of length; 1 if neither is given.
-                rotation: of the layers, in degrees anticlockwise; only rotations below 15° are fitted.
+        rotation: of the layers, in degrees anticlockwise; only rotations below 15° are fitted.
         origin: where bead (0, 0) of the ordered packing is, (x, y) in pixels.
         y_down: whether y points downwards, as it does in most images.
 

@@ -85,8 +85,8 @@ def must_hold(grains: Grains) -> None:
     lean, most = np.arctan2(abs(side), -up), np.arcsin(np.max(sines))
     if lean > most + 1e-9:
         raise ImpossibleError(
-            f"no packing can stand: the load leans by {np.degrees(lean):.4g}° from the vertical, and "
-            f"the beads of the base can hold {np.degrees(most):.4g}° at most"
+            f"no packing can stand: the load leans by {np.degrees(lean):.4g}° from the vertical, "
+            f"and the beads of the base can hold {np.degrees(most):.4g}° at most"
         )
 
 

@@ -72,7 +72,7 @@ def test_realisations_are_added_and_a_rule_stops_early(small, tmp_path, call):
     )
     assert alone == data
     status, _, err = call("ensemble", small, "--until", "0.001", "--confidence", "0.99")
-    assert (status, "realisations may do" in err) == (3, True)
+    assert (status, "realisations may be enough" in err) == (3, True)
 
 
 def test_scenes_without_an_ensemble(tmp_path, call):
