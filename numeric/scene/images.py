@@ -29,7 +29,7 @@ class ImageRadii:
         spacing: s, in units of length.
         origin: bead (0, 0) of the lattice, in pixels.
         rotation: of the layers in the image, in degrees.
-        scale: pixels in a unit of length.
+        scale: pixels per unit of length.
         residual: root mean square distance of the centres from the lattice, over the mean radius.
     """
 
@@ -46,7 +46,7 @@ class ImageRadii:
         return (
             f"<{layers} layers of {width} beads, mean radius {self.radii.mean():.6g}, spacing "
             f"{self.spacing:.6g}; origin ({x:.6g}, {y:.6g}), rotation {self.rotation:.4g}°, "
-            f"{self.scale:.6g} pixels a unit; centres lie {self.residual:.2g} r from the lattice>"
+            f"{self.scale:.6g} pixels per unit; centres lie {self.residual:.2g} r from the lattice>"
         )
 
 
@@ -69,7 +69,7 @@ def read_radii(
         path: a table with columns ``x``, ``y`` and ``r`` or ``radius``, in pixels; other columns
             are ignored. Commas, semicolons or tabs separate them.
         spacing: s in units of length, which sets the scale.
-        scale: pixels in a unit of length; 1 if neither is given.
+        scale: pixels per unit of length; 1 if neither is given.
         rotation: of the layers, in degrees anticlockwise; only rotations below 15° are fitted.
         origin: where bead (0, 0) of the ordered packing is, (x, y) in pixels.
         y_down: whether y points downwards, as it does in most images.
