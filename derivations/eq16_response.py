@@ -196,8 +196,7 @@ def claims(steps: Steps) -> None:
         [DEEP, INSIDE.also(j >= 3, Eq(n, 1), Eq(q, 1))],
     )
     steps.claim(
-        "inside the cone a bead passes on the forces it receives: they do not change along a "
-        "diagonal",
+        "inside the cone a bead passes forces on: they do not change along a diagonal",
         sympy.Tuple(
             equation(ForcePlus(i - 1, j - 1), ForcePlus(i, j)),
             equation(ForceMinus(i + 1, j - 1), ForceMinus(i, j)),

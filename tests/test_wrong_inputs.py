@@ -33,8 +33,8 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "columns": (lambda: fd.equation(13).latex(columns=3), "must be 1 or 2"),
     "columns of a form": (lambda: fd.equation(13).exact().latex(columns=LONG), "must be 1 or 2"),
     "no form": (lambda: fd.equation(3).exact(), "13, 14, 15, 16, B2"),
-    "another form": (lambda: fd.equation(16).exact("leg"), "It has bead, contact and force"),
-    "a form": (lambda: fd.equation(13).exact(DIGITS), "It has layer"),
+    "another form": (lambda: fd.equation(16).exact("leg"), "Give bead, contact or force"),
+    "a form": (lambda: fd.equation(13).exact(DIGITS), "Give layer"),
     "a long z": (lambda: fd.equation(13).at(M=9, z=LONG, phi=0, sigma=1, r=1), "0 ≤ z ≤ 1"),
     "one number": (lambda: fd.derive(13), r"derive\(\[13\]\)"),  # type: ignore[arg-type]
     "Coq's number": (lambda: fd.certify(13), r"certify\(\[13\]\)"),  # type: ignore[arg-type]

@@ -27,7 +27,7 @@ from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
 from ..framework.deciding import decided
 from ..framework.evaluation import by_name_only, evaluate, in_order, indices_at
-from ..framework.lists import both
+from ..framework.lists import either
 from ..framework.loading import load
 from ..framework.record import Derivation, Statement
 from ..framework.rows import Row
@@ -293,7 +293,7 @@ class Equation:
         >>> fd.equation(13).exact("leg")  # doctest: +ELLIPSIS
         Traceback (most recent call last):
         ...
-        force_diffusion...NoSuchFormError: Eq. 13 has no exact form 'leg'. It has layer.
+        force_diffusion...NoSuchFormError: Eq. 13 has no exact form 'leg'. Give layer.
 
         Raises:
             NoSuchFormError: it has no exact form, or none of that name.
@@ -307,7 +307,7 @@ class Equation:
             )
         if form is not None and form not in forms:
             raise NoSuchFormError(
-                f"Eq. {self.number} has no exact form {quoted(form)}. It has {both(self.forms)}."
+                f"Eq. {self.number} has no exact form {quoted(form)}. Give {either(self.forms)}."
             )
         return forms[form or self.forms[0]]
 

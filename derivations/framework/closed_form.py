@@ -317,7 +317,7 @@ class ClosedForm:
                 several parts, or these are no relations of indices.
         """
         if not isinstance(orders, Integral) or not 1 <= orders <= _ORDERS:
-            raise ArgumentError(f"orders = {quoted(orders)}: a whole number from 1 to {_ORDERS}")
+            raise ArgumentError(f"orders = {quoted(orders)}: must be whole, from 1 to {_ORDERS}")
         try:
             pieces = self.function.part(*relations).pieces if relations else self.pieces
         except NotExactError as reason:

@@ -67,9 +67,9 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
         return _on_a_side(candidate, lines, rule_on)
     kind = type(candidate).__name__
     if isinstance(candidate, bool | BooleanAtom):
-        advice = "Where SymPy made it of an Eq: write Eq(left, right, evaluate=False)"
+        advice = "If SymPy made it from an Eq, write Eq(left, right, evaluate=False)"
         kind = f"{candidate}. {advice}"
-    return not_a_statement(f"a SymPy Eq or expression is needed, and this is {kind}")
+    return not_a_statement(f"a SymPy Eq or expression is needed, not {kind}")
 
 
 def _over_read_indices(candidate: sympy.Basic) -> sympy.Basic:

@@ -502,7 +502,7 @@ def solve(
         allowed = "must be SurfaceLoad(), BulkLoad(), PointLoad(at=(k, l)) or Load(kind=…)"
         raise SceneError("load", load, allowed)
     if certified and tolerance is None:
-        raise SceneError("certified", True, "needs a tolerance, as tolerance=1e-30")
+        raise SceneError("certified", True, "needs a tolerance, such as tolerance=1e-30")
     dimension = _dimension_of(given, dimension)
     shape = given.values.shape
     *batch, layers = shape[: 1 - dimension]
@@ -517,7 +517,7 @@ def solve(
         raise given.wrong(
             given.name,
             f"shape {shape}: {layers} layers of {beads} beads would bear on their "
-            f"own images; {remedy}if you mean it, say allow_images=True",
+            f"own images; {remedy}if you want that, say allow_images=True",
         )
     mean = float(given.values.mean())
     if radius is None:

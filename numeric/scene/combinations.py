@@ -79,8 +79,7 @@ def refusal(
     if command == "ensemble" and quantity not in _GATHERED:
         return "ask.quantity", f"must be {either(_GATHERED)} in an ensemble"
     if command in {"ensemble", "cost"} and opens:
-        why = "a single packing is solved where contacts open"
-        return "effects.contacts", f'must be "bilateral": {why}'
+        return "effects.contacts", 'must be "bilateral": only run and figures let contacts open'
     if command == "ensemble" and tolerance:
         return "ask.tolerance", "must be left out in an ensemble, which is solved in float64"
     if command == "ensemble" and not drawn:

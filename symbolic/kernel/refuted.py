@@ -41,7 +41,7 @@ def other_order(
     What goes as a power of H_M has no order that others are compared with.
     """
     if left is None:
-        words = f"as {limit.words}, left less right goes as {shown(apart, limit)}"
+        words = f"as {limit.words}, left minus right goes as {shown(apart, limit)}"
     else:
         words = f"as {limit.words}, left over right goes to {shown(left / right, limit)}, not to 1"
     return (NotProvedError if right.holds(sy.H_M) else FalseStatementError)(words)

@@ -70,7 +70,7 @@ REFUSED: list[tuple[dict[str, Any], str]] = [
     ({"radii": SPHERES[:1], "dimension": 3}, "at least 2 layers"),
     (
         {"radii": np.ones((5, 4, 4)), "dimension": 3},
-        r"5 layers of 4 × 4 beads.*images; if you mean it.*allow_images=True",
+        r"5 layers of 4 × 4 beads.*images; if you want that.*allow_images=True",
     ),
     ({"radii": SPHERES, "dimension": 3, "load": fd.PointLoad(at=(0, 2))}, r"load.at.*\[p, q, j\]"),
 ]

@@ -573,7 +573,7 @@ LIKE_M = M + H_M**3 / M**2 + phi, M
 table(
     ASYMPTOTIC, limit("∼"),
     ("twice as much", (2 * M, M), "left over right", LIKE_M),
-    ("another power", (M**2, M), "left less right", LIKE_M),
+    ("another power", (M**2, M), "left minus right", LIKE_M),
     ("a divisor that mixes", (M * (1 + over(1 + M**2 * phi**2)), M), "mixes what grows", LIKE_M),
     ("a divisor that mixes, at odds", (M * (1 + M * over(1 + M**2 * phi**2)), M),
      "mixes what grows", LIKE_M),
@@ -587,7 +587,7 @@ table(
      ((1 + phi**2) * n_x * M + 1, (1 + phi**2) * M * (n_x + (1 - phi) / 2) / (n_x + 1))),
 )
 table(ASYMPTOTIC, limit("∼", 2),
-      ("the second order", (M**2 + M + 1, M**2 + 2 * M), "left less right",
+      ("the second order", (M**2 + M + 1, M**2 + 2 * M), "left minus right",
        (M**2 + M + 1, M**2 + M)))
 FIXED = at_fixed_height("∼")
 attack("a limit beside its domain",

@@ -186,8 +186,8 @@ def test_the_note_names_the_line_compared_or_asks_for_it():
 
 
 NO_EQUATIONS = [
-    *((value, f"and this is {type(value).__name__}") for value in ("1-z", None, object(), b"1")),
-    *((value, "made it of an Eq: write Eq(left, right, evaluate=False)")
+    *((value, f"is needed, not {type(value).__name__}") for value in ("1-z", None, object(), b"1")),
+    *((value, "made it from an Eq, write Eq(left, right, evaluate=False)")
       for value in (True, sympy.true, sympy.Eq(1, 2))),
     *((value, "") for value in (sympy.Matrix([[sy.M]]), sy.M < 3, sympy.S.EmptySet, (), [[sy.M]])),
 ]  # fmt: skip
