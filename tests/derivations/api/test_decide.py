@@ -250,8 +250,8 @@ def test_a_leading_order_is_that_of_the_exact_form():
     eq = fd.equation(13)
     for factor, note in (
         (1 + 2 * sy.z, "left over right goes to 1/(2 z + 1), not to 1"),
-        (1 / sy.M, "left less right goes as "),
-        (sympy.S.Zero, "left less right goes as "),
+        (1 / sy.M, "left minus right goes as "),
+        (sympy.S.Zero, "left minus right goes as "),
     ):
         ruling = eq.decide(factor * eq.rhs)
         assert ruling.verdict is Verdict.REFUTED
