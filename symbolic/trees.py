@@ -11,8 +11,13 @@ def equation(left: sympy.Expr, right: sympy.Expr) -> sympy.Eq:
     return sympy.Eq(left, right, evaluate=False)
 
 
-def nodes(tree: sympy.Basic) -> Iterator[sympy.Basic]:
-    """What a tree is made of, parts before what is made of them; one it holds twice comes once."""
+def nodes(tree: sympy.Basic, leaf: Any = None) -> Iterator[sympy.Basic]:
+    """What a tree is made of, parts before what is made of them; one it holds twice comes once.
+
+    Args:
+        tree: a node with all that it holds.
+        leaf: a node whose parts are left out.
+    """
     seen: set[int] = set()
     left: list[tuple[sympy.Basic, bool]] = [(tree, False)]
     while left:
@@ -22,7 +27,7 @@ def nodes(tree: sympy.Basic) -> Iterator[sympy.Basic]:
         elif id(node) not in seen:
             seen.add(id(node))
             left.append((node, True))
-            left += [(arg, False) for arg in node.args]
+            left += [(arg, False) for arg in node.args if node != leaf]
 
 
 def in_place(tree: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:
@@ -35,11 +40,12 @@ def in_place(tree: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:
 def _in_place(tree: sympy.Basic, what: Any, image: Any) -> sympy.Basic:
     """`what`, a node or a class of them, put in wherever the tree has it, without recursion."""
     put: dict[int, sympy.Basic] = {}
-    for node in nodes(tree):
-        args = [put[id(arg)] for arg in node.args]
+    for node in nodes(tree, what):
         if node == what:
             put[id(node)] = image
-        elif isinstance(what, type) and isinstance(node, what):
+            continue
+        args = [put[id(arg)] for arg in node.args]
+        if isinstance(what, type) and isinstance(node, what):
             put[id(node)] = image(*args)
         elif all(new is old for new, old in zip(args, node.args, strict=True)):
             put[id(node)] = node

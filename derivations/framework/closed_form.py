@@ -20,6 +20,7 @@ from force_diffusion.symbolic.algebra.exact import (
 )
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
+    Verdict,
     all_of,
     decide,
     not_a_statement,
@@ -504,21 +505,27 @@ class ClosedForm:
             return undecided(str(reason))
 
     def _rulings(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
-        """What is found of each part of a candidate; its parts have to cover the domain."""
+        """A ruling on each part of a candidate up to one that is refuted; they cover the domain."""
         domain, function = self.kernel_domain.also(*at_place), self.function.part(*at_place)
         rest = function.points
-        cases = next(iter(candidate.atoms(sympy.Piecewise)), sympy.S.Zero)
-        for value, relations in alternatives_of(cases):
-            here = rest & function.part(*relations).points
-            rest = rest - here
-            formula = in_place(candidate, {cases: value}) if cases else candidate
-            for part in function.relations(here):
-                yield from self._rulings_on(formula, domain.also(*part))
-        if function.points.is_empty():
+        if rest.is_empty():
             raise NotAStatementError(f"{text(self.quantity)} is for {self.domain}")
+        cases = next(iter(candidate.atoms(sympy.Piecewise)), sympy.S.Zero)
+        parts = []
+        for value, relations in alternatives_of(cases):
+            here = rest & sets.where(*map(function.straight.relation, relations))
+            rest = rest - here
+            parts.append((value, here))
         if not rest.is_empty():
             left_out = words.alternatives(function.relations(rest))
             raise NotAStatementError(f"it has no value for {left_out}")
+        for value, here in parts:
+            formula = in_place(candidate, {cases: value}) if cases else candidate
+            for part in function.relations(here):
+                for ruling in self._rulings_on(formula, domain.also(*part)):
+                    yield ruling
+                    if ruling.verdict is Verdict.REFUTED:
+                        return
 
     def _rulings_on(self, formula: sympy.Eq, domain: Domain) -> Iterator[Ruling]:
         if not self.values:

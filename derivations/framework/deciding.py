@@ -147,7 +147,8 @@ def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relatio
         c != sympy.false for _, c in candidate.args
     ):
         raise NotAStatementError("it has no value anywhere")
-    folded = sympy.piecewise_fold(candidate) if candidate.has(sympy.Piecewise) else candidate
+    is_nested = any(each.has(sympy.Piecewise) for each in candidate.args)
+    folded = sympy.piecewise_fold(candidate) if is_nested else candidate
     if not isinstance(folded, sympy.Piecewise):
         yield folded, ()
         return

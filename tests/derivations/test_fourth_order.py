@@ -58,7 +58,7 @@ def test_floats_are_the_exact_coefficients(load, height, layer):
     assert orders == pytest.approx(tuple(map(float, exact)), rel=1e-11)  # a few hundred roundings
 
 
-@pytest.mark.long
+@pytest.mark.long(share=2)
 @pytest.mark.parametrize("bulk", [False, True])
 def test_the_leading_order_is_as_fitted_at_another_cosine(bulk):
     """From the fourth layer to the third below the surface it is one polynomial, of degree 4.

@@ -112,7 +112,7 @@ def proves(step: Step, part: int, candidate: sympy.Eq) -> bool:
     return decide(formula, step.domains[part], [step.rules[part]]).verdict.is_proved
 
 
-@pytest.mark.long(share=6)
+@pytest.mark.long(share=12)
 @pytest.mark.parametrize("number", modules())
 def test_a_changed_step_is_not_proved(number):
     statement = load(number)

@@ -205,7 +205,7 @@ def test_what_is_no_equation_is_refused_by_its_type(given, says):
 # exact forms
 
 
-@pytest.mark.parametrize("number", [13, 14, 15, *late((16, *BEYOND), share=3)])
+@pytest.mark.parametrize("number", [13, 14, 15, *late((16, *BEYOND), share=6)])
 def test_exact_forms_are_decided_on_their_own(number):
     equation = fd.equation(number)
     for form in map(equation.exact, equation.forms):
@@ -213,7 +213,9 @@ def test_exact_forms_are_decided_on_their_own(number):
         same = [form.equation, right, equal(right, left)]
         if form.divisor == 1:  # else both sides are divided by what may vanish
             same.append(equal(times(2, left), times(2, right)))
-        for candidate in (*same, form, (form.equation,), right * sy.phi / sy.phi):
+        asked = (*same, form, (form.equation,), right * sy.phi / sy.phi)
+        # a long form takes seconds
+        for candidate in asked if len(form.pieces) < 10 else (form, right):
             ruling = form.decide(candidate)
             assert ruling.verdict is Verdict.PROVED, ruling
         factors = (1 + MILLIONTH, -1) if right else ()  # zero, times anything, is the same
