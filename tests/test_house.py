@@ -17,13 +17,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_182,
-    "derivations": 7_645,
-    "numeric": 9_225,
+    "symbolic": 4_183,
+    "derivations": 7_653,
+    "numeric": 9_224,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 12_914,
+    "tests": 12_915,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
