@@ -50,13 +50,13 @@ def test_list_names_every_equation(call):
     assert "surface_diffusion" in lines[12]
 
 
-@pytest.mark.parametrize("number", each(NUMBERS, share=4))
+@pytest.mark.parametrize("number", each(NUMBERS))
 @pytest.mark.parametrize("form", ["text", "latex", "sympy", "python", "steps"])
 def test_every_form_of_every_equation(show, number, form):
     assert show(number, "--as", form).strip()
 
 
-@pytest.mark.parametrize("number", each([13, 14, 15, 16, *BEYOND], share=3))
+@pytest.mark.parametrize("number", each([13, 14, 15, 16, *BEYOND]))
 def test_exact_forms(show, number):
     """SymPy source, JSON and text are those of the closed forms, and the Python runs."""
     forms = load(number).exact_forms

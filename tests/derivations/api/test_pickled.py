@@ -15,7 +15,7 @@ def again(value: Any) -> Any:
     return pickle.loads(pickle.dumps(value))
 
 
-@pytest.mark.parametrize("number", each(modules(), share=2))
+@pytest.mark.parametrize("number", each(modules()))
 def test_every_equation(number):
     equation = fd.equation(number)
     assert str(again(equation)) == str(equation)

@@ -28,7 +28,7 @@ def row(number: str) -> Row:
     return statement
 
 
-@pytest.mark.parametrize("number", each(ROWS, share=3))
+@pytest.mark.parametrize("number", each(ROWS))
 def test_formulas_are_those_on_record(number):
     """To make the record anew write this text into the file, and look at what has changed."""
     forms = row(number).exact_forms.items()
@@ -36,7 +36,7 @@ def test_formulas_are_those_on_record(number):
     assert text == (GOLDEN / f"{number}.txt").read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("number", each(ROWS, share=3))
+@pytest.mark.parametrize("number", each(ROWS))
 def test_the_call_gives_the_first_form(number):
     names = {name: getattr(symbols, name) for name in symbols.__all__}
     names |= {name: getattr(fd, name) for name in CALLS}
@@ -77,7 +77,7 @@ def refutations(number: str) -> Iterator[str]:
                 yield words
 
 
-@pytest.mark.parametrize("number", each(ROWS, share=3))
+@pytest.mark.parametrize("number", each(ROWS))
 def test_claims_are_proved_and_false_of_other_forms(number):
     claims = dict(row(number).claims)
     assert claims

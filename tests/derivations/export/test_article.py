@@ -281,7 +281,7 @@ def test_no_markup_of_the_source_is_in_the_latex(whole):
         assert whole.count(f"\\begin{{{kind}}}") == whole.count(f"\\end{{{kind}}}") > 0
 
 
-@pytest.mark.long
+@pytest.mark.long(share=3)
 def test_the_supplement_has_every_form_and_its_domains():
     made = supplement([])
     assert made.isascii()

@@ -178,7 +178,7 @@ def test_a_broken_product_keeps_its_first_factor(factor, shown):
 
 
 @pytest.mark.parametrize("room", [120, 222, 330])
-@pytest.mark.parametrize("number", each(modules(), share=2))
+@pytest.mark.parametrize("number", each(modules()))
 def test_lines_put_together_are_the_formula(number, room):
     """Nothing is lost or doubled, and a line that was broken fits."""
     derivation = load(number)
