@@ -2,20 +2,13 @@
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from itertools import chain
 from typing import Any
 
 from force_diffusion.numeric.arithmetic.errors import WrongTypeError, checked, quoted
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
+from ..export import terminal
 from ..export.document import DOCUMENT, document, fragment_name, statement_latex
-from ..export.terminal import (
-    expected_text,
-    outcomes_data,
-    summary_line,
-    trouble_lines,
-    verdicts_text,
-)
 from ..framework.catalogue import Number, modules
 from ..framework.record import ProofOutcome
 from ..framework.runner import run_all
@@ -48,11 +41,13 @@ class Derived:
     def counts(self) -> str:
         """How many equations have each verdict, and how many printed statements are refuted."""
         refuted = sum(len(outcome.refuted) for outcome in self.outcomes)
-        return "; ".join(filter(None, [verdicts_text(self.outcomes), expected_text(refuted)]))
+        return "; ".join(
+            filter(None, [terminal.verdicts_text(self.outcomes), terminal.expected_text(refuted)])
+        )
 
     def data(self) -> dict[str, Any]:
         """Data for JSON: verdicts and checks of each equation, times in seconds."""
-        return outcomes_data(self.outcomes)
+        return terminal.outcomes_data(self.outcomes)
 
     def latex(self) -> dict[str, str]:
         """LaTeX by file name: a fragment for each equation, and the paper re-derived.
@@ -70,8 +65,7 @@ class Derived:
         return sorted(self.outcomes, key=lambda each: place.get(each.derivation.number, len(place)))
 
     def __str__(self) -> str:
-        lines = ([summary_line(outcome), *trouble_lines(outcome)] for outcome in self.outcomes)
-        return "\n".join([*chain.from_iterable(lines), f"{self.counts()}."])
+        return "\n".join([*map(terminal.summary_text, self.outcomes), f"{self.counts()}."])
 
     __repr__ = __str__
 

@@ -6,16 +6,8 @@ from typing import Self
 
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
+from ..export import terminal
 from ..export.document import step_latex
-from ..export.terminal import (
-    check_text,
-    expected_text,
-    follows_text,
-    heading,
-    rests_text,
-    steps_text,
-    summary_line,
-)
 from ..framework.proof import Step
 from ..framework.record import Check, ProofOutcome, Statement
 
@@ -52,20 +44,12 @@ class Proof:
         """Printed statements that were refuted as expected: ERRATA.md says why."""
         return self.outcomes[-1].refuted
 
-    def _headline(self) -> str:
-        outcome, refuted = self.outcomes[-1], expected_text(len(self.refuted))
-        number, verdict = outcome.derivation.number, f"{outcome.words}{refuted and f'; {refuted}'}"
-        premises = f" {rests_text(outcome.derivation)}" if outcome.verdict.is_proved else ""
-        return f"Eq. {number} is {verdict}.{premises}"
-
     def __str__(self) -> str:
-        return "\n".join(
-            [
-                self._headline(),
-                *map(summary_line, self.outcomes[:-1]),
-                *map(check_text, self.checks),
-            ]
-        )
+        *others, own = self.outcomes
+        premises = f" {terminal.rests_text(own.derivation)}" if own.verdict.is_proved else ""
+        headline = f"Eq. {own.derivation.number} is {terminal.verdict_text(own)}.{premises}"
+        checks = map(terminal.check_text, self.checks)
+        return "\n".join([headline, *map(terminal.summary_text, others), *checks])
 
     __repr__ = __str__
 
@@ -92,7 +76,7 @@ class StepList(tuple[Step, ...]):
         return self.of, (self._derivation,)
 
     def __str__(self) -> str:
-        return f"{heading(self._derivation)}\n\n{steps_text(self)}"
+        return f"{terminal.heading(self._derivation)}\n\n{terminal.steps_text(self)}"
 
     __repr__ = __str__
 
@@ -101,5 +85,5 @@ class StepList(tuple[Step, ...]):
         for step in self:
             lines.append(f"{step.number}. {step.reason}")
             lines.append(f"$$\n{step_latex(step)}\n$$")
-            lines.append(follows_text(step))
+            lines.append(terminal.follows_text(step))
         return "\n\n".join(lines)

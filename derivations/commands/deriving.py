@@ -45,7 +45,7 @@ def derive(
     """
     wanted = [equation_number(word) for word in numbers or ()] or list(modules())
     from ..export.document import DOCUMENT, MANIFEST, fragment_name
-    from ..export.terminal import outcome_text, outcomes_data, summary_line, trouble_lines
+    from ..export.terminal import outcome_text, outcomes_data, summary_text
 
     # the folders are looked at before the first proof, so that a wrong one costs no time
     folder = paper = None
@@ -63,7 +63,7 @@ def derive(
         if not as_json and wanted == [outcome.derivation.number]:
             print(f"\n{outcome_text(outcome)}", flush=True)
         elif not as_json:
-            print(summary_line(outcome), *trouble_lines(outcome), sep="\n", flush=True)
+            print(summary_text(outcome), flush=True)
 
     with noticing() as notice:
         derived = fd.derive(wanted, notice=notice, finished=finished)

@@ -14,13 +14,14 @@ from force_diffusion.numeric.arithmetic.errors import (
     ForceDiffusionError,
     NotReachedError,
 )
-from force_diffusion.numeric.scene.combinations import answered, either
+from force_diffusion.numeric.scene.combinations import answered
 
 import force_diffusion as fd
 
 from ..export.answers import files_of, names_of
 from .guard import about, in_range, say, tell
 from .output import Output, Overwrite, out_option
+from .scenes import scene_argument
 from .shared import STATUSES, Json, Quiet, Written, checked, show, sourced, warn  # noqa: F401
 
 if TYPE_CHECKING:
@@ -32,13 +33,7 @@ PATIENCE = 10
 
 
 def ensemble(
-    scene: Annotated[
-        Path,
-        typer.Argument(
-            metavar="SCENE",
-            help=f"A scene file, in TOML, that asks for {either(answered('ensemble'))}.",
-        ),
-    ],
+    scene: Annotated[Path, scene_argument("ensemble")],
     realisations: Annotated[
         int | None,
         typer.Option(metavar="N", help="Largest number of packings; by default that of the scene."),
@@ -88,8 +83,9 @@ def ensemble(
     folder = Output(out, names_of(answered("ensemble")), overwrite) if out else None
     with about(scene.name):
         result = _solved(
-            read, realisations, until, store, quiet, scheduler,
+            read, store, scheduler, realisations=realisations, until=until,
             confidence=confidence, workers=workers, reach=reach,
+            progress=not quiet and sys.stderr.isatty(),
         )  # fmt: skip
     warn(scene, result.measurement.plan)
     data = result.data(rows=False)
@@ -112,23 +108,14 @@ def ensemble(
 
 
 def _solved(
-    scene: "CheckedScene",
-    realisations: int | None,
-    until: float | None,
-    store: Path | None,
-    quiet: bool,
-    scheduler: str | None,
-    **more: Any,
+    scene: "CheckedScene", store: Path | None, scheduler: str | None, **more: Any
 ) -> "Ensemble":
     """Solve under a progress bar; errors name options as they are written here."""
     try:
         with ExitStack() as stack, in_range():
-            progress = not quiet and sys.stderr.isatty()
             if scheduler is not None:
                 more["executor"] = stack.enter_context(_cluster(scheduler))
-            return fd.ensemble(
-                scene, realisations, until=until, store=store, progress=progress, **more
-            )
+            return fd.ensemble(scene, store=store, **more)
     except ArgumentError as error:
         raise ForceDiffusionError(f"--{error}") from None
     except KeyboardInterrupt as interrupt:

@@ -17,21 +17,21 @@ from .guard import about as named
 from .guard import in_range, say, tell
 from .output import Output, Overwrite, out_option
 from .shared import STATUSES, Json, Quiet, Written, checked, drawn, images, show, sourced, warn  # noqa: F401
-from .sweep import Seed, Settings, name_of, variants
+from .sweep import Settings, name_of, variants
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
 
 
-def _scene(command: str) -> Any:
-    """Name the argument of a command, and what it answers."""
+def scene_argument(command: str) -> Any:
+    """The argument of a command that is a scene's file, and what that may ask for."""
     words = f"A scene file, in TOML, that asks for {either(answered(command))}"
     kinds = [name for name, own in KINDS.items() if not answered(command, **own)]
     none = f"; not for {' or '.join(kinds).replace('`', '')}" if kinds else ""
     return typer.Argument(metavar="SCENE", help=f"{words}{none}.")
 
 
-_Scene = Annotated[Path, _scene("run")]
+_Scene = Annotated[Path, scene_argument("run")]
 _Tolerance = Annotated[
     str | None,
     typer.Option(metavar="T", help="Largest relative error allowed, such as 1e-30."),
@@ -84,12 +84,11 @@ def run(
     tolerance: _Tolerance = None,
     certified: _Certified = False,
     settings: Settings = None,
-    seed: Seed = None,
     overwrite: Overwrite = False,
 ) -> None:
     """Solve the packing of a scene and answer its question."""
     checked(written, out)
-    asked = variants(settings, seed)
+    asked = variants(settings)
     # all scenes and folders are checked first
     plans = [_planned(scene, tolerance, certified, changes) for changes in asked]
     varying = [key for key in asked[0] if len({changes[key] for changes in asked}) > 1]
@@ -134,7 +133,7 @@ def _answer(
 
 
 def cost(
-    scene: Annotated[Path, _scene("cost")],
+    scene: Annotated[Path, scene_argument("cost")],
     seconds: Annotated[
         float, typer.Option(help="Time for the whole command; longer runs are extrapolated.")
     ] = 20,

@@ -1,4 +1,4 @@
-"""Scenes with other values than their files have: ``--set`` and ``--seed``, several for a sweep."""
+"""Scenes with other values than their files have: ``--set``, several for a sweep."""
 
 import math
 import re
@@ -17,13 +17,9 @@ Settings = Annotated[
         "each answer gets its own folder.",
     ),
 ]
-Seed = Annotated[
-    int | None,
-    typer.Option(metavar="N", help="Seed of the radii, the same as --set disorder.seed=N."),
-]
 
 
-def variants(settings: list[str] | None, seed: int | None) -> list[dict[str, str]]:
+def variants(settings: list[str] | None) -> list[dict[str, str]]:
     """Give the values by key of every scene of a sweep; one scene, unchanged, without any."""
     keys: dict[str, list[str]] = {}
     for word in settings or []:
@@ -35,10 +31,6 @@ def variants(settings: list[str] | None, seed: int | None) -> list[dict[str, str
                 param_hint="--set",
             )
         keys[key] = _apart(values)
-    if seed is not None:
-        if "disorder.seed" in keys:
-            raise typer.BadParameter("is set already; leave one out.", param_hint="--seed")
-        keys["disorder.seed"] = [str(seed)]
     number = math.prod(map(len, keys.values()))
     if number > MOST:
         raise typer.BadParameter(

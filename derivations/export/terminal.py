@@ -53,6 +53,11 @@ def expected_text(refuted: int) -> str:
     return f"{refuted} printed statement{plural} refuted, as expected (see ERRATA)" * bool(refuted)
 
 
+def verdict_text(outcome: ProofOutcome) -> str:
+    """The verdict on one equation; and printed statements of it that were refuted."""
+    return "; ".join(filter(None, [outcome.words, expected_text(len(outcome.refuted))]))
+
+
 def heading(derivation: Statement) -> str:
     """Number and title."""
     return f"Eq. {derivation.number}: {derivation.title}"
@@ -125,27 +130,19 @@ def outcome_text(outcome: ProofOutcome) -> str:
     parts = [statement_text(derivation), *refuted_text(derivation), "", rests_text(derivation)]
     parts += ["", "Steps", steps_text(derivation.proof), "", "Claims"]
     parts += [check_text(check) for check in outcome.checks if check.kind != "step"]
-    verdict = [f"Eq. {derivation.number} is {outcome.words}", expected_text(len(outcome.refuted))]
-    parts += ["", f"{'; '.join(filter(None, verdict))} ({outcome.seconds:.2f} s)"]
+    verdict = f"Eq. {derivation.number} is {verdict_text(outcome)}"
+    parts += ["", f"{verdict} ({outcome.seconds:.2f} s)"]
     return "\n".join(parts)
 
 
-def summary_line(outcome: ProofOutcome) -> str:
-    """One line for one equation: its number, verdict and title, and the seconds it took."""
-    derivation = outcome.derivation
-    return (
-        f"{derivation.number!s:>3}  {outcome.words:<9}  {derivation.title} "
-        f"({outcome.seconds:.2f} s)"
+def summary_text(outcome: ProofOutcome) -> str:
+    """Number, verdict and title, and the seconds it took; below it what kept it from proof."""
+    derivation, seconds = outcome.derivation, outcome.seconds
+    line = f"{derivation.number!s:>3}  {outcome.words:<9}  {derivation.title} ({seconds:.2f} s)"
+    open_checks = (
+        check for check in outcome.checks if not (check.verdict.is_proved or check.is_expected)
     )
-
-
-def trouble_lines(outcome: ProofOutcome) -> list[str]:
-    """What kept an equation from being proved."""
-    return [
-        check_text(check)
-        for check in outcome.checks
-        if not (check.verdict.is_proved or check.is_expected)
-    ]
+    return "\n".join([line, *map(check_text, open_checks)])
 
 
 def statement_data(derivation: Statement) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""``--set`` and ``--seed``: scenes with other values than their files have."""
+"""``--set``: scenes with other values than their files have."""
 
 import csv
 import io
@@ -31,8 +31,9 @@ def test_set_gives_the_results_of_a_changed_file(scene, call):
     changed.write_text(text.replace('"uniform"', '"normal", seed = 7'))
     status, plain, _ = call("run", changed, "--json")
     assert status == 0
-    words = ("--set", "packing.height=4", "--set", "disorder.kind=normal", "--seed", 7)
-    status, changed_by_words, _ = call("run", scene, *words, "--json")
+    words = ("packing.height=4", "disorder.kind=normal", "disorder.seed=7")
+    settings = (word for each in words for word in ("--set", each))
+    status, changed_by_words, _ = call("run", scene, *settings, "--json")
     assert status == 0
     assert json.loads(changed_by_words)["results"] == json.loads(plain)["results"]
 

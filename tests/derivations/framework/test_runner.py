@@ -7,7 +7,7 @@ from types import SimpleNamespace
 import pytest
 from force_diffusion.derivations.api.derived import Derived
 from force_diffusion.derivations.export.document import document
-from force_diffusion.derivations.export.terminal import outcome_text, summary_line, trouble_lines
+from force_diffusion.derivations.export.terminal import outcome_text, summary_text
 from force_diffusion.derivations.framework import loading
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.loading import load, with_premises
@@ -39,16 +39,16 @@ def catalogue(monkeypatch: pytest.MonkeyPatch) -> dict[int, Derivation]:
 def test_one_undecided_check_makes_the_verdict_undecided(make):
     outcome = run(make(fakes.baffled))
     assert outcome.verdict is Verdict.UNDECIDED
-    (line,) = trouble_lines(outcome)
-    assert "nobody knows" in " ".join(line.split())
-    assert ("step 2, 'So it is.'" in line) == (make is fakes.with_step)
+    summary = " ".join(summary_text(outcome).split())
+    assert "nobody knows" in summary
+    assert ("step 2, 'So it is.'" in summary) == (make is fakes.with_step)
 
 
 def test_a_printed_equation_that_no_step_shows_is_undecided():
     other = replace(fakes.PREMISE, printed=(equation(sy.phi, sy.phi),))
     outcome = run(other)
     assert outcome.verdict is Verdict.UNDECIDED
-    assert "no step of Eq. 1 shows what is printed" in " ".join(trouble_lines(outcome)[0].split())
+    assert "no step of Eq. 1 shows what is printed" in " ".join(summary_text(outcome).split())
 
 
 @MAKERS
@@ -57,8 +57,8 @@ def test_an_assumption_is_named_in_every_report(make):
     assert outcome.verdict is Verdict.ASSUMING
     assert outcome.assuming == (fakes.GUESS,)
     words = f"proved, assuming {fakes.GUESS}"
-    assert not trouble_lines(outcome)
-    assert words in summary_line(outcome)
+    (line,) = summary_text(outcome).splitlines()
+    assert words in line
     assert outcome_text(outcome).splitlines()[-1].startswith(f"Eq. 2 is {words}")
     assert Derived((outcome,)).proved
     assert Derived((outcome,)).counts() == f"1 {words}".replace(", assuming", " assuming")
