@@ -6,8 +6,9 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height, certificate,
-    differentiate, drop_terms, equation, minus, moment, power, rewrite, terms, times, usual)
+    FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height,
+    certificate, differentiate, drop_terms, equation, minus, moment, power, rewrite, terms, times,
+    usual)
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
 # fmt: on
 
@@ -112,7 +113,9 @@ DERIVATION = Derivation(
     definitions=MEANING,
     deciders=lambda: [asymptotic(*eq11.in_radii())],
     exact=lambda: {
-        "layer": layers.closed_form(RELATIVE_VARIANCE, MEANING, eq11.LOADED, eq11.in_radii)
+        "layer": ClosedForm(
+            RELATIVE_VARIANCE, Variance(eq11.PRINTED.lhs), eq11.LOADED, eq11.in_radii
+        )
     },
     remarks=(
         "Erratum: the limit is taken at fixed z. A fixed number of layers below the surface the "

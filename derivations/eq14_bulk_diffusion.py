@@ -10,9 +10,9 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.eq13_surface_diffusion import KEPT_VARIANCE
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic, at_fixed_height,
-    axioms, certificate, differentiate, drop_terms, equation, minus, mirror, moment, negligible,
-    power, rewrite, shown, terms, times, usual)
+    FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic,
+    at_fixed_height, axioms, certificate, differentiate, drop_terms, equation, minus, mirror,
+    moment, negligible, power, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
 # fmt: on
@@ -222,7 +222,7 @@ DERIVATION = Derivation(
     step_domain=eq12.INSIDE,
     definitions=MEANING,
     deciders=lambda: [asymptotic(*in_radii())],
-    exact=lambda: {"layer": layers.closed_form(RELATIVE_VARIANCE, MEANING, LOADED, in_radii)},
+    exact=lambda: {"layer": ClosedForm(RELATIVE_VARIANCE, Variance(RATIO), LOADED, in_radii)},
 )
 
 if __name__ == "__main__":

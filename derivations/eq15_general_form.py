@@ -8,7 +8,7 @@ from force_diffusion.derivations import eq14_bulk_diffusion as eq14
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Steps, Symbol, asymptotic, axioms, equation,
+    FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, asymptotic, axioms, equation,
     moment, power, power_law, rewrite, tensile, terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.symbols import (
@@ -212,7 +212,7 @@ DERIVATION = Derivation(
     show_steps=show_steps,
     step_domain=Domain(),
     exact=lambda: {
-        load: layers.closed_form(MEAN_SQUARE, meaning(load), heights(load), IN_RADII[load])
+        load: ClosedForm(MEAN_SQUARE, mean(load, Variance), heights(load), IN_RADII[load])
         for load in LOADS
     },
     remarks=(

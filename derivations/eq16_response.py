@@ -8,12 +8,11 @@ from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
-from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, Derivation, Domain, Groups, Limit, Steps, Symbol, Theorem, asymptotic, axioms,
-    equation, leading_order_of, minus, mirror, moment, power, rewrite, same, shown, terms, times,
-    usual)
+    FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Limit, Steps, Symbol, Theorem, asymptotic,
+    axioms, equation, leading_order_of, minus, mirror, moment, power, rewrite, same, shown, terms,
+    times, usual)
 from force_diffusion.symbolic.symbols import (
     Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
     VerticalPlus, e_y, f_load, i, j, k, l, n, n_minus, n_plus, n_y, phi, q, r,
@@ -255,7 +254,7 @@ DERIVATION = Derivation(
     definitions=MEANING,
     deciders=lambda: [asymptotic(*in_radii())],
     exact=lambda: {
-        name: layers.closed_form(symbol, MEANING, ALL_BELOW, in_radii)
+        name: ClosedForm(symbol, MEANING[symbol], ALL_BELOW, in_radii)
         for name, symbol in (("bead", RESPONSE), ("contact", ONE_CONTACT), ("force", MAGNITUDE))
     },
     remarks=(

@@ -26,7 +26,7 @@ from ..framework.catalogue import allowed, modules, number_of
 from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
 from ..framework.deciding import decided
-from ..framework.evaluation import by_name_only, evaluate, in_order, indices_at
+from ..framework.evaluation import evaluate, indices_at
 from ..framework.lists import either
 from ..framework.loading import load
 from ..framework.record import Derivation, Statement
@@ -346,8 +346,7 @@ class Equation:
             return self.exact().at(*unnamed, **arguments)
         sides = self._numbers
         formula = f"Eq. {self.number}", set().union(*(side.free_symbols for side in sides))
-        by_name_only(unnamed, in_order(symbol.in_code for symbol in formula[1]))
-        return evaluate(formula, [partial(_put_in, side) for side in sides], arguments)
+        return evaluate(formula, [partial(_put_in, side) for side in sides], unnamed, arguments)
 
     @property
     def _numbers(self) -> tuple[sympy.Expr, ...]:

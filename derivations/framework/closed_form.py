@@ -48,7 +48,7 @@ from force_diffusion.symbolic.trees import equation, in_place
 from .catalogue import Number as EquationNumber
 from .deciding import alternatives_of, decided, strange_symbol
 from .display import alternatives_in_latex, over_common, room_of, with_commas
-from .evaluation import Number, by_name_only, evaluate, in_order, indices_at, with_values
+from .evaluation import Number, evaluate, in_order, indices_at, with_values
 from .proof import equations_of
 
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
@@ -255,10 +255,9 @@ class ClosedForm:
             ArgumentError: a name is unknown or missing, or a value lies outside the domain.
             WrongTypeError: a value is given without its name.
         """
-        by_name_only(unnamed, self.symbols)
         dimension = self.kernel_domain.dimension
         about = text(self.quantity), self._needed
-        return evaluate(about, [self.value], values, dimension, in_packing=False)
+        return evaluate(about, [self.value], unnamed, values, dimension, in_packing=False)
 
     def value(
         self, values: Mapping[sympy.Symbol, sympy.Rational], exact: bool = True

@@ -70,13 +70,6 @@ def arguments(
     return by_name
 
 
-def by_name_only(unnamed: Sequence[Any], names: Iterable[str]) -> None:
-    """Refuse values without names. Raises ``WrongTypeError``, which tells the names."""
-    if unnamed:
-        call = ", ".join(f"{name}=…" for name in names)
-        raise WrongTypeError(f"{quoted(unnamed[0])} has no name: give values as at({call})")
-
-
 def read_arguments(
     about: str,
     needed: set[sympy.Symbol],
@@ -202,6 +195,7 @@ def rounded(value: sympy.Expr) -> float:
 def evaluate(
     formula: tuple[str, set[sympy.Symbol]],
     sides: Sequence[Callable[[Mapping[sympy.Symbol, sympy.Rational], bool], sympy.Expr]],
+    unnamed: Sequence[Any],
     given: Mapping[str, Any],
     dimension: int = 2,
     *,
@@ -215,6 +209,7 @@ def evaluate(
     Args:
         formula: what it is, for messages, and the symbols that decide its value.
         sides: give the exact values for exact numbers, and know whether these were given.
+        unnamed: values without names, of which there may be none.
         given: values by name.
         dimension: as for ``read_arguments``.
         in_packing: as for ``read_arguments``.
@@ -222,48 +217,40 @@ def evaluate(
     Raises:
         ArgumentError: a name is unknown or missing, a value is not allowed, or shapes differ; the
             message names the element.
+        WrongTypeError: a value has no name.
     """
+    if unnamed:
+        call = ", ".join(f"{name}=…" for name in in_order(map(name_of, formula[1])))
+        raise WrongTypeError(f"{quoted(unnamed[0])} has no name: give values as at({call})")
     arguments(*formula, given)
     arrays = {name: _array(name, value) for name, value in given.items()}
     exact = all(map(_is_exact, arrays.values()))
-    shape = shared_shape({name: array for name, array in arrays.items() if array.ndim})
+    shapes = {name: array.shape for name, array in arrays.items() if array.ndim}
+    try:
+        shape = np.broadcast_shapes(*shapes.values())
+    except ValueError:
+        shown = both([f"{name} of shape {shape}" for name, shape in shapes.items()])
+        raise ArgumentError(
+            f"{shown} do not go together: give arrays of one shape, or shapes that NumPy broadcasts"
+        ) from None
+    arrays = {name: np.broadcast_to(array, shape) for name, array in arrays.items()}
     results = np.empty((len(sides), *shape), dtype=object if exact else float)
     for place in np.ndindex(shape):
-        numbers = {name: _element(array, place) for name, array in arrays.items()}
+        numbers = {name: _plain(array[place]) for name, array in arrays.items()}
         try:
             values = read_arguments(*formula, numbers, dimension, in_packing=in_packing)
             for n, side in enumerate(sides):
                 value = side(values, exact)
                 results[n, *place] = value if exact else rounded(value)
         except ArgumentError as error:
-            raise ArgumentError(f"{at_element(place)}{error}") from None
+            where = f"element [{', '.join(map(str, place))}]: " if place else ""
+            raise ArgumentError(f"{where}{error}") from None
     return unpacked([result if shape or exact else float(result) for result in results])
 
 
 def unpacked(values: Sequence[Any]) -> Any:
     """The value of a single side, or a tuple of several."""
     return values[0] if len(values) == 1 else tuple(values)
-
-
-def shared_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
-    """The shape that arrays are broadcast to.
-
-    Raises:
-        ArgumentError: there is none.
-    """
-    shapes = {name: np.shape(array) for name, array in arrays.items()}
-    try:
-        return tuple(np.broadcast_shapes(*shapes.values()))
-    except ValueError:
-        shown = both([f"{name} of shape {shape}" for name, shape in shapes.items()])
-        raise ArgumentError(
-            f"{shown} do not go together: give arrays of one shape, or shapes that NumPy broadcasts"
-        ) from None
-
-
-def at_element(place: tuple[int, ...]) -> str:
-    """Where in an array something is wrong; nothing for a single number."""
-    return f"element [{', '.join(map(str, place))}]: " if place else ""
 
 
 def _array(name: str, value: Any) -> Any:
@@ -277,11 +264,9 @@ def _array(name: str, value: Any) -> Any:
     return np.array([value], dtype=object).reshape(())
 
 
-def _element(array: Any, place: tuple[int, ...]) -> Any:
-    """One element of the shape shared; a number of NumPy's as one of Python's."""
-    near = place[len(place) - array.ndim :]
-    element = array[tuple(min(at, size - 1) for at, size in zip(near, array.shape, strict=True))]
-    return element.item() if isinstance(element, np.generic) else element
+def _plain(number: Any) -> Any:
+    """A number of NumPy's as one of Python's."""
+    return number.item() if isinstance(number, np.generic) else number
 
 
 def _is_exact(array: Any) -> bool:

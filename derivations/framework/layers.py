@@ -1,8 +1,7 @@
 """What is said of a variance at every layer of a packing beside its printed leading order."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from typing import TYPE_CHECKING
 
 import sympy
 from force_diffusion.symbolic.algebra.exact import NotProvedError
@@ -17,23 +16,8 @@ from force_diffusion.symbolic.trees import equation, in_place
 
 from .proof import Definitions, Steps
 
-if TYPE_CHECKING:
-    from .closed_form import ClosedForm
-
 UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 """What variances of forces over their mean squared are numbers and powers of M times."""
-
-
-def closed_form(
-    symbol: sympy.Symbol,
-    definitions: Definitions,
-    domain: Domain,
-    groups: Callable[[], Sequence[Group]],
-) -> "ClosedForm":
-    """The closed form of what a symbol stands for; it is worked out when it is asked for."""
-    from .closed_form import ClosedForm
-
-    return ClosedForm(symbol, definitions[symbol], domain, groups)
 
 
 def show_closed_form(

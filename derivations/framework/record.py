@@ -5,7 +5,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from time import perf_counter
 from types import MappingProxyType
-from typing import TYPE_CHECKING
 
 import sympy
 from force_diffusion.symbolic import symbols as sy
@@ -18,11 +17,9 @@ from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import latex_body, text_lines
 
 from .catalogue import Number, in_order
+from .closed_form import ClosedForm
 from .display import room_of
 from .proof import Definitions, Step, Steps
-
-if TYPE_CHECKING:
-    from .closed_form import ClosedForm
 
 _MEANINGS = {
     sy.sigma: "standard deviation of the radii",
@@ -69,7 +66,7 @@ class Statement:
     step_domain: Domain | None = None
     definitions: Definitions = MappingProxyType({})
     show_steps: Callable[[Steps], None]
-    exact: Callable[[], Mapping[str, "ClosedForm"]] | None
+    exact: Callable[[], Mapping[str, ClosedForm]] | None
     call: str = ""
     """How the calculator is asked for it; "" where it is no row of that."""
 
@@ -109,7 +106,7 @@ class Statement:
         return self.domain.limit.relation if self.domain.limit else "="
 
     @cached_property
-    def exact_forms(self) -> Mapping[str, "ClosedForm"]:
+    def exact_forms(self) -> Mapping[str, ClosedForm]:
         """Closed forms, exact at finite size, by name; the first is the usual one."""
         return self.exact() if self.exact else {}
 
@@ -194,7 +191,7 @@ class Derivation(Statement):
     step_domain: Domain | None = None
     definitions: Definitions = field(default_factory=dict, hash=False)
     remarks: tuple[str, ...] = ()
-    exact: Callable[[], Mapping[str, "ClosedForm"]] | None = None
+    exact: Callable[[], Mapping[str, ClosedForm]] | None = None
     deciders: Callable[[], Sequence[Rule]] = tuple
 
 
