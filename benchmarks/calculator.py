@@ -31,7 +31,7 @@ def probe(call: str) -> str:
     import sympy  # noqa: F401
 
     imported = process_time() - start
-    from force_diffusion.derivations.framework.loading import load
+    from force_diffusion.derivations.framework.record import load
 
     import force_diffusion as fd
     from force_diffusion import symbols

@@ -17,7 +17,7 @@ from force_diffusion.derivations.commands.cli import COMMANDS
 from force_diffusion.derivations.export import article
 from force_diffusion.derivations.export.prose import prose_markdown
 from force_diffusion.derivations.framework.catalogue import modules
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic.printing.latex import latex
 

@@ -17,8 +17,7 @@ from ..coq.folder import ALLOWED, CoqFolder, Notice, axioms_in
 from ..coq.record import Certificate, Certification
 from ..coq.statements import statements
 from ..framework.catalogue import Number, paper
-from ..framework.loading import load
-from ..framework.record import Derivation
+from ..framework.record import Derivation, load
 from .equation import NoSuchFormError, equation
 
 

@@ -28,8 +28,7 @@ from ..framework.decide import candidate_for
 from ..framework.deciding import decided
 from ..framework.evaluation import evaluate, indices_at
 from ..framework.lists import either
-from ..framework.loading import load
-from ..framework.record import Derivation, Statement
+from ..framework.record import Derivation, Statement, load
 from ..framework.rows import Row
 from ..framework.runner import run_all
 from .proof import Proof, StepList

@@ -19,7 +19,7 @@ from .. import eq14_bulk_diffusion as eq14
 from .. import eq16_response as eq16
 from ..beyond.variances import in_dimensions
 from ..framework.catalogue import Number
-from ..framework.loading import load
+from ..framework.record import load
 
 TARGET = Path(__file__).parents[2] / "numeric" / "generated.py"
 

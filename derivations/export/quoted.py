@@ -11,7 +11,7 @@ from force_diffusion.symbolic.printing.latex import latex
 
 from ..framework.catalogue import modules
 from ..framework.layers import UNIT
-from ..framework.loading import load
+from ..framework.record import load
 
 
 def quoted(words: str) -> str:

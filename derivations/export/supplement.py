@@ -6,8 +6,7 @@ from force_diffusion.symbolic.printing.latex import latex
 
 from ..framework.catalogue import modules
 from ..framework.lists import both
-from ..framework.loading import load
-from ..framework.record import ProofOutcome
+from ..framework.record import ProofOutcome, load
 from ..framework.rows import Row
 from .prose import prose_latex, text_latex
 from .terminal import verdicts_text

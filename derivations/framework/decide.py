@@ -17,8 +17,7 @@ from force_diffusion.symbolic.signs import sign
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .deciding import alternatives_of, strange_symbol
-from .loading import load
-from .record import Derivation
+from .record import Derivation, load
 
 OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
 

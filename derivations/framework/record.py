@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from importlib import import_module
 from time import perf_counter
 from types import MappingProxyType
 
@@ -16,7 +17,7 @@ from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import latex_body, text_lines
 
-from .catalogue import Number, in_order
+from .catalogue import Number, in_order, modules
 from .closed_form import ClosedForm
 from .display import room_of
 from .proof import Definitions, Step, Steps
@@ -70,6 +71,10 @@ class Statement:
     call: str = ""
     """How the calculator is asked for it; "" where it is no row of that."""
 
+    def __reduce__(self) -> tuple[Callable[[Number], "Statement"], tuple[Number]]:
+        """It is made of functions, so a pickle holds its number."""
+        return load, (self.number,)
+
     @cached_property
     def proof(self) -> Steps:
         """Its steps and claims, proved.
@@ -111,11 +116,6 @@ class Statement:
         return self.exact() if self.exact else {}
 
     @property
-    def dimension(self) -> int:
-        """The dimension of its packings."""
-        return self.domain.dimension
-
-    @property
     def theorems(self) -> tuple[Theorem, ...]:
         """What the kernel proves of it, one theorem for each printed equation."""
         parts = (self.step_of(part) for part in range(len(self.printed)))
@@ -153,6 +153,16 @@ class Statement:
         return [
             line for equation in self.printed for line in text_lines(equation, self.relation, room)
         ]
+
+
+def load(number: Number) -> Statement:
+    """The derivation of one equation, or a row of the calculator.
+
+    A module has one, ``DERIVATION``, or several by their numbers, ``DERIVATIONS``.
+    """
+    module = import_module(f"force_diffusion.derivations.{modules()[number]}")
+    several: dict[Number, Statement] = getattr(module, "DERIVATIONS", {})
+    return several[number] if several else module.DERIVATION
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,5 @@
 """A row of the calculator: statistics with a label, what they mean, and what is claimed of them."""
 
-import copyreg
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -23,9 +22,8 @@ from force_diffusion.symbolic.words import in_words
 
 from .catalogue import Number
 from .closed_form import ClosedForm
-from .loading import load, pickled
 from .proof import Steps
-from .record import FIRST_ORDER, SECOND_ORDER, Statement, usual
+from .record import FIRST_ORDER, SECOND_ORDER, Statement, load, usual
 
 Forms = Mapping[str, ClosedForm]
 """Closed forms by name; the first is the usual one."""
@@ -85,11 +83,6 @@ class Row(Statement):
         """The domain of the first closed form."""
         return next(iter(self.exact_forms.values())).kernel_domain
 
-    @property
-    def dimension(self) -> int:
-        """The highest dimension of its packings."""
-        return max(form.kernel_domain.dimension for form in self.exact_forms.values())
-
     @cached_property
     def printed(self) -> tuple[sympy.Eq, ...]:  # type: ignore[override]
         """The closed forms as equations."""
@@ -131,9 +124,6 @@ class Row(Statement):
                         form.kernel_domain.also(*part),
                         {shown: form.statistic},
                     )
-
-
-copyreg.pickle(Row, pickled)
 
 
 def form_of(number: Number, name: str) -> ClosedForm:

@@ -8,8 +8,7 @@ from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved_by_rules, refuted, undecided
 
 from .catalogue import Number
-from .loading import with_premises
-from .record import Check, ProofOutcome, Statement
+from .record import Check, ProofOutcome, Statement, load
 from .rows import Row
 
 Watch = Callable[[Statement], None]
@@ -61,6 +60,30 @@ def run(statement: Statement) -> ProofOutcome:
     except (NotProvedError, LookupError) as reason:
         failure = _check("proof", "its derivation", undecided(str(reason)))
         return ProofOutcome(statement, (failure,))
+
+
+def with_premises(wanted: Iterable[Number], watch: Watch) -> Iterator[Statement]:
+    """Those wanted and all that they rest on, premises first, each as soon as it is known.
+
+    Proofs say what they rest on: each one is run.
+
+    Args:
+        wanted: their numbers.
+        watch: called with each before its proof is run.
+    """
+    seen: set[Number] = set()
+
+    def visit(number: Number) -> Iterator[Statement]:
+        if number not in seen:
+            seen.add(number)
+            statement = load(number)
+            watch(statement)
+            for premise in statement.premises:
+                yield from visit(premise)
+            yield statement
+
+    for number in wanted:
+        yield from visit(number)
 
 
 def run_all(numbers: Iterable[Number], watch: Watch = lambda _: None) -> Iterator[ProofOutcome]:

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 from force_diffusion.derivations.commands.output import Output
-from force_diffusion.derivations.framework import loading
+from force_diffusion.derivations.framework import runner
 from force_diffusion.numeric.figures.catalogue import PaperFigure
 from force_diffusion.numeric.figures.names import FIGURES
 
@@ -22,8 +22,8 @@ from tests.derivations import fakes
 def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
     """Equations 1 and 2 are made-up ones; their verdicts can be chosen."""
     table: dict[int, object] = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
-    true = loading.load
-    monkeypatch.setattr(loading, "load", lambda number: table.get(number) or true(number))
+    true = runner.load
+    monkeypatch.setattr(runner, "load", lambda number: table.get(number) or true(number))
     return table
 
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import modules, paper
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 

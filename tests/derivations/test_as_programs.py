@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 from force_diffusion.derivations.framework.catalogue import modules, paper
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 
 FOLDER = Path(__file__).parents[2] / "derivations"
 SCRIPT = FOLDER / "eq02_displacement.py"

@@ -7,8 +7,8 @@ import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import Number, modules, paper
 from force_diffusion.derivations.framework.decide import candidate_for
-from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Step
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_FORCES

@@ -4,7 +4,7 @@ import re
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.kernel.decisions import Verdict
 

@@ -6,8 +6,8 @@ from force_diffusion.derivations.api.derived import Derived
 from force_diffusion.derivations.api.proof import Proof
 from force_diffusion.derivations.export import terminal
 from force_diffusion.derivations.framework import runner
-from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Steps
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.decisions import Verdict

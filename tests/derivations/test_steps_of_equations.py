@@ -3,8 +3,8 @@
 import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import modules
-from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Step
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic.kernel.decisions import decide
 from force_diffusion.symbolic.kernel.domain import Domain

@@ -16,7 +16,7 @@ from force_diffusion.derivations.coq.folder import ALLOWED, CoqFolder
 from force_diffusion.derivations.coq.record import Certificate, Certification
 from force_diffusion.derivations.coq.statements import statements
 from force_diffusion.derivations.framework.catalogue import paper
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import terms, times
 from force_diffusion.symbolic.trees import equation

@@ -18,8 +18,8 @@ from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq15_general_form as eq15
 from force_diffusion.derivations.framework import decide
-from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Steps
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import CONSTANTS, SITE, UNKNOWNS
 from force_diffusion.symbolic.kernel import axioms, limits, rules

@@ -18,7 +18,7 @@ from typing import Any
 import pytest
 from force_diffusion.derivations.framework import proof
 from force_diffusion.derivations.framework.decide import candidate_for
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic.algebra.exact import NotProvedError
 
 from tests.properties.mutants import mutants

@@ -3,7 +3,7 @@
 import pytest
 import sympy
 from force_diffusion.derivations.framework.decide import candidate_for
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotProvedError
 from force_diffusion.symbolic.kernel import axioms, rules

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import pytest
 import sympy
 from force_diffusion.derivations.framework.decide import candidate_for
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict
 from force_diffusion.symbolic.symbols import M, i, j, m, n_x, n_y, phi, r, z

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 from force_diffusion.derivations.framework.catalogue import modules
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 
 import force_diffusion as fd
 from tests.derivations.rows import each

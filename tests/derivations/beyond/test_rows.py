@@ -8,7 +8,7 @@ import pytest
 from force_diffusion.derivations.beyond import correlations
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.closed_form import ClosedForm
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.symbols import M, j, l, p, r, sigma, t

@@ -7,7 +7,7 @@ from force_diffusion.derivations.coq.record import record
 from force_diffusion.derivations.coq.statements import recorded, statements
 from force_diffusion.derivations.export.document import document
 from force_diffusion.derivations.framework.catalogue import paper
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic.trees import equation
 

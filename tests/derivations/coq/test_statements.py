@@ -8,7 +8,7 @@ import sympy
 from force_diffusion.derivations.coq import statements as coq
 from force_diffusion.derivations.coq.files import theory
 from force_diffusion.derivations.framework.catalogue import paper
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.trees import equation

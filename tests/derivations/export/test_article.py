@@ -12,7 +12,7 @@ from force_diffusion.derivations.beyond.variances import IN_SPACE, UNIT
 from force_diffusion.derivations.export.article import article, figures_of, page, source
 from force_diffusion.derivations.export.supplement import supplement
 from force_diffusion.derivations.framework.catalogue import modules
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.rows import equals, goes_as
 from force_diffusion.numeric.figures.names import FIGURES
 from force_diffusion.symbolic import symbols as sy

@@ -14,7 +14,7 @@ from force_diffusion.derivations.export.document import (
 from force_diffusion.derivations.export.prose import prose_latex
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.lists import both
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.runner import run
 
 from tests.derivations import fakes

@@ -9,8 +9,8 @@ from force_diffusion.derivations.export.prose import prose_latex
 from force_diffusion.derivations.export.terminal import heading, step_lines
 from force_diffusion.derivations.framework.catalogue import modules
 from force_diffusion.derivations.framework.lists import both
-from force_diffusion.derivations.framework.loading import load
 from force_diffusion.derivations.framework.proof import Refuted, Step
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic.printing.latex import RELATIONS
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, latex_body, text_lines
 

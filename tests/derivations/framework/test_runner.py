@@ -8,11 +8,10 @@ import pytest
 from force_diffusion.derivations.api.derived import Derived
 from force_diffusion.derivations.export.document import document
 from force_diffusion.derivations.export.terminal import outcome_text, summary_text
-from force_diffusion.derivations.framework import loading
+from force_diffusion.derivations.framework import record, runner
 from force_diffusion.derivations.framework.catalogue import modules
-from force_diffusion.derivations.framework.loading import load, with_premises
 from force_diffusion.derivations.framework.proof import Steps
-from force_diffusion.derivations.framework.record import Derivation
+from force_diffusion.derivations.framework.record import Derivation, load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotProvedError
@@ -31,7 +30,7 @@ MAKERS = pytest.mark.parametrize("make", [fakes.with_claim, fakes.with_step])
 def catalogue(monkeypatch: pytest.MonkeyPatch) -> dict[int, Derivation]:
     """The derivations that are loaded by number in place of those of the paper."""
     derivations = {1: fakes.PREMISE, 2: fakes.CONCLUSION}
-    monkeypatch.setattr(loading, "load", derivations.__getitem__)
+    monkeypatch.setattr(runner, "load", derivations.__getitem__)
     return derivations
 
 
@@ -104,13 +103,13 @@ def test_a_refutation_of_what_holds_is_no_refutation():
 
 def test_premises_come_first_and_once(catalogue):
     catalogue[3] = replace(fakes.CONCLUSION, number=3)
-    assert [derivation.number for derivation in with_premises([3, 2, 1])] == [1, 3, 2]
+    assert [derivation.number for derivation in runner.with_premises([3, 2, 1], print)] == [1, 3, 2]
     assert fakes.CONCLUSION.premises == (1,)
 
 
 def test_a_module_may_derive_several(monkeypatch):
     several = SimpleNamespace(DERIVATIONS={2: fakes.CONCLUSION, 1: fakes.PREMISE})
-    monkeypatch.setattr(loading, "import_module", lambda _: several)
+    monkeypatch.setattr(record, "import_module", lambda _: several)
     assert [load(1).number, load(2).number] == [1, 2]
 
 

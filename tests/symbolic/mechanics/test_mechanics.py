@@ -2,7 +2,7 @@
 
 import pytest
 from force_diffusion.derivations.framework.catalogue import paper
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic.mechanics.lattice import mirror
 
 

@@ -5,7 +5,7 @@ import re
 import pytest
 import sympy
 from force_diffusion.derivations.framework.catalogue import modules
-from force_diffusion.derivations.framework.loading import load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.rows import Row
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import minus, power, terms, times
