@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from ..coq.record import Certificate
 
 STATUSES = (
-    "Takes about two minutes. Exit status: 0 all accepted, 1 something is not, 2 wrong usage, "
-    "3 Coq is absent, or the disk or a pipe failed, 130 interrupted."
+    "Takes about two minutes. Exit status: 0 all accepted; 1 something not accepted; 2 wrong "
+    "usage; 3 Coq is missing, or the disk or a pipe failed; 130 interrupted."
 )
 
 
@@ -28,7 +28,7 @@ def certify(
         typer.Argument(metavar="[N...]", help="Numbers of the paper's equations, by default all."),
     ] = None,
     out: Annotated[
-        Path | None, out_option("the theory, the statements and the verdicts as JSON")
+        Path | None, out_option("the theory, the statements and, as JSON, the verdicts")
     ] = None,
     as_json: Json = False,
     overwrite: Overwrite = False,

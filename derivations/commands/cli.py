@@ -34,7 +34,7 @@ COMMANDS = {
     "explain": ("scenes.explain", "Say what 'run' would do, and why."),
     "cost": (
         "scenes.cost",
-        "Measure what accuracy costs: error and seconds of one packing, in each arithmetic.",
+        "Measure what accuracy costs: the error and time of one packing in each arithmetic.",
     ),
     "ensemble": (
         "ensemble.ensemble",
@@ -50,8 +50,8 @@ COMMANDS = {
     ),
 }
 STATUSES = (
-    "Exit status: 0 all proved, 1 something refuted or undecided, 2 wrong usage or input, "
-    "3 the disk or a pipe failed, 130 interrupted."
+    "Exit status: 0 all proved; 1 something refuted or undecided; 2 wrong usage or input; "
+    "3 the disk or a pipe failed; 130 interrupted."
 )
 
 _GIVEN: ContextVar[list[str]] = ContextVar("given")

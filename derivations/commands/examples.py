@@ -9,7 +9,7 @@ import typer
 from .guard import say
 from .output import Output, Overwrite, folder_of
 
-STATUSES = "Exit status: 0 copied, 2 the folder exists, 3 the disk failed, 130 interrupted."
+STATUSES = "Exit status: 0 copied; 2 the folder exists; 3 the disk failed; 130 interrupted."
 
 
 def examples(

@@ -34,8 +34,8 @@ if TYPE_CHECKING:
     from force_diffusion.numeric.figures.packings import Notice
 
 STATUSES = (
-    "Exit status: 0 made, 2 wrong usage, 3 matplotlib is missing, or the disk or the memory "
-    "failed, 130 interrupted."
+    "Exit status: 0 drawn; 2 wrong usage or input; 3 matplotlib is missing, the disk failed, or "
+    "memory ran out; 130 interrupted."
 )
 
 

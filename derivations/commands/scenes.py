@@ -141,7 +141,7 @@ def cost(
     as_json: Json = False,
     overwrite: Overwrite = False,
 ) -> None:
-    """Measure what accuracy costs: error and seconds of one packing, in each arithmetic."""
+    """Measure what accuracy costs: the error and time of one packing in each arithmetic."""
     from force_diffusion.numeric.run.cost import HEAD
     from force_diffusion.numeric.scene.scene import source_of
     from force_diffusion.numeric.tables import csv_bytes

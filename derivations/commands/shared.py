@@ -22,8 +22,8 @@ if TYPE_CHECKING:
 
 
 STATUSES = (
-    "Exit status: 0 answered, 2 wrong usage or input, 3 what was asked for can't be reached, or "
-    "something outside the program failed, such as the disk, 130 interrupted."
+    "Exit status: 0 answered; 2 wrong usage or input; 3 the goal can't be reached, or something "
+    "outside the program, such as the disk, failed; 130 interrupted."
 )
 # Rows that are printed beside words.
 FEW = 10

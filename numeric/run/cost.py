@@ -139,7 +139,7 @@ def cost(
     seconds: float = 20,
     progress: bool | Callable[[Way], object] = False,
 ) -> CostStudy:
-    """Measure what accuracy costs: error and seconds of one packing in each arithmetic.
+    """Measure what accuracy costs: the error and time of one packing in each arithmetic.
 
     ``scene`` may be a path. The arithmetics are float64, balls that certify 15, 30 and 100 digits,
     and mpmath. ``seconds`` limits the time of the whole study; whatever would take longer is
