@@ -1,1 +1,1 @@
-"""Equations as a Python user holds them."""
+"""Equations for Python users."""

@@ -1,4 +1,4 @@
-"""Several equations derived in one go, premises first: what was found, as JSON and as LaTeX."""
+"""Several equations derived together, premises first: the verdicts, as JSON and as LaTeX."""
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass

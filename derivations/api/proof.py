@@ -1,4 +1,4 @@
-"""What proving an equation found, and the steps of its derivation, as a Python user reads them."""
+"""The proof of an equation and the steps of its derivation, for Python users."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,1 +1,1 @@
-"""Beyond the paper: its open questions, as equations of this project's own, B1 and so on."""
+"""Beyond the paper: answers to its open questions, as equations B1 and so on."""

@@ -1,6 +1,6 @@
 """Eqs. B10, B17 and B18: mean contact stress under loads in any direction, to second order.
 
-S = Σ f ℓ N⊗N over the two contacts above a bead, all over the values of the ordered packing.
+S = Σ f ℓ N⊗N over the two contacts above a bead, each relative to its value in the ordered packing.
 """
 
 # fmt: off

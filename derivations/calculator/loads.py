@@ -1,4 +1,4 @@
-"""The loads that a packing may carry, and what theorems say of its forces then."""
+"""The loads that a packing may carry, and the theorems about its forces under each."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace

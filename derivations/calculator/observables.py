@@ -1,4 +1,4 @@
-"""Observables of the calculator: what may stand in them, and where all that they name exists."""
+"""Observables of the calculator: what they may contain, and where all their beads exist."""
 
 from collections.abc import Iterable
 from keyword import iskeyword

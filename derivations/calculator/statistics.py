@@ -1,4 +1,4 @@
-"""Mean, variance and covariance of what is linear in the radii, as exact closed forms."""
+"""Mean, variance and covariance of observables linear in the radii, as exact closed forms."""
 
 from collections.abc import Iterable
 

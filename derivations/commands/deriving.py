@@ -1,4 +1,4 @@
-"""The command ``derive``: prove what is asked for and what it rests on, and write it down."""
+"""The command ``derive``: prove equations and all that they rest on, and write LaTeX."""
 
 import json
 from importlib.metadata import version

@@ -1,13 +1,13 @@
 """How every program of this package ends: with a status, and a message in place of a traceback.
 
-A command raises, and catches nothing. What a user can mend derives from ``ForceDiffusionError``; it
-carries its exit status, and is told here, and only here, as ``force-diffusion: message``. A command
-that knows better than the numerics what an error is about says so around the call::
+Commands raise errors and catch none. Errors that a user can mend derive from
+``ForceDiffusionError`` and carry an exit status; only this module prints them, as
+``force-diffusion: message``. A command can add what an error is about::
 
     with about(scene.name):
         outcome = run(plan)  # force-diffusion: scene.toml: no bead rests ...
 
-Told here as well: an interrupt (130), a full memory, and a file or a stream that can't be written
+It also reports an interrupt (130), a full memory, and a file or a stream that can't be written
 (3). Everything else is a mistake in the program, and its traceback is shown.
 """
 

@@ -1,12 +1,12 @@
-"""The folder that a command writes its results into: it is there as a whole, or not at all.
+"""The folder for a command's results: it is either complete or absent.
 
     folder = Output(out, ["result.json", "profile.csv"], overwrite)
     answer = solve()  # a folder that can't be used has been refused before
     folder.write({"result.json": ..., "profile.csv": ...})
 
-Files are written into a new folder beside, which is renamed at the end. A folder that is there is
-replaced with ``--overwrite`` alone, and where it holds nothing but files of these names: it is
-renamed first, and deleted last. Who is killed in between leaves both, and the next one says so.
+Files are written into a temporary folder next to it, which is renamed at the end. An existing
+folder is replaced only with ``--overwrite``, and only if all files in it have these names: it is
+renamed first, and deleted last. A command killed in between leaves both, and the next one says so.
 """
 
 import os

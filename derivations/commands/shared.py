@@ -1,4 +1,4 @@
-"""What several commands share: a line that tells how far they are, and plots if they can be."""
+"""What several commands share: options, the printing of answers, a progress line, and plots."""
 
 import os
 import sys

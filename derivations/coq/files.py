@@ -1,4 +1,4 @@
-"""What Coq reads, as files: the theory; what a statement says, and its proof, to be compared."""
+"""The files that Coq reads: the theory, statements, proofs, and a comparison of these two."""
 
 import hashlib
 import re

@@ -1,4 +1,4 @@
-"""Coq at work in a folder: files are compiled, as many at once as there are cores, and checked."""
+"""Coq at work in a folder: it compiles files, one on each core, and checks them."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""An answer as files: ``result.json`` beside CSV, NPZ or Parquet, and what stands in each.
+"""An answer as files: ``result.json`` next to CSV, NPZ or Parquet, and the contents of each.
 
 The columns are those of the answer. CSV and JSON have decimals with the digits that are known. NPZ
 and Parquet hold float64 as it is, and numbers of longer arithmetics as decimals; all that is said

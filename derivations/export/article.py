@@ -1,4 +1,4 @@
-r"""The article about what is beyond the paper, from one source: LaTeX, and a page of the site.
+r"""The article about the results beyond the paper, as LaTeX and as a page of the site.
 
 The source is ``beyond.md`` beside this module, in Markdown. ``{{…}}`` in it is a number or a
 formula that ``quoted`` computes, and ``![…](B5)`` figure B5, whose caption is the paragraph below,

@@ -1,6 +1,6 @@
 """The LaTeX that ``derive --out`` writes: a fragment for each equation, and the paper re-derived.
 
-The words of the document that no equation has are in ``equations.tex`` beside this module.
+The words of the document that belong to no equation are in ``equations.tex``, next to this module.
 """
 
 from collections.abc import Iterable, Sequence

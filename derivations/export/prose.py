@@ -1,4 +1,4 @@
-"""Plain Unicode sentences as LaTeX: words stay text, what reads as mathematics is set as such."""
+"""Plain Unicode sentences as LaTeX: words stay text, symbols and formulas become mathematics."""
 
 import re
 import unicodedata

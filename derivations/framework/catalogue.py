@@ -1,4 +1,4 @@
-"""Where the derivations are: one module an equation of the paper, one a subject beyond it.
+"""Where the derivations are: a module for each equation of the paper, and for each subject beyond.
 
 The paper's equations have its numbers, 1 to 16; those of ``beyond/`` are this project's own and
 have labels, "B1" and so on.

@@ -1,4 +1,4 @@
-"""Decides what is said in the place of a printed equation."""
+"""Decides candidates that are put in the place of a printed equation."""
 
 from collections.abc import Iterator, Mapping
 

@@ -1,4 +1,4 @@
-"""Numbers and arrays put into formulas: exact for exact arguments, where the formula is meant.
+"""Formulas evaluated for numbers and arrays: exact for exact arguments, and only on their domain.
 
 Each element of an array is evaluated as if it were alone.
 """

@@ -1,4 +1,4 @@
-"""What is said of a variance at every layer of a packing beside its printed leading order."""
+"""Claims about a variance in every layer of a packing, besides its printed leading order."""
 
 from collections.abc import Iterable, Sequence
 from contextlib import suppress

@@ -1,4 +1,4 @@
-"""Several things in words."""
+"""Lists in words."""
 
 from collections.abc import Sequence
 

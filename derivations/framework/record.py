@@ -1,4 +1,4 @@
-"""The shape of a derivation: what every ``eqNN_…`` module states, and what proving it found."""
+"""The shape of a derivation: the fields that every ``eqNN_…`` module fills, and its verdicts."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field

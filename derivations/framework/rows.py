@@ -1,4 +1,4 @@
-"""A row of the calculator: statistics with a label, what they mean, and what is claimed of them."""
+"""A row of the calculator: statistics with a label, their meaning, and claims about them."""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass

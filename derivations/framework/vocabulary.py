@@ -1,6 +1,6 @@
-"""The words that equation files are written in, from one place.
+"""The names that equation files import, from one place.
 
-What makes an expression as it is printed, the axioms, the rules, and what a derivation is.
+They make expressions as they are printed, axioms, rules and derivations.
 """
 
 # fmt: off
