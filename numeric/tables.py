@@ -1,4 +1,4 @@
-"""Results as rows, as tables to be looked at, and as columns of text."""
+"""Results as rows, as tables for people, and as columns of text."""
 
 import math
 import re

@@ -1,4 +1,4 @@
-"""What this machine has to offer: cores, free memory, and files, written as a whole."""
+"""Cores and free memory of this machine, and files written completely or not at all."""
 
 import os
 from collections.abc import Iterator

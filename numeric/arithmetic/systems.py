@@ -1,4 +1,4 @@
-"""Number systems: the one place that knows floats, balls and big floats apart.
+"""Number systems: the only module that tells floats, balls and big floats apart.
 
 Every formula of the packing is written once, on NumPy arrays. What differs between number
 systems is how a rational enters, what is certain about a sign, and which global precision must be

@@ -1,4 +1,4 @@
-"""The result of an ensemble: arrays, a table, and plain data with no time and no worker in it."""
+"""The result of an ensemble: arrays, a table, and data that name no times and no workers."""
 
 import math
 from dataclasses import dataclass

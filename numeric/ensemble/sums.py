@@ -1,4 +1,4 @@
-"""What is measured of each packing of an ensemble, and sums of it over fixed blocks of packings.
+"""Measurements of each packing of an ensemble, and their sums over fixed blocks of packings.
 
 A group holds n contacts that are alike: a layer and branch of a profile, one contact, or all. Of
 their changes g from the ordered force, in float64, a packing gives a = Σ g/n and b = Σ g²/n. Blocks

@@ -1,4 +1,4 @@
-"""Force chains: every contact of one packing, as thick as its force is large.
+"""Force chains: every contact of one packing, drawn as thick as its force.
 
 The disorder is strong enough for the height to come near M* = (σ/r)^(-2/3), where contacts begin to
 pull: those are drawn in a colour of their own. The packing is solved exactly, under a surface load.

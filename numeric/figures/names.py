@@ -1,4 +1,4 @@
-"""Which figures there are, and what can be chosen of each."""
+"""The list of figures, and the options of each."""
 
 from typing import NamedTuple
 

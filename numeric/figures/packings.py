@@ -1,4 +1,4 @@
-"""Ensembles for figures: planned, solved batch after batch by the engine, and held to theory."""
+"""Ensembles for figures: planned, solved in batches by the engine, and compared with theory."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace

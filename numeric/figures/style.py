@@ -1,4 +1,4 @@
-"""How all figures look (``house.mplstyle``), and how they become files. Needs matplotlib.
+"""The style of all figures (``house.mplstyle``), and their files. Needs matplotlib.
 
 Each colour comes with its own marker or line style, for print in grey. Importing this module raises
 ``MissingLibraryError`` where there is no matplotlib (the extra ``plots``).

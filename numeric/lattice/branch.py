@@ -1,4 +1,4 @@
-"""Along which base vector contacts lead up: two branches, or three axes; what there is of each."""
+"""The base vectors along which contacts lead up: two branches, or three axes."""
 
 from enum import StrEnum
 from typing import NamedTuple

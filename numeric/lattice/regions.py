@@ -1,4 +1,4 @@
-"""What a question depends on: the beads that must be visited, and how many they are.
+"""The beads on which a question depends, and how many there are.
 
 The exact position of a bead depends on the whole triangle below it. A contact force depends on
 every bead that stands above the contact's upper bead x (its upward cone, up to the highest load),

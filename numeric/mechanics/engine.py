@@ -1,4 +1,4 @@
-"""The engine: the one way in which packings are solved, whatever is asked and of how many."""
+"""The engine: it solves every packing, whatever the question and the number of packings."""
 
 from collections.abc import Iterator, Sequence
 from importlib.util import find_spec

@@ -1,4 +1,4 @@
-"""One bead: how it rests on its d supports, what its contacts bear, its gap to another; d = 2, 3.
+"""One bead: its rest on d supports, the forces of its contacts, its gap to another; d = 2, 3.
 
 All sweeps use these functions. They calculate with +, −, ×, / and ``sqrt`` only, and no value
 decides what they do. Vectors are tuples of components. A component is a NumPy array of floats or

@@ -1,4 +1,4 @@
-"""Packings of discs swept bead by bead: what numba compiles of ``local``, and the loops around it.
+"""Packings of discs swept bead by bead: ``local`` compiled by numba, and the loops around it.
 
 Beads lie row after row. Each quantity of a packing is in one flat array, ``pitch`` numbers behind
 the one before it; where numbers carry their errors, these lie so many numbers behind them as the

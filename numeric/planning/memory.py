@@ -1,4 +1,4 @@
-"""The memory that a scene takes, and what is refused as too much."""
+"""The memory that a scene takes, and the limit above which it is refused."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""What a plan is: a problem, the numbers that it is solved in, and what is known before it runs."""
+"""A plan: a problem, the numbers it is solved in, and what is known before it runs."""
 
 from dataclasses import dataclass
 from fractions import Fraction

@@ -1,4 +1,4 @@
-"""Quantities: one class a question, what it needs and how its answer is gathered."""
+"""Quantities: a class for each question, what it needs and how its answer is gathered."""
 
 from collections.abc import Callable
 

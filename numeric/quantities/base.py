@@ -1,4 +1,4 @@
-"""What every question has in common: what it needs, its rows, how they are gathered, its limits.
+"""The base class of questions: what each needs, its rows, how they are gathered, its limits.
 
 A question is a class of its own in a file of its own; ``quantities.quantities_of`` finds it by
 name.

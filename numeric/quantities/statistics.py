@@ -1,4 +1,4 @@
-"""Questions about what is alike in many packings: moments, and how they scatter."""
+"""Statistics over many packings: moments, and their standard errors."""
 
 from abc import abstractmethod
 from collections.abc import Sequence

@@ -1,4 +1,4 @@
-"""What accuracy costs: seconds and error of one packing of a scene, in each arithmetic.
+"""What accuracy costs: the time and error of one packing of a scene in each arithmetic.
 
 Errors are relative to the largest |change| of the answer, and are distances from balls, which
 enclose it. What would take too long is extrapolated from fewer layers.

@@ -1,4 +1,4 @@
-"""Contact forces and positions for radii of one's own, as arrays."""
+"""Contact forces and positions for your own radii, as arrays."""
 
 from __future__ import annotations
 

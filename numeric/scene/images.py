@@ -1,4 +1,4 @@
-"""Radii that were measured in an image: their beads are put on the lattice, which is fitted."""
+"""Radii measured in an image: a lattice is fitted, and beads are assigned to its sites."""
 
 import math
 from dataclasses import dataclass

@@ -1,4 +1,4 @@
-"""A whole scene, what its keys say about each other, and how answers say where they came from."""
+"""A whole scene: checks across its keys, and the source that answers quote."""
 
 import hashlib
 import math

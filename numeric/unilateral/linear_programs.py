@@ -1,4 +1,4 @@
-"""Linear programs in a row, each on the gaps linearised anew, until beads rest.
+"""A sequence of linear programs, each with newly linearised gaps, until beads rest.
 
 Minimise the load's energy over moves u with g + n·Δu ≥ 0 for all near pairs and |u| ≤ Δ a
 coordinate; move; repeat. A gap is never smaller than its linearisation, so that no step overlaps

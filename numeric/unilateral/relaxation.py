@@ -1,4 +1,4 @@
-"""Packings without tension: beads come to rest in float64, and where that is is proved in balls."""
+"""Packings without tension: beads come to rest in float64, and balls prove that they do."""
 
 from collections.abc import Callable
 from time import process_time
