@@ -321,9 +321,17 @@ class Naming(NamedTuple):
         """How many beads a layer has."""
         return None if self.side is None else self.side ** (self.dimension - 1)
 
-    def home(self, i: Any) -> Any:
-        """Give a column i, or an array of them, within 0 … 2W − 1 of a periodic packing."""
-        return i if self.side is None else i % (2 * self.side)
+    @property
+    def vectors(self) -> Array:
+        """How the numbers that name a bead change along each direction, (directions, names)."""
+        flat = [[1, 1], [-1, 1]]
+        return np.array(flat if self.dimension == 2 else [[1, 0, 1], [0, 1, 1], [0, 0, 1]])
+
+    def folded(self, beads: Array) -> Array:
+        """Give beads, columns of their names, within the period."""
+        if self.side is not None:
+            beads[:-1] %= 2 * self.side if self.dimension == 2 else self.side
+        return beads
 
     def site(self, at: Sequence[Any]) -> Site:
         """Give the site in its row of a bead that is named as a scene does."""
@@ -341,11 +349,7 @@ class Naming(NamedTuple):
 
     def beyond(self, bead: Sequence[int], steps: Sequence[int]) -> tuple[int, ...]:
         """Name the bead so many steps along each base vector on, within the period."""
-        *columns, j = bead
-        if self.dimension == 2:
-            return self.home(columns[0] + steps[0] - steps[1]), j + sum(steps)
-        moved = ((at + step) % (self.side or 1) for at, step in zip(columns, steps, strict=False))
-        return *moved, j + sum(steps)
+        return tuple(self.folded(np.array(bead) + np.array(steps) @ self.vectors).tolist())
 
     def contact(self, at: Sequence[Any]) -> Block:
         """Give the contact that a scene names by its lower bead and its branch."""
@@ -360,33 +364,24 @@ class Naming(NamedTuple):
 
         Beads are columns of their names; ``number`` is that of the direction.
         """
-        steps = [[1, 1], [-1, 1]] if self.dimension == 2 else [[1, 0, 1], [0, 1, 1], [0, 0, 1]]
-        beside = lower + np.array(steps)[number].T
-        upper = beside.copy()
-        if self.side is not None:
-            upper[:-1] %= self.side * (2 if self.dimension == 2 else 1)
+        beside = lower + self.vectors[number].T
+        upper = self.folded(beside.copy())
         return upper, (upper != beside).any(axis=0)
 
     def beads(self, rows: Sequence[Layer]) -> dict[str, Array]:
         """Give the columns i and j, or p, q and j, of beads."""
         j = np.repeat([row.j for row in rows] or _NONE, [row.count for row in rows] or _NONE)
         i = np.concatenate([_NONE, *(row.first + 2 * np.arange(row.count) for row in rows)])
-        if self.dimension == 2:
-            return {"i": self.home(i), "j": j}
-        assert self.side is not None
-        return self._named(bead_of((i, j), self.side))
+        names = (i, j) if self.dimension == 2 else bead_of((i, j), self.side or 1)
+        return self._named(self.folded(np.stack(names)))
 
     def contacts(self, blocks: Sequence[Block]) -> dict[str, Array]:
         """Give the columns of the lower beads, and branch, of contacts."""
-        names = np.array([branch.value for branch, _ in blocks], dtype="U1")
-        branch = np.repeat(names, [row.count for _, row in blocks] or _NONE)
-        if self.dimension == 2:
-            lower = [Layer(row.j - 1, row.first - b.side, row.count) for b, row in blocks]
-            return {**self.beads(lower), "branch": branch}
-        assert self.side is not None
-        p, q, j = self.beads([row for _, row in blocks]).values()
-        below = [(p - (branch == "1")) % self.side, (q - (branch == "2")) % self.side]
-        return {**self._named([*below, j - 1]), "branch": branch}
+        counts = [row.count for _, row in blocks] or _NONE
+        number = np.repeat([branch.number for branch, _ in blocks] or _NONE, counts)
+        upper = np.stack([*self.beads([row for _, row in blocks]).values()])
+        lower = self._named(self.folded(upper - self.vectors[number].T))
+        return lower | {"branch": np.array(self.branches)[number]}
 
     def _named(self, numbers: Sequence[Any]) -> dict[str, Array]:
         return dict(zip(bead_names(self.dimension), numbers, strict=True))

@@ -1,23 +1,17 @@
 """Quantities: a class for each question, what it needs and how its answer is gathered."""
 
-from collections.abc import Callable
-
 from ..scene.scene import CheckedScene
 from .base import Quantity
 from .contact import ContactForce
 from .contact_forces import ContactForces
-from .histogram import histogram_of
+from .histogram import Histogram
 from .positions import Positions
 from .profile import Profile
 from .response import Response
 
-QUANTITIES: dict[str, Callable[[CheckedScene], Quantity]] = {
-    "contact": ContactForce,
-    "contact_forces": ContactForces,
-    "positions": Positions,
-    "profile": Profile,
-    "histogram": histogram_of,
-    "response": Response,
+QUANTITIES: dict[str, type[Quantity]] = {
+    kind.name: kind
+    for kind in (ContactForce, ContactForces, Positions, Profile, Histogram, Response)
 }
 
 

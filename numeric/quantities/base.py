@@ -237,8 +237,25 @@ class ContactQuantity(Quantity):
         asked = self.scene.ask.layers
         return None if asked is None else frozenset(asked)
 
+    def force_rows(self, load: LoadSpec) -> Rows:
+        """Give the beads whose force balance decides the one contact's force, or all."""
+        contact = self.scene.contact
+        if contact is None:
+            return super().force_rows(load)
+        if load.loaded is None and self.width is None:
+            # The slab: the contact's own cone is cut out of rows wide enough for it.
+            reach = regions.upward_cone(contact.upper, self.height, None)
+        else:
+            reach = super().force_rows(load)
+        return regions.contact_rows(contact, reach, self.width)
+
     def blocks(self, problem: Problem) -> list[Block]:
-        """Give the contacts that are asked for and that loads reach, in the order of the groups."""
+        """Give the one contact, or those that are asked for and that loads reach.
+
+        They are in the order of the groups, with the layers of their upper beads.
+        """
+        if self.scene.ask.at is not None:
+            return [self.naming.contact(self.scene.ask.at)]
         rows = [row for row in problem.reached if row.j and row.count]
         if self.layers is not None:
             rows = [row for row in rows if row.j - 1 in self.layers]

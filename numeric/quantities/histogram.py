@@ -6,9 +6,7 @@ from ..arithmetic.systems import Array
 from ..lattice.layers import Region
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
-from ..scene.scene import CheckedScene
 from .base import ContactQuantity, Table, contact_forces
-from .contact import SingleContact
 
 DEFAULT_BINS = 20
 
@@ -45,12 +43,3 @@ class Histogram(ContactQuantity):
         """Give F, shape (1, contacts), and g, (1, realisations, contacts)."""
         F, g = contact_forces(solved, self.blocks(problem), realisations)
         return F[None], g[None]
-
-
-class ContactHistogram(SingleContact, Histogram):
-    """Changes of one contact force over many packings."""
-
-
-def histogram_of(scene: CheckedScene) -> Histogram:
-    """Ask about one contact or about all."""
-    return Histogram(scene) if scene.ask.at is None else ContactHistogram(scene)
