@@ -21,6 +21,7 @@ from ..disorder.radii import BeadError
 from ..mechanics import engine
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
+from ..mechanics.work import Work
 from ..planning.plan import Plan
 from ..planning.planner import plan
 from ..quantities.base import ContactQuantity, first_order_std
@@ -86,7 +87,10 @@ class Measurement:
 
     def ordered(self) -> Array:
         """Give the ordered force of each group (of a group whose forces differ, their mean)."""
-        return np.array([float(force) for force in self.quantity.ordered(self.problem)])
+        ordered = replace(self.problem, route=Route.ORDERED)
+        solved = engine.solve(ordered, [0], FLOAT64, Work())
+        F, _ = self.quantity.changes(self.problem, solved, 1)
+        return np.array([float(sum(map(Fraction, group)) / len(group)) for group in F.tolist()])
 
     def theory(self) -> Callable[[int], tuple[Fraction, ...]] | None:
         """Give σ_f of layer j = 0 … M − 1, exact to first order; None where it does not apply."""

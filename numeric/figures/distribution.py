@@ -73,13 +73,8 @@ def figure(o: Options) -> Made:
     for c, panel in enumerate(axes):
         deviates, tested = simulated(o, c)
         kind, M = CASES[c]
-        smirnov, anderson = (
-            f"{name} {in_words(tested[f'p_{key}'])}"
-            for name, key in (
-                ("Kolmogorov–Smirnov", "kolmogorov_smirnov"),
-                ("Anderson–Darling", "anderson_darling"),
-            )
-        )
+        smirnov = f"Kolmogorov–Smirnov {in_words(tested['p_kolmogorov_smirnov'])}"
+        anderson = f"Anderson–Darling {in_words(tested['p_anderson_darling'])}"
         _draw(panel, deviates, c, f"{kind} radii, $M={M}$", f"{smirnov}\n{anderson}")
         rows += [(kind, M, k, value) for k, value in enumerate(deviates.tolist())]
         samples.append(tested)

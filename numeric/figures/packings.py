@@ -119,13 +119,9 @@ def compared(
     **parameters: Any,
 ) -> Made:
     """Give a figure of ensembles beside theory; ``rows`` names the rows of its CSV file."""
-    columns: dict[str, list[Array]] = {
-        "simulated": [c.band.value for c in cases],
-        "band_low": [c.band.limits[0] for c in cases],
-        "band_high": [c.band.limits[1] for c in cases],
-        "exact": [c.theory for c in cases],
-    }
-    table = {**rows, **{key: np.concatenate(parts) for key, parts in columns.items()}}
+    columns = ([c.band.value, *c.band.limits, c.theory] for c in cases)
+    names = ("simulated", "band_low", "band_high", "exact")
+    table = {**rows, **dict(zip(names, np.concatenate([*columns], axis=1), strict=True))}
     verdicts = [
         {"of": c.of, "inside": c.deviation <= 1, "deviation_in_half_widths": c.deviation}
         for c in cases

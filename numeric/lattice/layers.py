@@ -69,11 +69,6 @@ class Layer:
         return range(self.first, self.first + 2 * self.count, 2)
 
 
-def full_layer(j: int, width: int) -> Layer:
-    """Give the whole of layer j of a periodic packing."""
-    return Layer(j, j % 2, width)
-
-
 class Rows(Sequence[Layer]):
     """Rows of neighbouring beads, one a layer from layer ``lowest`` up.
 

@@ -18,12 +18,10 @@ from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import ORDER
 from ..lattice.layers import Block, Naming, Region, Rows, columns_of, standing_on_base, taken, whole
-from ..mechanics.engine import solve
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
-from ..mechanics.work import Work
 from ..scene.scene import CheckedScene
 from ..theory.expected import stds_of_contacts
 
@@ -151,8 +149,7 @@ class Quantity(ABC):
     def beads(self, load: LoadSpec) -> tuple[Rows, Region]:
         """Give the beads whose forces are to be balanced, and those that are to be deposited."""
         if self.by_layers:
-            assert self.width is not None
-            region = whole(self.width, self.top, self.naming.dimension)
+            region = self.layers_up_to(self.top)
             return region.rows if self.needs_forces else Rows(), region
         rows = self.force_rows(load)
         return rows, self.region(rows)
@@ -161,8 +158,12 @@ class Quantity(ABC):
         """Give the beads whose forces are to be balanced."""
         if load.loaded is not None:
             return regions.downward_cone(load.loaded, self.width)
+        return self.layers_up_to(self.height).rows
+
+    def layers_up_to(self, top: int) -> Region:
+        """Give whole layers of a periodic packing."""
         assert self.width is not None
-        return whole(self.width, self.height).rows
+        return whole(self.width, top, self.naming.dimension)
 
     def region(self, force_rows: Rows) -> Region:
         """Give the beads that are to be deposited."""
@@ -261,6 +262,12 @@ class ContactQuantity(Quantity):
             rows = [row for row in rows if row.j - 1 in self.layers]
         return [Block(branch, row) for row in rows for branch in self.branches]
 
+    @property
+    def all_contacts(self) -> list[Block]:
+        """The contacts of a whole periodic packing."""
+        rows = self.layers_up_to(self.height).rows[1:]
+        return [Block(branch, row) for row in rows for branch in self.branches]
+
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Give columns that name the groups, one entry a group."""
         contacts = self.naming.contacts(self.blocks(problem))
@@ -277,12 +284,6 @@ class ContactQuantity(Quantity):
         """
         F, g = contact_forces(solved, self.blocks(problem), realisations)
         return F[:, None], g.T[:, :, None]
-
-    def ordered(self, problem: Problem) -> list[Fraction]:
-        """Give the ordered force of each group (of a group whose forces differ, their mean)."""
-        solved = solve(replace(problem, route=Route.ORDERED), [0], FLOAT64, Work())
-        F, _ = self.changes(problem, solved, 1)
-        return [Fraction(sum(map(Fraction, group))) / len(group) for group in F.tolist()]
 
     def rows(self, problem: Problem, solved: Solved) -> Table:
         """Give the contacts that loads reach."""

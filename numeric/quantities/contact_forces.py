@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import axis_names, bead_names
-from ..lattice.layers import Block, Region, full_layer
+from ..lattice.layers import Region
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
 from ..scene.sections import LARGEST
@@ -40,10 +40,7 @@ class ContactForces(ContactQuantity):
         if isinstance(solved, Relaxed):
             table, low, high, wraps = of_network(solved.network)
         else:
-            blocks = self.blocks(problem)
-            if self.width is not None:
-                rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
-                blocks = [Block(b, row) for row in rows for b in self.branches]
+            blocks = self.blocks(problem) if self.width is None else self.all_contacts
             table = self.listed(blocks, solved)
             low, high, wraps = self._ends(problem, solved, table.index)
         axes, radius = axis_names(problem.dimension), self.scene.packing.radius

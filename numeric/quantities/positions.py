@@ -8,7 +8,7 @@ import numpy as np
 from ..arithmetic.systems import Array, NumberSystem
 from ..lattice import regions
 from ..lattice.branch import axis_names
-from ..lattice.layers import Layer, Region, Rows, columns_of, taken, whole
+from ..lattice.layers import Layer, Region, Rows, columns_of, taken
 from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
@@ -34,8 +34,7 @@ class Positions(Quantity):
         """Give the triangle below the bead, or the whole packing."""
         if self.scene.site is not None:
             return regions.triangle(*self.scene.site, self.width)
-        assert self.width is not None
-        return whole(self.width, self.height)
+        return self.layers_up_to(self.height)
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """One a bead."""

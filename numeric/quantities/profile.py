@@ -7,7 +7,7 @@ import numpy as np
 from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array, NumberSystem
 from ..lattice.branch import Branch
-from ..lattice.layers import Block, Region, full_layer
+from ..lattice.layers import Block, Region
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
 from .base import RATIO, Table, contact_forces, first_order_std
@@ -34,9 +34,7 @@ class Profile(Merged):
 
     def blocks(self, problem: Problem) -> list[Block]:
         """Give whole layers, those that no load reaches included."""
-        assert self.width is not None
-        rows = [full_layer(j, self.width) for j in range(1, self.height + 1)]
-        return [Block(branch, row) for row in rows for branch in self.branches]
+        return self.all_contacts
 
     def labels(self, problem: Problem) -> dict[str, list[Any]]:
         """Name the layers, by the lower beads of their contacts."""
@@ -45,8 +43,7 @@ class Profile(Merged):
 
     def members(self, problem: Problem) -> int:
         """W contacts."""
-        assert self.width is not None
-        return self.width
+        return self.layers_up_to(0).widest
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
         """Give F, shape (2M, W), and g, (2M, realisations, W)."""

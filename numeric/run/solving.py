@@ -424,7 +424,8 @@ def _named_as_here() -> Iterator[None]:
     try:
         yield
     except SceneError as error:
-        name = error.key.removeprefix("packing.").removeprefix("disorder.")
+        section, _, name = error.key.rpartition(".")
+        name = error.key if section == "load" else name
         raise type(error)(name, error.value, error.allowed) from None
 
 
@@ -501,8 +502,6 @@ def solve(
     if load is not None and not isinstance(load, Load):
         allowed = "must be SurfaceLoad(), BulkLoad(), PointLoad(at=(k, l)) or Load(kind=…)"
         raise SceneError("load", load, allowed)
-    if certified and tolerance is None:
-        raise SceneError("certified", True, "needs a tolerance, such as tolerance=1e-30")
     dimension = _dimension_of(given, dimension)
     shape = given.values.shape
     *batch, layers = shape[: 1 - dimension]
@@ -534,8 +533,8 @@ def solve(
     )
     load = SurfaceLoad() if load is None else load
     sections: dict[str, Any] = {"packing": packing, "disorder": given, "load": load}
-    if tolerance is None and (solution := _directly(sections, mean)) is not None:
-        return solution
+    if tolerance is None and not certified and (found := _directly(sections, mean)) is not None:
+        return found
     scene = _scene(sections)
     asked = None if tolerance is None else read_tolerance(tolerance)
     forces = run(plan(scene, asked, certified=certified, text=False))

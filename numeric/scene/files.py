@@ -14,7 +14,7 @@ from ..arithmetic.errors import ForceDiffusionError, quoted
 from ..arithmetic.foreign import ForeignFileError, opened, read_numbers
 from ..arithmetic.systems import Array
 from ..lattice.branch import Site, axis_names, bead_names
-from ..lattice.layers import Naming, full_layer, site_of
+from ..lattice.layers import Naming, site_of, whole
 from .sections import Packing, radii_array
 
 Bead = tuple[int, ...]
@@ -175,7 +175,7 @@ def read_radii(
                 raise TableError(f"{where}: bead {bead} is named twice")
             rho[site] = delta / radius
     if width is not None and len(rho) < width ** (dimension - 1) * (packing.height + 1):
-        rows = (full_layer(j, width ** (dimension - 1)) for j in range(packing.height + 1))
+        rows = whole(width ** (dimension - 1), packing.height).rows
         missing = next((i, row.j) for row in rows for i in row.sites() if (i, row.j) not in rho)
         bead = Naming(dimension, width).bead(missing)
         raise TableError(f"disorder.file: {path.name}: bead {bead} is missing")

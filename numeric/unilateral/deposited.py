@@ -7,7 +7,7 @@ import numpy as np
 
 from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
-from ..lattice.layers import contacts_of, whole
+from ..lattice.layers import Region, contacts_of
 from ..mechanics.engine import solve
 from ..mechanics.physicality import pulling
 from ..mechanics.problem import Problem, Route, axes
@@ -24,15 +24,13 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
     Where some bead can't be deposited, or overlaps another one: a stretched lattice, and None.
     Raises ``UnbuildableError`` for radii that are none, ``UnfinishedError`` for too large ones.
     """
-    width = problem.width
-    assert width is not None
-    rows = whole(width, problem.height).rows
+    rows, width = problem.region.rows, problem.region.widest
     (rho,) = problem.radii.of(rows, [realisation], FLOAT64)
     radii = 1 + rho
     nx, ny = (float(n) for n in axes(problem.n_x, FLOAT64))
     load = as_floats(loads(problem, FLOAT64))
     grains = Grains(np.zeros((len(radii), 2)), radii, 4 * nx * width, load, width)
-    supports = lattice_contacts(width, problem.height)
+    supports = lattice_contacts(problem.region)
     try:
         deposited = replace(problem, route=Route.EXACT, needs_forces=False)
         with np.errstate(all="ignore"):
@@ -106,11 +104,10 @@ def as_deposited(problem: Problem, realisation: int, known: Frame, system: Balls
         raise UnfinishedError("a contact pulls by less than float64 can resolve")
     if np.any(undecided):
         raise UndecidedError("the enclosures are too wide to tell whether a contact pulls")
-    width = len(known.base)
-    pairs, values = lattice_contacts(width, problem.height), (forces.F + forces.g[0]).T.ravel()
+    pairs, values = lattice_contacts(problem.region), (forces.F + forces.g[0]).T.ravel()
     bearing = np.array([not (f.rad() == 0 and f == 0) for f in values], dtype=bool)
     x = _centres(problem, packing, system)
-    free = np.arange(width, len(x))
+    free = np.arange(len(known.base), len(x))
     rattlers = free[~np.isin(free, pairs[bearing])]
     smallest = smallest_gap(x, known, pairs)
     return Network(x, pairs[bearing], values[bearing], rattlers, smallest, known)
@@ -118,31 +115,23 @@ def as_deposited(problem: Problem, realisation: int, known: Frame, system: Balls
 
 def frame(problem: Problem, realisation: int, system: NumberSystem) -> Frame:
     """Give what is exactly known of a packing."""
-    assert problem.width is not None
-    rows = whole(problem.width, problem.height).rows
-    (rho,) = problem.radii.of(rows, [realisation], system)
-    base = system.zeros(problem.width, 2)
-    base[:, 0] = [system.number(4 * problem.n_x * q) for q in range(problem.width)]
-    return Frame(
-        1 + rho,
-        base,
-        system.number(4 * problem.n_x * problem.width),
-        loads(problem, system),
-    )
+    (rho,) = problem.radii.of(problem.region.rows, [realisation], system)
+    base, spacing = system.zeros(problem.region.widest, 2), 4 * problem.n_x
+    base[:, 0] = [system.number(spacing * q) for q in range(len(base))]
+    return Frame(1 + rho, base, system.number(spacing * len(base)), loads(problem, system))
 
 
-def lattice_contacts(width: int, height: int) -> Pairs:
+def lattice_contacts(region: Region) -> Pairs:
     """List the contacts of the lattice: each bead above the base with its two supports."""
-    pairs, number, _ = contacts_of(whole(width, height))
+    pairs, number, _ = contacts_of(region)
     return pairs[np.lexsort((number, pairs[:, 1]))][:, ::-1]
 
 
 def loads(problem: Problem, system: NumberSystem) -> Array:
     """Give the Cartesian loads of all beads, (N, 2)."""
-    assert problem.width is not None
     nx, ny = axes(problem.n_x, system)
-    rows = whole(problem.width, problem.height).rows
-    plus, minus = problem.load.on(rows, problem.load.strength(problem.n_x, system), system)
+    strength = problem.load.strength(problem.n_x, system)
+    plus, minus = problem.load.on(problem.region.rows, strength, system)
     return np.stack([(minus - plus) * nx, -(plus + minus) * ny], axis=1)
 
 
