@@ -28,12 +28,15 @@ TOGETHER, AT_ONCE = 200_000, 8192
 
 
 class BeadError(ForceDiffusionError, ValueError):
-    """A packing can't be built; the message names the bead, as does ``site``, and says why."""
+    """A packing can't be built; the message names the bead, as does ``site``, and says why.
 
-    def __init__(self, site: tuple[int, ...], reason: str) -> None:
+    ``place``: which packing it is, of those that are solved together.
+    """
+
+    def __init__(self, site: tuple[int, ...], reason: str, place: int = 0) -> None:
         """Name the bead and what is wrong."""
         super().__init__(f"bead {site}: {reason}")
-        self.site, self.reason = site, reason
+        self.site, self.reason, self.place = site, reason, place
 
 
 class RadiusError(BeadError):
@@ -80,10 +83,10 @@ class DrawnRadii(NamedTuple):
             at = end
         least = Fraction(float(drawn.min(initial=0)))
         if self.relative_std * least <= -1:
-            bead = int(np.argwhere(drawn == float(least))[0][1])
+            place, bead = np.argwhere(drawn == float(least))[0].tolist()
             i, j = (int(site[bead]) for site in rows.sites)
             shown = short(1 + self.relative_std * least)
-            raise RadiusError((i, j), f"the drawn radius is {shown} r, not positive")
+            raise RadiusError((i, j), f"the drawn radius is {shown} r, not positive", place)
         return system.from_floats(drawn) * system.number(self.relative_std)
 
 

@@ -153,7 +153,7 @@ def swept(
         rho = radii.of(region.rows, realisations, own)
     except RadiusError as error:
         i, j = error.site  # in its row
-        raise RadiusError(region.naming.bead((i, j)), error.reason) from None
+        raise RadiusError(region.naming.bead((i, j)), error.reason, error.place) from None
     packing, forces = deposit(cosine(n_x), region, rho, own, linear=linear), None
     if load is not None:
         F = load.ordered(rows, load.strength(n_x, own), own)
@@ -373,7 +373,7 @@ def _compiled_balance(packing: SolvedPacking, rows: Rows, F: Any) -> Any:
 def _check_radii(rho: Any, layer: Layer, region: Region, system: NumberSystem) -> None:
     _, bad = system.signs(1 + rho)
     if bad.any():
-        raise UnbuildableError(_site(bad, layer, region), "its radius is not a positive number")
+        raise _named(UnbuildableError, bad, layer, region, "its radius is not a positive number")
 
 
 # What is wrong where one of the measures of ``local.rest`` is not positive.
@@ -410,7 +410,7 @@ def _check_rest(
             why, first = STEEP if region.dimension == 2 else STEEP_PLANE, tuple(np.argwhere(bad)[0])
             if not number:
                 why = NESTED if any(system.signs(value)[0][first] for value in close()) else APART
-            raise UnbuildableError(_site(bad, layer, region), why)
+            raise _named(UnbuildableError, bad, layer, region, why)
         open_question |= not good.all()
     if open_question:
         raise UndecidedError(
@@ -426,8 +426,10 @@ def check_standing(det: Any, layer: Layer, region: Region, system: NumberSystem)
         why = "the contacts below it lie in one plane"
         if region.dimension == 2:
             why = "the two contacts below it are parallel"
-        raise NotStandingError(_site(wrong, layer, region), why)
+        raise _named(NotStandingError, wrong, layer, region, why)
 
 
-def _site(bad: Array, layer: Layer, region: Region) -> tuple[int, ...]:
-    return region.bead(layer, int(np.argwhere(bad)[0][-1]))
+def _named(kind: type[BeadError], bad: Array, layer: Layer, region: Region, why: str) -> BeadError:
+    """Make the error that names the first bead of a layer that is ``bad``, (packings, count)."""
+    place, column = np.argwhere(bad)[0].tolist()
+    return kind(region.bead(layer, column), why, place)

@@ -9,7 +9,7 @@ import numpy as np
 from ..arithmetic.carried import NONE, Sizes
 from ..arithmetic.systems import Balls, NumberSystem
 from ..disorder.radii import ArrayRadii, BeadError
-from ..mechanics.engine import chunk_size, packings
+from ..mechanics.engine import packings
 from ..mechanics.physicality import Physicality
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
@@ -103,7 +103,8 @@ def _solved(
             done += len(chunk)
     except BeadError as error:
         if len(realisations) > 1:
-            error.add_note(_which(problem, realisations[done:], system))
+            word = "packing" if isinstance(problem.radii, ArrayRadii) else "realisation"
+            error.add_note(f"{word} {realisations[done + error.place]}")
         raise
 
 
@@ -118,14 +119,3 @@ def in_units(quantity: Quantity, table: Table, system: NumberSystem) -> Table:
         errors = {k: v * unit for k, v in table.errors.items()}
     numbers = {k: v if k == RATIO else v * factor for k, v in table.numbers.items()}
     return Table(table.index, numbers, table.small, errors)
-
-
-def _which(problem: Problem, realisations: Sequence[int], system: NumberSystem) -> str:
-    """Name the first packing that can't be built, of those that were solved together."""
-    word = "packing" if isinstance(problem.radii, ArrayRadii) else "realisation"
-    for k in realisations[: chunk_size(problem, system)]:
-        try:
-            list(packings(problem, [k], system))
-        except BeadError:
-            return f"{word} {k}"
-    return f"of {word}s {realisations[0]} on"

@@ -14,7 +14,7 @@ from ..arithmetic.errors import ForceDiffusionError, quoted
 from ..arithmetic.foreign import ForeignFileError, opened, read_numbers
 from ..arithmetic.systems import Array
 from ..lattice.branch import Site, axis_names, bead_names
-from ..lattice.layers import Naming, site_of, whole
+from ..lattice.layers import Naming, whole
 from .sections import Packing, radii_array
 
 Bead = tuple[int, ...]
@@ -130,19 +130,9 @@ def _on_lattice(where: str, x: Fraction, y: Fraction, packing: Packing) -> Site:
 
 def _site(where: str, bead: Bead, packing: Packing) -> Site:
     """Give the place of a bead (i, j) in its layer, or of (p, q, j) in a row of W²."""
-    *columns, j = bead
-    flat, width = packing.dimension == 2, packing.width
-    if flat and (columns[0] + j) % 2:
-        raise TableError(f"{where}: bead {bead}: i + j must be even")
-    end = (2 if flat else 1) * (width or 0)
-    if not 0 <= j <= packing.height or (
-        width is not None and not 0 <= min(bead) <= max(columns) < end
-    ):
-        *names, _ = bead_names(len(bead))
-        across = "" if width is None else f"0 <= {', '.join(names)} < {end}, "
-        allowed = f"{across}0 <= j <= {packing.height}"
-        raise TableError(f"{where}: bead {bead} lies outside the packing: {allowed}")
-    return (columns[0], j) if flat else site_of(bead, end)
+    if why := packing.misplaced(bead, 0, packing.height):
+        raise TableError(f"{where}: bead {bead}: {why}")
+    return Naming(packing.dimension, packing.width).site(bead)
 
 
 def read_radii(

@@ -152,25 +152,13 @@ def _check_place(
     packing: Packing, key: str, at: Any, *, contact: bool, layers: tuple[int, int]
 ) -> None:
     """Check a bead in these layers, or a contact by its lower bead."""
-    d, (lowest, highest) = packing.dimension, layers
+    d = packing.dimension
     bead, branches = at[:d], "+-" if d == 2 else "123"
     whole = len(at) == d + contact and all(isinstance(number, int) for number in bead)
     if not whole or (contact and at[-1] not in list(branches)):
         raise SceneError(key, at, f"must be {PLACES[d, contact]}")
-    *columns, j = bead
-    if not lowest <= j <= highest:
-        allowed = f"j must be from {lowest} to {highest}"
-        if lowest:
-            allowed = f"j must be from 1, above the base, to {highest}, the surface"
-        raise SceneError(key, at, allowed)
-    if d == 2 and sum(bead) % 2:
-        raise SceneError(key, at, "i + j must be even")
-    names, beads = ("i", 2) if d == 2 else ("p and q", 1)
-    if packing.width is None:
-        if abs(columns[0]) >= 2**60:
-            raise SceneError(key, at, "i must be above -2^60 and below 2^60")
-    elif not all(0 <= number < beads * packing.width for number in columns):
-        raise SceneError(key, at, f"{names} must be from 0 to {beads * packing.width - 1}")
+    if why := packing.misplaced(bead, *layers):
+        raise SceneError(key, at, why)
 
 
 def _check_given(given: GivenRadii, packing: Packing, ask: Ask) -> None:

@@ -7,6 +7,7 @@ that Python prints for it.
 import difflib
 import operator
 import textwrap
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, get_args, get_origin
 
@@ -165,6 +166,22 @@ class Packing(Section):
     def shape(self) -> tuple[int | None, ...]:
         """The shape of an array of its beads: (M + 1, W), or in three dimensions (M + 1, W, W)."""
         return (self.height + 1, *[self.width] * (self.dimension - 1))
+
+    def misplaced(self, bead: Sequence[int], lowest: int, highest: int) -> str:
+        """Say why the packing has no bead of that name in these layers; an empty text if it has."""
+        *columns, j = bead
+        if not lowest <= j <= highest:
+            if lowest:
+                return f"j must be from {lowest}, above the base, to {highest}, the surface"
+            return f"j must be from 0 to {highest}"
+        if self.dimension == 2 and sum(bead) % 2:
+            return "i + j must be even"
+        names, beads = ("i", 2) if self.dimension == 2 else ("p and q", 1)
+        if self.width is None and not abs(columns[0]) < 2**60:
+            return "i must be above -2^60 and below 2^60"
+        if self.width is not None and not all(0 <= n < beads * self.width for n in columns):
+            return f"{names} must be from 0 to {beads * self.width - 1}"
+        return ""
 
 
 class Disorder(Section):

@@ -177,7 +177,7 @@ GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
         ([*GOOD, GOOD[0]], r"bead \(0, 0\) is named twice"),
         ([*GOOD[:3], "3,1,-1.0"], r"bead \(3, 1\).*no positive radius"),
         ([*GOOD[:3], "3,1,1e9999999999"], r"bead \(3, 1\)"),
-        ([*GOOD[:3], "3,2,0"], r"\(3, 2\).*even"),
+        ([*GOOD[:3], "2,1,0"], r"\(2, 1\).*even"),
         ([*GOOD[:3], "3,1"], "2 values where 3"),
         ([*GOOD[:3], "0_3,1,0"], "i = '0_3' must be a whole number"),
         ([*GOOD[:3], '"3,1,0'], "CSV"),
