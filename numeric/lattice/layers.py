@@ -378,7 +378,7 @@ class Naming(NamedTuple):
         lower = self._named(self.folded(upper - self.vectors[number].T))
         return lower | {"branch": np.array(self.branches)[number]}
 
-    def _named(self, numbers: Sequence[Any]) -> dict[str, Array]:
+    def _named(self, numbers: Array) -> dict[str, Array]:
         return dict(zip(bead_names(self.dimension), numbers, strict=True))
 
 
