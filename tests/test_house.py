@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_183,
     "derivations": 7_569,
-    "numeric": 9_224,
+    "numeric": 9_155,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
