@@ -19,14 +19,8 @@ from force_diffusion.numeric.figures import (
 )  # fmt: skip
 from force_diffusion.numeric.figures.catalogue import csv_file
 from force_diffusion.numeric.figures.packings import (
-    N_X,
-    PAPER_STD,
-    PHI,
-    Comparison,
-    Made,
-    Medium,
-    Options,
-)
+    N_X, PAPER_STD, PHI, Comparison, Made, Medium, Options,
+)  # fmt: skip
 from matplotlib.axes import Axes
 
 import force_diffusion as fd
@@ -130,14 +124,12 @@ def test_figure_4_does_not_depend_on_the_horizontal_position():
 
 
 def test_theory_of_figure_4_is_eq_16():
-    (table, _), at = (
-        point_load.simulated(Options(realisations=16)),
-        {"phi": PHI, "sigma": 1, "r": 1},
-    )
+    table, _ = point_load.simulated(Options(realisations=16))
+    at = {"k": 0, "l": point_load.APEX, "phi": PHI, "sigma": 1, "r": 1}
     for name, of in (("variance_exact", "bead"), ("variance_upper_plus_contact", "contact")):
         form = fd.equation(16).exact(of)
-        exact = [form.at(i=i, j=j, k=0, l=point_load.APEX, **at) for i, j in point_load.SITES]
-        assert table[name] == pytest.approx(np.array(exact, float), rel=1e-12, abs=1e-28)
+        exact = [float(form.at(i=i, j=j, **at)) for i, j in point_load.SITES]
+        assert table[name] == pytest.approx(exact, rel=1e-12, abs=1e-28)
 
 
 def test_theory_of_figure_b7_is_eqs_b7_and_b8():
