@@ -74,8 +74,8 @@ class Derived:
 def derive(
     numbers: Iterable[Number] | None = None,
     *,
-    notice: Callable[[str], None] | None = None,
-    finished: Callable[[ProofOutcome], None] | None = None,
+    notice: Callable[[str], None] = lambda _: None,
+    finished: Callable[[ProofOutcome], None] = lambda _: None,
 ) -> Derived:
     """Prove equations and all that they rest on.
 
@@ -101,10 +101,8 @@ def derive(
         single = getattr(numbers, "number", numbers)
         raise WrongTypeError(f"derive takes a list: derive([{quoted(single)}])")
     outcomes = []
-    tell = notice or (lambda _: None)
     wanted = [equation(number).number for number in (modules() if numbers is None else numbers)]
-    for outcome in run_all(wanted, lambda statement: tell(f"Eq. {statement.number}")):
+    for outcome in run_all(wanted, lambda statement: notice(f"Eq. {statement.number}")):
         outcomes.append(outcome)
-        if finished:
-            finished(outcome)
+        finished(outcome)
     return Derived(tuple(outcomes))

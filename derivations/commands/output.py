@@ -102,7 +102,6 @@ class Output:
         Raises ``OSError`` that names the file which can't be written, and ``OutputError`` where the
         folder can't be renamed any more; it says where the files are.
         """
-        missing = [parent for parent in self.path.parents if not parent.exists()]
         new = self._new()
         try:
             new.mkdir(parents=True)
@@ -110,36 +109,25 @@ class Output:
                 _write(new / name, content, self.path / name)
         except BaseException:
             shutil.rmtree(new, ignore_errors=True)
-            for parent in missing:
-                with suppress(OSError):  # not empty
-                    parent.rmdir()
             raise
+        there = self.overwrite and self.path.is_dir()
         try:
             self._check()
-            replaced = self._rename(new)
+            if there:
+                os.rename(self.path, self._old)
+            os.rename(new, self.path)
         except (OutputError, OSError) as failure:
+            if there and not self.path.exists():
+                os.rename(self._old, self.path)
             why = failure if isinstance(failure, OutputError) else f"{failure.strerror}."
             raise OutputError(f"{why} The results are in '{new}'.") from None
-        if replaced:
+        if there:
             with suppress(OSError):
                 for name in self.names:
                     (self._old / name).unlink(missing_ok=True)
                 self._old.rmdir()
             if self._old.is_dir():  # as where something came into it meanwhile
                 tell(f"'{self._old}' can't be deleted. It has the old content of '{self.path}'.")
-
-    def _rename(self, new: Path) -> bool:
-        """Take the place of the folder; say whether one was there."""
-        there = self.overwrite and self.path.is_dir()
-        if there:
-            os.rename(self.path, self._old)
-        try:
-            os.rename(new, self.path)
-        except OSError:
-            if there:
-                os.rename(self._old, self.path)
-            raise
-        return there
 
 
 def _write(path: Path, content: str | bytes, named: Path) -> None:

@@ -6,7 +6,7 @@ off that theorem.
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partialmethod
 from typing import Any
 
 import sympy
@@ -218,16 +218,8 @@ class Steps(list[Step]):
         (self.claims if is_claim else self).append(step)
         return step
 
-    def claim(
-        self,
-        name: str,
-        formula: sympy.Basic,
-        rule: Rule | Sequence[Rule],
-        domain: Domain | Sequence[Domain] | None = None,
-        definitions: Definitions | Sequence[Definitions] = (),
-    ) -> Step:
-        """Prove a further statement; it is not one of the steps."""
-        return self.show(name, formula, rule, domain, definitions, is_claim=True)
+    claim = partialmethod(show, is_claim=True)
+    """Prove a further statement, which is not one of the steps."""
 
     def refute(
         self,
