@@ -10,7 +10,7 @@ from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from force_diffusion.numeric.arithmetic.errors import WrongTypeError, checked, quoted
+from force_diffusion.numeric.arithmetic.errors import checked
 
 from ..coq.files import CoqStatement, theory, theory_hash
 from ..coq.folder import ALLOWED, CoqFolder, Notice, axioms_in
@@ -18,7 +18,7 @@ from ..coq.record import Certificate, Certification
 from ..coq.statements import statements
 from ..framework.catalogue import Number, paper
 from ..framework.record import Derivation, load
-from .equation import NoSuchFormError, equation
+from .equation import NoSuchFormError, numbers_of
 
 
 def coq_statements(numbers: Iterable[Number] | None = None) -> dict[Number, list[CoqStatement]]:
@@ -27,7 +27,7 @@ def coq_statements(numbers: Iterable[Number] | None = None) -> dict[Number, list
     Raises:
         NoSuchFormError: there is no equation of that number in the paper.
     """
-    wanted = paper() if numbers is None else [equation(number).number for number in numbers]
+    wanted = numbers_of(paper() if numbers is None else numbers, "certify")
     for number in wanted:
         if number not in paper():
             raise NoSuchFormError(
@@ -61,8 +61,6 @@ def certify(
         NoSuchFormError: the paper has no equation of that number.
         WrongTypeError: ``numbers`` is a single number.
     """
-    if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
-        raise WrongTypeError(f"certify takes a list of numbers: certify([{quoted(numbers)}])")
     asked = coq_statements(numbers)
     with TemporaryDirectory() as folder:
         coq = CoqFolder(Path(folder))

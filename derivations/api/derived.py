@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from force_diffusion.numeric.arithmetic.errors import WrongTypeError, checked, quoted
+from force_diffusion.numeric.arithmetic.errors import checked
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from ..export import terminal
@@ -12,7 +12,7 @@ from ..export.document import DOCUMENT, document, fragment_name, statement_latex
 from ..framework.catalogue import Number, modules
 from ..framework.record import ProofOutcome
 from ..framework.runner import run_all
-from .equation import equation
+from .equation import numbers_of
 
 
 @dataclass(frozen=True)
@@ -97,11 +97,8 @@ def derive(
         NoSuchFormError: there is no equation of that number.
         WrongTypeError: ``numbers`` is a single number.
     """
-    if isinstance(numbers, str) or not (numbers is None or isinstance(numbers, Iterable)):
-        single = getattr(numbers, "number", numbers)
-        raise WrongTypeError(f"derive takes a list: derive([{quoted(single)}])")
+    wanted = numbers_of(modules() if numbers is None else numbers, "derive")
     outcomes = []
-    wanted = [equation(number).number for number in (modules() if numbers is None else numbers)]
     for outcome in run_all(wanted, lambda statement: notice(f"Eq. {statement.number}")):
         outcomes.append(outcome)
         finished(outcome)

@@ -483,6 +483,19 @@ def _names(expressions: Iterable[sympy.Basic]) -> dict[str, Any]:
     return names
 
 
+def numbers_of(given: object, call: str) -> list[EquationNumber]:
+    """The numbers of the equations in a list that a call was given.
+
+    Raises:
+        WrongTypeError: it is a single number.
+        NoSuchFormError: there is no equation of that number.
+    """
+    if isinstance(given, str) or not isinstance(given, Iterable):
+        single = quoted(getattr(given, "number", given))
+        raise WrongTypeError(f"{call} takes a list of numbers: {call}([{single}])")
+    return [equation(number).number for number in given]
+
+
 @cache
 def _equation(number: EquationNumber) -> Equation:
     return Equation(load(number))

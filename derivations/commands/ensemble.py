@@ -18,11 +18,11 @@ from force_diffusion.numeric.scene.combinations import answered
 
 import force_diffusion as fd
 
-from ..export.answers import files_of, names_of
+from ..export.answers import check, files_of, names_of
 from .guard import about, in_range, say, tell
 from .output import Output, Overwrite, out_option
 from .scenes import scene_argument
-from .shared import STATUSES, Json, Quiet, Written, checked, show, sourced, warn  # noqa: F401
+from .shared import STATUSES, Json, Quiet, Written, show, sourced, warn  # noqa: F401
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.result import Ensemble
@@ -79,7 +79,7 @@ def ensemble(
         raise ForceDiffusionError("--scheduler and --workers exclude each other: leave one out")
     with about(scene.name):
         read = fd.read_scene(scene)
-    checked(written, out)
+    check(written, out)
     folder = Output(out, names_of(answered("ensemble")), overwrite) if out else None
     with about(scene.name):
         result = _solved(

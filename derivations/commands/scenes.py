@@ -11,12 +11,12 @@ from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 
 import force_diffusion as fd
 
-from ..export.answers import Format, files_of, names_of
+from ..export.answers import Format, check, files_of, names_of
 from .cli import command_line
 from .guard import about as named
 from .guard import in_range, say, tell
 from .output import Output, Overwrite, out_option
-from .shared import STATUSES, Json, Quiet, Written, checked, drawn, images, show, sourced, warn  # noqa: F401
+from .shared import STATUSES, Json, Quiet, Written, drawn, images, show, sourced, warn  # noqa: F401
 from .sweep import Settings, name_of, variants
 
 if TYPE_CHECKING:
@@ -87,7 +87,7 @@ def run(
     overwrite: Overwrite = False,
 ) -> None:
     """Solve the packing of a scene and answer its question."""
-    checked(written, out)
+    check(written, out)
     asked = variants(settings)
     # all scenes and folders are checked first
     plans = [_planned(scene, tolerance, certified, changes) for changes in asked]

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, MissingLibraryError
+from force_diffusion.numeric.arithmetic.errors import MissingLibraryError
 from force_diffusion.numeric.figures.names import KINDS
 from force_diffusion.numeric.tables import Answered, csv_bytes
 
@@ -36,13 +36,6 @@ Written = Annotated[
     Format,
     typer.Option("--format", help="Format of the rows; npz and parquet are for many rows."),
 ]
-
-
-def checked(written: Format, out: Path | None) -> None:
-    """Refuse a format that can't be written, before anything is solved."""
-    if written != "csv" and out is None:
-        raise ForceDiffusionError(f"--format {written} writes files: give --out DIR, too")
-    answers.check(written)
 
 
 def warn(scene: Path, plan: "Plan") -> None:

@@ -9,6 +9,7 @@ schema under ``force-diffusion``.
 import io
 import json
 from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any, Literal, get_args
 
 import numpy as np
@@ -20,8 +21,10 @@ Format = Literal["csv", "npz", "parquet"]
 """How the rows of an answer are written."""
 
 
-def check(written: Format) -> None:
-    """Raise ``ForceDiffusionError`` where a library is missing, before anything is solved."""
+def check(written: Format, folder: Path | None) -> None:
+    """Refuse a format that can't be written, before anything is solved."""
+    if written != "csv" and folder is None:
+        raise ForceDiffusionError(f"--format {written} writes files: give --out DIR, too")
     if written == "parquet":
         try:
             import pyarrow  # noqa: F401
