@@ -32,7 +32,7 @@ def test_a_number_that_is_no_equation(number):
 
 def test_the_error_for_one_number_in_place_of_a_list_shows_the_call():
     for given in (13, fd.equation(13)):
-        with pytest.raises(TypeError, match=r"^derive takes a list of numbers: .*derive\(\[13\]\)$"):
+        with pytest.raises(TypeError, match=r"^derive takes a list of numbers: derive\(\[13\]\)$"):
             fd.derive(given)  # type: ignore[arg-type]
     with pytest.raises(TypeError, match=r"fd\.equation\(13\) gives one"):
         fd.Equation(13)  # type: ignore[arg-type]
