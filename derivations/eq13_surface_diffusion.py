@@ -4,11 +4,10 @@
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
-from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height,
-    certificate, differentiate, drop_terms, equation, minus, moment, power, rewrite, terms, times,
-    usual)
+    certificate, differentiate, drop_terms, equation, layers, minus, moment, power, rewrite, terms,
+    times, usual)
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
 # fmt: on
 

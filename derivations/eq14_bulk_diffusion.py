@@ -4,15 +4,13 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations import eq12_delta_weights as eq12
+from force_diffusion.derivations import (
+    eq05_contact_minus as eq05, eq11_total_force as eq11, eq12_delta_weights as eq12)
 from force_diffusion.derivations.eq13_surface_diffusion import KEPT_VARIANCE
-from force_diffusion.derivations.framework import layers
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic,
-    at_fixed_height, axioms, certificate, differentiate, drop_terms, equation, minus, mirror,
-    moment, negligible, power, rewrite, shown, terms, times, usual)
+    at_fixed_height, axioms, certificate, differentiate, drop_terms, equation, layers, minus,
+    mirror, moment, negligible, power, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
 # fmt: on

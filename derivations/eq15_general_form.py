@@ -2,14 +2,12 @@
 
 # fmt: off
 import sympy
-from force_diffusion.derivations import eq03_extrapolation as eq03
-from force_diffusion.derivations import eq13_surface_diffusion as eq13
-from force_diffusion.derivations import eq14_bulk_diffusion as eq14
-from force_diffusion.derivations import eq11_total_force as eq11
-from force_diffusion.derivations.framework import layers
+from force_diffusion.derivations import (
+    eq03_extrapolation as eq03, eq11_total_force as eq11, eq13_surface_diffusion as eq13,
+    eq14_bulk_diffusion as eq14)
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, asymptotic, axioms, equation,
-    moment, power, power_law, rewrite, tensile, terms, times, usual)
+    layers, moment, power, power_law, rewrite, tensile, terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, H_M, M, Mean, Tensile, UnitHeight, Variance, i, j, m, n_minus, n_plus, phi, r,

@@ -3,21 +3,17 @@
 # fmt: off
 from functools import cache
 
-import sympy
-from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations import eq07_load_split as eq07
-from force_diffusion.derivations import eq09_straight_path as eq09
-from force_diffusion.derivations import eq10_branched_path as eq10
-from force_diffusion.derivations.framework.layers import UNIT
+from force_diffusion.derivations import (
+    eq05_contact_minus as eq05, eq07_load_split as eq07, eq09_straight_path as eq09,
+    eq10_branched_path as eq10)
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Limit, Steps, Symbol, Theorem, asymptotic,
-    axioms, equation, leading_order_of, minus, mirror, moment, power, rewrite, same, shown, terms,
-    times, usual)
+    axioms, equation, layers, leading_order_of, minus, mirror, moment, power, rewrite, same, shown,
+    terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
-    VerticalPlus, e_y, f_load, i, j, k, l, n, n_minus, n_plus, n_y, phi, q, r,
-    sigma)
-from sympy import Eq, Rational
+    VerticalPlus, e_y, f_load, i, j, k, l, n, n_minus, n_plus, n_y, phi, q, r, sigma)
+from sympy import Eq, Rational, S, Tuple
 # fmt: on
 
 RESPONSE, ONE_CONTACT = (
@@ -71,19 +67,21 @@ LEG_TILTS = terms(Dot(n_minus, DeltaNPlus(i, j)), minus(Dot(n_plus, DeltaNMinus(
 FAMILY = (
     (equation(ForcePlus(i, j), times(ORDERED, LEG_CONTACT)), ALL_BELOW.also(Eq(k - i, l - j))),
     (equation(ForcePlus(i, j), times(ORDERED, UPPER_RIGHT)), INSIDE),
-    (equation(ForcePlus(i, j), sympy.S.Zero), ALL_BELOW.also(k - i >= l - j + 1)),
-    (equation(ForcePlus(i, j), sympy.S.Zero), ALL_BELOW.also(i - k >= l - j)),
+    (equation(ForcePlus(i, j), S.Zero), ALL_BELOW.also(k - i >= l - j + 1)),
+    (equation(ForcePlus(i, j), S.Zero), ALL_BELOW.also(i - k >= l - j)),
 )
 """All forces along n⁺ below the load: on the left leg, inside the cone, and none beside it."""
 
 EXACT = {
-    RESPONSE: times(terms(6 * (l + j), -6, phi**2), UNIT / 4),
-    ONE_CONTACT: times(terms(3 * (l + j + k - i), -3, phi**2 / 2), UNIT / 4),
+    RESPONSE: times(terms(6 * (l + j), -6, phi**2), layers.UNIT / 4),
+    ONE_CONTACT: times(terms(3 * (l + j + k - i), -3, phi**2 / 2), layers.UNIT / 4),
 }
 """The usual formulas, away from base, load and legs."""
 ON_LEG = {
-    ONE_CONTACT: times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), UNIT / 4),
-    MAGNITUDE: times(terms(2 * (l - 1), 2 * phi**2 * j, Rational(5, 2) * phi**2, phi**4 / 2), UNIT),
+    ONE_CONTACT: times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), layers.UNIT / 4),
+    MAGNITUDE: times(
+        terms(2 * (l - 1), 2 * phi**2 * j, Rational(5, 2) * phi**2, phi**4 / 2), layers.UNIT
+    ),
 }
 """Those of the contacts on the left leg."""
 DEEP = INSIDE.also(j >= 3, n + q >= 3)
@@ -115,7 +113,7 @@ def show_steps(steps: Steps) -> None:
         "Eq. 9); inside the cone the force that branches off the right leg (as in Eq. 10), which "
         "is of first order; and zero on the right leg and outside the cone. The forces along n⁻ "
         "are their mirror image.",
-        sympy.Tuple(*(statement for statement, _ in FAMILY)),
+        Tuple(*(statement for statement, _ in FAMILY)),
         [same(theorem) for theorem in forces()[: len(FAMILY)]],
         [domain for _, domain in FAMILY],
     )
@@ -174,7 +172,7 @@ def claims(steps: Steps) -> None:
     steps.claim(
         "to leading order the variance at one contact is 3s/2 in units of (σ/r)²/(1−φ²)², where "
         "s = ½(l+j+k−i) is the layer in which its path branches",
-        equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), UNIT)),
+        equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), layers.UNIT)),
         leading,
         CONE,
     )
@@ -186,17 +184,17 @@ def claims(steps: Steps) -> None:
         CONE,
     )
     both = Covariance(VerticalPlus(i, j) / f_load, VerticalMinus(i, j) / f_load)
-    straight = times(Rational(1, 4), (1 + phi) ** 2, UNIT / 4)
+    straight = times(Rational(1, 4), (1 + phi) ** 2, layers.UNIT / 4)
     steps.claim(
         "the vertical forces of a bead's two contacts have no covariance for j ≥ 3, except for the "
         "bead straight below the load",
-        sympy.Tuple(equation(both, 0), equation(both, straight)),
+        Tuple(equation(both, 0), equation(both, straight)),
         by,
         [DEEP, INSIDE.also(j >= 3, Eq(n, 1), Eq(q, 1))],
     )
     steps.claim(
         "inside the cone a bead passes forces on: they do not change along a diagonal",
-        sympy.Tuple(
+        Tuple(
             equation(ForcePlus(i - 1, j - 1), ForcePlus(i, j)),
             equation(ForceMinus(i + 1, j - 1), ForceMinus(i, j)),
         ),
@@ -205,7 +203,7 @@ def claims(steps: Steps) -> None:
     )
     steps.claim(
         "the mean is that of the ordered packing",
-        sympy.Tuple(
+        Tuple(
             equation(Mean(PRESSED), 0), equation(Mean(VerticalPlus(i, j) / f_load), Rational(1, 2))
         ),
         by,

@@ -19,6 +19,7 @@ from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
 
+from . import layers
 from .closed_form import ClosedForm
 from .proof import Step, Steps, shown
 from .record import FIRST_ORDER, Derivation, usual
