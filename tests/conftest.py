@@ -112,8 +112,8 @@ def call(capsys: pytest.CaptureFixture[str]) -> Call:
 
     def called(*words: object) -> tuple[int, str, str]:
         status = main([str(word) for word in words])
-        shown = capsys.readouterr()
-        return status, shown.out, shown.err
+        streams = capsys.readouterr()
+        return status, streams.out, streams.err
 
     return called
 

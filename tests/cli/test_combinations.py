@@ -136,12 +136,12 @@ def test_a_cell_is_answered_or_refused_as_the_table_says(
     monkeypatch.setattr(cost, "SHORT", 0)  # each way is timed once
     Path("scene.toml").write_text(scene(quantity, kind, load, setting))
     tables(tmp_path, kind)
-    status, shown, err = call(command, "scene.toml", *options(command, quantity))
+    status, stdout, stderr = call(command, "scene.toml", *options(command, quantity))
     if refused := why_not(command, quantity, kind, load, setting):
-        assert (status, refused in err) == (2, True), err
+        assert (status, refused in stderr) == (2, True), stderr
     else:
-        assert status == 0, err
-        assert json.loads(shown)
+        assert status == 0, stderr
+        assert json.loads(stdout)
         assert len(list(Path("out").iterdir())) >= 2
 
 
@@ -173,8 +173,8 @@ def test_an_ensemble_of_anything_is_asked_until(quantity, tmp_path, call):
     path = tmp_path / "scene.toml"
     path.write_text(scene(quantity, "discs"))
     words = [*options("ensemble", quantity), "--realisations", 40, "--until", 0.9]
-    status, _, err = call("ensemble", path, *words, "--out", tmp_path / "out")
-    assert status == 0 or (status, "is known to" in err) == (3, True)
+    status, _, stderr = call("ensemble", path, *words, "--out", tmp_path / "out")
+    assert status == 0 or (status, "is known to" in stderr) == (3, True)
 
 
 @pytest.mark.long(sample=2)
@@ -184,5 +184,5 @@ def test_an_ensemble_of_anything_is_asked_until(quantity, tmp_path, call):
 def test_a_figure_of_changes_that_are_alike(std, bins, tmp_path, call):
     path = tmp_path / "scene.toml"
     path.write_text(scene("histogram", "discs").replace("0.02", std) + f"bins = {bins}\n")
-    status, _, err = call("figures", path, "--out", tmp_path / "out")
-    assert status == 0 or (status == 2 and err.startswith("force-diffusion: scene.toml: "))
+    status, _, stderr = call("figures", path, "--out", tmp_path / "out")
+    assert status == 0 or (status == 2 and stderr.startswith("force-diffusion: scene.toml: "))

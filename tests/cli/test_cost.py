@@ -34,9 +34,9 @@ def written(folder: Path, text: str = SCENE) -> Path:
 
 def test_json_and_files(tmp_path, call):
     out, scene = tmp_path / "out", written(tmp_path)
-    status, printed, err = call("cost", scene, "--out", out, "--json")
-    assert (status, err) == (0, "")
-    data = json.loads(printed)
+    status, stdout, stderr = call("cost", scene, "--out", out, "--json")
+    assert (status, stderr) == (0, "")
+    data = json.loads(stdout)
     assert data["rows"]
     assert json.loads((out / "cost.json").read_text()) == data
     assert data["command"].startswith("force-diffusion cost ")
@@ -55,26 +55,26 @@ def test_json_and_files(tmp_path, call):
 
 
 def test_the_table(tmp_path, call):
-    status, out, err = call("cost", written(tmp_path))
-    assert (status, err) == (0, "")
-    lines = out.splitlines()
+    status, stdout, stderr = call("cost", written(tmp_path))
+    assert (status, stderr) == (0, "")
+    lines = stdout.splitlines()
     assert lines[0].split() == ["way", "digits", "error", "seconds", "relative", "cost"]
     assert [line.split()[:2] for line in lines[1:]] == [
         ["float64", "16"], ["balls", "15"], ["balls", "30"], ["balls", "100"], ["mpmath", "30"]
     ]  # fmt: skip
     assert max(map(len, lines)) <= 80
     higher = SCENE.replace("height = 3", "height = 40\nallow_images = true")
-    status, out, _ = call("cost", written(tmp_path, higher), "--seconds", "1e-6")
+    status, stdout, _ = call("cost", written(tmp_path, higher), "--seconds", "1e-6")
     assert status == 0
-    assert out.count("estimated") == 10
+    assert stdout.count("estimated") == 10
 
 
 @pytest.mark.usefixtures("without_matplotlib")
 def test_without_matplotlib_only_the_plot_is_missing(tmp_path, call):
     out = tmp_path / "out"
-    status, printed, err = call("cost", written(tmp_path), "--out", out, "--json")
+    status, stdout, stderr = call("cost", written(tmp_path), "--out", out, "--json")
     assert status == 0
-    assert json.loads(printed)["rows"]
-    assert "force-diffusion[plots]" in err
+    assert json.loads(stdout)["rows"]
+    assert "force-diffusion[plots]" in stderr
     names = sorted(path.name for path in out.iterdir())
     assert names == ["cost.csv", "cost.json"]

@@ -28,8 +28,8 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
 
 
 def test_premises_are_proved_first(made_up, call):
-    status, shown, _ = call("derive", 2, 1)
-    *lines, last = shown.splitlines()
+    status, stdout, _ = call("derive", 2, 1)
+    *lines, last = stdout.splitlines()
     assert [line.split()[:2] for line in lines] == [["1", "proved"], ["2", "proved"]]
     assert all(re.search(r" \(\d+\.\d\d s\)$", line) for line in lines)
     assert (status, last) == (0, "2 proved.")
@@ -37,8 +37,8 @@ def test_premises_are_proved_first(made_up, call):
 
 def test_of_a_single_equation_all_steps_and_claims_are_printed(made_up, call):
     made_up[2] = fakes.with_claim(fakes.guessed)
-    status, shown, _ = call("derive", 2)
-    premise, blank, *lines = shown.splitlines()
+    status, stdout, _ = call("derive", 2)
+    premise, blank, *lines = stdout.splitlines()
     assert premise.startswith("  1  proved     A premise")
     assert (status, blank, lines[0]) == (0, "", "Eq. 2: B")
     steps, claims = lines.index("Steps"), lines.index("Claims")
@@ -52,17 +52,17 @@ def test_of_a_single_equation_all_steps_and_claims_are_printed(made_up, call):
 
 def test_status_1_says_what_is_wrong(made_up, call):
     made_up[2] = fakes.with_claim(fakes.baffled)
-    status, shown, _ = call("derive", 1, 2)
+    status, stdout, _ = call("derive", 1, 2)
     assert status == 1
-    assert "the claim 'doubtful': nobody knows" in " ".join(shown.split())
-    assert "1 proved; 1 undecided." in shown
+    assert "the claim 'doubtful': nobody knows" in " ".join(stdout.split())
+    assert "1 proved; 1 undecided." in stdout
 
 
 def test_json_follows_its_schema(made_up, tmp_path, call):
     made_up[2] = fakes.with_claim(fakes.baffled)
-    status, shown, err = call("derive", 2, 1, 1, "--json", "--out", tmp_path / "out")
-    assert (status, err) == (1, "")
-    content = json.loads(shown)
+    status, stdout, stderr = call("derive", 2, 1, 1, "--json", "--out", tmp_path / "out")
+    assert (status, stderr) == (1, "")
+    content = json.loads(stdout)
     assert list(content) == ["equations"]
     assert [entry["number"] for entry in content["equations"]] == [2, 1]  # it has no premises
     manifest = json.loads((tmp_path / "out" / "manifest.json").read_text())
@@ -116,9 +116,9 @@ def test_the_article_says_what_was_derived(made_up, drawn, tmp_path, monkeypatch
     out, paper = tmp_path / "out", tmp_path / "paper"
     monkeypatch.setattr("force_diffusion.derivations.export.supplement.modules", lambda: ["B2"])
     command = ["derive", 2, "--out", out, "--article", paper]
-    status, shown, _ = call(*command)
+    status, stdout, _ = call(*command)
     assert status == 0
-    assert f"2 proved. Written to {out} and {paper}." in shown
+    assert f"2 proved. Written to {out} and {paper}." in stdout
     first = {path.name: path.read_bytes() for path in paper.iterdir()}
     assert {"article.tex", "supplement.tex", "figureB2.pdf"} < set(first)
     assert "x.csv" not in first
@@ -132,13 +132,13 @@ def test_the_article_says_what_was_derived(made_up, drawn, tmp_path, monkeypatch
 def test_an_article_that_can_not_be_written_costs_no_proof(made_up, drawn, tmp_path, call):
     """That a folder is there already is refused by every command: ``test_output``."""
     out = tmp_path / "out"
-    status, shown, err = call("derive", 2, "--article", out, "--out", out)
-    assert (status, shown, "is also the folder of --out" in err) == (2, "", True)
+    status, stdout, stderr = call("derive", 2, "--article", out, "--out", out)
+    assert (status, stdout, "is also the folder of --out" in stderr) == (2, "", True)
 
 
 def test_an_article_without_what_draws_costs_no_proof(made_up, without_matplotlib, tmp_path, call):
-    status, shown, err = call("derive", 2, "--article", tmp_path / "new")
-    assert (status, shown, "force-diffusion[plots]" in err) == (3, "", True)
+    status, stdout, stderr = call("derive", 2, "--article", tmp_path / "new")
+    assert (status, stdout, "force-diffusion[plots]" in stderr) == (3, "", True)
     assert not (tmp_path / "new").exists()
 
 
@@ -152,10 +152,10 @@ def test_a_disk_that_fails(made_up, tmp_path, monkeypatch, call, number, says):
         raise OSError(number, os.strerror(number), str(out / "eq01.tex"))
 
     monkeypatch.setattr(Output, "write", failing)
-    status, _, err = call("derive", 1, "--out", out)
+    status, _, stderr = call("derive", 1, "--out", out)
     assert status == 3
     for words in ("eq01.tex", os.strerror(number), says):
-        assert words in err
+        assert words in stderr
     assert not out.exists()
 
 

@@ -36,21 +36,21 @@ def small(tmp_path: Path) -> Path:
 def test_an_ensemble_is_stored_and_written_out(small, tmp_path, call):
     store, out = tmp_path / "ensemble.fd", tmp_path / "out"
     arguments = [small, "--store", store, "--out", out, "--json"]
-    status, shown, err = call("ensemble", *arguments)
-    assert (status, err) == (0, "")
-    data = json.loads(shown)
+    status, stdout, stderr = call("ensemble", *arguments)
+    assert (status, stderr) == (0, "")
+    data = json.loads(stdout)
     assert data["ensemble"]["realisations"] == 40
     assert len(data["results"]["profile"]) == 6
-    assert (out / "result.json").read_text() == shown
+    assert (out / "result.json").read_text() == stdout
     lines = (out / "profile.csv").read_text().splitlines()
     assert lines[0].startswith("j,branch,samples,mean,mean_change,mean_change_error,std,std_error,")
     first = (out / "result.json").read_bytes()
     assert call("ensemble", *arguments, "--overwrite")[0] == 0  # again, from the file alone
     assert (out / "result.json").read_bytes() == first
-    status, shown, _ = call("ensemble-status", store)
+    status, stdout, _ = call("ensemble-status", store)
     assert status == 0
-    assert ("sound, 40 realisations" in shown, "[]" in shown) == (True, False)
-    assert f"version: force-diffusion = {version('force-diffusion')}\n" in shown
+    assert ("sound, 40 realisations" in stdout, "[]" in stdout) == (True, False)
+    assert f"version: force-diffusion = {version('force-diffusion')}\n" in stdout
     contents = json.loads(call("ensemble-status", store, "--json")[1])
     assert contents["ranges"] == [[0, 40]]
     assert contents["ensemble"]["disorder"]["seed"] == 1
@@ -59,11 +59,11 @@ def test_an_ensemble_is_stored_and_written_out(small, tmp_path, call):
 def test_realisations_are_added_and_a_rule_stops_early(small, tmp_path, call):
     store = tmp_path / "ensemble.fd"
     assert call("ensemble", small, "--store", store)[0] == 0
-    status, shown, _ = call(
+    status, stdout, _ = call(
         "ensemble", small, "--store", store, "--realisations", 5000, "--until", "0.15", "--json"
     )
     assert status == 0
-    data = json.loads(shown)
+    data = json.loads(stdout)
     assert 40 < data["ensemble"]["realisations"] < 5000
     assert data["confidence"]["reached"] is True
     assert data["confidence"]["largest_relative_half_width"] <= 0.15
@@ -71,8 +71,8 @@ def test_realisations_are_added_and_a_rule_stops_early(small, tmp_path, call):
         call("ensemble", small, "--realisations", 5000, "--until", "0.15", "--json")[1]
     )
     assert alone == data
-    status, _, err = call("ensemble", small, "--until", "0.001", "--confidence", "0.99")
-    assert (status, "realisations may be enough" in err) == (3, True)
+    status, _, stderr = call("ensemble", small, "--until", "0.001", "--confidence", "0.99")
+    assert (status, "realisations may be enough" in stderr) == (3, True)
 
 
 def test_scenes_without_an_ensemble(tmp_path, call):
@@ -81,26 +81,26 @@ def test_scenes_without_an_ensemble(tmp_path, call):
         ("settled", 'ask.quantity = "positions"'),
         ("none", "no such file"),
     ):
-        status, _, err = call("ensemble", ROOT / "scenes" / f"{name}.toml")
-        assert (status, says in err) == (2, True)
+        status, _, stderr = call("ensemble", ROOT / "scenes" / f"{name}.toml")
+        assert (status, says in stderr) == (2, True)
     path = tmp_path / "wild.toml"
     path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 9'))
-    status, _, err = call("ensemble", path)
+    status, _, stderr = call("ensemble", path)
     assert status == 2
-    assert "wild.toml: 40 of 40 packings are left out" in err
-    assert "realisation 0: bead (" in err
+    assert "wild.toml: 40 of 40 packings are left out" in stderr
+    assert "realisation 0: bead (" in stderr
     path.write_text(SMALL.replace('"uniform", relative_std = 1e-4', '"normal", relative_std = 0.2'))
-    status, out, _ = call("ensemble", path)
+    status, stdout, _ = call("ensemble", path)
     assert status == 0
-    assert "can't be built and are left out, the first of them realisation" in out
+    assert "can't be built and are left out, the first of them realisation" in stdout
     assert call("ensemble-status", tmp_path / "none")[0] == 2
 
 
 def test_without_dask_it_says_what_to_install(small, monkeypatch, call):
     monkeypatch.setitem(sys.modules, "distributed", None)
-    status, _, err = call("ensemble", small, "--scheduler", "tcp://x:1")
+    status, _, stderr = call("ensemble", small, "--scheduler", "tcp://x:1")
     assert status == 2
-    assert "pip install 'force-diffusion[cluster]'" in err
+    assert "pip install 'force-diffusion[cluster]'" in stderr
 
 
 LOADING = """
@@ -142,6 +142,6 @@ def test_an_interrupt_says_how_to_go_on(small, tmp_path, call, monkeypatch):
 
     solve = module.solve_block
     monkeypatch.setattr(module, "solve_block", interrupted)
-    status, _, err = call("ensemble", small, "--store", tmp_path / "ensemble.fd")
+    status, _, stderr = call("ensemble", small, "--store", tmp_path / "ensemble.fd")
     assert status == 130
-    assert "holds 32 realisations; the same command goes on" in err
+    assert "holds 32 realisations; the same command goes on" in stderr

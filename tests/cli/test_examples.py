@@ -15,9 +15,9 @@ SCENES = {
 def test_all_are_copied_and_named(tmp_path, call):
     out = tmp_path / "new" / "scenes"
     for options in ([], ["--overwrite"]):
-        status, shown, _ = call("examples", out, *options)
+        status, stdout, _ = call("examples", out, *options)
         assert {path.name: path.read_bytes() for path in out.iterdir()} == SCENES
-        assert (status, shown.splitlines()) == (0, [str(out / name) for name in sorted(SCENES)])
+        assert (status, stdout.splitlines()) == (0, [str(out / name) for name in sorted(SCENES)])
 
 
 def test_the_version_is_that_of_the_package(call):

@@ -37,12 +37,12 @@ def test_figures_name_the_command_that_makes_them_again_byte_for_byte(tmp_path, 
         out = tmp_path / folder / "out"
         out.parent.mkdir()
         monkeypatch.chdir(out.parent)
-        status, printed, err = call("figures", *words)
-        assert (status, err) == (0, "")
+        status, stdout, stderr = call("figures", *words)
+        assert (status, stderr) == (0, "")
         contents.append({path.name: path.read_bytes() for path in out.iterdir()})
         words = shlex.split(json.loads((out / "figure1.json").read_text())["command"])[2:]
     assert contents[0] == contents[1]  # the second time by the command that the first one noted
-    assert "inside the simultaneous 99% band" in printed or "outside" in printed
+    assert "inside the simultaneous 99% band" in stdout or "outside" in stdout
     for name in ("1", "2", "3"):
         record = json.loads((out / f"figure{name}.json").read_text())
         assert shlex.split(record["command"])[:5] == ["force-diffusion", "figures", "1", "2", "3"]
@@ -60,19 +60,19 @@ def test_heights_that_cannot_be_built(tmp_path, call):
     """Far above M* beads no longer find a rest."""
     out, few = tmp_path / "out", ("--realisations", 16)
     rough = "--heights", "40", "--relative-std", "0.3"
-    status, printed, err = call("figures", 3, *rough, *few, "--out", out)
-    assert (status, printed) == (2, "")
-    assert "figure 3: bead" in err
-    assert "less disorder, fewer layers or a smaller spacing" in err
+    status, stdout, stderr = call("figures", 3, *rough, *few, "--out", out)
+    assert (status, stdout) == (2, "")
+    assert "figure 3: bead" in stderr
+    assert "less disorder, fewer layers or a smaller spacing" in stderr
     assert not out.exists()
 
 
 @pytest.mark.usefixtures("without_matplotlib")
 def test_without_matplotlib(tmp_path, call):
-    status, printed, err = call("figures", "1", "--out", tmp_path / "out")
-    assert (status, printed) == (3, "")
-    assert "need matplotlib" in err
-    assert "force-diffusion[plots]" in err
+    status, stdout, stderr = call("figures", "1", "--out", tmp_path / "out")
+    assert (status, stdout) == (3, "")
+    assert "need matplotlib" in stderr
+    assert "force-diffusion[plots]" in stderr
     assert not (tmp_path / "out").exists()
 
 
@@ -93,8 +93,8 @@ def test_a_scene_is_answered_and_drawn(tmp_path, call):
         'disorder = {kind = "two-point", relative_std = 1e-3, seed = 4}\n'
         'ask = {quantity = "profile"}\n'
     )
-    status, _, err = call("figures", scene, "--out", out)
-    assert (status, err) == (0, "")
+    status, _, stderr = call("figures", scene, "--out", out)
+    assert (status, stderr) == (0, "")
     result = json.loads((out / "my $cene.json").read_text())
     check_images(out, "my $cene", result["command"])
     hashed = hashlib.sha256(scene.read_bytes()).hexdigest()
@@ -105,5 +105,5 @@ def test_a_scene_is_answered_and_drawn(tmp_path, call):
     assert len(list(csv.DictReader(rows))) == 8
     again = tmp_path / "other" / scene.name
     for words, says in (([scene, again], "the same files"), ([scene, "--seed", 5], "--seed")):
-        status, _, err = call("figures", *words, "--out", out)
-        assert (status, says in err) == (2, True)
+        status, _, stderr = call("figures", *words, "--out", out)
+        assert (status, says in stderr) == (2, True)

@@ -56,9 +56,9 @@ def test_its_commands_run_as_written(page, folder, call):
     for command in _commands(page):
         program, *arguments = shlex.split(command)
         assert program == "force-diffusion", command
-        status, shown, err = call(*arguments)
-        assert status == 0, f"{command}\n{err}"
-        assert shown, command
+        status, stdout, stderr = call(*arguments)
+        assert status == 0, f"{command}\n{stderr}"
+        assert stdout, command
 
 
 @pytest.mark.long

@@ -203,7 +203,7 @@ def test_every_command_refuses_an_existing_folder_before_it_solves(command, monk
     Path("paper").mkdir()
     before = everything()
     out = ["--out", "mine"] if "article" not in command else []
-    status, shown, err = call(*command.split(), *out)
-    assert (status, shown) == (2, "")
-    assert "' exists already. Give another folder, or --overwrite." in err
+    status, stdout, stderr = call(*command.split(), *out)
+    assert (status, stdout) == (2, "")
+    assert "' exists already. Give another folder, or --overwrite." in stderr
     assert everything() == before

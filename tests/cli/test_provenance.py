@@ -43,8 +43,8 @@ def npz_of(path: Path) -> tuple[dict[str, Any], dict[str, Any]]:
 def test_an_answer_says_where_it_came_from(command, written, tmp_path, call):
     scene = SCENES / ("measured.toml" if command == "run" else "figure3.toml")
     out = tmp_path / "out"
-    status, shown, err = call(command, scene, "--out", out, "--format", written, "--quiet")
-    assert (status, shown, err) == (0, "", "")
+    status, stdout, stderr = call(command, scene, "--out", out, "--format", written, "--quiet")
+    assert (status, stdout, stderr) == (0, "", "")
     about = json.loads((out / "result.json").read_text())
     source = about["source"]
     assert source["version"] == version("force-diffusion")
@@ -104,9 +104,9 @@ def test_rows_are_printed_or_written_and_quiet_is_quiet(tmp_path, call):
 def test_a_format_needs_its_library(tmp_path, call, monkeypatch):
     monkeypatch.setitem(sys.modules, "pyarrow", None)
     arguments = ("run", SCENES / "measured.toml", "--out", tmp_path / "x", "--format", "parquet")
-    status, _, err = call(*arguments)
+    status, _, stderr = call(*arguments)
     assert status == 2
-    assert "force-diffusion[tables]" in err
+    assert "force-diffusion[tables]" in stderr
     assert not (tmp_path / "x").exists()
 
 

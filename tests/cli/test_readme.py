@@ -46,8 +46,8 @@ def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, call)
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
     monkeypatch.chdir(tmp_path)
     few = ["--heights", 4, "--realisations", 16] if use.startswith("figures") else []
-    status, shown, _ = call(*use.split(), *few)
-    assert (status, shown != "") == (0, True)
+    status, stdout, _ = call(*use.split(), *few)
+    assert (status, stdout != "") == (0, True)
 
 
 def test_there_are_five_uses():
@@ -58,8 +58,8 @@ def test_the_equations_that_the_reference_shows_are_shown(call):
     rows = re.findall(r"^\| `(show[^`]*|list)` \|", REFERENCE, re.MULTILINE)
     assert len(rows) >= 4
     for row in rows:
-        status, shown, _ = call(*row.split())
-        assert (status, shown != "") == (0, True)
+        status, stdout, _ = call(*row.split())
+        assert (status, stdout != "") == (0, True)
 
 
 def test_it_leads_to_a_guide_for_each_of_the_tasks():

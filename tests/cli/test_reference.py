@@ -58,18 +58,18 @@ def test_documented_keys_are_those_of_a_section(section, tmp_path, call):
     }
     whole[section] += "\nnonsense = 1"
     text = "\n".join(f"[{name}]\n{keys}" for name, keys in whole.items())
-    status, _, err = call("explain", _scene(tmp_path, text))
-    allowed = re.search(rf"{section}\.nonsense.*allowed are ([\w, ]+)", " ".join(err.split()))
+    status, _, stderr = call("explain", _scene(tmp_path, text))
+    allowed = re.search(rf"{section}\.nonsense.*allowed are ([\w, ]+)", " ".join(stderr.split()))
     assert status == 2
-    assert allowed, err
+    assert allowed, stderr
     assert _first_cells(_part(SCENES, f"`[{section}]`")) == set(allowed[1].strip().split(", "))
 
 
 def test_sections_and_quantities_are_documented(tmp_path, call):
-    _, _, err = call("explain", _scene(tmp_path, f"{PACKING}[nonsense]\n[ask]\nquantity = 'a'\n"))
-    assert {*SECTIONS} <= {*re.findall(r"\w+", err)}
-    _, _, err = call("explain", _asking(tmp_path, "nonsense"))
-    assert {*re.findall(r'"(\w+)"', err)} - {"nonsense"} == {*QUANTITIES}
+    stderr = call("explain", _scene(tmp_path, f"{PACKING}[nonsense]\n[ask]\nquantity = 'a'\n"))[2]
+    assert {*SECTIONS} <= {*re.findall(r"\w+", stderr)}
+    stderr = call("explain", _asking(tmp_path, "nonsense"))[2]
+    assert {*re.findall(r'"(\w+)"', stderr)} - {"nonsense"} == {*QUANTITIES}
     for quantity in QUANTITIES:
         assert f'`"{quantity}"`' in _part(SCENES, "`[ask]`")
 
@@ -77,9 +77,9 @@ def test_sections_and_quantities_are_documented(tmp_path, call):
 @pytest.mark.parametrize("realisations", [1, 3])
 @pytest.mark.parametrize("quantity", QUANTITIES)
 def test_documented_columns_are_those_of_an_answer(quantity, realisations, tmp_path, call):
-    status, shown, _ = call("run", _asking(tmp_path, quantity, realisations))
+    status, stdout, _ = call("run", _asking(tmp_path, quantity, realisations))
     assert status == 0
-    columns = set(shown.splitlines()[0].split(","))
+    columns = set(stdout.splitlines()[0].split(","))
     part = _part(SCENES, f"`{quantity}`")
     if quantity == "contact_forces":
         part += _part(SCENES, "`contact`")
@@ -114,10 +114,10 @@ def test_keys_of_json_are_documented(tmp_path, call):
     ]
     for command, more, quantity, packing, *words in commands:
         scene = _asking(tmp_path, quantity, 40 if command == "ensemble" else 1, packing)
-        status, shown, _ = call(command, scene, "--json", *words)
+        status, stdout, _ = call(command, scene, "--json", *words)
         assert status == 0
         named = re.findall(r"\w+", _part(SCENES, f"The JSON of `{command}`") + more)
-        assert _keys(json.loads(shown)) <= {*named, *QUANTITIES}
+        assert _keys(json.loads(stdout)) <= {*named, *QUANTITIES}
 
 
 def test_documented_commands_are_those_of_the_program(call):

@@ -11,10 +11,10 @@ SCENES = Path(__file__).parents[2] / "scenes"
 @pytest.mark.long(sample=5)
 @pytest.mark.parametrize("path", sorted(SCENES.glob("*.toml")), ids=lambda p: p.stem)
 def test_the_examples_work(path, call):
-    status, out, err = call("run", path, "--json")
+    status, stdout, stderr = call("run", path, "--json")
     assert status == 0
-    data = json.loads(out)
-    assert err == "".join(f"force-diffusion: {path.name}: {note}\n" for note in data["notes"])
+    data = json.loads(stdout)
+    assert stderr == "".join(f"force-diffusion: {path.name}: {note}\n" for note in data["notes"])
     assert bool(data["notes"]) == (path.stem == "beyond")
     (rows,) = data["results"].values()
     assert rows
@@ -25,11 +25,11 @@ def test_the_examples_work(path, call):
 
 
 def test_text_output_says_what_was_done(call):
-    status, out, _ = call("run", SCENES / "one_contact.toml")
+    status, stdout, _ = call("run", SCENES / "one_contact.toml")
     assert status == 0
-    assert "certified" in out
-    assert "physical" in out
-    assert "skipped: other beads (only those that the answer depends on are solved)" in out
-    status, out, _ = call("explain", SCENES / "one_contact.toml")
+    assert "certified" in stdout
+    assert "physical" in stdout
+    assert "skipped: other beads (only those that the answer depends on are solved)" in stdout
+    status, stdout, _ = call("explain", SCENES / "one_contact.toml")
     assert status == 0
-    assert "Skipped: other beads: only those that the answer depends on are solved" in out
+    assert "Skipped: other beads: only those that the answer depends on are solved" in stdout

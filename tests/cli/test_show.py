@@ -23,9 +23,9 @@ Show = Callable[..., str]
 @pytest.fixture
 def show(call: Call) -> Show:
     def shown(*words: object) -> str:
-        status, printed, err = call("show", *words)
-        assert (status, err) == (0, "")
-        return printed
+        status, stdout, stderr = call("show", *words)
+        assert (status, stderr) == (0, "")
+        return stdout
 
     return shown
 

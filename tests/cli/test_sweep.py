@@ -41,23 +41,23 @@ def test_set_gives_the_results_of_a_changed_file(scene, call):
 def test_a_sweep_answers_every_combination_in_a_folder_of_its_own(scene, tmp_path, call):
     out = tmp_path / "out"
     words = ("--set", "packing.height=2,3,4", "--set", "disorder.seed=0,1", "--out", out)
-    status, _, err = call("run", scene, *words, "--set", "load.kind=bulk")
-    assert (status, err) == (0, "")
+    status, _, stderr = call("run", scene, *words, "--set", "load.kind=bulk")
+    assert (status, stderr) == (0, "")
     assert sorted(folder.name for folder in out.iterdir()) == [
         f"packing.height={M},disorder.seed={seed}" for M in (2, 3, 4) for seed in (0, 1)
     ]
     for folder in out.iterdir():
         height = int(folder.name[len("packing.height=")])
         assert len(rows((folder / "profile.csv").read_text())) == 2 * height
-    status, printed, _ = call("run", scene, "--set", "packing.height=2,3")
+    status, stdout, _ = call("run", scene, "--set", "packing.height=2,3")
     assert status == 0
-    assert "# packing.height = 2\n" in printed
-    assert "# packing.height = 3\n" in printed
+    assert "# packing.height = 2\n" in stdout
+    assert "# packing.height = 3\n" in stdout
 
 
 def test_json_of_a_sweep_is_one_list(scene, call):
-    status, printed, _ = call("run", scene, "--set", "packing.height=2,3", "--json")
+    status, stdout, _ = call("run", scene, "--set", "packing.height=2,3", "--json")
     assert status == 0
-    for height, answer in zip((2, 3), json.loads(printed), strict=True):
+    for height, answer in zip((2, 3), json.loads(stdout), strict=True):
         _, alone, _ = call("run", scene, "--set", f"packing.height={height}", "--json")
         assert answer["results"] == json.loads(alone)["results"]

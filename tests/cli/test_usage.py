@@ -83,25 +83,25 @@ def test_wrong_words(words, says, hint, call, tmp_path, monkeypatch):
     monkeypatch.setattr("force_diffusion.numeric.planning.memory.memory_limit", lambda: 10**9)
     Path("scene.toml").write_text(SCENE)
     more = ["--out", "out"] if re.match("(derive|run)((?!--out|--format).)*$", words) else []
-    status, printed, err = call(*shlex.split(words), *more)
-    assert (status, printed) == (2, "")
-    assert says in " ".join(err.split())
-    assert re.search(hint, err)  # what to do
-    assert "Traceback" not in err
+    status, stdout, stderr = call(*shlex.split(words), *more)
+    assert (status, stdout) == (2, "")
+    assert says in " ".join(stderr.split())
+    assert re.search(hint, stderr)  # what to do
+    assert "Traceback" not in stderr
     assert [path.name for path in Path().iterdir()] == ["scene.toml"]
     assert Path("scene.toml").read_text() == SCENE
 
 
 def test_help_and_no_arguments(call):
-    _, shown, _ = call("--help")
+    _, stdout, _ = call("--help")
     for word in (*COMMANDS, "130"):
-        assert word in shown
+        assert word in stdout
     for name in ([], ["derive"], ["run"]):
         assert call(*name, "--help") == call(*name, "-h")
-    status, shown, err = call()
+    status, stdout, stderr = call()
     assert status == 2
-    assert "Usage: force-diffusion" in shown + err
-    assert "Traceback" not in shown + err
+    assert "Usage: force-diffusion" in stdout + stderr
+    assert "Traceback" not in stdout + stderr
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -40,13 +40,13 @@ def test_the_error_for_one_number_in_place_of_a_list_shows_the_call():
 
 @pytest.mark.long
 def test_the_command_prints_and_writes_what_derive_gives(tmp_path, call):
-    status, shown, _ = call("derive", 5, "--json", "--out", tmp_path / "out")
+    status, stdout, _ = call("derive", 5, "--json", "--out", tmp_path / "out")
     assert status == 0
     derived = fd.derive([5])
 
     def timeless(data: dict[str, list[dict[str, object]]]) -> object:
         return [{**row, "seconds": 0} for row in data["equations"]]
 
-    assert timeless(json.loads(shown)) == timeless(derived.data())
+    assert timeless(json.loads(stdout)) == timeless(derived.data())
     for name, text in derived.latex().items():
         assert (tmp_path / "out" / name).read_text(encoding="utf-8") == text

@@ -27,9 +27,9 @@ def test_assumptions_are_read_whole():
 
 def test_without_coq_the_message_says_how_to_install_it(monkeypatch, tmp_path, call):
     monkeypatch.setenv("PATH", "")
-    status, shown, err = call("certify", "--out", tmp_path / "out")
-    assert (status, shown) == (CoqAbsentError.exit_status, "")
-    assert "apt-get install coq" in err
+    status, stdout, stderr = call("certify", "--out", tmp_path / "out")
+    assert (status, stdout) == (CoqAbsentError.exit_status, "")
+    assert "apt-get install coq" in stderr
     assert not (tmp_path / "out").exists()
 
 
@@ -38,8 +38,8 @@ def test_only_the_paper_s_equations_are_stated(call):
         fd.certify([3, "B5"])
     with pytest.raises(TypeError, match="a list of numbers"):
         fd.certify("13")
-    status, _, err = call("certify", "B5")
-    assert (status, "Eq. B5 is not stated for Coq" in err) == (2, True)
+    status, _, stderr = call("certify", "B5")
+    assert (status, "Eq. B5 is not stated for Coq" in stderr) == (2, True)
 
 
 VERSION = 'if [ "$1" = --print-version ]; then echo "8.16.1 4.14.1"; exit; fi\n'
@@ -90,9 +90,9 @@ def test_trouble_with_another_version_names_the_one_that_it_is_written_for(progr
 def test_statements_and_verdicts_are_written(programs, tmp_path, call):
     put(programs, "coqc", VERSION + "exit 1")
     out = tmp_path / "out"
-    status, shown, _ = call("certify", 3, 7, "--out", out)
+    status, stdout, _ = call("certify", 3, 7, "--out", out)
     assert status == 1
-    printed = shown.splitlines()
+    printed = stdout.splitlines()
     lines = [line for line in printed if line.startswith("Eq.")]
     assert lines == [
         f"Eq. {number:>2}  not accepted by Coq 8.16.1  {fd.equation(number).title}"

@@ -92,5 +92,5 @@ def test_a_scheduler_that_is_missing_or_has_no_workers(forty, monkeypatch, call)
             ("nonsense://x", "no Dask scheduler answers"),
             (empty.scheduler_address, "give the cluster workers"),
         ):
-            status, _, err = call(*forty, "--scheduler", address)
-            assert (status, says in err) == (3, True)
+            status, _, stderr = call(*forty, "--scheduler", address)
+            assert (status, says in stderr) == (3, True)

@@ -63,8 +63,8 @@ def test_one_packing_is_solved(monkeypatch):
 def test_files_hold_all_tables(tmp_path, call):
     path, out = tmp_path / "scene.toml", tmp_path / "out"
     path.write_text(toml(asking("contact_forces", "positions")))
-    status, shown, _ = call("run", path, "--out", out, "--format", "npz")
-    assert (status, "contact_forces: 72 rows, positions: 45 rows" in shown) == (0, True)
+    status, stdout, _ = call("run", path, "--out", out, "--format", "npz")
+    assert (status, "contact_forces: 72 rows, positions: 45 rows" in stdout) == (0, True)
     results = json.loads((out / "result.json").read_text())["results"]
     for name, count in (("contact_forces", 72), ("positions", 45)):
         assert results[name] == {"file": f"{name}.npz", "rows": count}
@@ -90,7 +90,7 @@ def test_a_path_is_run(tmp_path, call):
     for name, content in wrong.items():
         if content:
             (tmp_path / name).write_text(content)
-        status, _, err = call("run", tmp_path / name)
-        assert (status, err.count(name)) == (2, 1)
-        assert ("is not a scene, which is a TOML file" if content else "no such file") in err
-        assert ('disorder = {kind = "file", file = "radii.csv"}' in err) == ("csv" in name)
+        status, _, stderr = call("run", tmp_path / name)
+        assert (status, stderr.count(name)) == (2, 1)
+        assert ("is not a scene, which is a TOML file" if content else "no such file") in stderr
+        assert ('disorder = {kind = "file", file = "radii.csv"}' in stderr) == ("csv" in name)

@@ -76,7 +76,7 @@ def test_a_scene_whose_packings_have_tension_is_named(tmp_path, call):
             f"disorder = {{kind = 'uniform', relative_std = {std}}}\n"
         )
         for command in (["run"], ["explain"], ["ensemble", "--realisations", "3"]):
-            status, _, err = call(*command, path)
+            status, _, stderr = call(*command, path)
             words = "a typical packing of this scene has tension"
-            assert (status, words in err) == (0, has_tension)
+            assert (status, words in stderr) == (0, has_tension)
     assert scene(fd.SurfaceLoad(), 0.0055).explain().data()["tension"]["height_of_one"] == 14
