@@ -381,13 +381,13 @@ class ClosedForm:
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same as displays that fit a page, several if needed."""
-        return self._displays(self._in_latex, columns)
+        return [*_displays(self, columns)]
 
-    def _displays(self, pieces: Sequence[Piece], columns: int) -> list[str]:
+    def _in_halves(self, pieces: Sequence[Piece], columns: int) -> list[str]:
         whole, half = self._shown(pieces, columns), len(pieces) // 2
         if whole.count(r"\\") <= _HIGH[columns] or not half:
             return [whole]
-        return [*self._displays(pieces[:half], columns), *self._displays(pieces[half:], columns)]
+        return [*self._in_halves(pieces[:half], columns), *self._in_halves(pieces[half:], columns)]
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"
@@ -551,6 +551,12 @@ class ClosedForm:
             return in_place(formula, {self.quantity: quotient})
         (symbol,) = shown  # the quantity may be this symbol less 1
         return in_place(formula, {symbol: sympy.Add(quotient, symbol - self.quantity)})
+
+
+@lru_cache(maxsize=64)
+def _displays(form: ClosedForm, columns: int) -> list[str]:
+    """Displays that an equation's file and the supplement share: they take seconds."""
+    return form._in_halves(form._in_latex, columns)
 
 
 def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
