@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_183,
-    "derivations": 7_542,
+    "derivations": 7_545,
     "numeric": 9_155,
     "force_diffusion": 78,
     "benchmarks": 836,
