@@ -226,12 +226,18 @@ def printed(
     """
     numbers: dict[str, list[str]] = {}
     for name, column in table.numbers.items():
-        sampling = _of_sampling(table, name) if sampled else 0.0
+        errors = table.errors.get(name if name in table.errors else SCATTER_OF.get(name, ""))
+        bound, over, sampling = accuracy.error_bound, np.ones(1), np.zeros(1)
+        if name == RATIO:  # its error is that of σ_f over ⟨f⟩, since ⟨f⟩ is known far better
+            mean = abs(as_floats(table.numbers["mean"]))
+            over = np.where(mean > 0, mean, 1.0)  # smaller than any float: so is the error
+        if sampled and errors is not None:
+            sampling = np.nan_to_num(errors, posinf=np.inf) / over
         if isinstance(system, Balls) and not np.any(sampling):
             most = most_digits(system)
             numbers[name] = ["0" if v.contains(0) else v.str(most, radius=False) for v in column]
         else:  # what scatters needs no more than a float has
-            error = _of_arithmetic(table, name, accuracy)
+            error = (float(bound) * table.largest if math.isfinite(bound) else np.inf) / over
             numbers[name] = known_digits(as_floats(column), error, sampling)
         if name in table.errors:
             numbers[f"{name}_error"] = of_errors(table.errors[name])
@@ -241,28 +247,6 @@ def printed(
 def of_errors(errors: Array) -> list[str]:
     """Write standard errors with three digits; nothing where there is none."""
     return significant(np.where(np.isfinite(errors), errors, np.nan), np.full(len(errors), 3))
-
-
-def _of_arithmetic(table: Table, name: str, accuracy: Accuracy) -> Array | float:
-    """Give the absolute error of a column, but for how it would scatter."""
-    bound = np.inf
-    if math.isfinite(accuracy.error_bound):
-        bound = float(accuracy.error_bound) * table.largest
-    return bound / _over(table, name)
-
-
-def _of_sampling(table: Table, name: str) -> Array | float:
-    """Give the standard errors of a column, 0 where they are not known."""
-    errors = table.errors.get(name if name in table.errors else SCATTER_OF.get(name, ""))
-    return 0.0 if errors is None else np.nan_to_num(errors, posinf=np.inf) / _over(table, name)
-
-
-def _over(table: Table, name: str) -> Array | float:
-    """The error of σ_f/⟨f⟩ is that of σ_f over ⟨f⟩, since ⟨f⟩ is known far better."""
-    if name != RATIO:
-        return 1.0
-    mean = abs(as_floats(table.numbers["mean"]))
-    return np.where(mean > 0, mean, 1.0)  # smaller than any float: so is the error
 
 
 def known_digits(column: Array, error: Array | float, sampling: Array | float = 0.0) -> list[str]:

@@ -40,7 +40,7 @@ def components(force: Sequence[Any], n_x: Any, up: Any, root12: Any = None) -> C
 
 
 class Strength(NamedTuple):
-    """A load's components (L^a) in a number system, of all loads or of each loaded bead."""
+    """A load's components (L^a) in a number system, of all loads or of each single loaded bead."""
 
     unit: Components
     single: Mapping[Site, Components]
@@ -103,7 +103,8 @@ class LoadSpec:
         if self.angle_deg:
             sin, cos = self._turn(own)
             unit = components((sin, *[0 * sin] * (self.dimension - 2), -cos), nx, up, root12)
-        return Strength(nearest(unit), single)
+        unit = nearest(unit)
+        return Strength(unit, single if self.at is None else {self.at: unit})
 
     def _turn(self, system: NumberSystem) -> tuple[Any, Any]:
         """Give sin θ and cos θ."""
@@ -112,10 +113,6 @@ class LoadSpec:
             angle = flint().fmpq(*self.angle_deg.as_integer_ratio()) / 180
             sin, cos = flint().arb.sin_cos_pi_fmpq(angle)
         return system.from_ball(sin), system.from_ball(cos)
-
-    def _singly(self, strength: Strength) -> Mapping[Site, Components]:
-        """Give the loads of single beads."""
-        return strength.single if self.at is None else {self.at: strength.unit}
 
     def on(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
         """Give (L^a) of the beads of ``rows`` (layers 0 … top), (d, beads)."""
@@ -126,7 +123,7 @@ class LoadSpec:
             for a, share in enumerate(strength.unit):
                 forces[a, first:] = share
             return forces
-        for site, load in self._singly(strength).items():
+        for site, load in strength.single.items():
             layers, columns = self._below(site, 0, rows)
             if len(layers) and layers[0] == site[1]:
                 for a, share in enumerate(load):
@@ -148,7 +145,7 @@ class LoadSpec:
             for a, share in enumerate(strength.unit):
                 forces[a] = times * share
             return forces
-        for site, load in self._singly(strength).items():
+        for site, load in strength.single.items():
             for a, share in enumerate(load):
                 layers, columns = self._below(site, a, rows)
                 at = (starts[layers] + columns)[layers > 0]

@@ -173,14 +173,8 @@ def deposit(
     where balls are too wide to tell.
     """
     block = None if linear else _compiled_deposit(phi, region, rho, system)
-    if block is None:
-        block = _deposited(phi, region, rho, system, linear=linear)
-    return SolvedPacking(phi, system, region, rho, block)
-
-
-def _deposited(
-    phi: Fraction, region: Region, rho: Any, system: NumberSystem, *, linear: bool
-) -> Any:
+    if block is not None:
+        return SolvedPacking(phi, system, region, rho, block)
     d, at = region.dimension, region.starts.tolist()
     m = metric(d, phi, system.number)
     block = system.zeros(len(rho), d + d * d, region.beads)
@@ -188,8 +182,10 @@ def _deposited(
     for j, layer in enumerate(layers):
         own, below = slice(at[j], at[j + 1]), slice(at[j - 1], at[j])
         radii = rho[:, own]
-        if not linear:
-            _check_radii(radii, layer, region, system)
+        bad = np.zeros(0) if linear else system.signs(1 + radii)[1]
+        if bad.any():
+            why = "its radius is not a positive number"
+            raise _named(UnbuildableError, bad, layer, region, why)
         if not j:
             continue
         columns = [region.columns(layers[j - 1], layer, region.step(a, -1)) for a in range(d)]
@@ -199,7 +195,7 @@ def _deposited(
         _check_rest(rested.holds, layer, region, system, partial(nested, under, rho_under, m))
         for k, x in enumerate([*rested.c, *(x for of in rested.dn for x in of)]):
             block[:, k, own] = x
-    return block
+    return SolvedPacking(phi, system, region, rho, block)
 
 
 def sweep_down(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool = False) -> Forces:
@@ -214,12 +210,8 @@ def sweep_down(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool = Fal
     parallel within the arithmetic.
     """
     g = None if linear else _compiled_balance(packing, rows, F)
-    if g is None:
-        g = _balanced(packing, rows, F, linear=linear)
-    return Forces(packing.system, packing.region, rows, F, g)
-
-
-def _balanced(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool) -> Any:
+    if g is not None:
+        return Forces(packing.system, packing.region, rows, F, g)
     region, system, block = packing.region, packing.system, packing.block
     d, top = region.dimension, len(rows) - 1
     at, beads = rows.starts_above.tolist(), region.starts.tolist()
@@ -254,7 +246,7 @@ def _balanced(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool) -> An
             check_standing(balanced.det, layer, region, system)
         for a, change in enumerate(balanced.g):
             g[:, a, own] = change
-    return g
+    return Forces(system, region, rows, F, g)
 
 
 def spread(system: NumberSystem, *shape: int) -> Any:
@@ -368,12 +360,6 @@ def _compiled_balance(packing: SolvedPacking, rows: Rows, F: Any) -> Any:
     loop = made.sweep_down_carried if f else made.sweep_down
     good = loop(forces, where, changes, table.ctypes.data, *sizes, *e, *f, *h)
     return g[..., :beads] if good else None
-
-
-def _check_radii(rho: Any, layer: Layer, region: Region, system: NumberSystem) -> None:
-    _, bad = system.signs(1 + rho)
-    if bad.any():
-        raise _named(UnbuildableError, bad, layer, region, "its radius is not a positive number")
 
 
 # What is wrong where one of the measures of ``local.rest`` is not positive.

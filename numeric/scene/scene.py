@@ -224,7 +224,11 @@ def source_of(scene: CheckedScene, files: dict[str, str] | None = None) -> dict[
     doubles of an array, in the order of its rows.
     """
     held = {name: getattr(scene, name) for name in CheckedScene.model_fields if name != "folder"}
-    sections = {name: _said(section) for name, section in held.items() if section is not None}
+    sections = {
+        name: {key: _exact(value) for key, value in section if value is not None}
+        for name, section in held.items()
+        if section is not None
+    }
     sections["packing"]["spacing"] = _exact(scene.packing.s)
     disorder, hashes = scene.disorder, dict(files_read(scene) if files is None else files)
     if isinstance(disorder, GivenRadii):
@@ -246,11 +250,6 @@ def sha256(path: Path) -> str:
     """Give the SHA-256 of a file that was read before."""
     with path.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
-
-
-def _said(section: Section) -> dict[str, Any]:
-    values = {name: getattr(section, name) for name in type(section).model_fields}
-    return {name: _exact(value) for name, value in values.items() if value is not None}
 
 
 def _exact(value: Any) -> Any:

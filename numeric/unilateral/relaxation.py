@@ -15,7 +15,7 @@ from .certificate import certify
 from .deposited import as_deposited, frame, must_hold, start
 from .grains import Grains, Pairs
 from .linear_programs import relax
-from .network import ImpossibleError, Network, Relaxed, UnfinishedError
+from .network import ImpossibleError, Relaxed, UnfinishedError
 
 # Linear programs after which a packing is given up, unless the scene says otherwise.
 MOST_PROGRAMS = 400
@@ -51,20 +51,17 @@ def relaxed(problem: Problem, realisation: int, system: Balls, work: Work) -> Re
     try:
         if work.settled is None:
             work.settled = settle(problem, realisation, work)
-        network = _proved(problem, realisation, work.settled, system)
+        settled, known = work.settled, frame(problem, realisation, system)
+        if not settled.programs:
+            network = as_deposited(problem, realisation, known, system)
+        else:
+            network = certify(settled.grains, settled.contacts, known, system)
+            network = network._replace(programs=settled.programs, fall=settled.fall)
     except ImpossibleError:
         raise
     except UnfinishedError as error:
         raise UnfinishedError(f"no packing was found, though one may exist: {error}") from error
     return Relaxed(system, None, None, None, network=network)
-
-
-def _proved(problem: Problem, realisation: int, settled: Settled, system: Balls) -> Network:
-    known = frame(problem, realisation, system)
-    if not settled.programs:
-        return as_deposited(problem, realisation, known, system)
-    proved = certify(settled.grains, settled.contacts, known, system)
-    return proved._replace(programs=settled.programs, fall=settled.fall)
 
 
 def settle(problem: Problem, realisation: int, work: Work) -> Settled:
