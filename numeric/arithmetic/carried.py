@@ -44,17 +44,13 @@ class Carried:
     def __truediv__(self, other: Any) -> "Carried":
         return divided(self, carried(other))
 
+    __radd__, __rmul__ = __add__, __mul__  # the same bits
+
     def __neg__(self) -> "Carried":
         return Carried(-self.value, -self.error)
 
-    def __radd__(self, other: Any) -> "Carried":
-        return added(carried(other), self)
-
     def __rsub__(self, other: Any) -> "Carried":
         return subtracted(carried(other), self)
-
-    def __rmul__(self, other: Any) -> "Carried":
-        return multiplied(carried(other), self)
 
     def __rtruediv__(self, other: Any) -> "Carried":
         return divided(carried(other), self)

@@ -23,8 +23,8 @@ from .drawing import deviates
 
 # Columns of a slab may be negative; counters must not be.
 OFFSET = np.uint64(2**62)
-# Beads that are drawn together, and those whose δr are worked out at once, in a near cache.
-TOGETHER, AT_ONCE = 200_000, 8192
+# Beads whose δr are worked out at once, in a near cache.
+AT_ONCE = 8192
 
 
 class BeadError(ForceDiffusionError, ValueError):
@@ -74,13 +74,8 @@ class DrawnRadii(NamedTuple):
 
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Scale deviates; a radius that is not positive raises ``RadiusError``."""
-        drawn = np.empty((len(realisations), rows.beads))
-        at = 0
-        for part in rows.parts(TOGETHER):
-            low, high = counters(part, self.width)
-            end = at + part.beads
-            drawn[:, at:end] = deviates(self.kind, self.seed, realisations, low, high)
-            at = end
+        low, high = counters(rows, self.width)
+        drawn = deviates(self.kind, self.seed, realisations, low, high)
         least = Fraction(float(drawn.min(initial=0)))
         if self.relative_std * least <= -1:
             place, bead = np.argwhere(drawn == float(least))[0].tolist()

@@ -12,7 +12,6 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
-from itertools import pairwise
 from typing import Any, NamedTuple, overload
 
 import numpy as np
@@ -116,13 +115,6 @@ class Rows(Sequence[Layer]):
         starts = np.cumsum(self.counts) - self.counts
         steps = np.arange(self.beads) - starts.repeat(self.counts)
         return self.firsts.repeat(self.counts) + 2 * steps, self.layers.repeat(self.counts)
-
-    def parts(self, beads: int) -> "Iterator[Rows]":
-        """Cut into parts of about so many beads; fewer stay the rows that they are."""
-        if self.beads <= beads:
-            return iter([self])
-        ends = np.flatnonzero(np.diff(np.cumsum(self.counts) // beads, append=-1)) + 1
-        return (self[a:b] for a, b in pairwise([0, *ends.tolist()]))
 
     @cached_property
     def alike(self) -> int | None:

@@ -4,7 +4,6 @@ Every number is exact: the decimal as written, held as a fraction; of a Python f
 that Python prints for it.
 """
 
-import difflib
 import operator
 import textwrap
 from collections.abc import Sequence
@@ -15,7 +14,7 @@ import numpy as np
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError
 
 from ..arithmetic.decimals import decimal_string, exact, short
-from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, rule
+from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, rule, suggestion
 from ..arithmetic.systems import Array
 from .combinations import QUANTITIES
 
@@ -347,8 +346,7 @@ def unknown(key: str, model: type[Section]) -> str:
     known = [name for name in model.model_fields if name != "folder"]
     if model.section == "disorder" and key in OF_IMAGES:
         return f"is for images: fd.read_radii(path, {key}=…) puts their beads on the lattice"
-    close = difflib.get_close_matches(key, known, n=1)
-    hint = f'did you mean "{close[0]}"? ' if close else ""
+    hint = suggestion(f'"{key}"', [f'"{name}"' for name in known])
     return f"is unknown; {hint}allowed are {', '.join(known)}"
 
 
@@ -373,9 +371,8 @@ def _no_choice(key: str, value: object, choices: tuple[str, ...]) -> SceneError:
     """Say which words are allowed, and which could have been meant."""
     allowed = [f'"{choice}"' for choice in choices]
     meant = _OTHERWISE.get(value.lower(), value) if isinstance(value, str) else value
-    close = difflib.get_close_matches(_shown(meant), allowed, n=1)
-    hint = f"; did you mean {close[0]}?" if close else ""
-    return SceneError(key, value, f"must be one of {', '.join(allowed)}{hint}")
+    hint = suggestion(_shown(meant), allowed)
+    return SceneError(key, value, f"must be one of {', '.join(allowed)}; {hint}".rstrip("; "))
 
 
 def explained(error: ValidationError, model: type[Section], values: dict[str, Any]) -> SceneError:
