@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_183,
     "derivations": 7_545,
-    "numeric": 9_155,
+    "numeric": 9_122,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
