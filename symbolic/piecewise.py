@@ -67,7 +67,6 @@ class PiecewiseFunction:
         domain: Domain,
         *groups: Group,
         divisor: sympy.Expr = sympy.S.One,
-        values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
     ) -> "PiecewiseFunction":
         """An expression in moments on a domain, over a number that depends on no index.
 
@@ -76,7 +75,6 @@ class PiecewiseFunction:
             domain: of its indices, with the load.
             groups: theorems that give quantities in the radii, put in one after the other.
             divisor: that number.
-            values: of parameters, of which the theorems hold whatever they are.
 
         Raises:
             NotExactError: an observable is not linear in the radii, or not determined by them.
@@ -87,8 +85,7 @@ class PiecewiseFunction:
             raise NotExactError("it depends on single beads")
         inverse = FIELD.one / FIELD.from_sympy(divisor.xreplace(own))
         weights = form.parts.get(NUMBER, Weights()).scaled(inverse)
-        function = cls(weights, domain.points, domain.straight, own)
-        return function.put_in(values) if values else function
+        return cls(weights, domain.points, domain.straight, own)
 
     @cached_property
     def _names(self) -> Field:

@@ -1,7 +1,7 @@
 """The loads that a packing may carry, and the theorems about its forces under each."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 
 import sympy
@@ -48,14 +48,12 @@ class LoadCase:
             dimensions along n¹, n² and n³), or what forces are compared with where some are zero.
         groups: theorems that give forces in the radii, to be put in one group after the other; of
             spheres none.
-        values: numbers for symbols of the load.
     """
 
     loading: Loading
     top: sympy.Symbol
     ordered: tuple[sympy.Expr, ...]
     groups: Callable[[], Groups]
-    values: tuple[tuple[sympy.Symbol, sympy.Expr], ...] = ()
 
     @property
     def dimension(self) -> int:
@@ -123,10 +121,10 @@ def point(across: sympy.Expr, layer: sympy.Expr) -> LoadCase:
 
 
 def leaning(ratio: sympy.Expr, load: str = "surface") -> LoadCase:
-    """A load −(L⁺n⁺ + L⁻n⁻) on every bead of the surface, or on every bead, with L⁻ = ratio · L⁺.
+    """A load −(L⁺n⁺ + L⁻n⁻) on every bead of the surface, or on every bead, with L⁻ = t L⁺.
 
     Args:
-        ratio: t of ``force_diffusion.symbols``, or a positive rational number.
+        ratio: t, of ``force_diffusion.symbols``; ``at(t=…)`` of a closed form takes its value.
         load: "surface" or "bulk".
 
     Raises:
@@ -134,15 +132,9 @@ def leaning(ratio: sympy.Expr, load: str = "surface") -> LoadCase:
     """
     if load not in _LEANING:
         raise ObservableError(f"leaning(…, {load!r}): 'surface' or 'bulk' is allowed")
-    try:
-        value = sympy.sympify(ratio, strict=True)  # else SymPy evaluates text
-    except sympy.SympifyError:
-        value = None
-    if value == t:
-        return _LEANING[load]
-    if not (isinstance(value, sympy.Rational) and value > 0):
-        raise ObservableError(f"leaning({ratio}): the symbol t or a positive rational is allowed")
-    return replace(_LEANING[load], values=((t, value),))
+    if ratio != t:
+        raise ObservableError(f"leaning({ratio}): the symbol t is allowed; at(t=…) takes its value")
+    return _LEANING[load]
 
 
 def load_of(load: str | LoadCase, dimension: int = 2) -> LoadCase:

@@ -177,10 +177,7 @@ def _closed(
     if under.dimension == PLANE and not on.loading:
         groups = without_load
     multiple, divisor = _without_divisors(statistic.xreplace(scales))
-    divisor = divisor.xreplace(dict(under.values))
-    if divisor == 0:
-        raise ObservableError(f"{text(statistic)} divides by 0 under this load")
-    form = ClosedForm(statistic, multiple, on, groups, divisor=divisor, values=dict(under.values))
+    form = ClosedForm(statistic, multiple, on, groups, divisor)
     try:
         _ = form.function
     except NotExactError as reason:

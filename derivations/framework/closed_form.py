@@ -27,7 +27,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.kernel.domain import Domain
-from force_diffusion.symbolic.kernel.rules import rewrite
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, flat
 from force_diffusion.symbolic.notation import by_name
@@ -77,7 +76,6 @@ class ClosedForm:
         statistic: the quantity times ``divisor``, written in means and covariances.
         kernel_domain: its domain and load, as the kernel holds them.
         divisor: a divisor of the statistic that may be zero, such as 1 − t; otherwise 1.
-        values: numbers that replace symbols of the load.
     """
 
     def __init__(
@@ -87,15 +85,14 @@ class ClosedForm:
         kernel_domain: Domain,
         groups: Callable[[], Sequence[Group]],
         divisor: sympy.Expr = sympy.S.One,
-        values: Mapping[sympy.Symbol, sympy.Rational] | None = None,
     ) -> None:
         self.quantity, self.statistic, self.kernel_domain = quantity, statistic, kernel_domain
-        self.divisor, self.values, self._groups = divisor, values or {}, groups
+        self.divisor, self._groups = divisor, groups
 
     def __reduce__(self) -> tuple[Any, ...]:
         """No theorem comes out of a pickle: what it says is worked out again."""
         own = self.quantity, self.statistic, self.kernel_domain, self._groups
-        return ClosedForm, (*own, self.divisor, self.values)
+        return ClosedForm, (*own, self.divisor)
 
     def named(self, quantity: sympy.Expr) -> "ClosedForm":
         """The same form, printed with a symbol for its quantity."""
@@ -117,11 +114,7 @@ class ClosedForm:
             NotExactError: an observable is not linear in the radii, or not determined by them.
         """
         return PiecewiseFunction.of(
-            self.statistic,
-            self.kernel_domain,
-            *self.groups,
-            divisor=self.divisor,
-            values=self.values,
+            self.statistic, self.kernel_domain, *self.groups, divisor=self.divisor
         )
 
     @property
@@ -518,28 +511,14 @@ class ClosedForm:
         if not rest.is_empty():
             left_out = words.alternatives(function.relations(rest))
             raise NotAStatementError(f"it has no value for {left_out}")
+        by = moment(*self.groups, on=self.kernel_domain)
         for value, here in parts:
             formula = in_place(candidate, {cases: value}) if cases else candidate
             for part in function.relations(here):
-                for ruling in self._rulings_on(formula, domain.also(*part)):
-                    yield ruling
-                    if ruling.verdict is Verdict.REFUTED:
-                        return
-
-    def _rulings_on(self, formula: sympy.Eq, domain: Domain) -> Iterator[Ruling]:
-        if not self.values:
-            by = moment(*self.groups, on=self.kernel_domain)
-            yield decide(self._in_moments(formula), domain, [by])
-            return
-        for piece in self.pieces:  # numbers are put in: theorems hold whatever they are
-            for part in piece.where:
-                here = domain.also(*part)
-                if not here.points.is_empty():
-                    yield decide(
-                        in_place(formula, {self.quantity: piece.expr, **self.values}),
-                        here,
-                        [rewrite()],
-                    )
+                ruling = decide(self._in_moments(formula), domain.also(*part), [by])
+                yield ruling
+                if ruling.verdict is Verdict.REFUTED:
+                    return
 
     def _in_moments(self, formula: sympy.Eq) -> sympy.Eq:
         """An equation about the quantity as one about what that stands for."""

@@ -105,8 +105,3 @@ def test_a_case_that_never_holds_has_no_value():
     form = fd.variance(sy.ForcePlus(i, j))
     ruling = form.decide(sympy.Piecewise((1, False), evaluate=False))
     assert ruling.verdict is Verdict.NOT_A_STATEMENT
-
-
-def test_a_number_for_t_is_put_into_candidates():
-    form = fd.variance(sy.t * sy.ForcePlus(i, j), load=fd.leaning(Rational(1, 2)))
-    assert form.decide(4 * sy.t**2 * form.expr).verdict is Verdict.PROVED

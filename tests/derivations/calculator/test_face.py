@@ -132,8 +132,8 @@ def test_the_ordered_forces_are_means():
     assert only(fd.mean(f_plus(i, j), relative=False)) == f_load / (2 * n_y)
     assert only(fd.mean(f_plus(i, j), load="bulk", relative=False)) == (M - j) * m_g / (2 * n_y)
     assert only(fd.mean(fd.response(i, j), load="bulk", relative=False)) == (M - j) * m_g
-    leaning = fd.mean(f_minus(i, j), load=fd.leaning(3, "bulk"), relative=False)
-    assert only(leaning) == 3 * symbols.L_plus * (M - j)
+    leaning = fd.mean(f_minus(i, j), load=fd.leaning(symbols.t, "bulk"), relative=False)
+    assert only(leaning) == symbols.t * symbols.L_plus * (M - j)
 
 
 # where it holds
