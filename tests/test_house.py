@@ -17,13 +17,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_183,
-    "derivations": 7_545,
+    "symbolic": 4_181,
+    "derivations": 7_516,
     "numeric": 9_122,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 12_910,
+    "tests": 12_906,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
