@@ -109,7 +109,7 @@ DERIVATION = Derivation(
     show_steps=show_steps,
     remarks=(
         "Erratum: the printed formula is for j ≥ 1. At j = 0 its empty sums leave "
-        "2δr_(i,0)(b⁺ + b⁻), while the base is fixed: δx_(i,0) = 0 is a condition of its own.",
+        "2δr_(i,0)(b⁺ + b⁻), while the base is fixed: δx_(i,0) = 0 is a separate condition.",
     ),
 )
 

@@ -261,7 +261,7 @@ DERIVATION = Derivation(
         "the layer s = ½(l+j±(k−i)) in which its path branches, so it grows from (3/2) j beside "
         "one leg to (3/2) l beside the other. The printed form holds for both upper contacts of a "
         "bead together, and also for both lower ones, since the bead passes these forces on.",
-        "For that p the horizontal position drops out exactly, not only to leading order, from the "
+        "For this p the horizontal position drops out exactly, not only to leading order, from the "
         "third layer above the base on, except straight below the load.",
         "The legs, which the paper leaves out, fluctuate to the same order: in units of "
         "(σ/r)²/(1−φ²)² the vertical force, of mean ½ f_load, has the variance (l + j)/2 there, "

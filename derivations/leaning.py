@@ -144,8 +144,8 @@ DERIVATION = Derivation(
     show_steps=show_steps,
     definitions={L_minus: t * L_plus},
     remarks=(
-        "Only the changes along the other branch carry t, since what branches into f⁺ came along "
-        "n⁻. As L⁻ goes to zero, f⁺ stays near L⁺, and only the tilt of its own contact changes "
-        "it.",
+        "Only the changes along the other branch carry t, since the force that branches into f⁺ "
+        "came along n⁻. As L⁻ goes to zero, f⁺ stays near L⁺, and only the tilt of its own contact "
+        "changes it.",
     ),
 )

@@ -75,8 +75,8 @@ def _leaning(number: Number, load: str, upright: Number, own: sympy.Expr, other:
             "plus": mean(ForcePlus(i, j), order=2, load=under).named(PLUS - 1),
             "minus": mean(ForceMinus(i, j), order=2, load=under).named(MINUS - 1),
         },
-        meaning="Loads superpose: f⁺ is what a load along n⁺ makes of it, plus t times what one "
-        "along n⁻ does. The latter gives f⁺ a mean even where the ordered packing has none.",
+        meaning="Loads superpose: f⁺ is its value under a load along n⁺, plus t times that under a "
+        "load along n⁻. The latter has a mean even where the ordered packing has no force.",
         quantities=(
             (PLUS, "mean of f⁺ over its value in the ordered packing"),
             (MINUS, "the same of f⁻"),

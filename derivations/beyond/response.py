@@ -206,9 +206,9 @@ DERIVATIONS: dict[Number, Row] = {
                 mean_over(response(i, j), N, i, k), load=point(k, l), where=_BELOW_ONE
             ).named(OVER_PAIRS)
         },
-        meaning="This is the ensemble's average, taken along one packing: each load is a sample. "
-        "It falls as 1/N at first, faster than independent samples would, and as 1/√N once N is "
-        "larger than the packing is high.",
+        meaning="This averages along one packing instead of over the ensemble: each load is a "
+        "sample. The standard deviation falls as 1/N at first, faster than for independent "
+        "samples, and as 1/√N once N exceeds the height of the packing.",
         quantities=(
             (OVER_PAIRS, "variance of the mean of p over N neighbouring loads and a bead below "
              "each, inside its cone"),

@@ -126,8 +126,8 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
                 ForceAlong(1, 0, 0, j), load=f"{load} leaning", dimension=3
             ).named(FIRST)
         },
-        meaning="A force is fed by the loads along the other vectors: it fluctuates the more, in "
-        "units of its own mean, the less of the load points along its own.",
+        meaning="The loads along the other vectors feed a force: the smaller the share of the load "
+        "along its own vector, the more it fluctuates relative to its mean.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
         claimed=lambda of: {
             "the leading order, with τ_n = t₂ⁿ + t₃ⁿ in the factor 2τ₁² + τ₂":
