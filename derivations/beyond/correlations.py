@@ -75,8 +75,8 @@ def _contacts(number: Number, name: str, load: str) -> Row:
             "mean": variance(mean_over(ForcePlus(i, j), N), load=load).named(FORCE_MEAN),
             "apart": covariance(ForcePlus(i, j), ForcePlus(i + 2 * k, j), load=load).named(APART),
         },
-        meaning="N independent contacts would have σ_f²/N. Along a layer fluctuations nearly cancel "
-        "for N up to order M³; beyond that the radii of the two layers in contact dominate.",
+        meaning="N independent contacts would have σ_f²/N. Along a layer fluctuations nearly "
+        "cancel for N up to order M³; beyond that the radii of the two layers in contact dominate.",
         quantities=(
             (FORCE_MEAN, "variance of the mean of f^± over N neighbours of one layer"),
             (APART, "covariance of two contacts of a layer that are k places apart"),
