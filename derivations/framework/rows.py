@@ -10,7 +10,6 @@ from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted, undecided
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import PiecewiseFunction
 from force_diffusion.symbolic.printing.lines import stacked
@@ -104,11 +103,6 @@ class Row(Statement):
     def claims(self) -> tuple[tuple[str, Ruling], ...]:
         """Further statements, and what is found of them."""
         return tuple(self.claimed(self.exact_forms).items())
-
-    @property
-    def theorems(self) -> tuple[Theorem, ...]:
-        """What the kernel proves of it, one theorem for each formula and part of its domain."""
-        return tuple(step.theorem for step in self.proof)
 
     def show_steps(self, steps: Steps) -> None:
         """A step for each formula and part of its domain."""
