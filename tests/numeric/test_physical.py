@@ -79,8 +79,8 @@ def every_gap(delta: Array, spacing: float, outcome: fd.Outcome) -> tuple[Array,
 def agree(delta: Array, spacing: float) -> None:
     """Compare compiled loops, NumPy and balls with all pairs."""
     assume(delta.any())  # of equal radii nothing is solved
-    asked = scene(delta, spacing)
     try:
+        asked = scene(delta, spacing)
         usual = run(plan(asked))
     except fd.ForceDiffusionError:
         assume(False)

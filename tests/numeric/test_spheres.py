@@ -154,7 +154,7 @@ def test_radii_of_ones_own_have_many_forms(tmp_path):
     ("text", "says"),
     [
         ("i,j,delta_r", "the first line must name the columns p,q,j,delta_r or p,q,j,r"),
-        ("p,q,j,r\n0,2,1,1", r"line 2: bead \(0, 2, 1\) .*outside .*0 <= p, q < 2, 0 <= j <= 1"),
+        ("p,q,j,r\n0,2,1,1", r"line 2: bead \(0, 2, 1\): p and q must be from 0 to 1"),
         ("p,q,j,r\n0,0,0,1\n0,1,0,1\n1,1,0,1", r"bead \(1, 0, 0\) is missing"),
     ],
 )
