@@ -123,6 +123,7 @@ def test_figure_4_does_not_depend_on_the_horizontal_position():
     assert (off < 5 * table["mean_standard_error"][point_load.LEG]).all()
 
 
+@pytest.mark.long
 def test_theory_of_figure_4_is_eq_16():
     table, _ = point_load.simulated(Options(realisations=16))
     at = {"k": 0, "l": point_load.APEX, "phi": PHI, "sigma": 1, "r": 1}
@@ -132,6 +133,7 @@ def test_theory_of_figure_4_is_eq_16():
         assert table[name] == pytest.approx(exact, rel=1e-12, abs=1e-28)
 
 
+@pytest.mark.long
 def test_theory_of_figure_b7_is_eqs_b7_and_b8():
     forms = [fd.equation(number).exact("mean") for number in ("B7", "B8")]
     at = {"M": neighbours.HEIGHT, "j": neighbours.LAYER, "phi": PHI, "sigma": 1, "r": 1}
