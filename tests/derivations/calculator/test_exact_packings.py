@@ -89,20 +89,18 @@ class Drawn:
     Attributes:
         kind: "surface" or "bulk".
         ratio: t; the load is vertical where none is given.
-        as_symbol: whether t stays a symbol.
         n: rational base vectors.
     """
 
     kind: str
     ratio: Fraction | None
-    as_symbol: bool
     n: tuple[Fraction, Fraction]
 
     @property
     def load(self) -> str | LoadCase:
         if self.ratio is None:
             return self.kind
-        return fd.leaning(t if self.as_symbol else sympy.Rational(self.ratio), self.kind)
+        return fd.leaning(t, self.kind)
 
     def packing(self, height: int) -> Packing:
         return Packing(height, self.n, self.kind, self.ratio or Fraction(1))
@@ -110,7 +108,7 @@ class Drawn:
     def numbers(self, form: fd.ClosedForm, height: int) -> dict[str, Fraction | int]:
         """Values of a form's symbols, except those that place a bead."""
         given = {"M": height, "phi": self.n[1] ** 2 - self.n[0] ** 2, "sigma": 1, "r": 1}
-        if self.as_symbol and self.ratio:
+        if self.ratio:
             given["t"] = self.ratio
         return {name: given[name] for name in given if name in form.symbols}
 
@@ -119,7 +117,6 @@ loads = st.builds(
     Drawn,
     st.sampled_from(["surface", "bulk"]),
     st.sampled_from([None, Fraction(2), Fraction(3, 5)]),
-    st.booleans(),
     st.sampled_from(TWO),
 )
 
@@ -202,7 +199,7 @@ def test_any_number_of_neighbours(terms, drawn):
 @given(_terms(2), st.sampled_from(TWO))
 def test_second_order_of_products(terms, n):
     """The shift of the mean of the product of all terms."""
-    drawn = Drawn("surface", Fraction(3, 5), True, n)
+    drawn = Drawn("surface", Fraction(3, 5), n)
     forces = sympy.Mul(*(term.force(i, j) for term in terms))
     form = fd.mean(forces, order=2, load=drawn.load)
 
