@@ -27,7 +27,7 @@ def nodes(tree: sympy.Basic, leaf: Any = None) -> Iterator[sympy.Basic]:
         elif id(node) not in seen:
             seen.add(id(node))
             left.append((node, True))
-            left += [(arg, False) for arg in node.args if node != leaf]
+            left += [(arg, False) for arg in node.args] if node != leaf else []
 
 
 def in_place(tree: sympy.Basic, meaning: Mapping[Any, Any]) -> sympy.Basic:

@@ -31,10 +31,11 @@ def numpy_function(
     needed = {symbol.in_code: symbol for side in expressions for symbol in side.free_symbols}
     by_name = {name: needed[name] for name in in_order(needed)}
     formulas = sympy.lambdify(by_name.values(), list(expressions), "numpy")
+    signature = inspect.signature(formulas)
 
     @wraps(formulas)
     def function(*args: Any, **kwargs: Any) -> Any:
-        given = inspect.signature(formulas).bind(*args, **kwargs).arguments
+        given = signature.bind(*args, **kwargs).arguments
         arrays = (np.asanyarray(value, float) for value in given.values())
         return unpacked(formulas(*np.broadcast_arrays(*arrays, subok=True)))
 
@@ -54,6 +55,6 @@ def _docstring(
     lines += [
         "",
         "Numbers or arrays that broadcast; float64 comes back, in their shape. Ranges are",
+        "not checked here: ``Equation.at`` does that.",
     ]
-    lines += ["not checked here: ``Equation.at`` does that."]
     return "\n".join(lines)

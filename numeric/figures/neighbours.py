@@ -50,7 +50,7 @@ def simulated(o: Options) -> Comparison:
     ensemble = packings.planned("profile", o, height=HEIGHT)
     square, each = (
         packings.gathered(plan, o.notice, "figure B7", partial(window_means, plan))
-        for plan in (ensemble, packings.one_changed(ensemble))
+        for plan in (ensemble, packings.unit_changes(ensemble))
     )
     what, exact = f"M = {HEIGHT}, j = {LAYER}: Eqs. B7 and B8", np.sqrt(each.sum(axis=0))
     return Comparison(what, packings.band_of_roots(square, o.seed), PAPER_STD * exact)

@@ -175,7 +175,7 @@ def solve_first(ensemble: Plan) -> Table:
     return table.index | table.numbers
 
 
-class _OneChanged:
+class _UnitChanges:
     """Packing k has δr = r of bead number k alone; only to first order can it be solved."""
 
     relative_std = Fraction(1)
@@ -187,12 +187,12 @@ class _OneChanged:
         return radii
 
 
-def one_changed(ensemble: Plan) -> Plan:
+def unit_changes(ensemble: Plan) -> Plan:
     """Plan a packing for each bead, with no other radius changed, to first order.
 
     Of what is then found, sums of squares are variances in units of (σ/r)².
     """
-    problem, radii, route = ensemble.problem, _OneChanged(), Route.FIRST_ORDER
+    problem, radii, route = ensemble.problem, _UnitChanges(), Route.FIRST_ORDER
     beads = problem.region.beads
     problem = replace(problem, radii=radii, route=route, realisations=beads)
     return replace(ensemble, problem=problem)

@@ -48,7 +48,7 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
     ensemble = packings.planned("response", o, medium, height=APEX, width=None, load=load)
     change, each = (
         packings.gathered(plan, o.notice, "figure 4", partial(vertical, plan))
-        for plan in (ensemble, packings.one_changed(ensemble))
+        for plan in (ensemble, packings.unit_changes(ensemble))
     )
     exact, single = (each.sum(axis=1) ** 2).sum(axis=0), (each[:, 0] ** 2).sum(axis=0)
     change = change.sum(axis=1)
