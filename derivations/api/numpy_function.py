@@ -31,12 +31,11 @@ def numpy_function(
     needed = {symbol.in_code: symbol for side in expressions for symbol in side.free_symbols}
     by_name = {name: needed[name] for name in in_order(needed)}
     formulas = sympy.lambdify(by_name.values(), list(expressions), "numpy")
-    signature = inspect.signature(formulas)
+    bind = inspect.signature(formulas).bind
 
     @wraps(formulas)
     def function(*args: Any, **kwargs: Any) -> Any:
-        given = signature.bind(*args, **kwargs).arguments
-        arrays = (np.asanyarray(value, float) for value in given.values())
+        arrays = (np.asanyarray(value, float) for value in bind(*args, **kwargs).arguments.values())
         return unpacked(formulas(*np.broadcast_arrays(*arrays, subok=True)))
 
     function.__name__ = function.__qualname__ = name
