@@ -13,7 +13,7 @@ from typing import Any
 
 import math_core
 from docutils import nodes
-from force_diffusion.derivations.commands.cli import COMMANDS
+from force_diffusion.derivations.commands.application import COMMANDS
 from force_diffusion.derivations.export import article
 from force_diffusion.derivations.export.prose import prose_markdown
 from force_diffusion.derivations.framework.catalogue import modules

@@ -12,10 +12,9 @@ import force_diffusion as fd
 
 from ..framework.catalogue import modules
 from ..framework.lists import both
-from .cli import STATUSES, command_line  # noqa: F401 (statuses stand below the help)
 from .equations import equation_number
 from .output import Output, OutputError, Overwrite, folder_of, out_option
-from .shared import Json, noticing
+from .shared import Json, command_line, noticing
 
 if TYPE_CHECKING:
     from ..framework.record import ProofOutcome

@@ -22,7 +22,7 @@ from ..export.answers import check, files_of, names_of
 from .guard import about, in_range, say, tell
 from .output import Output, Overwrite, out_option
 from .scenes import scene_argument
-from .shared import STATUSES, Json, Quiet, Written, show, sourced, warn  # noqa: F401
+from .shared import Json, Quiet, Written, show, sourced, warn
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.ensemble.result import Ensemble

@@ -24,10 +24,9 @@ from force_diffusion.numeric.scene.combinations import answered, either
 
 import force_diffusion as fd
 
-from .cli import command_line
 from .guard import about, say
 from .output import Output, Overwrite, out_option
-from .shared import Json, noticing, sourced, warn
+from .shared import Json, command_line, noticing, sourced, warn
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure

@@ -12,11 +12,10 @@ from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 import force_diffusion as fd
 
 from ..export.answers import Format, check, files_of, names_of
-from .cli import command_line
 from .guard import about as named
 from .guard import in_range, say, tell
 from .output import Output, Overwrite, out_option
-from .shared import STATUSES, Json, Quiet, Written, drawn, images, show, sourced, warn  # noqa: F401
+from .shared import Json, Quiet, Written, command_line, drawn, images, show, sourced, warn
 from .sweep import Settings, name_of, variants
 
 if TYPE_CHECKING:

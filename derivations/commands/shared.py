@@ -1,16 +1,17 @@
 """What several commands share: options, the printing of answers, a progress line, and plots."""
 
 import os
+import shlex
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import MissingLibraryError
+from force_diffusion.numeric.arithmetic.errors import MissingLibraryError, printable
 from force_diffusion.numeric.figures.names import KINDS
-from force_diffusion.numeric.tables import Answered, csv_bytes
 
 from ..export import answers
 from ..export.answers import Format
@@ -18,10 +19,14 @@ from .guard import tell
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
+    from force_diffusion.numeric.tables import Answered
     from matplotlib.figure import Figure
 
-
-STATUSES = (
+PROVED = (
+    "Exit status: 0 all proved; 1 something refuted or undecided; 2 wrong usage or input; "
+    "3 the disk or a pipe failed; 130 interrupted."
+)
+ANSWERED = (
     "Exit status: 0 answered; 2 wrong usage or input; 3 the goal can't be reached, or something "
     "outside the program, such as the disk, failed; 130 interrupted."
 )
@@ -36,6 +41,14 @@ Written = Annotated[
     Format,
     typer.Option("--format", help="Format of the rows; npz and parquet are for many rows."),
 ]
+
+GIVEN: ContextVar[list[str]] = ContextVar("given")
+"""The arguments of the command that runs."""
+
+
+def command_line() -> str:
+    """The command as one line for a shell; characters that no line may hold are spelled out."""
+    return printable(shlex.join(["force-diffusion", *GIVEN.get()])).replace("\n", r"\n")
 
 
 def warn(scene: Path, plan: "Plan") -> None:
@@ -53,7 +66,7 @@ def sourced(source: dict[str, Any], scene: Path, command: str | None) -> dict[st
 
 
 def show(
-    results: Sequence[Answered],
+    results: "Sequence[Answered]",
     about: dict[str, Any],
     lines: Iterable[str],
     *,
@@ -62,6 +75,8 @@ def show(
     written: bool,
 ) -> None:
     """Print JSON; or the first rows, all if ``quiet``, unless they are ``written``, and words."""
+    from force_diffusion.numeric.tables import csv_bytes
+
     if as_json:
         _print(answers.json_bytes(results, about))
         return

@@ -10,12 +10,13 @@ import io
 import json
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any, Literal, get_args
+from typing import TYPE_CHECKING, Any, Literal, get_args
 
-import numpy as np
 from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError
-from force_diffusion.numeric.arithmetic.systems import Array
-from force_diffusion.numeric.tables import Answered, csv_bytes, json_rows
+
+if TYPE_CHECKING:
+    from force_diffusion.numeric.arithmetic.systems import Array
+    from force_diffusion.numeric.tables import Answered
 
 Format = Literal["csv", "npz", "parquet"]
 """How the rows of an answer are written."""
@@ -36,9 +37,11 @@ def check(written: Format, folder: Path | None) -> None:
 
 
 def files_of(
-    answers: Sequence[Answered], about: dict[str, Any], written: Format
+    answers: "Sequence[Answered]", about: dict[str, Any], written: Format
 ) -> dict[str, bytes]:
     """Give the files of answers by name; ``about`` is all that JSON says of them but their rows."""
+    from force_diffusion.numeric.tables import csv_bytes
+
     files = {f"{answer.quantity}.{written}": answer for answer in answers}
     if written == "csv":
         tables = {name: csv_bytes(answer.text) for name, answer in files.items()}
@@ -61,8 +64,10 @@ def names_of(quantities: Iterable[str]) -> list[str]:
     return ["result.json", *tables]
 
 
-def json_bytes(answers: Sequence[Answered], about: dict[str, Any]) -> bytes:
+def json_bytes(answers: "Sequence[Answered]", about: dict[str, Any]) -> bytes:
     """Give all of some answers as JSON, each of their rows on a line."""
+    from force_diffusion.numeric.tables import json_rows
+
     whole = json.dumps(about, indent=2).encode() + b"\n"
     at = whole.index(b'\n  "results": {\n')  # no string of JSON holds a line's end
     for answer in answers:
@@ -74,8 +79,10 @@ def json_bytes(answers: Sequence[Answered], about: dict[str, Any]) -> bytes:
     return whole
 
 
-def _columns(answer: Answered) -> dict[str, Array]:
+def _columns(answer: "Answered") -> "dict[str, Array]":
     """The columns; numbers that are neither whole nor float64 as decimals."""
+    import numpy as np
+
     return {
         name: column
         if column.dtype == np.float64 or column.dtype.kind in "iU"
@@ -84,13 +91,15 @@ def _columns(answer: Answered) -> dict[str, Array]:
     }
 
 
-def _npz(columns: dict[str, Array], about: str) -> bytes:
+def _npz(columns: "dict[str, Array]", about: str) -> bytes:
+    import numpy as np
+
     file = io.BytesIO()
     np.savez(file, allow_pickle=False, about=np.array(about), **columns)
     return file.getvalue()
 
 
-def _parquet(columns: dict[str, Array], about: str) -> bytes:
+def _parquet(columns: "dict[str, Array]", about: str) -> bytes:
     import pyarrow
     from pyarrow import parquet
 

@@ -8,7 +8,7 @@ import tomllib
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.commands.cli import STATUSES
+from force_diffusion.derivations.commands.shared import PROVED
 
 ROOT = Path(__file__).parents[2]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -70,7 +70,7 @@ def test_it_leads_to_a_guide_for_each_of_the_tasks():
 
 
 def test_every_exit_status_is_listed():
-    for status in re.findall(r"\d+", STATUSES):
+    for status in re.findall(r"\d+", PROVED):
         assert f"\n| {status} |" in REFERENCE
 
 

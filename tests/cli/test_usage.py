@@ -2,12 +2,10 @@
 
 import re
 import shlex
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.commands.cli import COMMANDS
+from force_diffusion.derivations.commands.application import COMMANDS
 
 MANY = "9" * 5000
 SEEDS = ",".join(map(str, range(1001)))
@@ -102,18 +100,3 @@ def test_help_and_no_arguments(call):
     assert status == 2
     assert "Usage: force-diffusion" in stdout + stderr
     assert "Traceback" not in stdout + stderr
-
-
-@pytest.mark.parametrize("name", COMMANDS)
-def test_the_list_of_commands_has_the_summaries_of_their_help(name, call):
-    shown = " ".join(call(name, "--help")[1].split())
-    assert shown.startswith(f"Usage: force-diffusion {name} ")
-    assert f" {COMMANDS[name][1]} " in shown
-
-
-def test_a_command_loads_no_other_command_s_module():
-    program = (
-        "import sys; from force_diffusion.__main__ import main; main(['list']); "
-        "sys.exit('force_diffusion.derivations.commands.scenes' in sys.modules)"
-    )
-    subprocess.run([sys.executable, "-c", program], check=True)
