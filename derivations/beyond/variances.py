@@ -1,6 +1,6 @@
 """Variances of contact forces under loads in any direction, of discs and of spheres.
 
-Eqs. B2, B3, B11, B13, B14, B20, B24 and B25.
+Eqs. B2, B3, B13, B14, B24 and B25.
 """
 
 # fmt: off
@@ -35,23 +35,23 @@ _AVERAGE = {"surface": Rational(1, 2), "bulk": Rational(2, 3)}
 """The means of (1 − z)²(2z + 1) and (1 − z)²(4z + 1) over 0 < z < 1."""
 
 
-def in_dimensions(load: str, d: int, shares: sympy.Expr | None = None) -> sympy.Expr:
-    """The leading order in d dimensions, every bead resting on d others.
+def of_spheres(load: str, shares: sympy.Expr = sympy.S.One) -> sympy.Expr:
+    """The leading order in three dimensions: that of discs with 10κ² in place of 3/(1 − φ²)².
+
+    In d dimensions, every bead resting on d others, both are (d − 1)(2d − 1)κ² with
+    κ = [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}.
 
     Args:
         load: "surface" or "bulk".
-        d: such as 2 or 3.
-        shares: 2τ₁² + τ₂ of a load −Σ_a L^a n^a, τₙ being the sum of (L^a/L¹)ⁿ over a ≠ 1.
+        shares: (2τ₁² + τ₂)/10 of a load −Σ_a L^a n^a, τₙ being the sum of (L^a/L¹)ⁿ over a ≠ 1.
     """
-    kappa = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
-    number, slope = {"surface": (Rational(2, 3), 2), "bulk": (Rational(1, 10), 4)}[load]
-    upright = (d - 1) * (2 * d - 1)
-    profile = M**3 * (1 - z) ** 2 * (slope * z + 1)
-    return number * (shares or upright) * kappa**2 * profile * (sigma / r) ** 2
+    profile = PAPER[load].PRINTED.rhs.doit() * (1 - phi**2) ** 2 / 3
+    return 10 * shares * (1 + phi) ** 2 / ((1 - phi) * (1 + 2 * phi)) ** 2 * profile
 
 
 def _of_discs(number: Number, load: str) -> Row:
-    paper, leading = PAPER[load], t**2 * in_dimensions(load, 2)
+    paper = PAPER[load]
+    leading = t**2 * paper.PRINTED.rhs.doit()
     at_base = leading.xreplace({z: sympy.S.Zero})
     under = leaning(t, load)
     return Row(
@@ -99,10 +99,12 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
         "base vectors contribute.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
         claimed=lambda of: {
-            "the two highest orders":
-                leads(of["first"], in_dimensions(load, 3), following * IN_SPACE),
+            f"the highest order is that of Eq. {PAPER[load].DERIVATION.number}, with "
+            "(d − 1)(2d − 1) κ², κ = [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}, for d = 3 in place of "
+            "d = 2; and the next":
+                leads(of["first"], of_spheres(load), following * IN_SPACE),
             "at the base it goes as at z → 0":
-                goes_as(of["first"], in_dimensions(load, 3).xreplace({z: sympy.S.Zero}), *BASE),
+                goes_as(of["first"], of_spheres(load).xreplace({z: sympy.S.Zero}), *BASE),
             "one layer below the surface it goes as 6(1 + 2φ + 3φ²) M (σ/r)²/[(1−φ)(1+2φ)]²":
                 goes_as(of["first"], 6 * (1 + 2 * phi + 3 * phi**2) * M * IN_SPACE, *TOP),
             **agrees_below_surface(load, of["first"], form_of("B13", "first")),
@@ -112,7 +114,7 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
 
 def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
     first, second = t_2 + t_3, t_2**2 + t_3**2
-    leading = in_dimensions(load, 3, 2 * first**2 + second)
+    leading = of_spheres(load, (2 * first**2 + second) / 10)
     below_surface = (
         first**2 * (1 + phi) ** 2 + second * (1 + 2 * phi + 3 * phi**2) + 2 * phi**2 * (first + 2)
     )
@@ -146,35 +148,9 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
     )  # fmt: skip
 
 
-def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
-    paper = PAPER[load]
-    return Row(
-        number=number,
-        name="any_dimension" if load == "surface" else "any_dimension_bulk",
-        title=f"Variance of the forces in two and three dimensions under a {load} load",
-        call=f'variance(f_plus(i, j), load="{load}")',
-        exact=lambda: {
-            "discs": paper.DERIVATION.exact_forms["layer"],
-            "spheres": DERIVATIONS[spheres].exact_forms["first"],
-        },
-        meaning=f"Eqs. {paper.DERIVATION.number} and {spheres} side by side: for d = 2 and d = 3 "
-        "the variance has one profile and one power of M, with (d − 1)(2d − 1) κ² in front, κ "
-        "being [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}.",
-        quantities=(
-            (paper.RELATIVE_VARIANCE, "of discs"),
-            (FIRST, "of spheres, for the force along base vector 1"),
-        ),
-        claimed=lambda of: {
-            "the leading order of discs": leads(of["discs"], in_dimensions(load, 2)),
-            "the leading order of spheres": leads(of["spheres"], in_dimensions(load, 3)),
-        },
-    )
-
-
 DERIVATIONS: dict[Number, Row] = {
     "B2": _of_discs("B2", "surface"),
     "B3": _of_discs("B3", "bulk"),
-    "B11": _in_dimensions("B11", "surface", "B13"),
     "B13": _of_spheres(
         "B13",
         "surface",
@@ -185,7 +161,6 @@ DERIVATIONS: dict[Number, Row] = {
         "bulk",
         M**2 * (1 - z) * (5 + 4 * phi + 3 * phi**2 - z * (5 + 4 * phi - 13 * phi**2)) / 4,
     ),
-    "B20": _in_dimensions("B20", "bulk", "B14"),
     "B24": _leaning_spheres("B24", "surface", "B13"),
     "B25": _leaning_spheres("B25", "bulk", "B14"),
 }
