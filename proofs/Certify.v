@@ -111,7 +111,6 @@ Ltac below_load :=
 Ltac prove_7 := below_load.
 Ltac prove_9 := below_load.
 Ltac prove_10 := below_load.
-Ltac prove_nothing_else := below_load.
 
 Ltac of_passage P F i j :=
   match goal with C : carries _ _ _ F |- _ =>
@@ -161,41 +160,6 @@ Ltac near_printed G :=
   eapply bound_is; [eassumption|by_arithmetic G|by_arithmetic G].
 Ltac prove_13 := with_variance surface_variance near_printed.
 Ltac prove_14 := with_variance bulk_variance near_printed.
-
-Lemma largest z : z < 1 -> (1 - z) ^ 2 * (4 * z + 1) <= (1 - 1 / 6) ^ 2 * (4 * (1 / 6) + 1) /\
-  ((1 - z) ^ 2 * (4 * z + 1) = (1 - 1 / 6) ^ 2 * (4 * (1 / 6) + 1) -> z = 1 / 6).
-Proof.
-  intros H. assert (E : (1 - 1 / 6) ^ 2 * (4 * (1 / 6) + 1) - (1 - z) ^ 2 * (4 * z + 1) =
-    (z - 1 / 6) ^ 2 * (17 / 3 - 4 * z)) by field.
-  assert (S : 0 <= (z - 1 / 6) ^ 2) by apply pow2_ge_0. split.
-  - assert (0 <= (z - 1 / 6) ^ 2 * (17 / 3 - 4 * z)) by (apply Rmult_le_pos; lra). lra.
-  - intros A. rewrite A, Rminus_diag_eq in E by reflexivity. symmetry in E.
-    apply Rmult_integral in E. destruct E as [E|E]; [|lra].
-    replace ((z - 1 / 6) ^ 2) with (Rsqr (z - 1 / 6)) in E by (unfold Rsqr; ring).
-    apply Rsqr_0_uniq in E. lra.
-Qed.
-
-Ltac prove_maximum :=
-  intros G sigma M j S Hj HM; positive_things G;
-  assert (Hp : 0 < IZR M) by (apply (IZR_lt 0); lia);
-  assert (Hz : IZR j / IZR M < 1)
-    by (apply (Rmult_lt_reg_r (IZR M)); [|unfold Rdiv; rewrite Rmult_assoc, Rinv_l, Rmult_1_r, Rmult_1_l;
-          [apply IZR_lt; lia|]]; lra);
-  destruct (largest _ Hz) as [A B]; set (z := IZR j / IZR M) in *;
-  let c := constr:(3 / 10 * IZR M ^ 3 / (1 - phi G ^ 2) ^ 2 * (sigma / r G) ^ 2) in
-  assert (D : 0 < 1 - phi G ^ 2) by (replace (phi G ^ 2) with (phi G * phi G) by ring; lra);
-  assert (C : 0 < c);
-  [repeat first [apply Rdiv_lt_0_compat|apply Rmult_lt_0_compat|apply pow_lt|lra]
-  |split; [apply (Rmult_le_compat_l c) in A; [|lra]; eapply Rle_trans;
-      [apply Req_le|eapply Rle_trans; [exact A|apply Req_le]]; by_arithmetic G
-    |intros E; assert (Ez : z = 1 / 6)
-       by (apply B, (Rmult_eq_reg_l c); [|lra]; eapply eq_trans; [|eapply eq_trans; [exact E|]];
-           by_arithmetic G);
-     apply eq_IZR; rewrite mult_IZR; unfold z in Ez; apply (Rmult_eq_compat_r (IZR M)) in Ez;
-     unfold Rdiv in Ez; rewrite Rmult_assoc, Rinv_l, Rmult_1_r in Ez; lra]].
-
-Ltac prove_second_difference :=
-  intros sigma M W L i j (A & B & C); exact (second_difference_variance sigma M W L i j A B C).
 
 (** Mean and variance in every layer, case by case. *)
 Ltac site_of_case :=

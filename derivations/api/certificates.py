@@ -69,7 +69,7 @@ def certify(
         notice("coqchk")
         accepted = (asked[answer.number] for answer in certificates if answer.accepted)
         modules = [statement.accepted_in for several in accepted for statement in several]
-        if trouble := coq.check(modules) if modules else "":
+        if trouble := coq.check([*modules, "Beside"]) if modules else "":
             certificates = [
                 replace(answer, accepted=False, note=trouble) if answer.accepted else answer
                 for answer in certificates

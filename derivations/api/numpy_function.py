@@ -7,11 +7,16 @@ from typing import Any
 
 import numpy as np
 import sympy
-from force_diffusion.symbolic import symbols as sy
-
 from ..framework.evaluation import in_order, range_of, unpacked
 
-_MEANINGS = {sy.M: "height of the packing", sy.j: "layer, 0 at the base"}
+_DOCSTRING = """{}
+
+Args:
+{}
+
+Numbers or arrays that broadcast; float64 comes back, in their shape. Ranges are not checked
+here: ``Equation.at`` does that.
+"""
 
 
 def numpy_function(
@@ -38,22 +43,11 @@ def numpy_function(
         arrays = (np.asanyarray(value, float) for value in bind(*args, **kwargs).arguments.values())
         return unpacked(formulas(*np.broadcast_arrays(*arrays, subok=True)))
 
-    function.__name__ = function.__qualname__ = name
-    function.__doc__ = _docstring(heading, by_name, meanings)
-    return function
-
-
-def _docstring(
-    heading: str, by_name: Mapping[str, sympy.Symbol], meanings: Mapping[sympy.Basic, str]
-) -> str:
-    lines = [heading, "", "Args:"]
-    for name, symbol in by_name.items():
-        meaning = meanings.get(symbol) or _MEANINGS.get(symbol)
+    lines = []
+    for symbol_name, symbol in by_name.items():
         allowed, _ = range_of(symbol)
-        lines.append(f"    {name}: {f'{meaning}; ' if meaning else ''}{allowed}.")
-    lines += [
-        "",
-        "Numbers or arrays that broadcast; float64 comes back, in their shape. Ranges are",
-        "not checked here: ``Equation.at`` does that.",
-    ]
-    return "\n".join(lines)
+        meaning = f"{meanings[symbol]}; " if symbol in meanings else ""
+        lines.append(f"    {symbol_name}: {meaning}{allowed}.")
+    function.__name__ = function.__qualname__ = name
+    function.__doc__ = _DOCSTRING.format(heading, "\n".join(lines))
+    return function

@@ -95,14 +95,13 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
         exact=lambda: {
             "first": variance(ForceAlong(1, 0, 0, j), load=load, dimension=3).named(FIRST)
         },
-        meaning="The profile over the height is that of discs; at finite M sums along all three "
-        "base vectors contribute.",
+        meaning="The profile over the height and the power of M are those of discs, Eq. "
+        f"{PAPER[load].DERIVATION.number}: where each bead rests on d others, (d − 1)(2d − 1) κ² "
+        "stands in front, with κ = [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}. At finite M sums along all "
+        "three base vectors contribute.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
         claimed=lambda of: {
-            f"the highest order is that of Eq. {PAPER[load].DERIVATION.number}, with "
-            "(d − 1)(2d − 1) κ², κ = [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}, for d = 3 in place of "
-            "d = 2; and the next":
-                leads(of["first"], of_spheres(load), following * IN_SPACE),
+            "the two highest orders": leads(of["first"], of_spheres(load), following * IN_SPACE),
             "at the base it goes as at z → 0":
                 goes_as(of["first"], of_spheres(load).xreplace({z: sympy.S.Zero}), *BASE),
             "one layer below the surface it goes as 6(1 + 2φ + 3φ²) M (σ/r)²/[(1−φ)(1+2φ)]²":

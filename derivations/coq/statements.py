@@ -28,6 +28,7 @@ _IN_COQ = Style(index, " = ", " <= ", " >= ")
 _IN_CONE = {sy.k: sy.i + sy.p - sy.q, sy.l: sy.j + sy.p + sy.q}
 """The loaded bead (k, l) seen from (i, j), p steps along n⁺ and q along n⁻ below it."""
 _MIRRORED = (8, 9, 10, 11)  # stated of f⁻, too
+_IN_EVERY_LAYER = (13, 14)  # whose exact forms are stated, too
 
 
 def _all(conditions: Iterable[str]) -> str:
@@ -311,70 +312,6 @@ def _all_of(relations: Iterable[sympy.Basic]) -> str:
     return "(" + " /\\ ".join(f"({relation})%Z" for relation in parts(relations, _IN_COQ)) + ")"
 
 
-def _nothing_else(derivation: Derivation, *, mirrored: bool = False) -> CoqStatement:
-    """Besides Eqs. 9 and 10: no other contact below a loaded bead bears a force to first order."""
-    force, across, name = sy.ForcePlus(sy.i, sy.j), ("k - i", "i - k"), "equation_10_else_nothing"
-    if mirrored:
-        force, across, name = mirror(force), across[::-1], f"{name}_mirrored"
-    outside = f"({across[0]} > l - j \\/ {across[1]} >= l - j)%Z"
-    before, something = _about(
-        "(M k l i j : Z)",
-        _integers((7, 0, 6, 6 if mirrored else -6, 2)),
-        ("bead M k l", "contact M i j", "(j < l)%Z", outside),
-        _load(derivation),
-        random=False,
-    )
-    nothing = _to_first_order(sympy.Eq(force, sympy.S.Zero, evaluate=False))
-    return CoqStatement(name, before, nothing, "prove_nothing_else", (something,))
-
-
-def _second_difference(_derivation: Derivation) -> CoqStatement:
-    """Besides Eq. 12: the variance of one Δ."""
-    delta = words(sy.SecondDifference(sy.i, sy.j)).removesuffix(" e")
-    window = "within W M (i - 2) j /\\ within W M i j /\\ within W M (i + 2) j"
-    law = "(sigma : R) (M W : Z) (L : law W M sigma) (i j : Z)"
-    something = Companion(
-        "is_about_something",
-        f"exists {law}, {window}",
-        "destruct (law_exists 3 2 1) as [L _]. exists 1, 2%Z, 3%Z, L, 0%Z, 0%Z.\n"
-        "  unfold within, bead; lia.",
-    )
-    return CoqStatement(
-        "equation_12_second_difference",
-        (f"  forall {law},", f"  {window} ->"),
-        f"variance L (fun rho => {delta} 1) = 6 * sigma ^ 2",
-        "prove_second_difference",
-        (something,),
-    )
-
-
-def _maximum(derivation: Derivation) -> CoqStatement:
-    """Besides Eq. 14: the printed form is largest at z = 1/6, and only there."""
-    printed = derivation.printed[0].rhs
-    here, top = words(printed), words(printed.xreplace({sy.z: sympy.Rational(1, 6)}))
-    layer = ("0 < sigma", "(0 <= j)%Z", "(j < M)%Z")
-    something = Companion(
-        "is_about_something",
-        f"exists (G : lattice) (sigma : R) (M j : Z),\n  {_all(layer)} /\\ (M = 6 * j)%Z",
-        "destruct some_lattice as [G _]. exists G, 1, 6%Z, 1%Z.\n  repeat split; (lia || lra).",
-    )
-    return CoqStatement(
-        "equation_14_maximum",
-        ("  forall (G : lattice) (sigma : R) (M j : Z),", *(f"  {each} ->" for each in layer)),
-        f"{here} <= {top} /\\\n  ({here} = {top} -> (M = 6 * j)%Z)",
-        "prove_maximum",
-        (something,),
-    )
-
-
-BESIDE: dict[Number, tuple[Callable[[Derivation], CoqStatement], ...]] = {
-    10: (_nothing_else, partial(_nothing_else, mirrored=True)),
-    12: (_second_difference,),
-    13: (_exact,),
-    14: (_exact, _maximum),
-}
-
-
 def printed(derivation: Derivation) -> list[CoqStatement]:
     """The printed equations in Coq, part by part, and their mirror images."""
     if derivation.number == 15:
@@ -386,8 +323,8 @@ def printed(derivation: Derivation) -> list[CoqStatement]:
 
 def statements(derivation: Derivation) -> list[CoqStatement]:
     """The printed equations in Coq, and the statements that go with them."""
-    beside = BESIDE.get(derivation.number, ())
-    return [*printed(derivation), *(state(derivation) for state in beside)]
+    beside = [_exact(derivation)] if derivation.number in _IN_EVERY_LAYER else []
+    return [*printed(derivation), *beside]
 
 
 def recorded(derivation: Statement) -> str:
