@@ -228,7 +228,7 @@ def changes(draw: st.DrawFn, kind: str) -> Packing:
                 new = [[], [pair], [*contacts[which : which + 1], pair], contacts[which:][:1] * 2]
                 packing.contacts = [*before, *draw(st.sampled_from(new)), *after]
             case "period":
-                new_periods = ["0", f"-{period}", repr(2 * size), repr(3.9 * size), amount]
+                new_periods = ["0", repr(-float(period)), repr(2 * size), repr(3.9 * size), amount]
                 packing.period = draw(st.sampled_from([*new_periods, plus(period, amount)]))
             case "bead":
                 packing.radii.append(draw(st.sampled_from(["0.3", "1", amount])))
