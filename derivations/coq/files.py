@@ -108,12 +108,16 @@ class CoqStatement:
     @property
     def acceptance(self) -> str:
         """The file that compares both, and names the axioms."""
+        accepted = [f"accepted_{part.name}" for part in self.parts]
         compared = (
-            f"Definition accepted_{part.name} : {LIBRARY}.{self.statement_in}.{part.name} :=\n"
-            f"  {LIBRARY}.{self.module}.{part.name}.\nPrint Assumptions accepted_{part.name}.\n"
-            for part in self.parts
+            f"Definition {name} : {LIBRARY}.{self.statement_in}.{part.name} :=\n"
+            f"  {LIBRARY}.{self.module}.{part.name}.\n"
+            for name, part in zip(accepted, self.parts, strict=True)
         )
-        return f"From {LIBRARY} Require {self.statement_in} {self.module}.\n{''.join(compared)}"
+        return (
+            f"From {LIBRARY} Require {self.statement_in} {self.module}.\n{''.join(compared)}"
+            f"Definition accepted := ({', '.join(accepted)}).\nPrint Assumptions accepted.\n"
+        )
 
     @property
     def hash(self) -> str:

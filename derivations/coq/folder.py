@@ -106,8 +106,14 @@ class CoqFolder:
         try:
             while order.is_active():
                 for name in order.get_ready():
+                    if self.trouble(imports(sources[name])):
+                        self.answers[name] = Answer(failed="what it imports does not compile")
+                        order.done(name)
+                        continue
                     notice(name)
                     asked[pool.submit(self._run, "coqc", "-q", "-R", ".", LIBRARY, name)] = name
+                if not asked:
+                    continue
                 for done in wait(asked, return_when=FIRST_COMPLETED).done:
                     name = asked.pop(done)
                     self.answers[name] = done.result()
