@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import sympy
+
 from ..framework.evaluation import in_order, range_of, unpacked
 
 _DOCSTRING = """{}
