@@ -195,17 +195,13 @@ class Region:
         """Give so many steps along one base vector."""
         return tuple(count if a == axis else 0 for a in range(self.dimension))
 
-    def columns(self, source: Layer, layer: Layer, steps: tuple[int, ...]) -> Array:
-        """Say where in row ``source`` the beads x + Σ steps_a e_a are, for each x of ``layer``.
-
-        −1 where ``source`` lacks one; shape (layer.count,).
-        """
+    def columns(self, source: Layer, layer: Layer, steps: tuple[int, ...]) -> "Columns":
+        """Say where in row ``source`` the beads x + Σ steps_a e_a are, for each x of ``layer``."""
         if self.dimension == 2:
             first = layer.first + steps[0] - steps[1]
             wanted = Layer(layer.j + sum(steps), first, layer.count)
             return columns_of(source, wanted, self.width)
-        numbers = np.arange(layer.count).reshape(self.side, self.side)
-        return np.roll(numbers, [-step for step in steps[:-1]], (0, 1)).ravel()
+        return _columns_of_square(self.side, steps[:-1])
 
     @cached_property
     def starts(self) -> Array:
@@ -264,24 +260,55 @@ def closed_below(j: Array, first: Array, last: Array, width: int | None) -> Rows
     return Rows.between(left[::-1] + j, right[::-1] - j, width)
 
 
-def columns_of(source: Layer, wanted: Layer, width: int | None) -> Array:
-    """Say in which columns of row ``source`` the beads of ``wanted`` are; −1 where it lacks one."""
-    columns = (wanted.first - source.first) // 2 + np.arange(wanted.count)
+class Columns(NamedTuple):
+    """Columns of a row: a slice, or an array where they have gaps or jump.
+
+    ``lacking`` marks those that the row lacks; None where it has all.
+    """
+
+    at: slice | Array
+    lacking: Array | None = None
+
+
+def columns_of(source: Layer, wanted: Layer, width: int | None) -> Columns:
+    """Say in which columns of row ``source`` the beads of ``wanted`` are."""
+    start = (wanted.first - source.first) // 2
+    if width is not None:
+        start %= width
+    if 0 <= start <= source.count - wanted.count:
+        return Columns(slice(start, start + wanted.count))
+    return _scattered(start, wanted.count, source.count, width)
+
+
+@lru_cache(maxsize=4)  # of a periodic packing each second layer is alike
+def _scattered(start: int, count: int, there: int, width: int | None) -> Columns:
+    """Give ``count`` columns from ``start`` on, around the period, of a row of ``there`` beads."""
+    columns = start + np.arange(count)
     if width is not None:
         columns %= width
-    return np.where((columns >= 0) & (columns < source.count), columns, -1)
+    lacking = (columns < 0) | (columns >= there)
+    return Columns(np.where(lacking, -1, columns), lacking if lacking.any() else None)
 
 
-def taken(values: Any, columns: Array, zero: Any = None) -> Any:
-    """Take ``values`` of a row, (…, beads), at ``columns``; where these are −1, ``zero``.
+@lru_cache(maxsize=4)
+def _columns_of_square(side: int, steps: tuple[int, ...]) -> Columns:
+    """Give the columns of a layer of spheres so many steps on, around the period."""
+    if not any(steps):
+        return Columns(slice(None))
+    numbers = np.arange(side**2).reshape(side, side)
+    return Columns(np.roll(numbers, [-step for step in steps], (0, 1)).ravel())
 
-    Without a ``zero`` that raises ``LookupError``.
+
+def taken(values: Any, columns: Columns, zero: Any = None) -> Any:
+    """Take ``values`` of a row, (…, beads), at ``columns``; ``zero`` where the row lacks one.
+
+    Without a ``zero`` that raises ``LookupError``. The result may share memory with ``values``.
     """
-    picked, lacking = values[..., columns], columns < 0
-    if lacking.any():
+    picked = values[..., columns.at]
+    if columns.lacking is not None:
         if zero is None:
             raise LookupError("a row lacks beads that are asked for")
-        picked[..., lacking] = zero
+        picked[..., columns.lacking] = zero
     return picked
 
 

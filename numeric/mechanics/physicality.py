@@ -241,12 +241,11 @@ def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
         own = slice(starts[j], starts[j + 1])
         over = slice(starts[j + rise], starts[j + rise + 1])
         columns = region.columns(layers[j + rise], layers[j], steps)
-        known = columns >= 0
-        if not known.any():
+        if columns.lacking is not None and columns.lacking.all():
             continue
-        u = tuple(block[:, a, over][:, columns] - block[:, a, own] for a in range(d))
-        both = rho[:, over][:, columns] + rho[:, own]
+        u = tuple(block[:, a, over][:, columns.at] - block[:, a, own] for a in range(d))
+        both = rho[:, over][:, columns.at] + rho[:, own]
         with FLOAT64.active():
             gap = local.gap(steps, square, excess, u, both, metric)
-        gaps[:, own] = np.where(known, gap, math.inf)
+        gaps[:, own] = gap if columns.lacking is None else np.where(columns.lacking, math.inf, gap)
     return gaps

@@ -178,7 +178,7 @@ def deposit(
     d, at = region.dimension, region.starts.tolist()
     m = metric(d, phi, system.number)
     block = system.zeros(len(rho), d + d * d, region.beads)
-    layers = tuple(region.rows)
+    layers, down = tuple(region.rows), [region.step(a, -1) for a in range(d)]
     for j, layer in enumerate(layers):
         own, below = slice(at[j], at[j + 1]), slice(at[j - 1], at[j])
         radii = rho[:, own]
@@ -188,7 +188,7 @@ def deposit(
             raise _named(UnbuildableError, bad, layer, region, why)
         if not j:
             continue
-        columns = [region.columns(layers[j - 1], layer, region.step(a, -1)) for a in range(d)]
+        columns = [region.columns(layers[j - 1], layer, steps) for steps in down]
         under = tuple(tuple(taken(block[:, b, below], x) for b in range(d)) for x in columns)
         rho_under = tuple(taken(rho[:, below], x) for x in columns)
         rested = (rest_linear if linear else rest)(under, radii, rho_under, m)

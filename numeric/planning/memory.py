@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 
-from ..arithmetic.machine import memory_limit
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..lattice.layers import Region, Rows
 from ..mechanics.engine import chunk_size
@@ -51,13 +50,13 @@ def memory(
     return _bytes(quantities, region, at_once, n, system, text=text) + loops
 
 
-def refuse_beads(quantities: Sequence[Quantity], beads: int, *, text: bool) -> None:
-    """Refuse what surely takes too much memory for so many ``beads``, and for the plan itself."""
+def refuse_beads(quantities: Sequence[Quantity], beads: int, room: int, *, text: bool) -> None:
+    """Refuse what takes more than ``room``: so many ``beads``, and the plan itself."""
     scene = quantities[0].scene
     layers = 0 if quantities[0].single and not beads else scene.packing.height + 1
     nothing = Region(scene.packing.width, Rows())
     needed = _bytes(quantities, nothing, beads, 1, FLOAT64, text=text)
-    refuse_memory(scene, needed + layers * PLAN_LAYER)
+    refuse_memory(scene, needed + layers * PLAN_LAYER, room)
 
 
 def _bytes(
@@ -86,12 +85,12 @@ def _bytes(
     return needed
 
 
-def refuse_memory(scene: CheckedScene, needed: int) -> None:
-    """Raise ``TooLargeError`` where a scene needs more than most of the bytes that are free.
+def refuse_memory(scene: CheckedScene, needed: int, room: int) -> None:
+    """Raise ``TooLargeError`` where a scene needs more than ``room``, the bytes that may be used.
 
     Of the height, the width and the realisations the largest is named.
     """
-    if needed > (limit := memory_limit()):
+    if needed > room:
         packing = scene.packing
         sizes = {
             "packing.height": packing.height,
@@ -100,7 +99,7 @@ def refuse_memory(scene: CheckedScene, needed: int) -> None:
         }
         key = max(sizes, key=sizes.__getitem__)
         needs = f"this scene would need about {size(needed)} of memory"
-        raise TooLargeError(key, sizes[key], f"{needs} and {size(limit)} may be used")
+        raise TooLargeError(key, sizes[key], f"{needs} and {size(room)} may be used")
 
 
 def size(number: int) -> str:

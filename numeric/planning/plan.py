@@ -28,7 +28,8 @@ METHODS = {
 class Plan:
     """How a scene will be solved, and what is known beforehand.
 
-    ``system`` is the arithmetic, ``reason`` why it is no other. ``memory``: bytes at the peak.
+    ``system`` is the arithmetic, ``reason`` why it is no other. ``memory``: bytes at the peak;
+    ``room``: those that could be used when it was made.
     ``error``: expected relative to the largest change; None where only the sweep can tell.
     ``skipped``: the effects that are left out, and why.
     """
@@ -41,6 +42,7 @@ class Plan:
     reason: str
     error: Fraction | None
     memory: int
+    room: int
     skipped: dict[str, str]
 
     @property

@@ -15,6 +15,7 @@ from math import isqrt
 
 from ..arithmetic.carried import PRINTED, UNIT
 from ..arithmetic.decimals import short
+from ..arithmetic.machine import memory_limit
 from ..arithmetic.systems import FLOAT64, Balls, NumberSystem
 from ..disorder.radii import DrawnRadii, Radii
 from ..lattice.layers import Region, Rows
@@ -52,15 +53,15 @@ def plan(
     certified = certified or scene.ask.certified
     if certified and tolerance is None:
         raise SceneError("ask.certified", True, "needs a tolerance, such as tolerance = 1e-30")
-    quantities = quantities_of(scene)
-    problem, skipped = _problem(scene, quantities, text=text)
+    quantities, room = quantities_of(scene), memory_limit()
+    problem, skipped = _problem(scene, quantities, room, text=text)
     error = expected(FLOAT64, quantities, problem)
-    made = Plan(scene, quantities, problem, tolerance, FLOAT64, "", error, 0, skipped)
+    made = Plan(scene, quantities, problem, tolerance, FLOAT64, "", error, 0, room, skipped)
     reason = why_balls(made, certified=certified)
     if reason:
         return in_balls(made, reason, text=text)
     needed = memory(quantities, problem, FLOAT64, text=text)
-    refuse_memory(scene, needed)
+    refuse_memory(scene, needed, room)
     return replace(made, memory=needed)
 
 
@@ -71,13 +72,13 @@ def in_balls(made: Plan, reason: str, *, text: bool = True) -> Plan:
         tolerance, height = made.tolerance or TOUCHING, 1
     system = Balls(initial_bits(tolerance, height))
     needed = memory(made.quantities, made.problem, system, text=text)
-    refuse_memory(made.scene, needed)
+    refuse_memory(made.scene, needed, made.room)
     error = expected(system, made.quantities, made.problem)
     return replace(made, system=system, reason=reason, error=error, memory=needed)
 
 
 def _problem(
-    scene: CheckedScene, quantities: Sequence[Quantity], *, text: bool
+    scene: CheckedScene, quantities: Sequence[Quantity], room: int, *, text: bool
 ) -> tuple[Problem, dict[str, str]]:
     """Say which beads are solved, by which theory, and what that leaves out.
 
@@ -92,7 +93,7 @@ def _problem(
     if not single:
         beads = max(quantity.fewest_beads for quantity in quantities)
     swept = not ordered or scene.packing.dimension > 2
-    refuse_beads(quantities, beads * swept, text=text)
+    refuse_beads(quantities, beads * swept, room, text=text)
 
     load = load_of(scene)
     needs_forces = any(quantity.needs_forces for quantity in quantities)
@@ -104,7 +105,7 @@ def _problem(
         rows = max((rows for rows, _ in needed), key=len)
         region = max((region for _, region in needed), key=lambda region: region.beads)
         beads = int(region.rows.counts.sum(dtype=float))  # whole numbers could overflow
-        refuse_beads(quantities, beads * swept, text=text)
+        refuse_beads(quantities, beads * swept, room, text=text)
     alike = DrawnRadii("uniform", Fraction(0), 0, load.width)
     radii: Radii = alike
     if not ordered:

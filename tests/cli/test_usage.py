@@ -78,7 +78,7 @@ ask = {quantity = "profile", realisations = 40}
 )
 def test_wrong_words(words, says, hint, call, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("force_diffusion.numeric.planning.memory.memory_limit", lambda: 10**9)
+    monkeypatch.setattr("force_diffusion.numeric.planning.planner.memory_limit", lambda: 10**9)
     Path("scene.toml").write_text(SCENE)
     more = ["--out", "out"] if re.match("(derive|run)((?!--out|--format).)*$", words) else []
     status, stdout, stderr = call(*shlex.split(words), *more)

@@ -82,6 +82,6 @@ def test_too_high_a_slab_is_refused_before_its_layers_are_listed(load):
 
 
 def test_no_more_memory_is_used_than_may_be(monkeypatch):
-    monkeypatch.setattr("force_diffusion.numeric.planning.memory.memory_limit", lambda: 10**8)
+    monkeypatch.setattr("force_diffusion.numeric.planning.planner.memory_limit", lambda: 10**8)
     with pytest.raises(SceneError, match=r"of memory.*100 MB may be used"):
         plan(scene(basic(100, 201)))
