@@ -130,6 +130,15 @@ def sqrt(x: Any) -> Any:
     return Carried(value, (x.error - residual(value, value, x.value)) / (value + value))
 
 
+def accumulated(x: Any) -> Any:
+    """Give the sums of the first 1, 2, … numbers of an array, in any system."""
+    if not isinstance(x, Carried):
+        return np.add.accumulate(x)
+    value = np.add.accumulate(x.value)
+    before = Carried(np.append(0.0, value[:-1]), 0.0)
+    return Carried(value, np.add.accumulate(added(before, x).error))
+
+
 @dataclass(frozen=True)
 class Carrying(NumberSystem):
     """float64, with the error of each number carried along: the system of ``Carried``."""

@@ -87,8 +87,7 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
         strength = load.strength(problem.n_x, system)
         if problem.contact is not None:
             zero = system.number(problem.n_x * 0)
-            own, *_ = first_order.ordered_forces(problem.contact, load, strength, system)
-            single = (own[0] if len(own) else zero, zero)
+            single = first_order.ordered_force(problem.contact, load, strength, system), zero
         else:
             F = load.ordered(rows, strength, system)
             forces = Forces(system, problem.region, rows, F, system.zeros(1, *F.shape))

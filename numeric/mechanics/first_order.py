@@ -12,11 +12,11 @@ gives f⁻.
 
 from collections.abc import Callable
 from fractions import Fraction
-from itertools import pairwise
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..arithmetic.carried import accumulated
 from ..arithmetic.systems import FLOAT64, NumberSystem
 from ..lattice.branch import Contact, Site
 from ..lattice.layers import Rows
@@ -42,16 +42,24 @@ class Line(NamedTuple):
         return Rows(self.start + self.step * layers, np.ones_like(layers))
 
 
-def line_sum(rho: Any) -> list[Any]:
+def line_sum(rho: Any) -> Any:
     """Give c of every bead up a diagonal from its δr/r, base first: c = 0 at the base (Eq. 3).
 
-    >>> line_sum([1, 10, 100])
-    [0, 11, 121]
+    >>> line_sum(np.array([1, 10, 100]))
+    array([  0,  11, 121])
     """
-    sums = [0 * rho[0]]
-    for below, here in pairwise(rho):
-        sums.append(sums[-1] + below + here)
-    return sums
+    c = 0 * rho
+    c[1:] = accumulated(rho[np.arange(1, 2 * len(rho) - 1) // 2])[1::2]
+    return c
+
+
+def ordered_force(
+    contact: Contact, load: LoadSpec, strength: Strength, system: NumberSystem
+) -> Any:
+    """Give the ordered force of a contact."""
+    i, j, branch = contact
+    rows = Rows([i, i + branch.side], [1, 1], j)
+    return load.ordered(rows, strength, system)[branch.number, 0]
 
 
 def ordered_forces(
@@ -83,24 +91,23 @@ def contact_change(
     j, phi = contact.j, cosine(n_x)
     over, cosine_ = system.number(1 / (1 - phi**2)), system.number(phi)
     own, above, below = ordered_forces(contact, load, load.strength(n_x, system), system)
-    beads: dict[str, list[tuple[Any, Any]]] = {"outer": [], "main": [], "inner": []}
-    for name, line in lines_read(contact, load).items():
-        radii = rho(line)
-        beads[name] = list(zip(line_sum(radii), radii, strict=True))
+    zero, lines = system.number(Fraction(0)), lines_read(contact, load)
+    radii = {name: rho(line) for name, line in lines.items()}
+    c = {name: line_sum(values) for name, values in radii.items()}
 
-    def beta(upper: tuple[Any, Any], lower: tuple[Any, Any]) -> Any:
-        return (upper[0] - lower[0] - cosine_ * (upper[1] + lower[1])) / 2
+    def change(forces: Any, upper: str, lower: str, layer: int) -> Any:
+        """Add up F β of the beads of a line from ``layer`` on, β to the beads below in another."""
+        if not {upper, lower} <= lines.keys():
+            return zero
+        count = min(lines[upper].top + 1, lines[lower].top + 2) - layer
+        y, z = slice(layer, layer + count), slice(layer - 1, layer - 1 + count)
+        both = radii[upper][y] + radii[lower][z]
+        beta = (c[upper][y] - c[lower][z] - cosine_ * both) / 2
+        return accumulated(forces[:count] * beta)[-1]
 
-    force = total = system.number(Fraction(0))
-    # beyond the ends of the lines no force crosses them
-    for F, y, z in zip(above, beads["outer"][j + 2 :], beads["main"][j + 1 :], strict=False):
-        total = total + F * beta(y, z)
-    for F, y, z in zip(below, beads["main"][j + 1 :], beads["inner"][j:], strict=False):
-        total = total - F * beta(y, z)
-    if "upper" in beads:
-        force = own[0]
-        total = total + force * cosine_ * beta(beads["upper"][-1], beads["lower"][-1])
-    return force, total * over
+    crossing = change(above, "outer", "main", j + 2) - change(below, "main", "inner", j + 1)
+    force = own[0] if "upper" in lines else zero
+    return force, (crossing + cosine_ * change(own, "upper", "lower", j + 1)) * over
 
 
 def bead_lines(site: Site) -> tuple[Line, Line]:

@@ -124,14 +124,14 @@ class LoadSpec:
                 forces[a, first:] = share
             return forces
         for site, load in strength.single.items():
-            layers, columns = self._below(site, 0, rows)
-            if len(layers) and layers[0] == site[1]:
+            below, columns = self._below(site, 0, rows)
+            if len(below) and below[0] == site[1]:
                 for a, share in enumerate(load):
                     forces[a, ends[site[1]] - rows.counts[site[1]] + columns[0]] += share
         return forces
 
     def ordered(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
-        """Give the ordered forces below the beads of ``rows`` above the base, (d, beads).
+        """Give the ordered forces below the beads of all ``rows`` but the lowest, (d, beads).
 
         A load goes straight down, along each direction by itself.
         """
@@ -147,23 +147,23 @@ class LoadSpec:
             return forces
         for site, load in strength.single.items():
             for a, share in enumerate(load):
-                layers, columns = self._below(site, a, rows)
-                at = (starts[layers] + columns)[layers > 0]
+                below, columns = self._below(site, a, rows)
+                at = (starts[below] + columns)[below > 0]
                 forces[a, at] = forces[a, at] + share
         return forces
 
     def _below(self, site: Site, a: int, rows: Rows) -> tuple[Array, Array]:
-        """Give layers and columns of the beads of ``rows`` from a site straight down −e_a."""
+        """Give numbers of ``rows``, and columns, of the beads from a site straight down −e_a."""
         i, j = site
-        down = np.arange(min(j + 1, len(rows)) if j < len(rows) else 0)
-        layers = j - down
+        below = np.arange(min(j - rows.lowest, len(rows) - 1), -1, -1)
+        down = j - rows.lowest - below
         if self.dimension == 2:
-            columns = (i + (2 * a - 1) * down - rows.firsts[layers]) // 2
+            columns = (i + (2 * a - 1) * down - rows.firsts[below]) // 2
             if self.width is not None:
                 columns %= self.width
         else:
             side = math.isqrt(self.width or 0)
             p, q = divmod((i - j % 2) // 2, side)
             columns = (p - down * (a == 0)) % side * side + (q - down * (a == 1)) % side
-        there = (columns >= 0) & (columns < rows.counts[layers])
-        return layers[there], columns[there]
+        there = (columns >= 0) & (columns < rows.counts[below])
+        return below[there], columns[there]

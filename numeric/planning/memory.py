@@ -42,7 +42,7 @@ def memory(
     together = min(n, chunk_size(problem, system))
     at_once = region.beads * together
     if problem.route == Route.LINE_SUMS:  # one realisation after the other
-        at_once = problem.line_beads
+        at_once = problem.line_beads * 2 // 3  # they are summed, which takes less
     elif problem.route == Route.ORDERED and problem.dimension == 2:
         at_once = 0
     at_once += sum(quantity.gathered(region, together) for quantity in quantities)

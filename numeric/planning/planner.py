@@ -89,7 +89,7 @@ def _problem(
     effects, realisations = scene.effects, scene.ask.realisations
     ordered, unilateral = _why_ordered(scene), effects.contacts == "unilateral"
     single = quantities[0].single and bool(ordered or effects.geometry == "first-order")
-    beads = 5 * scene.packing.height
+    beads = 3 * scene.packing.height  # as much as those of five diagonals, which are summed
     if not single:
         beads = max(quantity.fewest_beads for quantity in quantities)
     swept = not ordered or scene.packing.dimension > 2
