@@ -54,8 +54,7 @@ def reached(loaded: Iterable[Site], rows: Rows, region: Region) -> list[Layer]:
         here = np.zeros(row.count, bool)
         here[columns % (region.width or max(row.count, 1))] = True
         for axis in range(region.dimension if upper.count else 0):
-            columns = region.columns(upper, row, region.step(axis, 1))
-            here |= taken(above, columns, False)
+            here |= taken(above, region.columns(upper, row, region.step(axis, 1)), False)
         ends = np.flatnonzero(np.diff(here, prepend=False, append=False)).reshape(-1, 2)
         layers += [Layer(row.j, row.first + 2 * a, b - a) for a, b in ends[::-1].tolist()]
         upper, above = row, here

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from ..arithmetic.decimals import short
-from ..arithmetic.systems import Array, NumberSystem
+from ..arithmetic.systems import Array
 from ..lattice.branch import Branch
 from ..lattice.layers import Block, Region
 from ..mechanics.problem import Problem
@@ -51,7 +51,7 @@ class Profile(Merged):
         shape = -1, self.members(problem)
         return F.reshape(shape), g.reshape(realisations, *shape).swapaxes(0, 1)
 
-    def table(self, problem: Problem, system: NumberSystem, statistics: Statistics) -> Table:
+    def table(self, problem: Problem, statistics: Statistics) -> Table:
         """One row a layer and branch, base first."""
         index = {name: np.array(column) for name, column in self.labels(problem).items()}
         index["samples"] = np.full(len(statistics.mean), statistics.count)

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem
+from ..arithmetic.systems import Array
 from ..lattice.layers import Block, Region, columns_of, taken
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
@@ -62,7 +62,7 @@ class Response(Merged):
             tilts.append(taken(sum(normal[1:], normal[0]), columns))
         return np.concatenate(tilts, axis=1)
 
-    def table(self, problem: Problem, system: NumberSystem, statistics: Statistics) -> Table:
+    def table(self, problem: Problem, statistics: Statistics) -> Table:
         """One row a contact."""
         contacts = self.naming.contacts(self.blocks(problem))
         half = len(statistics.mean) // 2

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem, as_floats
+from ..arithmetic.systems import Array, NumberSystem
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
-from ..statistics.moments import Moments, standard_errors, unit_near
+from ..statistics.moments import mean_and_std, standard_errors, unit_near
 from .base import ContactQuantity, Gatherer, Table
 
 
@@ -36,39 +36,41 @@ class Merged(ContactQuantity):
     roundings = 6
 
     def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
-        """Start to merge moments."""
-        return _Moments(self, problem, system)
+        """Start to gather moments."""
+        return _Moments(self, problem)
 
     @abstractmethod
-    def table(self, problem: Problem, system: NumberSystem, statistics: Statistics) -> Table:
+    def table(self, problem: Problem, statistics: Statistics) -> Table:
         """Give the rows."""
 
 
 class _Moments:
-    def __init__(self, quantity: Merged, problem: Problem, system: NumberSystem) -> None:
-        self.quantity, self.problem, self.system = quantity, problem, system
+    def __init__(self, quantity: Merged, problem: Problem) -> None:
+        self.quantity, self.problem = quantity, problem
+        # a power of two, in which squares of changes are within the range of floats
         self.unit = unit_near(problem.radii.relative_std)
         self.ordered: Any = None
-        self.moments, self.scatter = Moments(self.unit), list[Array]()
+        self.parts, self.members = list[Array](), 0
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Merge the changes of the contacts; ordered forces only enter the mean."""
+        """Give mean and variance of each packing's groups; ordered forces only enter the mean."""
         F, g = self.quantity.changes(self.problem, solved, len(realisations))
-        with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
-            scaled = as_floats(g / self.unit)
-            self.scatter.append(np.stack([scaled.mean(axis=2).T, (scaled**2).mean(axis=2).T], 1))
         if self.ordered is None:
             # under a surface or bulk load F is one number, which a sum would round
             alike = self.problem.load.loaded is None or F.shape[1] == 1
             self.ordered = F[:, 0] if alike else F.sum(axis=1) / F.shape[1]
-        self.moments.add(g.reshape(len(g), -1).T)
+        g, self.members = g / self.unit, g.shape[2]
+        apart = g - (mean := g.mean(axis=2, keepdims=True))
+        self.parts.append(np.stack([mean[..., 0].T, (apart * apart).mean(axis=2).T], axis=1))
 
     def table(self) -> Table:
         """Give what was found, in the columns of the question."""
-        mean_error, std_error = (
-            error * self.unit for error in standard_errors(np.concatenate(self.scatter))
-        )
-        mean, std = self.moments.average(), self.moments.std(self.system)
-        count = self.moments.count
-        statistics = Statistics(self.ordered, mean, std, mean_error, std_error, count)
-        return self.quantity.table(self.problem, self.system, statistics)
+        parts = np.concatenate(self.parts)
+        mean, std = mean_and_std(*parts.swapaxes(0, 1))
+        with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
+            floats = np.asarray(parts, np.float64)
+            floats[:, 1] += floats[:, 0] ** 2  # about zero
+            errors = standard_errors(floats)
+        found = (of * self.unit for of in (mean, std, *errors))
+        statistics = Statistics(self.ordered, *found, len(parts) * self.members)
+        return self.quantity.table(self.problem, statistics)

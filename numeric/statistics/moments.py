@@ -1,13 +1,12 @@
-"""Mean and variance that merge exactly, in any number system."""
+"""Mean and standard deviation in any number system, and their standard errors."""
 
 import math
-from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem
+from ..arithmetic.systems import Array
 
 # Of a variance: no sample is so large that its error is less.
 ROUNDING = 1e-9
@@ -16,48 +15,15 @@ ROUNDING = 1e-9
 CANCELLED = 2.0**-44
 
 
-@dataclass
-class Moments:
-    """Count, mean and sum of squared deviations from it, elementwise over an array of variables.
+def mean_and_std(means: Array, squares: Array) -> tuple[Array, Array]:
+    """Give the mean and the standard deviation of all samples, shape (groups,) each.
 
-    Deviations from the ordered value come in, so nothing large is ever subtracted: the variance
-    stays accurate however small it is beside the mean force. ``unit``, a power of two of the size
-    of the deviations, keeps their squares within the range of hardware floats; the first samples
-    set it, unless they are all zero.
+    ``means``: those of each packing, (packings, groups); ``squares``: mean squares of the
+    deviations from them. Nothing large is subtracted: a scatter far below the mean stays accurate.
     """
-
-    unit: float = 1
-    count: int = 0
-    mean: Any = None
-    square: Any = None
-
-    def add(self, samples: Array) -> None:
-        """Merge samples along the first axis (pairwise update of two groups)."""
-        n = len(samples)
-        if samples.dtype == object:
-            self.unit = 1  # exponents of balls and big floats have no end
-        elif not self.count and (largest := np.abs(samples).max(initial=0)) > 0:
-            self.unit = unit_near(Fraction(float(largest)))
-        samples = samples / self.unit
-        mean = samples.sum(axis=0) / n
-        deviation = samples - mean
-        square = (deviation * deviation).sum(axis=0)
-        if not self.count:
-            self.count, self.mean, self.square = n, mean, square
-            return
-        total = self.count + n
-        step = mean - self.mean
-        self.square = self.square + square + step * step * (self.count * n) / total
-        self.mean = self.mean + step * n / total
-        self.count = total
-
-    def average(self) -> Any:
-        """Give the mean."""
-        return np.asarray(self.mean * self.unit)
-
-    def std(self, system: NumberSystem) -> Any:
-        """Root of the mean squared deviation (divided by the count)."""
-        return np.asarray(root(np.asarray(self.square / self.count), system) * self.unit)
+    mean = means.mean(axis=0)
+    apart = means - mean
+    return mean, root((squares + apart * apart).mean(axis=0))
 
 
 def standard_errors(values: Array) -> tuple[Array, Array]:
@@ -136,7 +102,7 @@ def unit_near(size: Fraction) -> float:
     return math.ldexp(1.0, min(max(exponent, -1000), 1000))
 
 
-def root(values: Array, system: NumberSystem) -> Array:
+def root(values: Array) -> Array:
     """Take the root of what can't be negative: of a ball, only its non-negative part."""
     if values.dtype != object:
         return np.sqrt(values)
