@@ -33,7 +33,7 @@ from .planning.plan import Plan
 from .planning.planner import gathering, initial_bits
 from .quantities.answer import Answer, answer
 from .quantities.base import RATIO, SCATTER_OF, Bins, Quantity, Table
-from .tables import significant
+from .tables import significant, text_of
 
 CARRIED = "estimated, as the sweep carried it, not certified"
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
@@ -219,12 +219,12 @@ def most_digits(system: Balls) -> int:
 def printed(
     table: Table, accuracy: Accuracy, system: NumberSystem, *, sampled: bool
 ) -> dict[str, list[str]]:
-    """Give the number columns as text (see ``tables``), each number with the digits that are known.
+    """Give the columns as text (see ``tables``), each number with the digits that are known.
 
     Standard errors stand beside their columns, with three digits, and nothing where they are not
     known. ``sampled``: whether to leave out digits that would be others in another sample.
     """
-    numbers: dict[str, list[str]] = {}
+    text = {name: text_of(column) for name, column in table.index.items()}
     for name, column in table.numbers.items():
         errors = table.errors.get(name if name in table.errors else SCATTER_OF.get(name, ""))
         bound, over, sampling = accuracy.error_bound, np.ones(1), np.zeros(1)
@@ -235,13 +235,13 @@ def printed(
             sampling = np.nan_to_num(errors, posinf=np.inf) / over
         if isinstance(system, Balls) and not np.any(sampling):
             most = most_digits(system)
-            numbers[name] = ["0" if v.contains(0) else v.str(most, radius=False) for v in column]
+            text[name] = ["0" if v.contains(0) else v.str(most, radius=False) for v in column]
         else:  # what scatters needs no more than a float has
             error = (float(bound) * table.largest if math.isfinite(bound) else np.inf) / over
-            numbers[name] = known_digits(as_floats(column), error, sampling)
+            text[name] = known_digits(as_floats(column), error, sampling)
         if name in table.errors:
-            numbers[f"{name}_error"] = of_errors(table.errors[name])
-    return numbers
+            text[f"{name}_error"] = of_errors(table.errors[name])
+    return text
 
 
 def of_errors(errors: Array) -> list[str]:

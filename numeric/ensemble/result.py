@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from .. import tables
-from ..accuracy import known_digits, of_errors
+from ..accuracy import Accuracy, printed
 from ..arithmetic.errors import ForceDiffusionError
-from ..arithmetic.systems import Array
+from ..arithmetic.systems import FLOAT64, Array
 from ..lattice.branch import ORDER, Branch
-from ..quantities.base import RATIO, SCATTER_OF
+from ..quantities.base import RATIO, Table
 from ..scene.scene import source_of
 from ..statistics.confidence import half_width
 from ..statistics.moments import error_of_std, with_errors
@@ -216,25 +216,24 @@ class Ensemble(tables.Answered):
         }
 
     @cached_property
-    def _groups(self) -> dict[str, Array]:
+    def _groups(self) -> Table:
         theory, ratio = self.first_order_std, self.std_over_mean
-        return {
-            **self.index,
-            "samples": np.full(self.measurement.groups, self.samples),
-            "mean": self.mean,
-            "mean_change": self.mean_change,
-            "mean_change_error": self.mean_change_error,
-            "std": self.std,
-            "std_error": self.std_error,
-            **({} if ratio is None else {"std_over_mean": ratio}),
-            **({} if theory is None else {"first_order_std": theory}),
-            "tensile": self.tensile,
-        }
+        index = {**self.index, "samples": np.full(self.measurement.groups, self.samples)}
+        if theory is not None:
+            index["first_order_std"] = np.array(
+                tables.significant(theory, np.full(len(theory), 12))
+            )
+        index["tensile"] = self.tensile
+        numbers = {"mean": self.mean, "mean_change": self.mean_change, "std": self.std}
+        if ratio is not None:
+            numbers[RATIO] = ratio
+        errors = {"mean_change": self.mean_change_error, "std": self.std_error}
+        return Table(index, numbers, tuple(errors), errors)
 
     @property
     def arrays(self) -> dict[str, Array]:
         """The table's columns by name; an entry for each group, or for each bin of a histogram."""
-        return self.bins or self._groups
+        return self.bins or self._groups.columns
 
     @property
     def rows(self) -> int:
@@ -244,24 +243,11 @@ class Ensemble(tables.Answered):
     @cached_property
     def text(self) -> dict[str, list[str]]:
         """The columns as text, to two digits beyond their standard errors."""
-        return self._text_of(self.arrays)
-
-    def _text_of(self, columns: dict[str, Array]) -> dict[str, list[str]]:
-        texts: dict[str, list[str]] = {}
-        for name, column in columns.items():
-            if column.dtype.kind != "f":
-                texts[name] = tables.text_of(column)
-            elif name.endswith("_error"):
-                texts[name] = of_errors(column)
-            elif name == "first_order_std":
-                texts[name] = tables.significant(column, np.full(len(column), 12))
-            else:
-                names = (f"{name}_error", f"{SCATTER_OF.get(name, name)}_error")
-                known = next((columns[n] for n in names if n in columns), np.zeros(len(column)))
-                with np.errstate(all="ignore"):  # beside a mean of 0 no digit is known
-                    sampling = np.nan_to_num(known) / (self.mean if name == RATIO else 1)
-                texts[name] = known_digits(column, 0.0, sampling)
-        return texts
+        if self.bins is None:
+            return _printed(self._groups)
+        numbers, errors = self.bins.copy(), {"share": self.bins["share_error"]}
+        del numbers["share_error"]
+        return _printed(Table({}, numbers, (), errors))
 
     @cached_property
     def source(self) -> dict[str, Any]:
@@ -298,7 +284,8 @@ class Ensemble(tables.Answered):
         }
         if self.bins:  # of all that was counted
             groups = self._groups
-            (data["statistics"],) = tables.rows_of_text(self._text_of(groups), tables.whole(groups))
+            whole = tables.whole(groups.columns)
+            (data["statistics"],) = tables.rows_of_text(_printed(groups), whole)
         return data
 
     def plot(self) -> "Figure":
@@ -341,3 +328,9 @@ class Ensemble(tables.Answered):
         """Show the first rows as a table in LaTeX."""
         first = {name: column[: tables.SHOWN] for name, column in self.arrays.items()}
         return tables.latex_table(tables.rows_of(first))
+
+
+def _printed(table: Table) -> dict[str, list[str]]:
+    """Write columns as text; rounding is far below the scatter over packings."""
+    exact = Accuracy(0.0, certified=False, arithmetic=FLOAT64.name)
+    return printed(table, exact, FLOAT64, sampled=True)

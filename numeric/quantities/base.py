@@ -62,6 +62,19 @@ class Table:
         return len(next(iter(self.numbers.values()), []))
 
     @property
+    def columns(self) -> Columns:
+        """All columns, each standard error beside its number."""
+        columns = {
+            name: values.astype(np.float64) if name == "first_order_std" else values
+            for name, values in self.index.items()
+        }
+        for name, values in self.numbers.items():
+            columns[name] = values
+            if name in self.errors:
+                columns[f"{name}_error"] = self.errors[name]
+        return columns
+
+    @property
     def largest(self) -> float:
         """The largest size of a small number, as a float."""
         sizes = (as_floats(abs(self.numbers[name])).max(initial=0) for name in self.small)

@@ -71,6 +71,7 @@ class _Moments:
             floats = np.asarray(parts, np.float64)
             floats[:, 1] += floats[:, 0] ** 2  # about zero
             errors = standard_errors(floats)
-        found = (of * self.unit for of in (mean, std, *errors))
-        statistics = Statistics(self.ordered, *found, len(parts) * self.members)
+        mean, std, of_mean, of_std = (of * self.unit for of in (mean, std, *errors))
+        count = len(parts) * self.members
+        statistics = Statistics(self.ordered, mean, std, of_mean, of_std, count)
         return self.quantity.table(self.problem, statistics)

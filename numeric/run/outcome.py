@@ -17,7 +17,7 @@ from ..quantities.answer import Answer
 from ..quantities.base import Table
 from ..scene.scene import source_of
 from ..statistics import bins
-from ..tables import Answered, Row, rows_of, text_of
+from ..tables import Answered, Row, rows_of
 from ..unilateral.network import Network
 
 if TYPE_CHECKING:
@@ -58,16 +58,7 @@ class Result(Answered):
                 "high": np.array([_near(high) for _, high, _ in bins]),
                 "count": np.array([count for _, _, count in bins], dtype=np.int64),
             }
-        table = self.table
-        columns = {
-            name: values.astype(np.float64) if name == "first_order_std" else values
-            for name, values in table.index.items()
-        }
-        for name, values in table.numbers.items():
-            columns[name] = values
-            if name in table.errors:
-                columns[f"{name}_error"] = table.errors[name]
-        return columns
+        return self.table.columns
 
     def rows(self) -> list[Row]:
         """The answer row by row, ready for a data frame; numbers as Python's int and float."""
@@ -78,11 +69,10 @@ class Result(Answered):
         """The columns of the answer as text: decimals with the digits that are known."""
         if self.table.bins is not None:
             return bins.printed(self.table.bins)
-        system, table = self.plan.system, self.table
-        with system.active():
+        with (system := self.plan.system).active():
             # a tolerance asks for the digits of these very packings
-            numbers = printed(table, self.accuracy, system, sampled=self.plan.tolerance is None)
-        return {name: text_of(column) for name, column in table.index.items()} | numbers
+            sampled = self.plan.tolerance is None
+            return printed(self.table, self.accuracy, system, sampled=sampled)
 
     @property
     def sampling_error(self) -> float | None:
