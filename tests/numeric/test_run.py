@@ -96,7 +96,7 @@ def test_an_ensemble_and_gaps_come_back_in_the_units_of_the_scene():
 
     low, high = (fd.ensemble(asked(4, magnitude), 40) for magnitude in (1, 64))
     for name in ("mean", "mean_change", "std", "std_error", "first_order_std"):
-        assert (low.arrays[name] * 64 == high.arrays[name]).all()
+        assert (getattr(low, name) * 64 == getattr(high, name)).all()
     wide, small = (asked(radius, 1).run() for radius in (4, 1))
     gaps = [outcome.data()["physical"]["smallest_gap"] for outcome in (wide, small)]
     assert gaps[0] == 4 * gaps[1]
