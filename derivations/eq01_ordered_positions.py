@@ -3,7 +3,7 @@
 # fmt: off
 import sympy
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, equation, follows, reach, rewrite, terms, times)
+    Derivation, Domain, Steps, axioms, equation, follows, reach, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Dot, Position, e_x, i, j, n_minus, n_plus, n_x, n_y, p, phi, q, r, spacing)
 # fmt: on
@@ -116,8 +116,7 @@ DERIVATION = Derivation(
     symbols=(
         (Position(i, j), "centre of bead (i, j), i + j even"),
         (r, "radius of a bead"),
-        (n_plus, "unit vector (n_x, n_y), up and to the right"),
-        (n_minus, "unit vector (−n_x, n_y), up and to the left"),
+        *usual(n_plus, n_minus),
         (spacing, "horizontal distance of two centres in one layer"),
     ),
     assumptions=(

@@ -3,9 +3,8 @@
 # fmt: off
 import sympy
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, Symbol, axioms, equation, follows, minus, order,
-    rewrite, solve,
-    terms, times)
+    Derivation, Domain, Steps, Symbol, axioms, equation, follows, minus, order, rewrite, solve,
+    terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaR, DeltaX, Dot, MatrixTimes, b_minus, b_plus, e_x, e_y, epsilon, i, j,
     n_minus, n_plus, n_x, n_y, r)
@@ -116,12 +115,7 @@ DERIVATION = Derivation(
     number=2,
     name="displacement",
     title="Displacement of a deposited bead",
-    symbols=(
-        (DeltaX(i, j), "displacement of bead (i, j) from its ordered position"),
-        (DeltaR(i, j), "deviation of its radius from r"),
-        (b_plus, "reciprocal vector (1/2n_x, 1/2n_y): n⁺·b⁺ = 1, n⁻·b⁺ = 0"),
-        (b_minus, "reciprocal vector (−1/2n_x, 1/2n_y): n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
-    ),
+    symbols=usual(DeltaX(i, j), DeltaR(i, j), b_plus, b_minus),
     assumptions=(
         "first order in δr",
         "the bead rests on (i−1, j−1) and (i+1, j−1)",

@@ -7,7 +7,7 @@ import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, Theorem, along, axioms, equation, follows, induct, rewrite, shown,
-    terms, times)
+    terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_minus, n_plus)
 # fmt: on
@@ -91,13 +91,7 @@ DERIVATION = Derivation(
     number=3,
     name="extrapolation",
     title="Displacements in terms of the radii",
-    symbols=(
-        (DeltaX(i, j), "displacement of bead (i, j)"),
-        (DeltaR(i, j), "deviation of the radius of bead (i, j)"),
-        (m, "layer of a bead on one of the two diagonals down to the base"),
-        (b_plus, "reciprocal vector: n⁺·b⁺ = 1, n⁻·b⁺ = 0"),
-        (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
-    ),
+    symbols=usual(DeltaX(i, j), DeltaR(i, j), m, b_plus, b_minus),
     assumptions=(
         "first order in δr",
         "the centres of the base beads are fixed: δx_(i,0) = 0",

@@ -4,7 +4,7 @@
 import sympy
 from force_diffusion.derivations import eq03_extrapolation as eq03
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Step, Steps, axioms, equation, minus, order, rewrite, terms, times)
+    Derivation, Domain, Step, Steps, axioms, equation, minus, order, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_minus, n_plus, r)
 # fmt: on
@@ -69,14 +69,7 @@ DERIVATION = Derivation(
     number=4,
     name="contact_plus",
     title="Change of the contact direction along n⁺",
-    symbols=(
-        (DeltaNPlus(i, j), "change of the direction from (i, j) to (i+1, j+1)"),
-        (DeltaR(i, j), "deviation of the radius of bead (i, j)"),
-        (n_plus, "direction of the ordered contact, up and to the right"),
-        (b_plus, "reciprocal vector: n⁺·b⁺ = 1, n⁻·b⁺ = 0"),
-        (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
-        (m, "layer of a bead on a diagonal down to the base"),
-    ),
+    symbols=usual(DeltaNPlus(i, j), DeltaR(i, j), n_plus, b_plus, b_minus, m),
     assumptions=("first order in δr", "fixed base", *BEADS.in_words()),
     printed=(PRINTED,),
     domain=BEADS,

@@ -4,8 +4,8 @@
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, Theorem, equation, lattice, minus, mirror_of, rewrite, terms,
-    times)
+    Derivation, Domain, Steps, Theorem, equation, lattice, minus, mirror_of, rewrite, terms, times,
+    usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaR, Dot, b_minus, b_plus, i, j, m, n_minus, r)
 # fmt: on
@@ -58,14 +58,7 @@ DERIVATION = Derivation(
     number=5,
     name="contact_minus",
     title="Change of the contact direction along n⁻",
-    symbols=(
-        (DeltaNMinus(i, j), "change of the direction from (i, j) to (i−1, j+1)"),
-        (DeltaR(i, j), "deviation of the radius of bead (i, j)"),
-        (n_minus, "direction of the ordered contact, up and to the left"),
-        (b_plus, "reciprocal vector: n⁺·b⁺ = 1, n⁻·b⁺ = 0"),
-        (b_minus, "reciprocal vector: n⁻·b⁻ = 1, n⁺·b⁻ = 0"),
-        (m, "layer of a bead on a diagonal down to the base"),
-    ),
+    symbols=usual(DeltaNMinus(i, j), DeltaR(i, j), n_minus, b_plus, b_minus, m),
     assumptions=("first order in δr", "fixed base", *BEADS.in_words()),
     printed=(PRINTED,),
     domain=BEADS,

@@ -10,7 +10,7 @@ from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Rule, Steps, Theorem, along, axioms, below, equation, follows, inducted,
-    lattice, minus, mirror_of, solve, terms, times)
+    lattice, minus, mirror_of, solve, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, j, k, l, n_minus, n_plus,
     n_y, phi)
@@ -112,7 +112,7 @@ DERIVATION = Derivation(
     title="Split of a load between the two supports",
     symbols=(
         (f_load, "magnitude of the vertical load on bead (k, l)"),
-        (phi, "n⁺·n⁻, between −½ and ½"),
+        *usual(phi),
         (FORCES[0], "force of the contact from (k−1, l−1)"),
         (FORCES[1], "force of the contact from (k+1, l−1)"),
     ),

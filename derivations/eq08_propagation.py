@@ -6,7 +6,7 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, Symbol, along, axioms, equation, follows, instance, lattice, minus,
-    mirror_of, solve, terms, times)
+    mirror_of, solve, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, n_minus, n_plus, phi,
     site_r, site_s)
@@ -87,7 +87,7 @@ DERIVATION = Derivation(
         (ENTERING, "force entering bead (r, s) from above along n⁺"),
         (FORCES[0], "force leaving it along n⁺"),
         (FORCES[1], "force leaving it along n⁻: the branch"),
-        (phi, "n⁺·n⁻"),
+        *usual(phi),
     ),
     assumptions=("first order in δn^±", *PASSED.in_words()),
     printed=PRINTED,

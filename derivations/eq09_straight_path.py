@@ -5,7 +5,8 @@ import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Rule, Steps, Theorem, axioms, equation, minus, rewrite, terms, times)
+    Derivation, Domain, Rule, Steps, Theorem, axioms, equation, minus, rewrite, terms, times,
+    usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, i, j, k, l, n_minus, phi, site_r, site_s)
 from sympy import Eq
@@ -95,9 +96,7 @@ DERIVATION = Derivation(
     symbols=(
         (ForcePlus(*ENTRY), "force entering below the loaded bead (k, l) along n⁺"),
         (ForcePlus(i, j), "force of a contact straight below it, k − i = l − j"),
-        (DeltaNPlus(i, j), "change of the direction from (i, j) to (i+1, j+1)"),
-        (n_minus, "direction of the ordered contacts, up and to the left"),
-        (phi, "n⁺·n⁻"),
+        *usual(DeltaNPlus(i, j), n_minus, phi),
     ),
     assumptions=("first order in δn^±", *STRAIGHT.in_words()),
     printed=(PRINTED,),

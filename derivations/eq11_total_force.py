@@ -10,7 +10,7 @@ from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Groups, Steps, Theorem, axioms, equation, lattice, minus, mirror,
-    mirror_of, moment, rewrite, shown, terms, times)
+    mirror_of, moment, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     M, DeltaNMinus, DeltaNPlus, Dot, ForcePlus, Variance, f_load, i, j, k, l, n, n_minus, n_plus,
     n_y, phi, r, sigma)
@@ -155,9 +155,8 @@ DERIVATION = Derivation(
     name="total_force",
     title="Contact force under a surface load",
     symbols=(
-        (ForcePlus(i, j), "force of the contact from (i, j) to (i+1, j+1)"),
+        *usual(ForcePlus(i, j), M),
         (f_load, "load on every bead of the surface layer j = M, downwards"),
-        (M, "height of the packing in layers above the base"),
         (n, "layers between the contact and the bead at which a force branches into it"),
     ),
     assumptions=("first order in δr", *LOADED.in_words(), "no path meets a side wall (W > M)"),

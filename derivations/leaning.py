@@ -10,8 +10,8 @@ from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, equation, lattice, minus,
-    rewrite, same, shown, terms, times)
+    Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, equation, lattice, minus, rewrite,
+    same, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, L_minus, L_plus, M, e_x, e_y, f_load, i, j,
     m, n, n_minus, n_plus, n_x, n_y, phi, t)
@@ -128,9 +128,7 @@ DERIVATION = Derivation(
         (L_plus, "component of the load on each surface bead, −(L⁺n⁺ + L⁻n⁻), along n⁺"),
         (L_minus, "its component along n⁻"),
         (t, "L⁻/L⁺; 1 for a vertical load"),
-        (ForcePlus(i, j), "force of the contact from (i, j) to (i+1, j+1)"),
-        (ForceMinus(i, j), "force of the contact from (i, j) to (i−1, j+1)"),
-        (M, "height of the packing in layers above the base"),
+        *usual(ForcePlus(i, j), ForceMinus(i, j), M),
         (n, "layers between the contact and the bead at which a force branches into it"),
     ),
     assumptions=(

@@ -6,12 +6,11 @@ It never catches errors: ``guard`` reports them. Its module imports neither SymP
 ``--help`` would wait for: functions do.
 """
 
-import difflib
 from collections.abc import Callable
 from typing import Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import printable, rule
+from force_diffusion.numeric.arithmetic.errors import printable, rule, suggestion
 from typer.core import TyperGroup
 
 from ..framework.lists import either
@@ -43,11 +42,8 @@ class _Commands(TyperGroup):
         """Find the command, or say which ones exist."""
         unknown = args and not args[0].startswith("-") and args[0] not in COMMANDS
         if unknown and not ctx.resilient_parsing:  # as a shell completes a line
-            close = difflib.get_close_matches(args[0][:99], COMMANDS, n=1)
-            hint = f"; did you mean {close[0]}?" if close else "."
-            ctx.fail(
-                f"There is no command '{printable(args[0])}'{hint} Use {either(list(COMMANDS))}."
-            )
+            allowed = f"{suggestion(args[0], COMMANDS).capitalize()}Use {either(list(COMMANDS))}."
+            ctx.fail(f"There is no command '{printable(args[0])}'. {allowed}")
         return super().resolve_command(ctx, args)
 
     def invoke(self, ctx: Any) -> Any:

@@ -8,7 +8,6 @@ from time import perf_counter
 from types import MappingProxyType
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of
 from force_diffusion.symbolic.kernel.domain import Domain
@@ -22,27 +21,8 @@ from .closed_form import ClosedForm
 from .display import room_of
 from .proof import Definitions, Step, Steps
 
-_MEANINGS = {
-    sy.sigma: "standard deviation of the radii",
-    sy.r: "mean radius",
-    sy.M: "height of the packing",
-    sy.z: "relative height j/M",
-    sy.phi: "n⁺·n⁻, the cosine of the angle between the two contact directions",
-    sy.N: "number of neighbours",
-    sy.H_M: "1 + 1/2 + … + 1/M",
-    sy.t: "L⁻/L⁺ of the load −(L⁺n⁺ + L⁻n⁻)",
-    sy.t_2: "L²/L¹ of the load −Σ_a L^a n^a",
-    sy.t_3: "L³/L¹",
-}
-
-
 _SECONDS: list[float] = []
 """How long each proof took, without those that ran within it."""
-
-
-def usual(*symbols: sympy.Symbol) -> tuple[tuple[sympy.Symbol, str], ...]:
-    """Symbols with their usual meaning in words, those that have one: σ, r, M, z, φ and others."""
-    return tuple((symbol, _MEANINGS[symbol]) for symbol in symbols if symbol in _MEANINGS)
 
 
 FIRST_ORDER = ("the radii are independent, of zero mean and variance σ²", "first order in δr")
@@ -176,7 +156,7 @@ class Derivation(Statement):
         number: of the paper; beyond it a label such as "B1".
         name: in code and JSON.
         title: in words.
-        symbols: each with its meaning; ``usual`` gives the common ones.
+        symbols: each with its meaning; ``glossary.usual`` gives the common ones.
         assumptions: in words.
         printed: the equations, each of which is the formula of a step.
         domain: where they are proved, with the load and the limit. The limit has the printed sign:

@@ -21,8 +21,9 @@ from force_diffusion.symbolic.words import in_words
 
 from .catalogue import Number
 from .closed_form import ClosedForm
+from .glossary import usual
 from .proof import Steps
-from .record import FIRST_ORDER, SECOND_ORDER, Statement, load, usual
+from .record import FIRST_ORDER, SECOND_ORDER, Statement, load
 
 Forms = Mapping[str, ClosedForm]
 """Closed forms by name; the first is the usual one."""

@@ -22,7 +22,8 @@ from force_diffusion.symbolic.notation import Symbol
 from . import layers
 from .closed_form import ClosedForm
 from .proof import Step, Steps, shown
-from .record import FIRST_ORDER, Derivation, usual
+from .glossary import usual
+from .record import FIRST_ORDER, Derivation
 # fmt: on
 
 Groups = tuple[Group, ...]
