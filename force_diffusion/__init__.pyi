@@ -2,7 +2,6 @@ __version__: str
 from .derivations.api.certificates import certify as certify
 from .derivations.api.derived import derive as derive
 from .derivations.api.equation import Equation as Equation
-from .derivations.api.equation import NoSuchFormError as NoSuchFormError
 from .derivations.api.equation import equation as equation
 from .derivations.calculator.loads import ObservableError as ObservableError
 from .derivations.calculator.loads import leaning as leaning
@@ -14,6 +13,7 @@ from .derivations.calculator.statistics import mean_over as mean_over
 from .derivations.calculator.statistics import response as response
 from .derivations.calculator.statistics import variance as variance
 from .derivations.coq.folder import CoqAbsentError as CoqAbsentError
+from .derivations.framework.catalogue import NoSuchFormError as NoSuchFormError
 from .derivations.framework.closed_form import ClosedForm as ClosedForm
 from .numeric.accuracy import ToleranceError as ToleranceError
 from .numeric.arithmetic.errors import ArgumentError as ArgumentError

@@ -16,9 +16,9 @@ from ..coq.files import CoqStatement, theory, theory_hash
 from ..coq.folder import ALLOWED, CoqFolder, Notice, axioms_in
 from ..coq.record import Certificate, Certification
 from ..coq.statements import statements
-from ..framework.catalogue import Number, paper
+from ..framework.catalogue import NoSuchFormError, Number, paper
 from ..framework.record import Derivation, load
-from .equation import NoSuchFormError, numbers_of
+from .equation import numbers_of
 
 
 def coq_statements(numbers: Iterable[Number] | None = None) -> dict[Number, list[CoqStatement]]:

@@ -2,13 +2,11 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from functools import cache, cached_property, partial
-from numbers import Integral
 from typing import Any
 
 import sympy
 from force_diffusion.numeric.arithmetic.errors import (
     ArgumentError,
-    ForceDiffusionError,
     WrongTypeError,
     quoted,
 )
@@ -21,8 +19,8 @@ from force_diffusion.symbolic.printing.text import text
 
 from ..coq.statements import recorded
 from ..export.terminal import statement_data, statement_text
+from ..framework.catalogue import NoSuchFormError, modules, number_of
 from ..framework.catalogue import Number as EquationNumber
-from ..framework.catalogue import allowed, modules, number_of
 from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
 from ..framework.deciding import decided
@@ -32,10 +30,6 @@ from ..framework.record import Derivation, Statement, load
 from ..framework.rows import Row
 from ..framework.runner import run_all
 from .proof import Proof, StepList
-
-
-class NoSuchFormError(ForceDiffusionError, ValueError):
-    """No such equation, or no such exact form; the message lists those that exist."""
 
 
 class Equation:
@@ -518,8 +512,4 @@ def equation(number: EquationNumber) -> Equation:
     Raises:
         NoSuchFormError: there is no such equation.
     """
-    place = number_of(number) if isinstance(number, str) else number
-    is_number = isinstance(place, Integral | str) and not isinstance(place, bool)
-    if not is_number or place not in modules():
-        raise NoSuchFormError(f"there is no equation {quoted(number)}: give a number {allowed()}")
-    return _equation(place)
+    return _equation(number_of(number))

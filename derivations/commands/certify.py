@@ -9,7 +9,7 @@ import typer
 
 import force_diffusion as fd
 
-from .equations import equation_number
+from ..framework.catalogue import number_of
 from .output import Output, Overwrite, out_option
 from .shared import Json, noticing
 
@@ -37,7 +37,7 @@ def certify(
     from ..api.certificates import coq_statements, sources
     from ..coq.record import RECORD
 
-    wanted = [equation_number(word) for word in numbers] if numbers else None
+    wanted = [number_of(word) for word in numbers] if numbers else None
     files = sources(coq_statements(wanted))
     folder = Output(out, [*files, RECORD], overwrite) if out else None
     with noticing() as notice:

@@ -10,9 +10,8 @@ from force_diffusion.numeric.arithmetic.errors import printable
 
 import force_diffusion as fd
 
-from ..framework.catalogue import modules
+from ..framework.catalogue import modules, number_of
 from ..framework.lists import both
-from .equations import equation_number
 from .output import Output, OutputError, Overwrite, folder_of, out_option
 from .shared import Json, command_line, noticing
 
@@ -42,7 +41,7 @@ def derive(
 
     For one equation it prints all steps and claims, for several a line for each.
     """
-    wanted = [equation_number(word) for word in numbers or ()] or list(modules())
+    wanted = [number_of(word) for word in numbers or ()] or list(modules())
     from ..export.document import DOCUMENT, MANIFEST, fragment_name
     from ..export.terminal import outcome_text, outcomes_data, summary_text
 

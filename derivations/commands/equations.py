@@ -8,7 +8,7 @@ import typer
 
 import force_diffusion as fd
 
-from ..framework.catalogue import Number, allowed, modules, number_of
+from ..framework.catalogue import modules, number_of
 
 if TYPE_CHECKING:
     from ..api.equation import Equation
@@ -19,19 +19,6 @@ OutputForm = Literal["text", "latex", "sympy", "python", "steps", "json"]
 Columns = Annotated[
     int, typer.Option(min=1, max=2, help="Columns of the page that the LaTeX is for.")
 ]
-
-
-def equation_number(word: str) -> Number:
-    """An equation's number or label from outside text, which is read and never evaluated."""
-    number = number_of(word)
-    if number is not None:
-        return number
-    several = " Put spaces between several, as in derive 13 14." * ("," in word)
-    raise typer.BadParameter(
-        f"'{word}' is not an equation of this package. Give a number {allowed()} ('force-diffusion "
-        f"list' names them).{several}",
-        param_hint="N",
-    )
 
 
 def show(
@@ -48,7 +35,7 @@ def show(
         raise typer.BadParameter(
             "steps are not split by --exact; leave one of the two out.", param_hint="--as"
         )
-    wanted = [*map(equation_number, numbers)]  # before SymPy is imported
+    wanted = [*map(number_of, numbers)]  # before SymPy is imported
     equations = [*map(fd.equation, wanted)]
     if form == "json":
         print(json.dumps({"equations": [equation.data() for equation in equations]}, indent=2))

@@ -9,11 +9,19 @@ Nothing here imports SymPy.
 import re
 from collections.abc import Iterable
 from functools import cache
+from numbers import Integral
 from pathlib import Path
-from typing import TypeAlias
+from typing import TypeAlias, cast
+
+from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, quoted
 
 Number: TypeAlias = int | str
 """A number of the paper, or a label such as "B1"."""
+
+
+class NoSuchFormError(ForceDiffusionError, ValueError):
+    """No such equation, or no such exact form; the message lists those that exist."""
+
 
 _FOLDER = Path(__file__).parents[1]
 _PREFIX = re.compile(r"eq(uation|n|s)?\.?", re.IGNORECASE)
@@ -54,24 +62,29 @@ def in_order(numbers: Iterable[Number]) -> tuple[Number, ...]:
     return tuple(number for number in modules() if number in wanted)
 
 
-def number_of(word: str) -> Number | None:
-    """The number or label that a word from outside stands for; None where there is none.
+def number_of(given: object) -> Number:
+    """The number or label that a number or a word from outside stands for.
 
-    >>> number_of("13"), number_of("b5"), number_of("17"), number_of("Eq. (13)")
-    (13, 'B5', None, 13)
+    >>> number_of("13"), number_of("b5"), number_of("Eq. (13)")
+    (13, 'B5', 13)
+
+    Raises:
+        NoSuchFormError: there is no such equation.
     """
-    word = _PREFIX.sub("", word[:_LONGEST].strip()).strip("() ")
-    is_short = word.isascii() and len(word) < 5
-    number: Number = int(word) if is_short and word.isdigit() else word.upper()
-    return number if number in modules() else None
+    number = given
+    if isinstance(given, str):
+        word = _PREFIX.sub("", given[:_LONGEST].strip()).strip("() ")
+        number = int(word) if word.isascii() and word.isdigit() and len(word) < 5 else word.upper()
+    if isinstance(number, Integral | str) and not isinstance(number, bool) and number in modules():
+        return cast(Number, number)
+    own = [label for label in modules() if isinstance(label, str)]
+    several = "; put spaces between several" if isinstance(given, str) and "," in given else ""
+    raise NoSuchFormError(
+        f"there is no equation {quoted(given)}: give a number from {min(paper())} to "
+        f"{max(paper())}, or {own[0]} to {own[-1]}{several}"
+    )
 
 
 def paper() -> list[int]:
     """The numbers of the paper's equations."""
     return [number for number in modules() if isinstance(number, int)]
-
-
-def allowed() -> str:
-    """The numbers that there are, in words."""
-    own = [number for number in modules() if isinstance(number, str)]
-    return f"from {min(paper())} to {max(paper())}, or {own[0]} to {own[-1]}"

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from force_diffusion.derivations.api.equation import NoSuchFormError
+from force_diffusion.derivations.framework.catalogue import NoSuchFormError
 
 import force_diffusion as fd
 
