@@ -46,7 +46,7 @@ def _leaves_out(config: pytest.Config) -> bool:
 
     Of a test that is marked ``long(sample=8)`` eight cases are run nevertheless. Of one that has
     many cases the profile of CI runs a third, those that the seed says; of one that is marked
-    ``long(share=2)`` a half.
+    ``long(share=2)`` a half. Cases with the same ``place`` are run together, whatever the test.
     """
     by_default = config.args_source is pytest.Config.ArgsSource.TESTPATHS
     return by_default and config.getoption("--hypothesis-profile") in {None, "quick"}
@@ -91,16 +91,16 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
             cases[item.nodeid.partition("[")[0]].append(item)
     left_out: set[pytest.Item] = set()
     for every in cases.values():
-        mark = every[0].get_closest_marker("long")
-        wanted = mark.kwargs if mark else {}
+        marks = [mark.kwargs for item in every if (mark := item.get_closest_marker("long"))]
         if of_ci:
-            share = wanted.get("share", 1 if len(every) < MANY else 3)
-            places = set(range(seed % share, len(every), share))
+            share = marks[0].get("share", 1 if len(every) < MANY else 3)
+            places = [mark.get("place", place) for place, mark in enumerate(marks)]
+            wanted = {n for n, place in enumerate(places) if place % share == seed % share}
         else:
-            sample = min(wanted.get("sample", 0), len(every))
+            sample = min(marks[0].get("sample", 0), len(every))
             # evenly spaced, in the order of the cases
-            places = {place * len(every) // sample for place in range(sample)}
-        left_out |= {item for place, item in enumerate(every) if place not in places}
+            wanted = {place * len(every) // sample for place in range(sample)}
+        left_out |= {item for n, item in enumerate(every) if n not in wanted}
     config.hook.pytest_deselected(items=list(left_out))
     items[:] = [item for item in items if item not in left_out]
 

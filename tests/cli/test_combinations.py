@@ -126,7 +126,7 @@ CELLS += [
 """Each question of each kind, and each load and every other setting once for a command."""
 
 
-@pytest.mark.long(sample=9)
+@pytest.mark.long(sample=9, share=4)
 @pytest.mark.parametrize(("command", "quantity", "kind", "load", "setting"), CELLS)
 def test_a_cell_is_answered_or_refused_as_the_table_says(
     command, quantity, kind, load, setting,

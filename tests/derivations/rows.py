@@ -4,10 +4,11 @@ from collections.abc import Iterable
 from typing import Any
 
 import pytest
-from force_diffusion.derivations.framework.catalogue import Number, paper
+from force_diffusion.derivations.framework.catalogue import Number, modules, paper
 
 SOON = {"B1", "B5", "B13", *paper()}
 """Equations of the paper, and rows that take a second at most: of discs, and of spheres."""
+PLACES = {str(number): place for place, number in enumerate(modules())}
 
 
 def each(numbers: Iterable[Number]) -> list[Any]:
@@ -15,6 +16,11 @@ def each(numbers: Iterable[Number]) -> list[Any]:
     return [number if number in SOON else late([number], share=3)[0] for number in numbers]
 
 
-def late(cases: Iterable[Any], share: int = 1) -> list[Any]:
-    """Mark cases as long."""
-    return [pytest.param(case, marks=pytest.mark.long(share=share)) for case in cases]
+def late(cases: Iterable[Any], **wanted: int) -> list[Any]:
+    """Mark cases as long; those about one row, or several that begin with it, go together."""
+    marked = []
+    for position, case in enumerate(cases):
+        row = str(getattr(case, "number", case)).partition(",")[0]
+        mark = pytest.mark.long(place=PLACES.get(row, position), **wanted)
+        marked.append(pytest.param(case, marks=mark))
+    return marked

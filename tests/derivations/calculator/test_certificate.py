@@ -22,10 +22,9 @@ from force_diffusion.symbolic import words
 from force_diffusion.symbolic.piecewise import Piece
 
 import force_diffusion as fd
+from tests.derivations.rows import late
 from tests.soundness.witnesses.moments import Packing, Spheres, exact
 
-PARTS = 3
-"""In which the formulas of a form are compared: CI looks at one, which its seed draws."""
 TALL, TALL_PARTS = ("B22", "both"), 15
 """The form whose packings take minutes: CI compares one of its formulas."""
 HIGHEST = 29
@@ -54,16 +53,14 @@ NUMBERS = {
 }  # fmt: skip
 
 
-@pytest.mark.long(sample=4)
-@pytest.mark.parametrize("number", catalogue.modules())
-@pytest.mark.parametrize("part", range(PARTS))
-def test_exact_forms(number, part):
+@pytest.mark.parametrize("number", late(list(catalogue.modules())[12:], share=3, sample=2))
+def test_exact_forms(number):
     equation = fd.equation(number)
     for name in equation.forms:
         if (number, name) == TALL:
             continue
         form = equation.exact(name)
-        certify(name, form, form.pieces[part::PARTS] or form.pieces)
+        certify(name, form, form.pieces)
 
 
 @pytest.mark.long(share=TALL_PARTS)
