@@ -23,7 +23,7 @@ LIMITS = {
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 12_881,
+    "tests": 12_885,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
