@@ -56,17 +56,17 @@ class Output:
         self.path, self.names, self.overwrite = path, frozenset(names), overwrite
         self._old = path.with_name(f"{path.name}.old")
         self._check()
-        above = next(parent for parent in path.parents if os.path.lexists(parent))
-        if not above.is_dir():
+        self._above = next(parent for parent in path.parents if os.path.lexists(parent))
+        if not self._above.is_dir():
             raise OutputError(
-                f"'{above}' is a file or a link. Give a folder that doesn't exist yet."
+                f"'{self._above}' is a file or a link. Give a folder that doesn't exist yet."
             )
-        trial = above / self._new().name
+        trial = self._new()
         trial.mkdir()
         trial.rmdir()
 
     def _new(self) -> Path:
-        return self.path.with_name(f"{self.path.name}.new-{secrets.token_hex(4)}")
+        return self._above / f"{self.path.name}.new-{secrets.token_hex(4)}"
 
     def _check(self) -> None:
         """Refuse what is not to be replaced."""
@@ -113,6 +113,7 @@ class Output:
         there = self.overwrite and self.path.is_dir()
         try:
             self._check()
+            self.path.parent.mkdir(parents=True, exist_ok=True)
             if there:
                 os.rename(self.path, self._old)
             os.rename(new, self.path)

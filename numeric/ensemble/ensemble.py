@@ -32,13 +32,13 @@ from ..mechanics import engine
 from ..mechanics.work import bar
 from ..scene.reading import read_scene
 from ..scene.scene import CheckedScene
-from ..scene.sections import SceneError
+from ..scene.sections import MOST_REALISATIONS, SceneError
 from ..statistics.confidence import looks
 from .result import Ensemble
 from .store import Store, StoreFailedError, description
 from .sums import Block, Measurement, Sums, measurement, solve_block, why_left_out
 
-MOST, MOST_WORKERS = 10**9, 1024
+MOST_WORKERS = 1024
 # Blocks that an executor is given at a time.
 AHEAD = 256
 # Bytes of a block of small packings, on top of those of one packing.
@@ -239,9 +239,9 @@ def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
 
 def _size(scene: CheckedScene, realisations: object) -> int:
     size = scene.ask.realisations if realisations is None else realisations
-    if isinstance(size, SupportsIndex) and 2 <= index(size) <= MOST:
+    if isinstance(size, SupportsIndex) and 2 <= index(size) <= MOST_REALISATIONS:
         return index(size)
-    allowed = f"must be a whole number from 2 to {MOST} for an ensemble"
+    allowed = f"must be a whole number from 2 to {MOST_REALISATIONS} for an ensemble"
     if realisations is None:
         raise SceneError("ask.realisations", size, allowed)
     raise ArgumentError(f"realisations = {quoted(size)}: {allowed}")

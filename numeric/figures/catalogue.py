@@ -9,7 +9,7 @@ from operator import index
 from typing import Any, SupportsIndex
 
 from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, checked, quoted
-from ..scene.sections import SceneError
+from ..scene.sections import MOST_REALISATIONS, SceneError
 from ..tables import csv_bytes
 from .names import FIGURES, HEIGHTS, KINDS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
 from .packings import PAPER, Made, Medium, Notice, Options, Table, planned
@@ -112,9 +112,10 @@ def figure(
                 "figure 3 or 'double-y' with figure 4"
             )
     if realisations is not None and not (
-        isinstance(realisations, SupportsIndex) and index(realisations) >= LEAST_REALISATIONS
+        isinstance(realisations, SupportsIndex)
+        and LEAST_REALISATIONS <= index(realisations) <= MOST_REALISATIONS
     ):
-        allowed = f"must be a whole number from {LEAST_REALISATIONS} up"
+        allowed = f"must be a whole number from {LEAST_REALISATIONS} to {MOST_REALISATIONS}"
         raise SceneError("realisations", realisations, allowed)
     listed = isinstance(heights, Iterable) and not isinstance(heights, str)
     layers = tuple(heights) if listed else ()

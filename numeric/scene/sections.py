@@ -20,6 +20,7 @@ from .combinations import QUANTITIES
 
 # Of numbers that are doubles: sums of as many as a memory holds stay finite.
 LARGEST = 1e300
+MOST_REALISATIONS = 10**9
 
 
 class SceneError(ForceDiffusionError, ValueError):
@@ -327,7 +328,7 @@ class Ask(Section):
     at: Place | None = None
     tolerance: Number | None = Field(default=None, gt=0, lt=1)
     certified: bool = False
-    realisations: Whole = Field(default=1, ge=1, le=10**9)
+    realisations: Whole = Field(default=1, ge=1, le=MOST_REALISATIONS)
     bins: Whole | None = Field(default=None, ge=1, le=1_000_000)
     layers: Layers | None = None
 

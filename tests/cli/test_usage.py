@@ -34,7 +34,7 @@ WRONG = [
     ("figures 5", "no figure '5'"),
     ("figures 3 --heights 0", "packing.height = 0: must be from 1"),
     ("figures 3 --heights 1,b", "'1,b': give whole numbers"),
-    ("figures 3 --realisations 3", "a whole number from 16 up"),
+    ("figures 3 --realisations 3", "a whole number from 16 to 1000000000"),
     ("figures 1 --heights 8", "add 3"),
     ("figures 2 --realisations 100", "3, 4, pf, B2, B5, B7, B9, B13 only"),
     ("figures 3 --with triple-z", "'q-model', 'double-y'"),
