@@ -11,8 +11,8 @@ from .. import tables
 from ..accuracy import Accuracy, printed
 from ..arithmetic.errors import ForceDiffusionError
 from ..arithmetic.systems import FLOAT64, Array
-from ..lattice.branch import ORDER, Branch
-from ..quantities.base import RATIO, Table
+from ..lattice.branch import ORDER
+from ..quantities.base import RATIO, Table, first_order_std
 from ..scene.scene import source_of
 from ..statistics.confidence import half_width
 from ..statistics.moments import error_of_std, with_errors
@@ -183,11 +183,11 @@ class Ensemble(tables.Answered):
     @cached_property
     def first_order_std(self) -> Array | None:
         """σ_f to first order, exact at finite M (Eqs. 13, 14, B2, B3); None if none applies."""
-        theory = self.measurement.theory()
-        if theory is None or "j" not in self.index or "component" in self.index:
+        if "j" not in self.index or "component" in self.index:
             return None
-        contacts = zip(self.index["branch"], self.index["j"], strict=True)
-        return np.array([float(theory(j)[Branch(b).number]) for b, j in contacts]) * self._unit
+        contacts = zip(self.index["j"].tolist(), self.index["branch"], strict=True)
+        theory = first_order_std(self.measurement.problem, contacts)
+        return None if theory is None else theory.astype(np.float64) * self._unit
 
     @property
     def tensile(self) -> Array:

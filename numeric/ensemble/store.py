@@ -25,7 +25,7 @@ from ..arithmetic.errors import (
     printable,
     quoted,
 )
-from ..scene.scene import PROGRAM
+from ..scene.scene import PROGRAM, source_of
 from .sums import Block, Measurement, Sums, from_bytes
 
 APPLICATION = 0x46444546  # "FDEF"
@@ -36,8 +36,8 @@ _TABLES = (
     "CREATE TABLE blocks (first INTEGER NOT NULL, stop INTEGER NOT NULL, content BLOB NOT NULL, "
     "checksum TEXT NOT NULL, PRIMARY KEY (first, stop))",
 )
-# Keys of a scene that say how much is asked, not what.
-_NOT_IN_IT = {"ask": {"realisations", "tolerance", "bins"}}
+# Keys of a question that say how much is asked, not what.
+_HOW_MUCH = ("realisations", "tolerance", "bins")
 
 
 class StoreError(ForceDiffusionError, ValueError):
@@ -51,17 +51,16 @@ class StoreFailedError(NotReachedError):
 def description(m: Measurement) -> dict[str, Any]:
     """Describe an ensemble: all that decides its numbers; numbers are exact, as strings."""
     scene = m.plan.scene
-    sections = scene.model_dump(exclude={"folder": True, **_NOT_IN_IT})
-    sections["packing"]["spacing"] = scene.packing.s
+    sections: dict[str, Any] = source_of(scene, {})["scene"]
+    for key in _HOW_MUCH:
+        sections["ask"].pop(key, None)
     if scene.load.file is not None:  # its content counts, not its name
         loads = m.problem.load.single.items()
         forces = sorted((list(site), list(map(str, force))) for site, force in loads)
         digest = hashlib.sha256(json.dumps(forces).encode()).hexdigest()
         sections["load"]["file"] = f"sha256 {digest}"
-    content: dict[str, Any] = json.loads(json.dumps(sections, default=str))  # of fractions
-    content["measured"] = {"edges": [edge.hex() for edge in m.edges]}
-    content["version"] = {PROGRAM: __version__}
-    return content
+    edges = [edge.hex() for edge in m.edges]
+    return sections | {"measured": {"edges": edges}, "version": {PROGRAM: __version__}}
 
 
 class Store:

@@ -6,10 +6,11 @@ depend on the scene alone, and are joined in their order: who solves them decide
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, reduce
+from itertools import product
 from operator import add
 from typing import Any
 
@@ -92,10 +93,6 @@ class Measurement:
         F, _ = self.quantity.changes(self.problem, solved, 1)
         return np.array([float(sum(map(Fraction, group)) / len(group)) for group in F.tolist()])
 
-    def theory(self) -> Callable[[int], tuple[Fraction, ...]] | None:
-        """Give σ_f of layer j = 0 … M − 1, exact to first order; None where it does not apply."""
-        return first_order_std(self.problem)
-
     def blocks(self, size: int) -> Iterator[Block]:
         """Cut realisations 0 … size − 1 where sums are looked at, and after so many packings."""
         beads = max(self.problem.region.beads, 1)
@@ -141,7 +138,9 @@ def measurement(scene: CheckedScene, *, reach: float | None = None) -> Measureme
 
 def _usual_reach(made: Measurement) -> float:
     """Give the outer edge that is taken where none is named."""
-    theory = made.theory()
+    contact, layers = made.problem.contact, made.plan.scene.ask.layers
+    contacts = product(layers or range(made.problem.height), made.quantity.branches)
+    theory = first_order_std(made.problem, [contact[1:]] if contact is not None else contacts)
     if theory is None:
         raise SceneError(
             "ask.quantity",
@@ -149,11 +148,7 @@ def _usual_reach(made: Measurement) -> float:
             "no theory says how wide it will be here: give reach (--reach X), the outer edge "
             "of the bins in units of force",
         )
-    contact = made.problem.contact
-    if contact is None:
-        layers = made.plan.scene.ask.layers or range(made.problem.height)
-        return float(REACH * max(std for j in layers for std in theory(j)))
-    return float(REACH * theory(contact.j)[contact.branch.number])
+    return float(REACH * theory.max())
 
 
 @dataclass(frozen=True, eq=False)

@@ -122,11 +122,11 @@ def ordered(plan: Plan, i: Any, j: Any) -> Array:
 
 def theory(plan: Plan) -> Array | None:
     """Give σ_f to first order, (directions, M); None where no closed form applies."""
-    std_of = first_order_std(plan.problem)
-    if std_of is None:
+    branches, M = plan.quantity.branches, plan.problem.height
+    stds = first_order_std(plan.problem, ((j, own) for own in branches for j in range(M)))
+    if stds is None:
         return None
-    unit, layers = plan.scene.load.magnitude, map(std_of, range(plan.problem.height))
-    return np.array([[float(std * unit) for std in layer] for layer in layers]).T
+    return as_floats(stds * plan.scene.load.magnitude).reshape(-1, M)
 
 
 def contact_forces(

@@ -92,7 +92,9 @@ class Comparison(NamedTuple):
 
     def verdict(self) -> str:
         """Say whether theory lies inside of the band."""
-        return f"{self.of} {self.band.verdict(self.deviation)}"
+        where = "inside" if self.deviation <= 1 else "outside"
+        off = f"off by {self.deviation:.2f} of its half-width at most"
+        return f"{self.of} {where} the simultaneous {LEVEL:.0%} band, {off}"
 
     @property
     def bars(self) -> Array:

@@ -55,7 +55,7 @@ def answer(
     work = Work() if work is None else work
     network, sizes = None, NONE
     physical = Physicality() if problem.route == Route.EXACT else None
-    gatherers = [quantity.gatherer(problem, system) for quantity in quantities]
+    gatherers = [quantity.gatherer(problem) for quantity in quantities]
     tables = []
     # an ordered packing is solved once, whatever is asked
     alike = quantities[0].scene.ask.realisations // problem.realisations

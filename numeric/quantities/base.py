@@ -5,18 +5,18 @@ name.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar
 
 import numpy as np
 
 from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
-from ..lattice.branch import ORDER
+from ..lattice.branch import ORDER, Branch
 from ..lattice.layers import Block, Naming, Region, Rows, columns_of, standing_on_base, taken, whole
 from ..mechanics.loads import LoadSpec
 from ..mechanics.local import level, total, vertical_square
@@ -89,16 +89,6 @@ class Table:
         parts = (self.index, self.numbers, self.errors)
         index, numbers, errors = ({k: v[order] for k, v in part.items()} for part in parts)
         return Table(index, numbers, self.small, errors)
-
-
-class Gatherer(Protocol):
-    """Collects solved realisations; ``table`` gives what was found."""
-
-    def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Take in solved realisations (in a batch, the first axis of the arrays)."""
-
-    def table(self) -> Table:
-        """Give the answer."""
 
 
 class Quantity(ABC):
@@ -200,7 +190,7 @@ class Quantity(ABC):
 
     # How it is gathered
 
-    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
+    def gatherer(self, problem: Problem) -> "Listing":
         """Start to gather the answer: by default a list of one realisation after the other."""
         return Listing(self, problem)
 
@@ -210,7 +200,7 @@ class Quantity(ABC):
 
 
 class Listing:
-    """Lists the rows of every realisation below each other."""
+    """Gathers solved realisations: lists the rows of one below those of the other."""
 
     def __init__(self, quantity: Quantity, problem: Problem) -> None:
         """Start empty."""
@@ -218,7 +208,7 @@ class Listing:
         self.parts: list[Table] = []
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
-        """Take in solved realisations."""
+        """Take in solved realisations (in a batch, the first axis of the arrays)."""
         for number, realisation in enumerate(realisations):
             single = solved if len(realisations) == 1 else solved.realisation(number)
             part = self.quantity.rows(self.problem, single)
@@ -372,11 +362,11 @@ def cartesian(
     return (*results, rise * up if raised else rise / (len(components) * up))
 
 
-def first_order_std(problem: Problem) -> Callable[[int], tuple[Fraction, ...]] | None:
-    """Give σ_f of layer j = 0 … M − 1, exact to first order (Eqs. 13, 14, B2, B3 at finite M).
+def first_order_std(problem: Problem, contacts: Iterable[tuple[int, str]]) -> Array | None:
+    """Give σ_f of contacts (j, branch), exact to first order (Eqs. 13, 14, B2, B3 at finite M).
 
-    None where they don't apply. There is one along each direction: a float64 times the exact σ/r,
-    in units of the load.
+    Shape (contacts,): fractions, a float64 times the exact σ/r, in units of the load. None where
+    the equations don't apply.
     """
     load, radii, height = problem.load, problem.radii, problem.height
     if not has_theory(problem):
@@ -384,10 +374,9 @@ def first_order_std(problem: Problem) -> Callable[[int], tuple[Fraction, ...]] |
     assert isinstance(radii, DrawnRadii)
     std, phi = radii.relative_std, float(problem.phi)
     unit = tuple(map(float, load.strength(problem.n_x, FLOAT64).unit))
-
-    def layer(j: int) -> tuple[Fraction, ...]:
+    stds = []
+    for j, branch in contacts:
         over = height - j if load.kind == "bulk" else 1
-        stds = stds_of_contacts(load.kind, height, j, phi, unit)
-        return tuple(Fraction(of * over) * std for of in stds)
-
-    return layer
+        of = stds_of_contacts(load.kind, height, j, phi, unit)[Branch(branch).number]
+        stds.append(Fraction(of * over) * std)
+    return np.array(stds, dtype=object)

@@ -6,7 +6,6 @@ import numpy as np
 
 from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array
-from ..lattice.branch import Branch
 from ..lattice.layers import Block, Region
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
@@ -55,11 +54,10 @@ class Profile(Merged):
         """One row a layer and branch, base first."""
         index = {name: np.array(column) for name, column in self.labels(problem).items()}
         index["samples"] = np.full(len(statistics.mean), statistics.count)
-        theory = first_order_std(problem)
+        contacts = zip(index["j"].tolist(), index["branch"], strict=True)
+        theory = first_order_std(problem, contacts)
         if theory is not None:
-            unit = self.scene.load.magnitude
-            contacts = zip(index["branch"], index["j"].tolist(), strict=True)
-            stds = [short(theory(j)[Branch(b).number] * unit, 12) for b, j in contacts]
+            stds = [short(std, 12) for std in theory * self.scene.load.magnitude]
             index["first_order_std"] = np.array(stds, dtype="U")
         numbers = {
             "mean": statistics.ordered + statistics.mean,

@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem
+from ..arithmetic.systems import Array
 from ..mechanics.problem import Problem
 from ..mechanics.sweep import Solved
 from ..statistics.moments import mean_and_std, standard_errors, unit_near
-from .base import ContactQuantity, Gatherer, Table
+from .base import ContactQuantity, Listing, Table
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Merged(ContactQuantity):
     merged = True
     roundings = 6
 
-    def gatherer(self, problem: Problem, system: NumberSystem) -> Gatherer:
+    def gatherer(self, problem: Problem) -> Listing:
         """Start to gather moments."""
         return _Moments(self, problem)
 
@@ -44,13 +44,15 @@ class Merged(ContactQuantity):
         """Give the rows."""
 
 
-class _Moments:
+class _Moments(Listing):
+    quantity: Merged
+
     def __init__(self, quantity: Merged, problem: Problem) -> None:
-        self.quantity, self.problem = quantity, problem
+        super().__init__(quantity, problem)
         # a power of two, in which squares of changes are within the range of floats
         self.unit = unit_near(problem.radii.relative_std)
         self.ordered: Any = None
-        self.parts, self.members = list[Array](), 0
+        self.moments, self.members = list[Array](), 0
 
     def add(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Give mean and variance of each packing's groups; ordered forces only enter the mean."""
@@ -61,11 +63,11 @@ class _Moments:
             self.ordered = F[:, 0] if alike else F.sum(axis=1) / F.shape[1]
         g, self.members = g / self.unit, g.shape[2]
         apart = g - (mean := g.mean(axis=2, keepdims=True))
-        self.parts.append(np.stack([mean[..., 0].T, (apart * apart).mean(axis=2).T], axis=1))
+        self.moments.append(np.stack([mean[..., 0].T, (apart * apart).mean(axis=2).T], axis=1))
 
     def table(self) -> Table:
         """Give what was found, in the columns of the question."""
-        parts = np.concatenate(self.parts)
+        parts = np.concatenate(self.moments)
         mean, std = mean_and_std(*parts.swapaxes(0, 1))
         with np.errstate(all="ignore"):  # of balls beyond floats no standard error is known
             floats = np.asarray(parts, np.float64)

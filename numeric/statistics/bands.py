@@ -54,7 +54,6 @@ class Band(NamedTuple):
 
     estimate: Array
     half: Array
-    level: float
     logarithmic: bool = True
 
     @property
@@ -75,14 +74,6 @@ class Band(NamedTuple):
         own = np.log(curve) if self.logarithmic else np.asarray(curve)
         return float((np.abs(own - self.estimate) / self.half).max())
 
-    def verdict(self, deviation: float) -> str:
-        """Say whether a curve with this deviation is inside."""
-        where = "inside" if deviation <= 1 else "outside"
-        return (
-            f"{where} the simultaneous {self.level:.0%} band, off by {deviation:.2f} of its "
-            "half-width at most"
-        )
-
 
 def simultaneous(
     estimate: Array,
@@ -100,4 +91,4 @@ def simultaneous(
     apart = influence - influence.mean(axis=0)
     covariance = apart.T @ apart / (n - 1) / n
     critical = critical_value(covariance, n - 1, level, seed)
-    return Band(estimate, critical * np.sqrt(np.diag(covariance)), level, logarithmic)
+    return Band(estimate, critical * np.sqrt(np.diag(covariance)), logarithmic)
