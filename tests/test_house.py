@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
     "derivations": 7_394,
-    "numeric": 9_116,
+    "numeric": 9_106,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
