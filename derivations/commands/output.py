@@ -56,17 +56,14 @@ class Output:
         self.path, self.names, self.overwrite = path, frozenset(names), overwrite
         self._old = path.with_name(f"{path.name}.old")
         self._check()
-        self._above = next(parent for parent in path.parents if os.path.lexists(parent))
-        if not self._above.is_dir():
+        above = next(parent for parent in path.parents if os.path.lexists(parent))
+        if not above.is_dir():
             raise OutputError(
-                f"'{self._above}' is a file or a link. Give a folder that doesn't exist yet."
+                f"'{above}' is a file or a link. Give a folder that doesn't exist yet."
             )
-        trial = self._new()
-        trial.mkdir()
-        trial.rmdir()
-
-    def _new(self) -> Path:
-        return self._above / f"{self.path.name}.new-{secrets.token_hex(4)}"
+        self._new = above / f"{path.name}.new-{secrets.token_hex(4)}"
+        self._new.mkdir()
+        self._new.rmdir()
 
     def _check(self) -> None:
         """Refuse what is not to be replaced."""
@@ -102,7 +99,7 @@ class Output:
         Raises ``OSError`` that names the file which can't be written, and ``OutputError`` where the
         folder can't be renamed any more; it says where the files are.
         """
-        new = self._new()
+        new = self._new
         try:
             new.mkdir(parents=True)
             for name, content in files.items():

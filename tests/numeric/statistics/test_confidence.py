@@ -75,7 +75,6 @@ def test_99_percent_of_the_intervals_hold_the_true_std():
     """Far below M*: what is nonlinear is a share M³(σ/r)² of σ_f, 6e-7."""
     m = measurement(question("profile", 4, 6, std=1e-4, seed=7))
     theory = first_order_std(m.problem, [(0, "+")])
-    assert theory is not None
     true = float(theory[0]) * 2.0**-m.unit
     numbers = range(REPEATS * PACKINGS)
     parts = [means[:, :, 0] for _, means, _, _ in sums._solved(m, numbers)]
