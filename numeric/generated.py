@@ -9,11 +9,11 @@ from typing import Any
 
 
 def surface_diffusion(M: Any, z: Any, phi: Any) -> Any:
-    return (2*M**3*(1 - z)**2*(2*z + 1)) / (((1 - phi) * (1 + phi)) ** 2)
+    return (2*M**3*(1 - z)**2*(2*z + 1)) / ((1 - phi**2)**2)
 
 
 def bulk_diffusion(M: Any, z: Any, phi: Any) -> Any:
-    return (3*M**3*(1 - z)**2*(4*z + 1)) / (10*((1 - phi) * (1 + phi)) ** 2)
+    return (3*M**3*(1 - z)**2*(4*z + 1)) / (10*(1 - phi**2)**2)
 
 
 def surface_diffusion_of_spheres(M: Any, z: Any, phi: Any) -> Any:
@@ -26,69 +26,69 @@ def bulk_diffusion_of_spheres(M: Any, z: Any, phi: Any) -> Any:
 
 def surface_variance_at_angle(M: Any, j: Any, k: Any, t: Any, phi: Any) -> Any:
     if M == 1:
-        return (phi*(phi*(phi*(phi - t - 1) + t*(t + 4) + 1) + t*(-t - 1)) + t**2) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
+        return (phi*(phi*(phi*(phi - t - 1) + t*(t + 4) + 1) + t*(-t - 1)) + t**2) / (2*(1 - phi**2)**2)
     if j == 1 and M == 2:
-        return (phi*(phi*(phi*(phi - t) + t*(t + 6) + 4) + 2*t) + 4*t**2) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
+        return (phi*(phi*(phi*(phi - t) + t*(t + 6) + 4) + 2*t) + 4*t**2) / (2*(1 - phi**2)**2)
     if j == 0 and M >= 2:
-        return (M*(M*(4*M*t**2 - 3*t**2) + phi*(phi*t*(t + 6) + t*(t - 3)) - 3*t**2) + phi*(phi*(phi*(phi - 1) - 4*t + 1) + t*(3 - 2*t)) + 3*t**2) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
+        return (M*(M*(4*M*t**2 - 3*t**2) + phi*(phi*t*(t + 6) + t*(t - 3)) - 3*t**2) + phi*(phi*(phi*(phi - 1) - 4*t + 1) + t*(3 - 2*t)) + 3*t**2) / (2*(1 - phi**2)**2)
     if j == 1 and M >= 3:
-        return (M*(M*(4*M*t**2 - 3*t**2) + phi*(phi*t*(t + 8) + t*(2*t + 3)) - 22*t**2) + phi*(phi*(phi**2 + t*(-t - 12) + 4) + t*(-4*t - 3)) + 28*t**2) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
+        return (M*(M*(4*M*t**2 - 3*t**2) + phi*(phi*t*(t + 8) + t*(2*t + 3)) - 22*t**2) + phi*(phi*(phi**2 + t*(-t - 12) + 4) + t*(-4*t - 3)) + 28*t**2) / (2*(1 - phi**2)**2)
     if j == M - 1 and M >= 3:
-        return (M*(4*phi**2 + 4*t**2) + phi*(phi*(phi*(phi - t) + t*(t + 6) - 4) - t) - 4*t**2) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
-    return (j*(k*(12*k*t**2 - 12*t**2) + 4*phi**2 + 4*t**2) + k*(k*(4*k*t**2 - 3*t**2) + phi*(phi*t*(t + 8) + 2*t**2) - 4*t**2) + phi*(phi*(phi**2 - 4*t) - 2*t**2) + 3*t**2) / (2 * (1 - phi) ** 2 * (phi + 1) ** 2)
+        return (M*(4*phi**2 + 4*t**2) + phi*(phi*(phi*(phi - t) + t*(t + 6) - 4) - t) - 4*t**2) / (2*(1 - phi**2)**2)
+    return (j*(k*(12*k*t**2 - 12*t**2) + 4*phi**2 + 4*t**2) + k*(k*(4*k*t**2 - 3*t**2) + phi*(phi*t*(t + 8) + 2*t**2) - 4*t**2) + phi*(phi*(phi**2 - 4*t) - 2*t**2) + 3*t**2) / (2*(1 - phi**2)**2)
 
 
 def bulk_variance_at_angle(M: Any, j: Any, k: Any, t: Any, phi: Any) -> Any:
     if j == 0:
-        return (M*(M*(M*(36*M*t**2 + 45*t**2) + phi*(phi*t*(20*t + 180) + t*(-10*t - 90)) - 70*t**2) + phi*(phi*(phi*(60*phi - 60) - 60*t + 60) + t*(90 - 30*t)) + 45*t**2) + phi*(phi*(-60*phi*t + t*(40*t + 120)) + t*(-20*t - 60)) + 4*t**2) / (120 * M * (1 - phi) ** 2 * (phi + 1) ** 2)
+        return (M*(M*(M*(36*M*t**2 + 45*t**2) + phi*(phi*t*(20*t + 180) + t*(-10*t - 90)) - 70*t**2) + phi*(phi*(phi*(60*phi - 60) - 60*t + 60) + t*(90 - 30*t)) + 45*t**2) + phi*(phi*(-60*phi*t + t*(40*t + 120)) + t*(-20*t - 60)) + 4*t**2) / (120*M*(1 - phi**2)**2)
     if j == 1:
-        return (M*(M*(M*(36*M*t**2 + 81*t**2) + phi*(phi*t*(20*t + 240) + t*(20*t + 90)) - 559*t**2) + phi*(phi*(60*phi**2 + t*(-40*t - 480) + 240) + t*(-40*t - 90)) + 806*t**2) + phi*(phi*(phi*(-60*phi - 60*t) + t*(60*t + 360) - 240) - 60*t) - 360*t**2) / (120 * (M - 1) * (1 - phi) ** 2 * (phi + 1) ** 2)
-    return (j*k*(180*k**2*t**2 + 240*phi**2 + 60*t**2) + k*(k*(k*(36*k*t**2 + 45*t**2) + phi*(phi*t*(20*t + 240) + 20*t**2) - 100*t**2) + 60*phi**4 + 15*t**2) + phi*(phi*(-60*phi*t + t*(40*t + 120)) + t*(-20*t - 60)) + 4*t**2) / (120 * k * (1 - phi) ** 2 * (phi + 1) ** 2)
+        return (M*(M*(M*(36*M*t**2 + 81*t**2) + phi*(phi*t*(20*t + 240) + t*(20*t + 90)) - 559*t**2) + phi*(phi*(60*phi**2 + t*(-40*t - 480) + 240) + t*(-40*t - 90)) + 806*t**2) + phi*(phi*(phi*(-60*phi - 60*t) + t*(60*t + 360) - 240) - 60*t) - 360*t**2) / (120*(1 - phi**2)**2*(M - 1))
+    return (j*k*(180*k**2*t**2 + 240*phi**2 + 60*t**2) + k*(k*(k*(36*k*t**2 + 45*t**2) + phi*(phi*t*(20*t + 240) + 20*t**2) - 100*t**2) + 60*phi**4 + 15*t**2) + phi*(phi*(-60*phi*t + t*(40*t + 120)) + t*(-20*t - 60)) + 4*t**2) / (120*k*(1 - phi**2)**2)
 
 
 def surface_variance_of_spheres(M: Any, j: Any, k: Any, phi: Any) -> Any:
     if M == 1:
-        return (phi*(phi*(phi*(4*phi - 4) + 27) - 4) + 4) / (2 * (1 - phi) ** 2 * (2*phi + 1) ** 2)
+        return (phi*(phi*(phi*(4*phi - 4) + 27) - 4) + 4) / (2*(1 - phi)**2*(2*phi + 1)**2)
     if j == 1 and M == 2:
-        return (phi*(phi*(phi*(4*phi + 4) + 71) + 30) + 14) / (2 * (1 - phi) ** 2 * (2*phi + 1) ** 2)
+        return (phi*(phi*(phi*(4*phi + 4) + 71) + 30) + 14) / (2*(1 - phi)**2*(2*phi + 1)**2)
     if j == 0 and M >= 2:
-        return (M*(M*(M*(phi*(20*phi + 40) + 20) + phi*(-15*phi - 48) - 15) + phi*(phi*(36*phi + 16) - 22) - 11) + phi*(phi*(phi*(6*phi - 48) + 15) + 24) + 12) / (3 * (1 - phi) ** 2 * (2*phi + 1) ** 2)
+        return (M*(M*(M*(phi*(20*phi + 40) + 20) + phi*(-15*phi - 48) - 15) + phi*(phi*(36*phi + 16) - 22) - 11) + phi*(phi*(phi*(6*phi - 48) + 15) + 24) + 12) / (3*(1 - phi)**2*(2*phi + 1)**2)
     if j == 1 and M >= 3:
-        return (M*(M*(M*(phi*(40*phi + 80) + 40) + phi*(-30*phi - 96) - 30) + phi*(phi*(96*phi + 32) - 254) - 208) + phi*(phi*(phi*(12*phi - 192) - 21) + 354) + 258) / (6 * (1 - phi) ** 2 * (2*phi + 1) ** 2)
+        return (M*(M*(M*(phi*(40*phi + 80) + 40) + phi*(-30*phi - 96) - 30) + phi*(phi*(96*phi + 32) - 254) - 208) + phi*(phi*(phi*(12*phi - 192) - 21) + 354) + 258) / (6*(1 - phi)**2*(2*phi + 1)**2)
     if j == M - 1 and M >= 3:
-        return (M*(phi*(18*phi + 12) + 6) + phi*(phi*(phi*(2*phi + 2) - 2) - 12) - 5) / ((1 - phi) ** 2 * (2*phi + 1) ** 2)
-    return (j*(k*(k*(phi*(60*phi + 120) + 60) + phi*(-24*phi - 120) - 60) + phi*(30*phi + 36) + 18) + k*(k*(k*(phi*(20*phi + 40) + 20) + phi*(-15*phi - 48) - 15) + phi*(phi*(48*phi + 61) + 8) - 14) + phi*(phi*(phi*(6*phi - 48) - 15) + 6) + 12) / (3 * (1 - phi) ** 2 * (2*phi + 1) ** 2)
+        return (M*(phi*(18*phi + 12) + 6) + phi*(phi*(phi*(2*phi + 2) - 2) - 12) - 5) / ((1 - phi)**2*(2*phi + 1)**2)
+    return (j*(k*(k*(phi*(60*phi + 120) + 60) + phi*(-24*phi - 120) - 60) + phi*(30*phi + 36) + 18) + k*(k*(k*(phi*(20*phi + 40) + 20) + phi*(-15*phi - 48) - 15) + phi*(phi*(48*phi + 61) + 8) - 14) + phi*(phi*(phi*(6*phi - 48) - 15) + 6) + 12) / (3*(1 - phi)**2*(2*phi + 1)**2)
 
 
 def bulk_variance_of_spheres(M: Any, j: Any, k: Any, phi: Any) -> Any:
     if j == 0:
-        return (M*(M*(M*(M*(M*(phi*(12*phi + 24) + 12) + phi*(9*phi + 12) + 15) + phi*(phi*(72*phi + 18) - 88) - 14) + phi*(phi*(phi*(24*phi - 120) + 117) + 54) + 9) + phi*(phi*(24*phi + 24) - 26) + 2) - 18*phi**2) / (12 * (1 - phi) ** 2 * M ** 2 * (2*phi + 1) ** 2)
+        return (M*(M*(M*(M*(M*(phi*(12*phi + 24) + 12) + phi*(9*phi + 12) + 15) + phi*(phi*(72*phi + 18) - 88) - 14) + phi*(phi*(phi*(24*phi - 120) + 117) + 54) + 9) + phi*(phi*(24*phi + 24) - 26) + 2) - 18*phi**2) / (12*M**2*(1 - phi)**2*(2*phi + 1)**2)
     if j == 1:
-        return (M*(M*(M*(M*(phi*(12*phi + 24) + 12) + phi*(21*phi + 36) + 27) + phi*(phi*(96*phi + 39) - 262) - 173) + phi*(phi*(phi*(24*phi - 288) + 36) + 386) + 232) + phi*(phi*(phi*(216 - 24*phi) - 162) - 216) - 96) / (12 * (M - 1) * (1 - phi) ** 2 * (2*phi + 1) ** 2)
-    return (j*(k*(k*(k*(phi*(60*phi + 120) + 60) + 48*phi**2) + phi*(156*phi + 24) + 12) - 48*phi**2) + k*(k*(k*(k*(phi*(12*phi + 24) + 12) + phi*(9*phi + 12) + 15) + phi*(phi*(96*phi + 108) - 28) - 20) + phi*(phi*(phi*(24*phi - 96) + 69) + 24) + 3) + phi*(phi*(24*phi - 6) - 32) + 2) / (12 * k * (1 - phi) ** 2 * (2*phi + 1) ** 2)
+        return (M*(M*(M*(M*(phi*(12*phi + 24) + 12) + phi*(21*phi + 36) + 27) + phi*(phi*(96*phi + 39) - 262) - 173) + phi*(phi*(phi*(24*phi - 288) + 36) + 386) + 232) + phi*(phi*(phi*(216 - 24*phi) - 162) - 216) - 96) / (12*(1 - phi)**2*(M - 1)*(2*phi + 1)**2)
+    return (j*(k*(k*(k*(phi*(60*phi + 120) + 60) + 48*phi**2) + phi*(156*phi + 24) + 12) - 48*phi**2) + k*(k*(k*(k*(phi*(12*phi + 24) + 12) + phi*(9*phi + 12) + 15) + phi*(phi*(96*phi + 108) - 28) - 20) + phi*(phi*(phi*(24*phi - 96) + 69) + 24) + 3) + phi*(phi*(24*phi - 6) - 32) + 2) / (12*k*(1 - phi)**2*(2*phi + 1)**2)
 
 
 def surface_mean_shift(M: Any, j: Any, k: Any, phi: Any) -> Any:
     if M == 1:
-        return (phi*(5 - 2*phi) - 2) / (-2 * (1 - phi) * (phi + 1) ** 2)
+        return (phi*(2*phi - 5) + 2) / (2*(1 - phi**2)*(phi + 1))
     if j == 1 and M == 2:
-        return (phi*(16 - 3*phi) - 6) / (-4 * (1 - phi) * (phi + 1) ** 2)
+        return (phi*(3*phi - 16) + 6) / (4*(1 - phi**2)*(phi + 1))
     if j == 0 and M >= 2:
-        return (M*(6*phi - 3) + phi*(2 - 3*phi)) / (-4 * (1 - phi) * (phi + 1) ** 2)
+        return (M*(3 - 6*phi) + phi*(3*phi - 2)) / (4*(1 - phi**2)*(phi + 1))
     if j == 1 and M >= 3:
-        return (M*(8*phi + 3) + phi*(-2*phi - 2) - 11) / (-4 * (1 - phi) * (phi + 1) ** 2)
+        return (M*(-8*phi - 3) + phi*(2*phi + 2) + 11) / (4*(1 - phi**2)*(phi + 1))
     if j == M - 1 and M >= 3:
-        return (M*(8*phi - 8) - 3*phi**2 + 7) / (-4 * (1 - phi) * (phi + 1) ** 2)
-    return (j*(4*phi - 4) + 4*k*phi + phi*(-phi - 1)) / (-2 * (1 - phi) * (phi + 1) ** 2)
+        return (M*(8 - 8*phi) + 3*phi**2 - 7) / (4*(1 - phi**2)*(phi + 1))
+    return (j*(4 - 4*phi) - 4*k*phi + phi*(phi + 1)) / (2*(1 - phi**2)*(phi + 1))
 
 
 def bulk_mean_shift(M: Any, j: Any, k: Any, phi: Any) -> Any:
     if j == 1:
-        return (M*(M*(8*phi + 3) + phi*(4 - 4*phi) - 19) + phi*(2*phi - 8) + 14) / (-8 * (1 - phi) * (M - 1) * (phi + 1) ** 2)
+        return (M*(M*(-8*phi - 3) + phi*(4*phi - 4) + 19) + phi*(8 - 2*phi) - 14) / (8*(1 - phi**2)*(M - 1)*(phi + 1))
     if j == 0:
-        return (M*(M*(6*phi - 3) + phi*(10 - 6*phi) - 3) + phi*(4 - 2*phi) - 2) / (-8 * (1 - phi) * M * (phi + 1) ** 2)
-    return (j*k*(8*phi - 8) + k*(4*k*phi + phi*(2 - 2*phi)) + phi*(2 - phi) - 1) / (-4 * (1 - phi) * k * (phi + 1) ** 2)
+        return (M*(M*(3 - 6*phi) + phi*(6*phi - 10) + 3) + phi*(2*phi - 4) + 2) / (8*M*(1 - phi**2)*(phi + 1))
+    return (j*k*(8 - 8*phi) + k*(-4*k*phi + phi*(2*phi - 2)) + phi*(phi - 2) + 1) / (4*k*(1 - phi**2)*(phi + 1))
 
 
 def response(j: Any, l: Any, phi: Any) -> Any:
-    return (3*j + 3*l) / (2*((1 - phi) * (1 + phi)) ** 2)
+    return (3*j + 3*l) / (2*(1 - phi**2)**2)

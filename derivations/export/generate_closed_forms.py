@@ -12,6 +12,8 @@ from pathlib import Path
 
 import sympy
 from force_diffusion.symbolic import words
+from force_diffusion.symbolic.algebra.exact import FIELD
+from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.symbols import INDICES, M, j, k, l, phi, r, sigma
 
 from .. import eq13_surface_diffusion as eq13
@@ -33,35 +35,23 @@ layers above the lower bead of a contact, where no bead (k, l) is loaded.
 from typing import Any
 '''
 
+_UNITS = {sigma: sympy.Integer(1), r: sympy.Integer(1)}
 Branch = tuple[str, str]
 """When a formula holds, which is empty for the last one, and the formula."""
 
 
-def _code(expression: sympy.Expr, *inner: sympy.Symbol) -> str:
+def _code(value: sympy.Expr, *inner: sympy.Symbol) -> str:
     """Python source of a rational function: Horner polynomial over its denominator."""
-    if expression == 0:
+    if value == 0:
         return "0 * phi"  # of the type of phi
-    in_units = sympy.together(expression.xreplace({sigma: sympy.Integer(1), r: sympy.Integer(1)}))
-    top, bottom = sympy.fraction(in_units)
-    scale, factors = sympy.factor_list(bottom)
-    # 1 − φ² as (1 − φ)(1 + φ), each factor computed without cancellation
-    cosine = {sympy.expand(phi - 1): 1 - phi, phi + 1: 1 + phi}
-    written = [str(scale)] if scale != 1 else []
-    for factor, power in factors:
-        positive = cosine.get(factor, factor)
-        if positive != factor and power % 2:
-            top = -top
-        text = str(positive) if positive.is_Symbol else f"({positive})"
-        written.append(text if power == 1 else f"{text} ** {power}")
-    polynomial = sympy.horner(sympy.expand(top), wrt=[*inner, phi])
-    return f"({polynomial}) / ({' * '.join(written)})"
+    top, bottom = sympy.fraction(factored(FIELD.from_sympy(value.xreplace(_UNITS))))
+    return f"({sympy.horner(sympy.expand(top), wrt=[*inner, phi])}) / ({bottom})"
 
 
 def _leading(printed: sympy.Expr) -> Iterator[Branch]:
     """A printed leading order, in its own form."""
-    in_units = printed.doit().xreplace({sigma: sympy.Integer(1), r: sympy.Integer(1)})
-    top, bottom = sympy.fraction(sympy.together(in_units))
-    yield "", f"({top}) / ({bottom})".replace("(1 - phi**2)**2", "((1 - phi) * (1 + phi)) ** 2")
+    top, bottom = sympy.fraction(sympy.together(printed.doit().xreplace(_UNITS)))
+    yield "", f"({top}) / ({bottom})"
 
 
 def _exact(number: Number, name: str | None = None) -> Iterator[Branch]:
