@@ -10,7 +10,7 @@ from force_diffusion.derivations import eq05_contact_minus as eq05
 from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Rule, Steps, Theorem, along, axioms, below, equation, follows, inducted,
-    lattice, minus, mirror_of, solve, terms, times, usual)
+    minus, solve, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, j, k, l, n_minus, n_plus,
     n_y, phi)
@@ -96,14 +96,7 @@ def show_steps(steps: Steps) -> None:
         sympy.Tuple(*of_load(forces)),
         solve(rows.theorems, FORCES),
     )
-    printed = steps.show(
-        "In the paper's symbols:", sympy.Tuple(*PRINTED), solve(rows.theorems, FORCES)
-    )
-    steps.claim(
-        "the second part is the mirror image of the first",
-        lattice.mirror(PRINTED[0]),
-        mirror_of(printed.theorems[0]),
-    )
+    steps.show("In the paper's symbols:", sympy.Tuple(*PRINTED), solve(rows.theorems, FORCES))
 
 
 DERIVATION = Derivation(

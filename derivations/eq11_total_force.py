@@ -142,12 +142,6 @@ def show_steps(steps: Steps) -> None:
         moment(eq05.DERIVATION.theorem),
         Domain.of(j >= 1),
     )
-    steps.claim(
-        "at j = M − 1 the sum is empty, and Eq. 7 is left",
-        equation(PRINTED.rhs, eq07.split_plus(i + 1, M)),
-        rewrite(),
-        LAYERS.also(sympy.Eq(j, M - 1)),
-    )
 
 
 DERIVATION = Derivation(

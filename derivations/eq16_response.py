@@ -11,7 +11,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     axioms, equation, layers, leading_order_of, minus, mirror, moment, power, rewrite, same, shown,
     terms, times, usual)
 from force_diffusion.symbolic.symbols import (
-    Covariance, DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
     VerticalPlus, e_y, f_load, i, j, k, l, n, n_minus, n_plus, n_y, phi, q, r, sigma)
 from sympy import Eq, Rational, S, Tuple
 # fmt: on
@@ -182,15 +182,6 @@ def claims(steps: Steps) -> None:
         equation(ONE_CONTACT, PRINTED.rhs),
         leading,
         CONE,
-    )
-    both = Covariance(VerticalPlus(i, j) / f_load, VerticalMinus(i, j) / f_load)
-    straight = times(Rational(1, 4), (1 + phi) ** 2, layers.UNIT / 4)
-    steps.claim(
-        "the vertical forces of a bead's two contacts have no covariance for j ≥ 3, except for the "
-        "bead straight below the load",
-        Tuple(equation(both, 0), equation(both, straight)),
-        by,
-        [DEEP, INSIDE.also(j >= 3, Eq(n, 1), Eq(q, 1))],
     )
     steps.claim(
         "inside the cone a bead passes forces on: they do not change along a diagonal",
