@@ -10,7 +10,6 @@ renamed first, and deleted last. A command killed in between leaves both, and th
 """
 
 import os
-import secrets
 import shutil
 from collections.abc import Iterable, Mapping
 from contextlib import suppress
@@ -61,7 +60,7 @@ class Output:
             raise OutputError(
                 f"'{above}' is a file or a link. Give a folder that doesn't exist yet."
             )
-        self._new = above / f"{path.name}.new-{secrets.token_hex(4)}"
+        self._new = above / f"{path.name}.new-{os.urandom(4).hex()}"
         self._new.mkdir()
         self._new.rmdir()
 

@@ -3,7 +3,6 @@
 All derive from ``ForceDiffusionError``, which carries the exit status of the command line.
 """
 
-import difflib
 import inspect
 from collections.abc import Callable, Iterable
 from functools import wraps
@@ -89,7 +88,9 @@ def suggestion(name: str, known: Iterable[str]) -> str:
     >>> suggestion("spacng", ["radii", "spacing"])
     'did you mean spacing? '
     """
-    close = difflib.get_close_matches(name[:LONGEST], list(known), n=1)
+    from difflib import get_close_matches  # of wrong names alone
+
+    close = get_close_matches(name[:LONGEST], list(known), n=1)
     return f"did you mean {close[0]}? " if close else ""
 
 
