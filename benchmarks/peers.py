@@ -16,12 +16,7 @@ from force_diffusion.numeric.lattice.layers import Region, whole
 from force_diffusion.numeric.mechanics import sweep
 from force_diffusion.numeric.mechanics.loads import LoadSpec
 from force_diffusion.numeric.mechanics.local import cosine
-from force_diffusion.numeric.mechanics.sweep import (
-    Forces,
-    SolvedPacking,
-    deposit,
-    sweep_down,
-)
+from force_diffusion.numeric.mechanics.sweep import Solved, deposit, sweep_down
 
 SEED = 1
 
@@ -52,12 +47,12 @@ class Problem:
         with system.active():
             return spec.ordered(self.region.rows, spec.strength(self.n_x, system), system)
 
-    def solver(self, system: NumberSystem = FLOAT64) -> Callable[[], tuple[SolvedPacking, Forces]]:
+    def solver(self, system: NumberSystem = FLOAT64) -> Callable[[], tuple[Solved, Solved]]:
         """Give a function that solves it from the radii."""
         region, rho, F = self.region, self.radii(system), self.ordered(system)
         phi = cosine(self.n_x)
 
-        def solve() -> tuple[SolvedPacking, Forces]:
+        def solve() -> tuple[Solved, Solved]:
             with system.active():
                 solved = deposit(phi, region, rho, system)
                 return solved, sweep_down(solved, region.rows, F)
@@ -96,7 +91,7 @@ class Balance:
 Directions = list[tuple[Array, Array, Array, Array]]
 
 
-def directions(solved: SolvedPacking, n: tuple[Any, Any]) -> Directions:
+def directions(solved: Solved, n: tuple[Any, Any]) -> Directions:
     """Cartesian (N⁺_x, N⁺_y, N⁻_x, N⁻_y) of the contacts below each layer from 1 up."""
     (nx, ny), top = n, solved.region.top
     return [
@@ -132,6 +127,6 @@ def changes(unknowns: Array, ordered: Any, width: int) -> Array:
     return np.asarray((unknowns - ordered).reshape(-1, width, 2)[::-1])
 
 
-def stacked(forces: Forces) -> Array:
+def stacked(forces: Solved) -> Array:
     """Give the changes of ``forces`` in the same shape."""
     return np.moveaxis(forces.g[0].reshape(2, len(forces.rows) - 1, -1), 0, -1)

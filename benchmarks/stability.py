@@ -78,9 +78,12 @@ def deviations(delta: Any) -> Callable[[NumberSystem], Any]:
 
     def solve(system: NumberSystem) -> Any:
         with system.active():
-            forces = engine.solve(problem, [0], system, Work()).forces
-            assert forces is not None
-            return forces.g[0].reshape(2, height, width).swapaxes(0, 1)
+            return (
+                engine.solve(problem, [0], system, Work())
+                .g[0]
+                .reshape(2, height, width)
+                .swapaxes(0, 1)
+            )
 
     return solve
 

@@ -38,9 +38,8 @@ def theory(spacing: Fraction) -> Array:
 
 def beside(answer: Solved, number: int) -> Array:
     """Changes of f⁺ inside the cone, averaged with their mirror images; (number, l − j − 1)."""
-    assert answer.forces is not None
     # row m holds what lies below the beads of layer m: l − m + 1 of them, from the left
-    plus, minus = (answer.forces.change(a, LAYER + 1) for a in range(2))
+    plus, minus = (answer.change(a, LAYER + 1) for a in range(2))
     return np.asarray((plus[:, 1:] + minus[:, ::-1][:, 1:]) / 2)
 
 

@@ -24,14 +24,12 @@ NAMES = ("contacts of one branch", "beads, vertical force")
 
 def window_means(ensemble: Plan, answer: Solved, number: int) -> Array:
     """Mean squares of windows of contacts, then of beads; (number, 2 windows)."""
-    forces, packing, upper = answer.forces, answer.packing, LAYER + 1
+    upper = LAYER + 1
     linear = ensemble.problem.route == Route.FIRST_ORDER
-    assert forces is not None
-    assert packing is not None
     relative, vertical = [], []
     for a in range(2):
-        change, ordered = forces.change(a, upper), forces.ordered(a, upper)
-        tilt = packing.dn(a, upper).sum(axis=0)
+        change, ordered = answer.change(a, upper), answer.ordered(a, upper)
+        tilt = answer.dn(a, upper).sum(axis=0)
         relative.append(change / ordered)
         force = ordered if linear else ordered + change
         vertical.append((change + force * tilt) * PAPER.n_y)

@@ -1,6 +1,7 @@
 """The engine: it solves every packing, whatever the question and the number of packings."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from importlib.util import find_spec
 from typing import Any
 
@@ -9,7 +10,7 @@ from ..arithmetic.systems import FLOAT64, NumberSystem
 from . import first_order
 from .physicality import Physicality
 from .problem import Problem, Route
-from .sweep import Forces, Solved, rounded, swept
+from .sweep import Solved, rounded, swept
 from .work import Work
 
 # Beads that are swept together: their arrays still fit into a cache.
@@ -81,17 +82,16 @@ def solve(
 
 
 def _ordered(problem: Problem, system: NumberSystem) -> Solved:
-    forces, single = None, None
+    solved = Solved(problem.phi, system, problem.region)
     load, rows = problem.load, problem.force_rows
     if problem.needs_forces:
         strength = load.strength(problem.n_x, system)
         if problem.contact is not None:
-            zero = system.number(problem.n_x * 0)
-            single = first_order.ordered_force(problem.contact, load, strength, system), zero
-        else:
-            F = load.ordered(rows, strength, system)
-            forces = Forces(system, problem.region, rows, F, system.zeros(1, *F.shape))
-    return Solved(system, None, forces, single)
+            force = first_order.ordered_force(problem.contact, load, strength, system)
+            return replace(solved, single=(force, system.number(problem.n_x * 0)))
+        F = load.ordered(rows, strength, system)
+        return replace(solved, rows=rows, F=F, g=system.zeros(1, *F.shape))
+    return solved
 
 
 def _line_sums(problem: Problem, realisation: int, system: NumberSystem, work: Work) -> Solved:
@@ -109,4 +109,4 @@ def _line_sums(problem: Problem, realisation: int, system: NumberSystem, work: W
         plus, minus = (first_order.line_sum(rho(line))[-1] for line in lines)
         single = plus, minus
     work.did("summed", problem.line_beads)
-    return Solved(system, None, None, single)
+    return Solved(problem.phi, system, problem.region, single=single)

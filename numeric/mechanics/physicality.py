@@ -11,7 +11,7 @@ to overlap, are left out, and no others.
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import lru_cache
 from itertools import product
@@ -26,7 +26,7 @@ from ..lattice.layers import Block, Layer, Region
 from . import local
 from .local import RESOLUTION
 from .loops import loops
-from .sweep import Forces, Solved, SolvedPacking, metric_array, shift_of
+from .sweep import Solved, metric_array, shift_of
 
 Steps = tuple[int, ...]
 # A number that bounds, and was rounded a few times.
@@ -65,16 +65,16 @@ class Physicality:
     def look_at(self, solved: Solved, realisations: Sequence[int]) -> None:
         """Look at packings, which are these realisations."""
         self.looks_at = realisations
-        if solved.packing is not None:
-            self.look_at_gaps(solved.packing)
-        if solved.forces is not None:
-            self.look_at_forces(solved.forces)
+        if solved.block is not None:
+            self.look_at_gaps(solved)
+        if solved.g is not None:
+            self.look_at_forces(solved)
 
     @property
     def _least_gap(self) -> float:
         return math.inf if self.smallest_gap is None else self.smallest_gap
 
-    def look_at_gaps(self, packing: SolvedPacking) -> None:
+    def look_at_gaps(self, packing: Solved) -> None:
         """Measure the gaps of all pairs of beads that could meet, in float64 from the deviations.
 
         Those of pairs that are too far apart to be the closest of all packings are left out.
@@ -83,7 +83,7 @@ class Physicality:
         d, phi = region.dimension, float(packing.phi)
         if packing.system.dtype is object:
             rho, block = as_floats(packing.rho), as_floats(packing.block)
-            packing = SolvedPacking(packing.phi, FLOAT64, region, rho, block)
+            packing = replace(packing, system=FLOAT64, rho=rho, block=block)
         turn, moved, widest = _bounds(packing, phi)
         thick = 2 + 2 * widest
         # √d/(2√λ) steps are the most of a distance of 1, λ the least eigenvalue of the Gram matrix
@@ -98,7 +98,7 @@ class Physicality:
             if distance - min(sum(map(abs, steps)) * turn, moved) - thick <= matters:
                 self._look_at_pairs(packing, steps)
 
-    def _look_at_pairs(self, packing: SolvedPacking, steps: Steps) -> None:
+    def _look_at_pairs(self, packing: Solved, steps: Steps) -> None:
         """Measure the gaps of one kind of pairs."""
         gap = gaps_of(packing, steps)
         if not gap.min(initial=math.inf) > RESOLUTION:  # or it is NaN
@@ -115,7 +115,7 @@ class Physicality:
             naming, here = region.naming, (0,) * len(steps)
             self.between = naming.beyond(own, here), naming.beyond(own, steps)
 
-    def look_at_forces(self, forces: Forces) -> None:
+    def look_at_forces(self, forces: Solved) -> None:
         """Count the contacts that surely pull and those whose sign stays open."""
         self.forces_known = True
         self.contacts += int(np.prod(forces.g.shape))
@@ -140,8 +140,8 @@ class Physicality:
 SIGNS = 2.0**-40
 
 
-def pulling(forces: Forces) -> tuple[Any, Any]:
-    """Tell contacts that surely pull and those whose sign is open, as ``Forces.g`` has them.
+def pulling(forces: Solved) -> tuple[Any, Any]:
+    """Tell contacts that surely pull and those whose sign is open, as ``Solved.g`` has them.
 
     Balls decide by their own radius. Hardware floats have none: there a force is taken as open
     within 2^-40 of the largest change of its layer and branch in all packings, far above their
@@ -204,7 +204,7 @@ def by_distance(dimension: int, phi: float) -> Iterator[tuple[float, Steps]]:
         reach, given = 2 * reach, len(shell)
 
 
-def _bounds(packing: SolvedPacking, phi: float) -> tuple[float, float, float]:
+def _bounds(packing: Solved, phi: float) -> tuple[float, float, float]:
     """Bound the change of a contact's vector, twice the displacement of a bead, and δr/r."""
     d, rho, block = packing.region.dimension, packing.rho, packing.block
     widest, deepest = max(float(rho.max()), 0.0), max(float(-rho.min()), 0.0)
@@ -222,7 +222,7 @@ def _pairs(region: Region, steps: Steps) -> Array:
     return np.stack([region.starts[:-1], rows.counts, shift_of(rows, rows, steps)], axis=1)
 
 
-def gaps_of(packing: SolvedPacking, steps: Steps) -> Array:
+def gaps_of(packing: Solved, steps: Steps) -> Array:
     """Give the gaps of beads and those so many steps on, (packings, beads); inf where none is."""
     region, rho, block, rise = packing.region, packing.rho, packing.block, sum(steps)
     d, (square, excess) = region.dimension, square_of(packing.phi, steps)

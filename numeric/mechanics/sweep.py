@@ -7,10 +7,10 @@ dimensions ``plus`` below (i, j) is the paper's f⁺_(i−1, j−1), ``minus`` i
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import lru_cache, partial
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -32,19 +32,33 @@ class NotStandingError(BeadError):
     """No forces can hold a bead, because its contacts lie in a line or plane; ``site`` names it."""
 
 
-class SolvedPacking(NamedTuple):
-    """Beads of some packings at rest, row after row as ``region`` has them, in units of r.
+@dataclass(frozen=True)
+class Solved:
+    """Some packings, solved, in units of r; what the question does not need is None.
 
-    ``rho``: δr/r, shape (packings, beads). ``block``, (packings, d + d², beads): c_a = n^a·δx/r of
-    each direction, then of the contact below along each the components of δn = Σ_b dn_b n^b, those
-    of the base 0. Directions are numbered from 0: + and −, or 1, 2 and 3.
+    Beads at rest lie row after row as ``region`` has them. ``rho``: δr/r, shape (packings, beads).
+    ``block``, (packings, d + d², beads): c_a = n^a·δx/r of each direction, then of the contact
+    below along each the components of δn = Σ_b dn_b n^b, those of the base 0. Directions are
+    numbered from 0: + and −, or 1, 2 and 3.
+
+    Contact forces are those below beads, by the upper bead, row after row of ``rows`` above the
+    base. ``F``, (d, beads): of the ordered packing; ``g``, (packings, d, beads): f^a − F^a.
+
+    ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
+    line sums give alone. Where the sweep carried errors, all numbers are rounded only once, and
+    ``sizes`` says how large errors were.
     """
 
     phi: Fraction
     system: NumberSystem
     region: Region
-    rho: Any
-    block: Any
+    rho: Any = None
+    block: Any = None
+    rows: Rows = field(default_factory=Rows)
+    F: Any = None
+    g: Any = None
+    single: tuple[Any, Any] | None = None
+    sizes: Sizes = NONE
 
     def c(self, a: int, j: int) -> Any:
         """Give c_a of row j, (packings, count)."""
@@ -55,19 +69,6 @@ class SolvedPacking(NamedTuple):
         d = self.region.dimension
         return self.block[:, d + a * d : 2 * d + a * d, self.region.row(j)].swapaxes(0, 1)
 
-
-class Forces(NamedTuple):
-    """Contact forces below beads, by the upper bead, row after row of ``rows`` above the base.
-
-    ``F``, (d, beads): of the ordered packing; ``g``, (packings, d, beads): f^a − F^a.
-    """
-
-    system: NumberSystem
-    region: Region
-    rows: Rows
-    F: Any
-    g: Any
-
     def ordered(self, a: int, j: int) -> Any:
         """Give F^a below row j > 0, (count,)."""
         return self.F[a, self.rows.above(j)]
@@ -76,54 +77,32 @@ class Forces(NamedTuple):
         """Give g^a below row j > 0, (packings, count)."""
         return self.g[:, a, self.rows.above(j)]
 
-
-@dataclass(frozen=True)
-class Solved:
-    """Some realisations, solved; what the question does not need is None.
-
-    ``single`` is the (force, change) of the one contact, or the (c⁺, c⁻) of the one bead, that
-    line sums give alone. Where the sweep carried errors, all numbers are rounded only once, and
-    ``sizes`` says how large errors were.
-    """
-
-    system: NumberSystem
-    packing: SolvedPacking | None
-    forces: Forces | None
-    single: tuple[Any, Any] | None
-    sizes: Sizes = NONE
-
     def realisation(self, number: int) -> "Solved":
         """Give the ``number``-th realisation of those that were solved together."""
         at = slice(number, number + 1)
-        packing, forces = self.packing, self.forces
-        if packing is not None:
-            packing = packing._replace(rho=packing.rho[at], block=packing.block[at])
-        if forces is not None:
-            forces = forces._replace(g=forces.g[at])
-        return replace(self, packing=packing, forces=forces)
+        own: dict[str, Any] = {"rho": self.rho, "block": self.block, "g": self.g}
+        parts: dict[str, Any] = {name: x[at] for name, x in own.items() if x is not None}
+        return replace(self, **parts)
 
 
 def rounded(solved: Solved) -> Solved:
     """Round numbers that carry their errors once, in place; say how large the errors were."""
-    packing, forces = solved.packing, solved.forces
-    if packing is None:
-        assert solved.single is not None
+    block, F, g = solved.block, solved.F, solved.g
+    if solved.single is not None:
         most = max(abs(float(ball.error)) for ball in solved.single)
         force = max(abs(float(ball.value)) for ball in solved.single)
         single = solved.single[0].nearest, solved.single[1].nearest
-        return Solved(FLOAT64, None, None, single, Sizes(most, 0.0, most, force))
-    d, block = packing.region.dimension, packing.block
+        sizes = Sizes(most, 0.0, most, force)
+        return replace(solved, system=FLOAT64, single=single, sizes=sizes)
+    d = solved.region.dimension
     sizes = Sizes(_most(block.error[:, :d]), _most(block.error[:, d:]))
     block.value[...] += block.error
-    rho = packing.rho.nearest
-    packing = SolvedPacking(packing.phi, FLOAT64, packing.region, rho, block.value)
-    if forces is not None:
-        g = forces.g
-        force = _most(forces.F.value) + _most(g.value)
-        sizes |= Sizes(changed=_most(g.error), force=force)
+    if g is not None:
+        sizes |= Sizes(changed=_most(g.error), force=_most(F.value) + _most(g.value))
         g.value[...] += g.error
-        forces = Forces(FLOAT64, forces.region, forces.rows, forces.F.nearest, g.value)
-    return Solved(FLOAT64, packing, forces, None, sizes)
+        F, g = F.nearest, g.value
+    rho = solved.rho.nearest
+    return replace(solved, system=FLOAT64, rho=rho, block=block.value, F=F, g=g, sizes=sizes)
 
 
 def _most(values: Array) -> float:
@@ -154,17 +133,16 @@ def swept(
     except RadiusError as error:
         i, j = error.site  # in its row
         raise RadiusError(region.naming.bead((i, j)), error.reason, error.place) from None
-    packing, forces = deposit(cosine(n_x), region, rho, own, linear=linear), None
+    solved = deposit(cosine(n_x), region, rho, own, linear=linear)
     if load is not None:
         F = load.ordered(rows, load.strength(n_x, own), own)
-        forces = sweep_down(packing, rows, F, linear=linear)
-    solved = Solved(own, packing, forces, None)
+        solved = sweep_down(solved, rows, F, linear=linear)
     return rounded(solved) if carried else solved
 
 
 def deposit(
     phi: Fraction, region: Region, rho: Any, system: NumberSystem, *, linear: bool = False
-) -> SolvedPacking:
+) -> Solved:
     """Deposit beads layer by layer on the ordered base; to first order only if ``linear``.
 
     ``phi`` is the dot product of any two base vectors, ``rho`` (packings, beads) holds δr/r. The
@@ -174,7 +152,7 @@ def deposit(
     """
     block = None if linear else _compiled_deposit(phi, region, rho, system)
     if block is not None:
-        return SolvedPacking(phi, system, region, rho, block)
+        return Solved(phi, system, region, rho, block)
     d, at = region.dimension, region.starts.tolist()
     m = metric(d, phi, system.number)
     block = system.zeros(len(rho), d + d * d, region.beads)
@@ -195,10 +173,10 @@ def deposit(
         _check_rest(rested.holds, layer, region, system, partial(nested, under, rho_under, m))
         for k, x in enumerate([*rested.c, *(x for of in rested.dn for x in of)]):
             block[:, k, own] = x
-    return SolvedPacking(phi, system, region, rho, block)
+    return Solved(phi, system, region, rho, block)
 
 
-def sweep_down(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool = False) -> Forces:
+def sweep_down(packing: Solved, rows: Rows, F: Any, *, linear: bool = False) -> Solved:
     """Carry loads down from the highest of ``rows`` through the beads of ``rows``.
 
     Exactly; or, with ``linear``, to first order: then forces are sums along the base vectors, and
@@ -211,7 +189,7 @@ def sweep_down(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool = Fal
     """
     g = None if linear else _compiled_balance(packing, rows, F)
     if g is not None:
-        return Forces(packing.system, packing.region, rows, F, g)
+        return replace(packing, rows=rows, F=F, g=g)
     region, system, block = packing.region, packing.system, packing.block
     d, top = region.dimension, len(rows) - 1
     at, beads = rows.starts_above.tolist(), region.starts.tolist()
@@ -246,7 +224,7 @@ def sweep_down(packing: SolvedPacking, rows: Rows, F: Any, *, linear: bool = Fal
             check_standing(balanced.det, layer, region, system)
         for a, change in enumerate(balanced.g):
             g[:, a, own] = change
-    return Forces(system, region, rows, F, g)
+    return replace(packing, rows=rows, F=F, g=g)
 
 
 def spread(system: NumberSystem, *shape: int) -> Any:
@@ -346,7 +324,7 @@ def _reached(region: Region, rows: Rows) -> Array:
     )
 
 
-def _compiled_balance(packing: SolvedPacking, rows: Rows, F: Any) -> Any:
+def _compiled_balance(packing: Solved, rows: Rows, F: Any) -> Any:
     """Give the changes of forces; None where not all is in order, or nothing compiles."""
     region, system, block = packing.region, packing.system, packing.block
     if (made := _loops_of(region, system)) is None:

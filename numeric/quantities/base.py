@@ -305,22 +305,21 @@ def contact_forces(
 
     Contacts that no load reaches have zeros.
     """
-    system, forces = solved.system, solved.forces
+    system, rows = solved.system, solved.rows
     if solved.single is not None:  # line sums of the one contact
         force, change = (system.filled([number]) for number in solved.single)
         return force, change[None]
-    assert forces is not None
     zero = system.zeros(1)[0]
     F, g = [system.zeros(0)], [system.zeros(realisations, 0)]
     for branch, row in blocks:
         j, a = row.j, branch.number
-        if j >= len(forces.rows) or not forces.rows[j].count:  # no load reaches this layer
+        if j >= len(rows) or not rows[j].count:  # no load reaches this layer
             F.append(system.zeros(row.count))
             g.append(system.zeros(realisations, row.count))
             continue
-        columns = columns_of(forces.rows[j], row, forces.region.width)
-        F.append(taken(forces.ordered(a, j), columns, zero))
-        g.append(taken(forces.change(a, j), columns, zero))
+        columns = columns_of(rows[j], row, solved.region.width)
+        F.append(taken(solved.ordered(a, j), columns, zero))
+        g.append(taken(solved.change(a, j), columns, zero))
     return np.concatenate(F), np.concatenate(g, axis=1)
 
 

@@ -60,10 +60,10 @@ class ContactForces(ContactQuantity):
         upper, wraps = self.naming.above(lower, number)
         with FLOAT64.active():
             low = np.stack(ordered_places(lower, problem, FLOAT64))
-            if solved.packing is None:
+            if solved.block is None:
                 return low, low + steps_up(problem)[number].T, wraps
-            region, d = solved.packing.region, problem.dimension
-            moves = np.pad(as_floats(solved.packing.block[0, :d]), ((0, 0), (0, 1)))
+            region, d = solved.region, problem.dimension
+            moves = np.pad(as_floats(solved.block[0, :d]), ((0, 0), (0, 1)))
             moves[:, -1] = np.nan
             moved, upper_moved = (
                 np.stack(cartesian([*moves[:, region.numbers(b)]], problem, FLOAT64, raised=False))

@@ -63,15 +63,14 @@ class Positions(Quantity):
 
     def _moved(self, solved: Solved, rows: Sequence[Layer]) -> list[Array]:
         """Give c of each direction, row by row."""
-        system, packing = solved.system, solved.packing
+        system, region = solved.system, solved.region
         if solved.single is not None:  # line sums of the one bead
             return [system.filled([number]) for number in solved.single]
-        if packing is None:
+        if solved.block is None:
             return [system.zeros(sum(row.count for row in rows))] * len(self.branches)
-        region = packing.region
         columns = [columns_of(region.rows[row.j], row, self.width) for row in rows]
         parts = (
-            [taken(packing.c(a, row.j)[0], at) for row, at in zip(rows, columns, strict=True)]
+            [taken(solved.c(a, row.j)[0], at) for row, at in zip(rows, columns, strict=True)]
             for a in range(region.dimension)
         )
         return [np.concatenate([system.array([]), *each]) for each in parts]

@@ -48,16 +48,15 @@ class Response(Merged):
         blocks, ny = self.blocks(problem), slope(problem, solved.system)
         F, g = contact_forces(solved, blocks, realisations)
         f = F + (g if problem.route == Route.EXACT else 0)
-        vertical = g if solved.packing is None else g + f * self.tilt(solved, blocks, realisations)
+        vertical = g if solved.block is None else g + f * self.tilt(solved, blocks, realisations)
         both = np.concatenate([g, vertical * ny], axis=1)
         return np.concatenate([F, F * ny])[:, None], both.T[:, :, None]
 
     def tilt(self, solved: Solved, blocks: Sequence[Block], realisations: int) -> Array:
         """Give N_y/n_y − 1 of contacts, (realisations, contacts)."""
-        assert solved.packing is not None
-        region, tilts = solved.packing.region, [solved.system.zeros(realisations, 0)]
+        region, tilts = solved.region, [solved.system.zeros(realisations, 0)]
         for branch, row in blocks:
-            normal = solved.packing.dn(branch.number, row.j)
+            normal = solved.dn(branch.number, row.j)
             columns = columns_of(region.rows[row.j], row, region.width)
             tilts.append(taken(sum(normal[1:], normal[0]), columns))
         return np.concatenate(tilts, axis=1)

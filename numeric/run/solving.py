@@ -387,10 +387,9 @@ def _directly(sections: Mapping[str, Any], mean: float) -> Solution | None:
         except ForceDiffusionError:
             return None
         physical.look_at(solved, packings)
-        forces, unseen = solved.forces, solved.sizes.unseen(layers - 1)[0]
-        assert forces is not None
+        unseen = solved.sizes.unseen(layers - 1)[0]
         below = (*shape[:-d], d, layers - 1, *shape[1 - d :])
-        change, ordered = forces.g.reshape(below), forces.F.reshape(below[-d - 1 :])
+        change, ordered = solved.g.reshape(below), solved.F.reshape(below[-d - 1 :])
         largest = max(float(change.max()), -float(change.min()))
         _by_lower_bead(change, d)
         force = change + ordered  # of loads on layers, which are alike there

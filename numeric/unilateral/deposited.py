@@ -11,7 +11,7 @@ from ..lattice.layers import Region, contacts_of
 from ..mechanics.engine import solve
 from ..mechanics.physicality import pulling
 from ..mechanics.problem import Problem, Route, axes
-from ..mechanics.sweep import SolvedPacking, UnbuildableError
+from ..mechanics.sweep import Solved, UnbuildableError
 from ..mechanics.work import Work
 from .certificate import smallest_gap
 from .grains import Grains, Pairs
@@ -34,8 +34,7 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
     try:
         deposited = replace(problem, route=Route.EXACT, needs_forces=False)
         with np.errstate(all="ignore"):
-            packing = solve(deposited, [realisation], FLOAT64, Work()).packing
-        assert packing is not None
+            packing = solve(deposited, [realisation], FLOAT64, Work())
         grains.x = _centres(problem, packing, FLOAT64)
         near = grains.near(0.1)
         others = near[~np.isin(grains.named(near), grains.named(supports))]
@@ -96,17 +95,14 @@ def as_deposited(problem: Problem, realisation: int, known: Frame, system: Balls
     """
     deposited = replace(problem, route=Route.EXACT, needs_forces=True)
     solved = solve(deposited, [realisation], system, Work())
-    packing, forces = solved.packing, solved.forces
-    assert packing is not None
-    assert forces is not None
-    pulls, undecided = pulling(forces)
+    pulls, undecided = pulling(solved)
     if np.any(pulls):
         raise UnfinishedError("a contact pulls by less than float64 can resolve")
     if np.any(undecided):
         raise UndecidedError("the enclosures are too wide to tell whether a contact pulls")
-    pairs, values = lattice_contacts(problem.region), (forces.F + forces.g[0]).T.ravel()
+    pairs, values = lattice_contacts(problem.region), (solved.F + solved.g[0]).T.ravel()
     bearing = np.array([not (f.rad() == 0 and f == 0) for f in values], dtype=bool)
-    x = _centres(problem, packing, system)
+    x = _centres(problem, solved, system)
     free = np.arange(len(known.base), len(x))
     rattlers = free[~np.isin(free, pairs[bearing])]
     smallest = smallest_gap(x, known, pairs)
@@ -135,7 +131,7 @@ def loads(problem: Problem, system: NumberSystem) -> Array:
     return np.stack([(minus - plus) * nx, -(plus + minus) * ny], axis=1)
 
 
-def _centres(problem: Problem, packing: SolvedPacking, system: NumberSystem) -> Array:
+def _centres(problem: Problem, packing: Solved, system: NumberSystem) -> Array:
     """Give the centres of deposited beads, (N, 2)."""
     nx, ny = axes(problem.n_x, system)
     i, j = (numbers.astype(system.dtype) for numbers in packing.region.rows.sites)

@@ -61,7 +61,7 @@ def relaxed(problem: Problem, realisation: int, system: Balls, work: Work) -> Re
         raise
     except UnfinishedError as error:
         raise UnfinishedError(f"no packing was found, though one may exist: {error}") from error
-    return Relaxed(system, None, None, None, network=network)
+    return Relaxed(problem.phi, system, problem.region, network=network)
 
 
 def settle(problem: Problem, realisation: int, work: Work) -> Settled:

@@ -23,7 +23,7 @@ from force_diffusion.numeric.lattice.branch import Branch
 from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.loads import LoadSpec, Strength, components
 from force_diffusion.numeric.mechanics.local import cosine
-from force_diffusion.numeric.mechanics.sweep import Forces, SolvedPacking, deposit, sweep_down
+from force_diffusion.numeric.mechanics.sweep import Solved, deposit, sweep_down
 
 Site = tuple[int, int]
 Coefficients = list[flint.fmpq]
@@ -106,8 +106,8 @@ class TaylorPacking:
     n_x: flint.fmpq
     n_y: flint.fmpq
     order: int
-    packing: SolvedPacking
-    contact_forces: Forces
+    packing: Solved
+    contact_forces: Solved
 
     def line_sums(self, i: int, j: int) -> tuple[Coefficients, Coefficients]:
         """(c⁺, c⁻) with c^± = n^±·δx of bead (i, j) (Eqs. 2 and 3)."""

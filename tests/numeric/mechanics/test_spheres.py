@@ -91,7 +91,7 @@ def test_contacts_in_one_plane_hold_nothing_up():
     block = np.zeros((1, 12, 8))
     block[0, 3:5, 6] = -1, 1
     region, nothing = spheres([np.zeros((2, 2))] * 2)
-    placed = sweep.SolvedPacking(Fraction(1, 5), FLOAT64, region, nothing, block)
+    placed = sweep.Solved(Fraction(1, 5), FLOAT64, region, nothing, block)
     with FLOAT64.active(), pytest.raises(sweep.NotStandingError, match=r"\(1, 0, 1\).*one plane"):
         sweep.sweep_down(placed, region.rows, from_above(region, 1.0))
 

@@ -30,10 +30,10 @@ def test_a_contact_of_the_slab_visits_the_number_of_beads_in_the_formula(where, 
         count = j + max(j - 1, 0) + (3 * M + 2 if j <= M - 2 else 2 * M + 1)
     assert len(sites) == count
     if geometry == "exact":
-        assert solved.packing.block.shape[-1] == count
-        assert solved.forces.g.shape[-1] == (M - j) * (M - j + 1) // 2
+        assert solved.block.shape[-1] == count
+        assert solved.g.shape[-1] == (M - j) * (M - j + 1) // 2
     else:
-        assert solved.packing is solved.forces is None
+        assert solved.block is solved.g is None
     assert plan.beads == count
 
 
@@ -53,7 +53,7 @@ def test_without_disorder_nothing_is_swept():
         plan = planned(sections)
         solved, sites = radii_read(plan)
         assert not sites
-        assert solved.packing is None
+        assert solved.block is None
         assert plan.beads == 0
 
 
@@ -70,10 +70,10 @@ def test_a_point_load_stays_in_its_cone():
     sections = basic(8, 20, quantity="response")
     sections["load"] = {"kind": "point", "at": [5, 7]}
     solved, _ = radii_read(planned(sections))
-    for row in solved.forces.rows:
+    for row in solved.rows:
         assert all(abs(i - 5) <= 7 - row.j for i in row.sites())
-    assert solved.forces.g.shape[-1] == sum(7 - j + 1 for j in range(1, 8))
-    assert solved.packing.block.shape[-1] == 8 * 9 // 2
+    assert solved.g.shape[-1] == sum(7 - j + 1 for j in range(1, 8))
+    assert solved.block.shape[-1] == 8 * 9 // 2
 
 
 def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[str, Any]]:
