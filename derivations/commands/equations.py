@@ -1,8 +1,8 @@
 """The commands ``show`` and ``list``: a thin layer over ``Equation``."""
 
 import json
-from collections.abc import Iterable
-from typing import TYPE_CHECKING, Annotated, Literal
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import typer
 
@@ -40,44 +40,32 @@ def show(
     if form == "json":
         print(json.dumps({"equations": [equation.data() for equation in equations]}, indent=2))
         return
-    written = []
-    for equation in equations:
-        written += _exact(equation, form, columns) if exact else [_written(equation, form, columns)]
-    print("\n\n".join(written))
+    print("\n\n".join(part for eq in equations for part in _written(eq, form, columns, exact)))
 
 
-def _written(equation: "Equation", form: OutputForm, columns: int) -> str:
-    match form:
-        case "latex":
-            return _displayed(equation.displays(columns))
-        case "sympy":
-            return equation.sympy_code()
-        case "python":
-            return equation.python_code()
-        case "steps":
-            return str(equation.steps())
-    return str(equation)
-
-
-def _exact(equation: "Equation", form: OutputForm, columns: int) -> list[str]:
-    """The exact forms, each with its name. Raises ``NoSuchFormError`` where there are none."""
+def _written(equation: "Equation", form: OutputForm, columns: int, exact: bool) -> Iterator[str]:
+    """An equation, or its exact forms. Raises ``NoSuchFormError`` where there are none."""
     from force_diffusion.symbolic.printing.code import sympy_source
 
-    equation.exact()
-    forms = {name: equation.exact(name) for name in equation.forms}
-    match form:
-        case "latex":
-            return [_displayed(exact.displays(columns)) for exact in forms.values()]
-        case "sympy":
-            return [sympy_source(exact.expr) for exact in forms.values()]
-        case "python":
-            return [exact.python(f"{equation.name}_{name}") for name, exact in forms.items()]
-    texts = {name: "\n".join(exact.lines()) for name, exact in forms.items()}
-    return [f"Eq. {equation.number}, {name}: {text}" for name, text in texts.items()]
-
-
-def _displayed(bodies: Iterable[str]) -> str:
-    return "\n".join(f"\\begin{{equation}}\n{body}\n\\end{{equation}}" for body in bodies)
+    if exact:
+        equation.exact()
+    parts: dict[str, Any] = {name: equation.exact(name) for name in equation.forms if exact}
+    for name, part in (parts or {"": equation}).items():
+        match form:
+            case "latex":
+                displays = part.displays(columns)
+                yield "\n".join(
+                    f"\\begin{{equation}}\n{body}\n\\end{{equation}}" for body in displays
+                )
+            case "sympy":
+                yield sympy_source(part.expr) if exact else part.sympy_code()
+            case "python":
+                yield part.python(f"{equation.name}_{name}") if exact else part.python_code()
+            case "steps":
+                yield str(equation.steps())
+            case _:
+                lines = "\n".join(part.lines()) if exact else ""
+                yield f"Eq. {equation.number}, {name}: {lines}" if exact else str(equation)
 
 
 def list_equations() -> None:
