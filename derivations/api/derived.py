@@ -40,10 +40,7 @@ class Derived:
 
     def counts(self) -> str:
         """How many equations have each verdict, and how many printed statements are refuted."""
-        refuted = sum(len(outcome.refuted) for outcome in self.outcomes)
-        return "; ".join(
-            filter(None, [terminal.verdicts_text(self.outcomes), terminal.expected_text(refuted)])
-        )
+        return terminal.counts_text(self.outcomes)
 
     def data(self) -> dict[str, Any]:
         """Data for JSON: verdicts and checks of each equation, times in seconds."""

@@ -5,11 +5,10 @@ from collections.abc import Sequence
 from force_diffusion.symbolic.printing.latex import latex
 
 from ..framework.catalogue import modules
-from ..framework.lists import both
 from ..framework.record import ProofOutcome, load
 from ..framework.rows import Row
 from .prose import prose_latex, text_latex
-from .terminal import verdicts_text
+from .terminal import counts_text
 
 SUPPLEMENT = "supplement.tex"
 
@@ -35,21 +34,9 @@ def supplement(outcomes: Sequence[ProofOutcome]) -> str:
     """The supplement as LaTeX; it reports what the present run has derived."""
     rows = map(load, modules())
     sections = "".join(_section(row) for row in rows if isinstance(row, Row))
-    about = prose_latex(f"{_INTRODUCTION} {verdicts(outcomes)}")
+    counts = f"The verdicts of the run that wrote this text: {counts_text(outcomes)}."
+    about = prose_latex(f"{_INTRODUCTION} {counts}")
     return f"{_HEAD}{about}\n{sections}\\end{{document}}\n"
-
-
-def verdicts(outcomes: Sequence[ProofOutcome]) -> str:
-    """What the run that writes the article has derived."""
-    derived = {outcome.derivation.number for outcome in outcomes}
-    missing = [str(label) for label in modules() if label not in derived]
-    refuted = [f"Eq. {outcome.derivation.number}" for outcome in outcomes if outcome.refuted]
-    return (
-        f"In the run that wrote this text the program derived {len(derived) or 'no'} equations"
-        + (f": {verdicts_text(outcomes)}." if outcomes else ".")
-        + (f" Not derived in it: {', '.join(missing)}." if missing else "")
-        + (f" As its words read in the paper, {both(refuted)} is refuted." if refuted else "")
-    )
 
 
 def _section(row: Row) -> str:

@@ -2,7 +2,7 @@
 
 import re
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from textwrap import fill
 from typing import Any
 
@@ -41,16 +41,18 @@ def refuted_text(derivation: Statement) -> list[str]:
     return lines
 
 
-def verdicts_text(outcomes: Iterable[ProofOutcome]) -> str:
-    """How many equations have which verdict, in words."""
-    counts = Counter(outcome.words for outcome in outcomes)
-    return "; ".join(f"{count} {words.replace(',', '')}" for words, count in counts.items())
-
-
 def expected_text(refuted: int) -> str:
     """How many printed statements were refuted as expected, in words; "" for none."""
     plural = "" if refuted == 1 else "s"
     return f"{refuted} printed statement{plural} refuted, as expected (see ERRATA)" * bool(refuted)
+
+
+def counts_text(outcomes: Sequence[ProofOutcome]) -> str:
+    """How many equations have which verdict, and how many printed statements are refuted."""
+    counts = Counter(outcome.words.replace(",", "") for outcome in outcomes)
+    refuted = expected_text(sum(len(outcome.refuted) for outcome in outcomes))
+    verdicts = (f"{count} {words}" for words, count in counts.items())
+    return "; ".join(filter(None, [*verdicts, refuted]))
 
 
 def verdict_text(outcome: ProofOutcome) -> str:
