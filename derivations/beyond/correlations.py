@@ -10,12 +10,10 @@ from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Row, are_same, equals, form_of, goes_as, highest, leads, ruled)
+    Row, are_same, equals, form_of, goes_as, highest, leads)
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.symbols import (
-    ForceMinus, ForcePlus, M, N, i, j, k, l, p, phi, r, sigma, z)
-from force_diffusion.symbolic.words import in_words
+from force_diffusion.symbolic.symbols import ForcePlus, M, N, i, j, k, l, phi, r, sigma, z
 from sympy import Eq, Rational
 # fmt: on
 
@@ -99,16 +97,6 @@ def _contacts(number: Number, name: str, load: str) -> Row:
     )  # fmt: skip
 
 
-def uncorrelated(*domains: tuple[sympy.Basic, ...]) -> Ruling:
-    """f⁺_ij and the f⁻ of layer l whose diagonals cross p layers above (i, j) are uncorrelated."""
-    for domain in domains:
-        where = (j <= l, *domain)
-        form = covariance(ForcePlus(i, j), ForceMinus(i + 2 * p + j - l, l), where=where)
-        if not form.function.weights.is_zero():
-            return ruled(False, f"they are correlated somewhere in {in_words(domain)}")
-    return ruled(True, "")
-
-
 def _correlation(form: ClosedForm, load: str, squared: Rational) -> Ruling:
     """The squared correlation of a contact at the base and one of its diagonal, as z′ → 1."""
     both = highest(form.on(*_INSIDE).xreplace(AT_HEIGHTS), M)
@@ -188,12 +176,6 @@ DERIVATIONS: dict[Number, Row] = {
             "and of √5/3 under a bulk load": _correlation(of["bulk"], "bulk", Rational(5, 9)),
             "the mean over a whole diagonal has 4/5 of the variance of one of its contacts, "
             "surface load": _share_of_a_diagonal(of["layers"], "surface", Rational(4, 5)),
-            "f⁺ and f⁻ are uncorrelated, exactly, where their diagonals cross four layers or more "
-            "from both, from the base and from the surface, and, if q layers above both, where q "
-            "and j differ by four or more":
-                uncorrelated((4 - j <= p, p <= -4), (p >= 4, p <= l - j - 4),
-                             (l - j + 4 <= p, p <= M - j - 4, p <= l - 4),
-                             (l - j + 4 <= p, p <= M - j - 4, p >= l + 4)),
         },
     ),
     "B21": _contacts("B21", "neighbouring_contacts_bulk", "bulk"),

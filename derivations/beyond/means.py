@@ -7,7 +7,7 @@ from force_diffusion.derivations.calculator.statistics import mean
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Row, agrees_below_surface, equals, form_of, goes_as, has_sign, leads, turns_positive)
+    Row, equals, form_of, goes_as, has_sign, leads, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, ForceMinus, ForcePlus, M, e_y, i, j, n_y, phi, r, sigma, t, z)
@@ -59,7 +59,6 @@ def _upright(
                 goes_as(of["force"], 3 * M * (1 - 2 * phi) * share * _UNIT, *BASE),
             "at j = 1 they fall for φ > −3/8, by shares that z → 0 does not give":
                 goes_as(of["force"], -M * (3 + 8 * phi) * share * _UNIT, *ABOVE),
-            **agrees_below_surface(load, of["force"], form_of("B5", "force")),
         },
     )  # fmt: skip
 
@@ -86,7 +85,6 @@ def _leaning(number: Number, load: str, upright: Number, own: sympy.Expr, other:
             f"for t = 1 it is Eq. {upright}":
                 equals(of["plus"], form_of(upright, "force"), at={t: sympy.S.One}),
             "f⁻ has 1/t in place of t": equals(of["minus"], of["plus"], at={t: 1 / t}),
-            **agrees_below_surface(load, of["plus"], form_of("B15", "plus")),
         },
     )  # fmt: skip
 

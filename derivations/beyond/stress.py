@@ -15,7 +15,6 @@ from force_diffusion.derivations.framework.rows import (
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, L_plus, M, e_x, e_y, i, j, n_x, n_y, phi, r, t, z)
-from sympy import Eq
 # fmt: on
 
 RATIO = Symbol(
@@ -115,9 +114,6 @@ def _stress(number: Number, load: str, leading: sympy.Expr, turns: sympy.Expr) -
                for name in ("ratio", "vertical", "flux")},
             "over all layers, weighted as the ordered stress is, moments and flux agree":
                 adds_up_to_zero(of["flux"], j, LAYERS[load]),
-            **{f"one layer below the surface both loads agree: {name}":
-                   equals(of[name], form_of("B10", name), Eq(j, M - 1))
-               for name in ("ratio", "vertical", "flux") if load == "bulk"},
         },
     )  # fmt: skip
 
@@ -152,9 +148,6 @@ DERIVATIONS: dict[Number, Row] = {
                 leads(of["shear_bulk"], M * (1 - 5 * z) * UNIT * (1 - phi)),
             **{f"the axes turn as −2j (1 − 3φ), in units of (σ/r)²/[(1−φ²)(1+φ)]: {load} load":
                    leads(of[f"axes_{load}"], -2 * M * z * (1 - 3 * phi) * UNIT * (1 - phi))
-               for load in LAYERS},
-            **{f"they turn the other way for φ > 1/3: {load} load":
-                   turns_positive(of[f"axes_{load}"], phi, sympy.Rational(1, 3))
                for load in LAYERS},
             **{f"it does not depend on the load's direction: {name}_{load}":
                    is_free_of(of[f"{name}_{load}"], t)

@@ -11,12 +11,11 @@ from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import variance
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
-from force_diffusion.derivations.framework.rows import (
-    Row, agrees_below_surface, averages_to, equals, form_of, goes_as, leads)
+from force_diffusion.derivations.framework.rows import Row, averages_to, equals, form_of, leads
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceAlong, ForceMinus, ForcePlus, M, i, j, phi, r, sigma, t, t_2, t_3, z)
-from sympy import Eq, Rational
+from sympy import Rational
 # fmt: on
 
 PLUS, MINUS, FIRST = (
@@ -28,8 +27,6 @@ PLUS, MINUS, FIRST = (
     for name, sign, raised in (("plus", "+", "⁺"), ("minus", "-", "⁻"), ("first", "1", "¹"))
 )
 IN_SPACE = (sigma / r) ** 2 / ((1 - phi) ** 2 * (1 + 2 * phi) ** 2)
-BASE = (Eq(j, 0), M >= 3)
-TOP = (Eq(j, M - 1), j >= 2)
 PAPER = {"surface": eq13, "bulk": eq14}
 _AVERAGE = {"surface": Rational(1, 2), "bulk": Rational(2, 3)}
 """The means of (1 − z)²(2z + 1) and (1 − z)²(4z + 1) over 0 < z < 1."""
@@ -77,9 +74,6 @@ def _of_discs(number: Number, load: str) -> Row:
             "φ²(4j + φ²)/2 in units of (σ/r)²/(1−φ²)², for j ≥ 1":
                 equals(of["plus"], phi**2 * (4 * j + phi**2) / 2 * UNIT, j >= 1,
                        at={t: sympy.S.Zero}),
-            "at the base it goes as at z → 0": goes_as(of["plus"], at_base, *BASE),
-            "one layer below the surface it goes as 2(t² + φ²) M (σ/r)²/(1−φ²)²":
-                goes_as(of["plus"], 2 * M * (t**2 + phi**2) * UNIT, *TOP),
             "its mean over all heights goes as t² M³: M* is that of a vertical load divided "
             "by t^(2/3)": averages_to(of["plus"], at_base * _AVERAGE[load]),
         },
@@ -102,11 +96,6 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
         claimed=lambda of: {
             "the two highest orders": leads(of["first"], of_spheres(load), following * IN_SPACE),
-            "at the base it goes as at z → 0":
-                goes_as(of["first"], of_spheres(load).xreplace({z: sympy.S.Zero}), *BASE),
-            "one layer below the surface it goes as 6(1 + 2φ + 3φ²) M (σ/r)²/[(1−φ)(1+2φ)]²":
-                goes_as(of["first"], 6 * (1 + 2 * phi + 3 * phi**2) * M * IN_SPACE, *TOP),
-            **agrees_below_surface(load, of["first"], form_of("B13", "first")),
         },
     )  # fmt: skip
 
@@ -114,9 +103,6 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
 def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
     first, second = t_2 + t_3, t_2**2 + t_3**2
     leading = of_spheres(load, (2 * first**2 + second) / 10)
-    below_surface = (
-        first**2 * (1 + phi) ** 2 + second * (1 + 2 * phi + 3 * phi**2) + 2 * phi**2 * (first + 2)
-    )
     return Row(
         number=number,
         name=f"leaning_{load}",
@@ -140,9 +126,6 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
             "every M: φ²(4j + 1 + 2φ²) in units of (σ/r)²/[(1−φ)(1+2φ)]², for j ≥ 2":
                 equals(of["first"], phi**2 * (4 * j + 1 + 2 * phi**2) * IN_SPACE, j >= 2,
                        j <= M - 2, at={t_2: sympy.S.Zero, t_3: sympy.S.Zero}),
-            "one layer below the surface it goes as M [τ₁²(1 + φ)² + τ₂(1 + 2φ + 3φ²) + "
-            "2φ²(τ₁ + 2)] (σ/r)²/[(1−φ)(1+2φ)]²":
-                goes_as(of["first"], below_surface * M * IN_SPACE, *TOP),
         },
     )  # fmt: skip
 

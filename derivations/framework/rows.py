@@ -15,7 +15,7 @@ from force_diffusion.symbolic.piecewise import PiecewiseFunction
 from force_diffusion.symbolic.printing.lines import stacked
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.signs import sign
-from force_diffusion.symbolic.symbols import M, Shift, j, z
+from force_diffusion.symbolic.symbols import M, Shift, z
 from force_diffusion.symbolic.trees import equation
 from force_diffusion.symbolic.words import in_words
 
@@ -168,12 +168,6 @@ def equals(
         other = PiecewiseFunction.of(value, form.kernel_domain.also(*where))
     apart = function.weights - other.weights.scaled(FIELD.from_sympy(factor))
     return ruled(apart.on(function.points).is_zero(), f"{text(form.quantity)} is another one")
-
-
-def agrees_below_surface(under: str, form: ClosedForm, surface: ClosedForm) -> dict[str, Ruling]:
-    """The claim, under a bulk load, that the highest layer is that of a surface load."""
-    words = "one layer below the surface both loads agree"
-    return {words: equals(form, surface, sympy.Eq(j, M - 1))} if under == "bulk" else {}
 
 
 def adds_up_to_zero(
