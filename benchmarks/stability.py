@@ -8,12 +8,12 @@ what one would write first: positions by circle intersection, forces by balance,
 subtracted. Both are compared in float64, and in balls. Errors are relative to the largest change.
 """
 
+import argparse
 from collections.abc import Callable, Iterator
 from functools import partial
 from itertools import product
 from math import ceil, log2, log10
 from pathlib import Path
-from sys import argv
 from time import process_time
 from typing import Any
 
@@ -175,8 +175,11 @@ def drawn(rows: list[Any], enclosed: list[Any]) -> Figure:
     return figure
 
 
-def main(folder: Path) -> None:
+def main() -> None:
     """Write tables and figure."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("folder", type=Path)
+    folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
     rows, enclosed = list(floats()), list(balls())
     (folder / "stability.csv").write_text(csv_text(rows))
@@ -189,4 +192,4 @@ def main(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    main(Path(argv[1]))
+    main()
