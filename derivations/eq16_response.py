@@ -23,11 +23,6 @@ RESPONSE, ONE_CONTACT = (
         ("contact_response", r"\sigma^{2}(p_{ij}^{+})", "σ²(p⁺_ij)"),
     )
 )
-MAGNITUDE = Symbol(
-    "contact_force",
-    r"\frac{\sigma^{2}(f_{ij}^{+})}{(f^{\mathrm{load}}/2 n_{y})^{2}}",
-    "σ²(f⁺_ij)/(f_load/2n_y)²",
-)
 ORDERED = f_load / (2 * n_y)
 """Force of the contacts of the ordered packing: those on the legs of the cone."""
 PRESSED = VerticalPlus(i, j) + VerticalMinus(i, j)
@@ -36,7 +31,6 @@ PRESSED = VerticalPlus(i, j) + VerticalMinus(i, j)
 MEANING = {
     RESPONSE: Variance(PRESSED / f_load),
     ONE_CONTACT: Variance(VerticalPlus(i, j) / f_load),
-    MAGNITUDE: Variance(ForcePlus(i, j) / ORDERED),
 }
 """What the symbols stand for."""
 
@@ -77,13 +71,8 @@ EXACT = {
     ONE_CONTACT: times(terms(3 * (l + j + k - i), -3, phi**2 / 2), layers.UNIT / 4),
 }
 """The usual formulas, away from base, load and legs."""
-ON_LEG = {
-    ONE_CONTACT: times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), layers.UNIT / 4),
-    MAGNITUDE: times(
-        terms(2 * (l - 1), 2 * phi**2 * j, Rational(5, 2) * phi**2, phi**4 / 2), layers.UNIT
-    ),
-}
-"""Those of the contacts on the left leg."""
+ON_LEG = times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), layers.UNIT / 4)
+"""That of a contact on the left leg."""
 DEEP = INSIDE.also(j >= 3, n + q >= 3)
 """Beads inside the cone, from the third layer on, but that straight below the load."""
 
@@ -149,18 +138,11 @@ def show_steps(steps: Steps) -> None:
         rewrite(eq07.right_angles()),
         LEFT_LEG,
     )
-    down_leg = LEFT_LEG.also(j >= 2, n >= 2)
     steps.show(
         "The two tilts share only a few radii. Exactly, for 2 ≤ j ≤ l − 2 on the left leg:",
-        equation(ONE_CONTACT, ON_LEG[ONE_CONTACT]),
+        equation(ONE_CONTACT, ON_LEG),
         by,
-        down_leg,
-    )
-    steps.show(
-        "The magnitude of that force, whose mean is f_load/2n_y, has there the relative variance",
-        equation(MAGNITUDE, ON_LEG[MAGNITUDE]),
-        by,
-        down_leg,
+        LEFT_LEG.also(j >= 2, n >= 2),
     )
     claims(steps)
 
@@ -223,7 +205,6 @@ DERIVATION = Derivation(
         (RESPONSE, "variance of p, the vertical force on bead (i, j), over packings"),
         (VerticalPlus(i, j), "vertical component of the force f⁺_ij"),
         (ONE_CONTACT, "its variance"),
-        (MAGNITUDE, "variance of f⁺_ij"),
         (f_load, "the load on bead (k, l), downwards"),
         (l, "layer of the loaded bead, j that of bead (i, j)"),
         (n, "steps along n⁺ from (k, l) down to (i, j)"),
@@ -244,7 +225,7 @@ DERIVATION = Derivation(
     deciders=lambda: [asymptotic(*in_radii())],
     exact=lambda: {
         name: ClosedForm(symbol, MEANING[symbol], ALL_BELOW, in_radii)
-        for name, symbol in (("bead", RESPONSE), ("contact", ONE_CONTACT), ("force", MAGNITUDE))
+        for name, symbol in (("bead", RESPONSE), ("contact", ONE_CONTACT))
     },
     remarks=(
         "Erratum: the paper's p is the vertical component of the force at a contact f^±_ij. For "

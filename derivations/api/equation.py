@@ -273,7 +273,7 @@ class Equation:
 
         >>> import force_diffusion as fd
         >>> fd.equation(16).forms
-        ('bead', 'contact', 'force')
+        ('bead', 'contact')
         """
         return tuple(self._derivation.exact_forms)
 
