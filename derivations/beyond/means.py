@@ -7,7 +7,7 @@ from force_diffusion.derivations.calculator.statistics import mean
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Row, equals, form_of, goes_as, has_sign, leads, turns_positive)
+    Row, equals, form_of, goes_as, leads, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, ForceMinus, ForcePlus, M, e_y, i, j, n_y, phi, r, sigma, t, z)
@@ -105,8 +105,7 @@ DERIVATIONS: dict[Number, Row] = {
             (n_y, "vertical component of n^±"),
         ),
         claimed=lambda of: {
-            "every layer above the base settles": has_sign(of["height"], -1, j >= 1, at={j: j + 1}),
-            "by a share of its height that grows in proportion to that height": goes_as(
+            "a layer settles by a share of its height that grows in proportion to it": goes_as(
                 of["height"],
                 -2 * j**2 * n_y * sigma**2 / (r * (1 + phi) * (1 - phi**2)),
                 j >= 1,

@@ -11,7 +11,7 @@ from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
 from force_diffusion.derivations.framework.rows import (
-    Forms, Row, adds_up_to_zero, equals, form_of, is_free_of, leads, turns_positive)
+    Forms, Row, adds_up_to_zero, is_free_of, leads, turns_positive)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, L_plus, M, e_x, e_y, i, j, n_x, n_y, phi, r, t, z)
@@ -28,18 +28,13 @@ BY_FLUX = Symbol(
     r"\frac{T_{yy}^{\mathrm{moment}}}{T_{yy}^{\mathrm{flux}}}",
     "T_yy(moment)/T_yy(flux)",
 )
-SHEAR, SHEAR_BY_FLUX, AXES = (
+SHEAR, AXES = (
     {
         load: Symbol(f"{name}_{load}", rf"{latex}_{{\mathrm{{{load}}}}}", f"{words}_{load}")
         for load in ("surface", "bulk")
     }
     for name, latex, words in (
         ("shear", r"\left(\frac{\langle S_{xy}\rangle}{S_{xy}^{0}}\right)", "(⟨S_xy⟩/S⁰_xy)"),
-        (
-            "shear_over_flux",
-            r"\left(\frac{T_{xy}^{\mathrm{moment}}}{T_{xy}^{\mathrm{flux}}}\right)",
-            "[T_xy(moment)/T_xy(flux)]",
-        ),
         (
             "axes",
             r"\left(2 n_{x}n_{y}\,\frac{1-t}{1+t}\operatorname{cot}2\psi\right)",
@@ -82,7 +77,6 @@ def _shear_forms(load: str) -> Forms:
     turned = (1 + phi) / 2 * yy - (1 - phi) / 2 * xx - phi * xy
     return {
         f"shear_{load}": _mean(xy, load, SHEAR[load] - 1),
-        f"flux_{load}": _mean(xy - RISE, load, SHEAR_BY_FLUX[load] - 1),
         f"axes_{load}": _mean(turned, load, AXES[load] - phi),
     }
 
@@ -130,13 +124,9 @@ DERIVATIONS: dict[Number, Row] = {
         call="mean(force_moment(i, j, e_x, e_y)/(2*r*n_x*n_y*L_plus*(1 - t)), order=2, "
         "load=leaning(t), relative=False)",
         exact=lambda: {**_shear_forms("surface"), **_shear_forms("bulk")},
-        meaning="The principal axes turn with the height j, whatever M is, and S_xy differs from "
-        "the horizontal momentum through a cut by as much as S_yy from the vertical one, with the "
-        "opposite sign.",
+        meaning="The principal axes turn with the height j, whatever M is.",
         quantities=(
             *((SHEAR[load], f"mean S_xy over that of the ordered packing, {load} load, t ≠ 1")
-              for load in LAYERS),
-            *((SHEAR_BY_FLUX[load], f"S_xy over area; over the flux, {load} load")
               for load in LAYERS),
             *((AXES[load], f"ψ: angle of a principal axis of ⟨S⟩ to the vertical, {load} load")
               for load in LAYERS),
@@ -152,9 +142,6 @@ DERIVATIONS: dict[Number, Row] = {
             **{f"it does not depend on the load's direction: {name}_{load}":
                    is_free_of(of[f"{name}_{load}"], t)
                for name in ("shear", "axes") for load in LAYERS},
-            **{f"moments and flux differ for T_xy as for T_yy, with the opposite sign: {load} load":
-                   equals(of[f"flux_{load}"], form_of(number, "flux"), factor=-sympy.S.One)
-               for load, number in zip(LAYERS, ("B10", "B17"), strict=True)},
         },
     ),
 }  # fmt: skip

@@ -158,15 +158,14 @@ def equals(
     value: sympy.Expr | ClosedForm,
     *where: sympy.Basic,
     at: Values | None = None,
-    factor: sympy.Expr = sympy.S.One,
 ) -> Ruling:
-    """It is an expression, or another form, times a factor, on a part of its domain."""
+    """It is an expression, or another form, on a part of its domain."""
     function = form.function.put_in(at or {}).part(*where)
     if isinstance(value, ClosedForm):
         other = value.function
     else:
         other = PiecewiseFunction.of(value, form.kernel_domain.also(*where))
-    apart = function.weights - other.weights.scaled(FIELD.from_sympy(factor))
+    apart = function.weights - other.weights
     return ruled(apart.on(function.points).is_zero(), f"{text(form.quantity)} is another one")
 
 
@@ -197,26 +196,15 @@ def turns_positive(
         rising = sympy.diff(factor, symbol).subs(symbol, threshold) > 0
         if not rising or sympy.Poly(factor, symbol).count_roots(-_HALF, _HALF) != 1:
             return refuted(f"{text(factor)} does not only rise through zero")
-    return _has_sign(sympy.cancel(leading / factor), 1)
-
-
-def has_sign(
-    form: ClosedForm, expected: int, *where: sympy.Basic, at: Values | None = None
-) -> Ruling:
-    """It is positive (1) or negative (−1) on a part of its domain; indices put in may be zero."""
-    value = form.on(*where).xreplace(at or {})
-    return _has_sign(value, expected, sets.where(*(symbol >= 0 for symbol in at or ())))
+    quotient = sympy.cancel(leading / factor)
+    rises = sign(FIELD.from_sympy(quotient), sets.EVERYTHING) == 1
+    return ruled(rises, f"{text(quotient)} is not positive everywhere")
 
 
 def highest(value: sympy.Expr, symbol: sympy.Symbol) -> sympy.Expr:
     """The term with the highest power of a symbol in a rational function."""
     above, below = (sympy.Poly(part, symbol) for part in sympy.fraction(sympy.cancel(value)))
     return symbol ** (above.degree() - below.degree()) * above.LC() / below.LC()
-
-
-def _has_sign(value: sympy.Expr, expected: int, points: sets.Set = sets.EVERYTHING) -> Ruling:
-    actual = sign(FIELD.from_sympy(value), points)
-    return ruled(actual == expected, f"{text(value)} has the sign {actual or 'of no kind'}")
 
 
 def are_same(actual: sympy.Expr, value: sympy.Expr) -> Ruling:
