@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
-    "derivations": 7_298,
+    "derivations": 7_258,
     "numeric": 9_081,
     "force_diffusion": 78,
     "benchmarks": 836,
