@@ -43,7 +43,7 @@ def test_an_ensemble_is_stored_and_written_out(small, tmp_path, call):
     assert len(data["results"]["profile"]) == 6
     assert (out / "result.json").read_text() == stdout
     lines = (out / "profile.csv").read_text().splitlines()
-    assert lines[0].startswith("j,branch,samples,mean,mean_change,mean_change_error,std,std_error,")
+    assert lines[0].startswith("j,branch,samples,first_order_std,tensile,mean,mean_change,")
     first = (out / "result.json").read_bytes()
     assert call("ensemble", *arguments, "--overwrite")[0] == 0  # again, from the file alone
     assert (out / "result.json").read_bytes() == first
