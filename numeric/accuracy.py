@@ -240,13 +240,10 @@ def printed(
             error = (float(bound) * table.largest if math.isfinite(bound) else np.inf) / over
             text[name] = known_digits(as_floats(column), error, sampling)
         if name in table.errors:
-            text[f"{name}_error"] = of_errors(table.errors[name])
+            own = table.errors[name]
+            own = np.where(np.isfinite(own), own, np.nan)
+            text[f"{name}_error"] = significant(own, np.full(len(own), 3))
     return text
-
-
-def of_errors(errors: Array) -> list[str]:
-    """Write standard errors with three digits; nothing where there is none."""
-    return significant(np.where(np.isfinite(errors), errors, np.nan), np.full(len(errors), 3))
 
 
 def known_digits(column: Array, error: Array | float, sampling: Array | float = 0.0) -> list[str]:

@@ -36,7 +36,7 @@ from ..scene.sections import MOST_REALISATIONS, SceneError
 from ..statistics.confidence import looks
 from .result import Ensemble
 from .store import Store, StoreFailedError, description
-from .sums import Block, Measurement, Sums, measurement, solve_block, why_left_out
+from .sums import Block, Measurement, Sums, measurement, solve_block, summed, why_left_out
 
 MOST_WORKERS = 1024
 # Blocks that an executor is given at a time.
@@ -164,7 +164,7 @@ def _joined(
     """Sum up realisations 0 … size − 1, or up to a look at which all is known well enough."""
     blocks, held = list(m.blocks(size)), set() if store is None else store.held.copy()
     at_looks = set() if until is None else {*looks(size), size}
-    statistics, width = Ensemble(m, Sums.nothing(m), confidence, until), None
+    statistics, width = Ensemble(m, summed(m, []), confidence, until), None
     missing = (block for block in blocks if block not in held)
     with closing(solved_blocks(m, missing, executor)) as arriving:
         for first, stop in blocks:

@@ -169,14 +169,6 @@ class Sums:
     means: Array
     products: Array
 
-    @staticmethod
-    def nothing(m: Measurement, left_out: Sequence[int] = ()) -> "Sums":
-        """Give the sums of no packing, where some may have been left out."""
-        G, B = m.groups, m.counted
-        tensile, bins = np.zeros(G, np.int64), np.zeros((2, B), np.int64)
-        first = left_out[0] if left_out else 0
-        return Sums(0, len(left_out), first, tensile, bins, np.zeros((2, G)), np.zeros((3, G)))
-
     def __add__(self, other: "Sums") -> "Sums":
         """Join with later packings (Chan, Golub and LeVeque)."""
         together = self.packings + other.packings
@@ -215,7 +207,7 @@ def solve_block(m: Measurement, first: int, stop: int) -> Sums:
     step = max(1, MEANS // m.groups)
     with FLOAT64.active():
         cuts = (range(k, min(k + step, stop)) for k in range(first, stop, step))
-        return reduce(add, (_summed(m, numbers) for numbers in cuts))
+        return reduce(add, (summed(m, numbers) for numbers in cuts))
 
 
 # Of packings by their numbers: means (packings, 2, G), contacts that pull (packings, G), and counts
@@ -223,13 +215,19 @@ def solve_block(m: Measurement, first: int, stop: int) -> Sums:
 _Solved = tuple[Sequence[int], Array, Array, Array]
 
 
-def _summed(m: Measurement, numbers: Sequence[int]) -> Sums:
-    parts = list(_solved(m, numbers))
+def summed(m: Measurement, numbers: Sequence[int]) -> Sums:
+    """Solve packings and sum them up, if they can be built."""
+    G, B = m.groups, m.counted
+    nothing: _Solved = (
+        (),
+        np.zeros((0, 2, G)),
+        np.zeros((0, G), np.int64),
+        np.zeros((0, B), np.int64),
+    )
+    parts = [nothing, *_solved(m, numbers)]
     lost = sorted(set(numbers).difference(*(some for some, *_ in parts)))
-    if not parts:
-        return Sums.nothing(m, lost)
     means, tensile, counts = map(np.concatenate, list(zip(*parts, strict=True))[1:])
-    mean = means.sum(axis=0) / len(means)
+    mean = means.sum(axis=0) / max(len(means), 1)
     return Sums(
         len(means),
         len(lost),

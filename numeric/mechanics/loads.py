@@ -114,22 +114,6 @@ class LoadSpec:
             sin, cos = flint().arb.sin_cos_pi_fmpq(angle)
         return system.from_ball(sin), system.from_ball(cos)
 
-    def on(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
-        """Give (L^a) of the beads of ``rows`` (layers 0 … top), (d, beads)."""
-        forces = system.zeros(self.dimension, rows.beads)
-        ends = np.cumsum(rows.counts)
-        if self.loaded is None:
-            first = 0 if self.kind == "bulk" else int(ends[-1] - rows.counts[-1])
-            for a, share in enumerate(strength.unit):
-                forces[a, first:] = share
-            return forces
-        for site, load in strength.single.items():
-            below, columns = self._below(site, 0, rows)
-            if len(below) and below[0] == site[1]:
-                for a, share in enumerate(load):
-                    forces[a, ends[site[1]] - rows.counts[site[1]] + columns[0]] += share
-        return forces
-
     def ordered(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
         """Give the ordered forces below the beads of all ``rows`` but the lowest, (d, beads).
 

@@ -194,18 +194,6 @@ class Disorder(Section):
     file: str | None = Field(default=None, max_length=1000)
 
 
-def _refuse_infinite(values: Array) -> None:
-    """Raise ``ValueError`` where a float64 is not finite, or so large that sums are not."""
-    good = np.abs(values) <= LARGEST
-    if good.all():
-        return
-    at = tuple(int(k) for k in np.argwhere(~good)[0])
-    place = f"[{', '.join(map(str, at))}]"
-    if np.isfinite(values[at]):
-        raise ValueError(f"must hold numbers of at most {LARGEST:g}, and {place} is larger")
-    raise ValueError(f"must hold finite numbers, and {place} is not")
-
-
 def radii_array(value: object) -> Array:
     """Hold a copy of an array of finite numbers."""
     if np.ma.isMaskedArray(value):
@@ -229,7 +217,13 @@ def radii_array(value: object) -> Array:
             "must be an array of shape (layers, W) or, of spheres, (layers, W, W); with an axis "
             "before it for several packings"
         )
-    _refuse_infinite(values)
+    good = np.abs(values) <= LARGEST  # or sums overflow
+    if not good.all():
+        at = tuple(np.argwhere(~good)[0].tolist())
+        place = f"[{', '.join(map(str, at))}]"
+        if np.isfinite(values[at]):
+            raise ValueError(f"must hold numbers of at most {LARGEST:g}, and {place} is larger")
+        raise ValueError(f"must hold finite numbers, and {place} is not")
     if cut.any():
         raise ValueError(
             f"has {given.dtype} numbers that float64 would cut: round them by .astype(float)"

@@ -127,7 +127,15 @@ def loads(problem: Problem, system: NumberSystem) -> Array:
     """Give the Cartesian loads of all beads, (N, 2)."""
     nx, ny = axes(problem.n_x, system)
     strength = problem.load.strength(problem.n_x, system)
-    plus, minus = problem.load.on(problem.region.rows, strength, system)
+    components = system.zeros(2, problem.region.beads)
+    if problem.load.loaded is None:
+        first = 0 if problem.load.kind == "bulk" else -problem.region.widest
+        for own, share in zip(components, strength.unit, strict=True):
+            own[first:] = share
+    for site, load in strength.single.items():
+        (bead,) = problem.region.numbers(np.array(site)[:, None])
+        components[:, bead] += load
+    plus, minus = components
     return np.stack([(minus - plus) * nx, -(plus + minus) * ny], axis=1)
 
 

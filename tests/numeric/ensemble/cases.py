@@ -3,7 +3,13 @@
 from typing import Any
 
 from force_diffusion.numeric.ensemble.result import Ensemble
-from force_diffusion.numeric.ensemble.sums import Measurement, Sums, measurement, solve_block
+from force_diffusion.numeric.ensemble.sums import (
+    Measurement,
+    Sums,
+    measurement,
+    solve_block,
+    summed,
+)
 
 from tests.numeric.scenes import scene
 
@@ -53,7 +59,7 @@ def case(name: str, **disorder: Any) -> Measurement:
 
 def first(m: Measurement, packings: int) -> Sums:
     """Give the sums of the first packings, all solved here, block by block."""
-    total = Sums.nothing(m)
+    total = summed(m, [])
     for block in m.blocks(packings):
         total += solve_block(m, *block)
     return total
