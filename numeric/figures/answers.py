@@ -19,6 +19,7 @@ from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import Branch
 from ..lattice.layers import Rows
+from ..mechanics.problem import ordered_places
 from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.scene import refuse
@@ -116,8 +117,7 @@ def of_first(columns: Columns) -> dict[str, Array]:
 
 def ordered(plan: Plan, i: Any, j: Any) -> Array:
     """Give ordered centres of beads, (beads, 2)."""
-    nx = float(plan.problem.n_x)
-    return np.stack([2 * nx * np.asarray(i), 2 * sqrt(1 - nx * nx) * np.asarray(j)], axis=-1)
+    return np.stack(ordered_places((np.asarray(i), np.asarray(j)), plan.problem, FLOAT64), axis=-1)
 
 
 def theory(plan: Plan) -> Array | None:

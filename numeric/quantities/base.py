@@ -13,13 +13,12 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem, as_floats
+from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
 from ..lattice.branch import ORDER, Branch
 from ..lattice.layers import Block, Naming, Region, Rows, columns_of, standing_on_base, taken, whole
 from ..mechanics.loads import LoadSpec
-from ..mechanics.local import level, total, vertical_square
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
 from ..scene.scene import CheckedScene
@@ -336,29 +335,6 @@ def has_theory(problem: Problem) -> bool:
         spheres = problem.dimension == 3 and not load.angle_deg
         return spheres and problem.region.side > problem.height + 1
     return problem.width is None or problem.width > problem.height
-
-
-def slope(problem: Problem, system: NumberSystem) -> Any:
-    """Give the vertical component of the base vectors: n_y, or in three dimensions n_z."""
-    return system.root(vertical_square(problem.dimension, problem.n_x))
-
-
-def cartesian(
-    components: Sequence[Array], problem: Problem, system: NumberSystem, *, raised: bool
-) -> tuple[Array, ...]:
-    """Give (x, y), or (x, y, z), of v = Σ v^a n^a; or of a vector with v_a = n^a·v.
-
-    The last is up; x is along n^1 − n^d, the y of three dimensions along 2 n^2 − n^1 − n^3.
-    """
-    nx, up = system.number(problem.n_x), slope(problem, system)
-    results = []
-    for k, row in enumerate(level(len(components)), 1):
-        parts = [v if h == 1 else h * v for h, v in zip(row, components, strict=True) if h]
-        along = total(parts)
-        across = along if k == 1 else along * system.root(Fraction(1, 3))
-        results.append(across * nx if raised else across / (2 * nx))
-    rise = total(components)
-    return (*results, rise * up if raised else rise / (len(components) * up))
 
 
 def first_order_std(problem: Problem, contacts: Iterable[tuple[int, str]]) -> Array | None:

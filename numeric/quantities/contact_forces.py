@@ -8,12 +8,11 @@ import numpy as np
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import axis_names, bead_names
 from ..lattice.layers import Region
-from ..mechanics.problem import Problem
+from ..mechanics.problem import Problem, cartesian, ordered_places
 from ..mechanics.sweep import Solved
 from ..scene.sections import LARGEST
 from ..unilateral.network import Network, Relaxed
-from .base import Columns, ContactQuantity, Table, cartesian
-from .positions import ordered_places
+from .base import Columns, ContactQuantity, Table
 
 
 class ContactForces(ContactQuantity):

@@ -1,19 +1,18 @@
 """Positions of beads."""
 
-from collections.abc import Iterable, Sequence
-from typing import Any
+from collections.abc import Sequence
 
 import numpy as np
 
-from ..arithmetic.systems import Array, NumberSystem
+from ..arithmetic.systems import Array
 from ..lattice import regions
 from ..lattice.branch import axis_names
 from ..lattice.layers import Layer, Region, Rows, columns_of, taken
 from ..mechanics.loads import LoadSpec
-from ..mechanics.problem import Problem
+from ..mechanics.problem import Problem, cartesian, ordered_places
 from ..mechanics.sweep import Solved
 from ..unilateral.network import Relaxed
-from .base import Quantity, Table, cartesian
+from .base import Quantity, Table
 
 
 class Positions(Quantity):
@@ -74,21 +73,3 @@ class Positions(Quantity):
             for a in range(region.dimension)
         )
         return [np.concatenate([system.array([]), *each]) for each in parts]
-
-
-def ordered_places(
-    beads: Iterable[Array], problem: Problem, system: NumberSystem
-) -> tuple[Array, ...]:
-    """Give the positions of beads, columns of names, in the ordered packing, in units of r."""
-    *columns, j = beads
-    steps = [2 * across for across in (*columns, j - sum(columns))]
-    if len(columns) == 1:
-        steps = [j + columns[0], j - columns[0]]
-    return cartesian([_whole(step, system) for step in steps], problem, system, raised=True)
-
-
-def _whole(numbers: Array, system: NumberSystem) -> Any:
-    """Turn whole numbers into the number system: float64 holds none above 2^53."""
-    if abs(numbers).max(initial=0) < 2**53:
-        return system.from_floats(numbers.astype(float))
-    return system.array(numbers.tolist())

@@ -7,9 +7,9 @@ import numpy as np
 
 from ..arithmetic.systems import Array
 from ..lattice.layers import Block, Region, columns_of, taken
-from ..mechanics.problem import Problem, Route
+from ..mechanics.problem import Problem, Route, axes
 from ..mechanics.sweep import Solved
-from .base import Table, contact_forces, slope
+from .base import Table, contact_forces
 from .statistics import Merged, Statistics
 
 # Bytes of a number of one realisation while standard errors are made; measured.
@@ -45,7 +45,8 @@ class Response(Merged):
 
     def changes(self, problem: Problem, solved: Solved, realisations: int) -> tuple[Array, Array]:
         """Give F, shape (groups, 1), and g, (groups, realisations, 1): forces, then f N_y."""
-        blocks, ny = self.blocks(problem), slope(problem, solved.system)
+        blocks = self.blocks(problem)
+        _, ny = axes(problem.n_x, solved.system, problem.dimension)
         F, g = contact_forces(solved, blocks, realisations)
         f = F + (g if problem.route == Route.EXACT else 0)
         vertical = g if solved.block is None else g + f * self.tilt(solved, blocks, realisations)

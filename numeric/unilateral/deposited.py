@@ -1,7 +1,6 @@
 """The deposited packing, before any contact opens: where beads start, or rest if none pulls."""
 
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
@@ -10,7 +9,7 @@ from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats
 from ..lattice.layers import Region, contacts_of
 from ..mechanics.engine import solve
 from ..mechanics.physicality import pulling
-from ..mechanics.problem import Problem, Route, axes
+from ..mechanics.problem import Problem, Route, axes, cartesian, ordered_places
 from ..mechanics.sweep import Solved, UnbuildableError
 from ..mechanics.work import Work
 from .certificate import smallest_gap
@@ -125,7 +124,6 @@ def lattice_contacts(region: Region) -> Pairs:
 
 def loads(problem: Problem, system: NumberSystem) -> Array:
     """Give the Cartesian loads of all beads, (N, 2)."""
-    nx, ny = axes(problem.n_x, system)
     strength = problem.load.strength(problem.n_x, system)
     components = system.zeros(2, problem.region.beads)
     if problem.load.loaded is None:
@@ -135,14 +133,11 @@ def loads(problem: Problem, system: NumberSystem) -> Array:
     for site, load in strength.single.items():
         (bead,) = problem.region.numbers(np.array(site)[:, None])
         components[:, bead] += load
-    plus, minus = components
-    return np.stack([(minus - plus) * nx, -(plus + minus) * ny], axis=1)
+    return np.stack(cartesian(-components, problem, system, raised=True), axis=1)
 
 
 def _centres(problem: Problem, packing: Solved, system: NumberSystem) -> Array:
     """Give the centres of deposited beads, (N, 2)."""
-    nx, ny = axes(problem.n_x, system)
-    i, j = (numbers.astype(system.dtype) for numbers in packing.region.rows.sites)
-    plus, minus = packing.block[0, :2]
-    x: list[Any] = [2 * nx * i + (plus - minus) / (2 * nx), 2 * ny * j + (plus + minus) / (2 * ny)]
-    return np.stack(x, axis=1)
+    home = ordered_places(packing.region.rows.sites, problem, system)
+    moved = cartesian(packing.block[0, :2], problem, system, raised=False)
+    return np.stack([*map(np.add, home, moved)], axis=1)

@@ -1,15 +1,11 @@
 """Small ensembles for the tests."""
 
+from functools import reduce
+from operator import add
 from typing import Any
 
 from force_diffusion.numeric.ensemble.result import Ensemble
-from force_diffusion.numeric.ensemble.sums import (
-    Measurement,
-    Sums,
-    measurement,
-    solve_block,
-    summed,
-)
+from force_diffusion.numeric.ensemble.sums import Measurement, Sums, measurement, solve_block
 
 from tests.numeric.scenes import scene
 
@@ -59,10 +55,7 @@ def case(name: str, **disorder: Any) -> Measurement:
 
 def first(m: Measurement, packings: int) -> Sums:
     """Give the sums of the first packings, all solved here, block by block."""
-    total = summed(m, [])
-    for block in m.blocks(packings):
-        total += solve_block(m, *block)
-    return total
+    return reduce(add, (solve_block(m, *block) for block in m.blocks(packings)))
 
 
 def ensemble_of(m: Measurement, packings: int) -> Ensemble:
