@@ -19,11 +19,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
     "derivations": 7_258,
-    "numeric": 9_081,
+    "numeric": 9_062,
     "force_diffusion": 78,
     "benchmarks": 836,
     ".ci": 500,
-    "tests": 12_870,
+    "tests": 12_869,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
