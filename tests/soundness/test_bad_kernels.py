@@ -194,7 +194,7 @@ def test_the_kernel_without_a_fault_is_right():
     assert not list(noticed())
 
 
-@pytest.mark.long(sample=2, share=4)
+@pytest.mark.long(sample=2, share=6)
 @pytest.mark.usefixtures("empty_caches")
 @pytest.mark.parametrize("fault", FAULTS)
 def test_a_fault_is_noticed(monkeypatch, fault):

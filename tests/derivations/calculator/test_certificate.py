@@ -53,7 +53,7 @@ NUMBERS = {
 }  # fmt: skip
 
 
-@pytest.mark.parametrize("number", late(list(catalogue.modules())[12:], share=3, sample=2))
+@pytest.mark.parametrize("number", late(list(catalogue.modules())[12:], share=6, sample=2))
 def test_exact_forms(number):
     equation = fd.equation(number)
     for name in equation.forms:

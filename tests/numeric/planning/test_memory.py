@@ -38,7 +38,7 @@ print(1024 * int(peak.split()[1]), file=sys.stderr)
 """
 
 
-@pytest.mark.long
+@pytest.mark.long(share=2)
 @pytest.mark.parametrize("name", SCENES)
 def test_no_run_takes_more_than_its_plan_says_nor_much_less(name, tmp_path):
     scene = tmp_path / "scene.toml"
