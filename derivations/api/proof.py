@@ -7,7 +7,6 @@ from typing import Self
 from force_diffusion.symbolic.kernel.decisions import Verdict
 
 from ..export import terminal
-from ..export.document import step_latex
 from ..framework.proof import Step
 from ..framework.record import Check, ProofOutcome, Statement
 
@@ -79,11 +78,3 @@ class StepList(tuple[Step, ...]):
         return f"{terminal.heading(self._derivation)}\n\n{terminal.steps_text(self)}"
 
     __repr__ = __str__
-
-    def _repr_markdown_(self) -> str:
-        lines = []
-        for step in self:
-            lines.append(f"{step.number}. {step.reason}")
-            lines.append(f"$$\n{step_latex(step)}\n$$")
-            lines.append(terminal.follows_text(step))
-        return "\n\n".join(lines)

@@ -20,12 +20,10 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import Relations
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.sizes import too_large
-from force_diffusion.symbolic.trees import equation, nodes
+from force_diffusion.symbolic.trees import equation
 from sympy.logic.boolalg import BooleanAtom
 
 from .lists import either
-
-_HALF = sympy.Rational(1, 2)
 
 RuleOn = Callable[[int, sympy.Eq], Ruling]
 """Rules on a candidate for one of the lines, by its place."""
@@ -84,11 +82,7 @@ def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> 
     """Rule on an expression: it is to be the right-hand side of one of the lines."""
     rulings = [rule_on(part, equation(line.lhs, side)) for part, line in enumerate(lines)]
     if len(rulings) == 1:
-        (ruling,) = rulings
-        if ruling.verdict is Verdict.UNDECIDED and _is_root(side):
-            about = f"the right-hand side is that of {text(lines[0].lhs)}"
-            return replace(ruling, note=f"{ruling.note}; {about}")
-        return ruling
+        return rulings[0]
     rulings = [_about(line, ruling) for line, ruling in zip(lines, rulings, strict=True)]
     verdicts = {ruling.verdict for ruling in rulings}
     if proofs := [ruling for ruling in rulings if ruling.verdict.is_proved]:
@@ -98,13 +92,6 @@ def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> 
         return undecided(f"which line is meant? Give an Eq whose left-hand side is {sides}")
     notes = "; ".join(ruling.note for ruling in rulings)
     return refuted(notes) if Verdict.REFUTED in verdicts else not_a_statement(notes)
-
-
-def _is_root(side: sympy.Expr) -> bool:
-    """Whether it may be meant for the root of what the equation is about."""
-    return any(
-        isinstance(node, sympy.Abs) or (node.is_Pow and node.exp == _HALF) for node in nodes(side)
-    )
 
 
 def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:

@@ -82,8 +82,3 @@ def test_a_proof_runs_its_premises():
     assert proof.verdict is Verdict.PROVED
     assert str(proof).splitlines()[0] == "Eq. 4 is proved. It rests on Eq. 3."
     assert "It rests on no other equation." in repr(fd.equation(1).prove())
-
-
-def test_steps_in_notebooks_have_formulas():
-    steps = fd.equation(13).steps()
-    assert steps._repr_markdown_().count("$$") == 2 * len(steps)
