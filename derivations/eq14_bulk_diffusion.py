@@ -186,16 +186,6 @@ def show_steps(steps: Steps) -> None:
         (8 * z - 3) / (4 * z + 1),
     )
     steps.claim(
-        "the printed form has one maximum, at z = 1/6, below which its profile lies by "
-        "(z − 1/6)² (17/3 − 4z)",
-        equation(
-            terms(PROFILE.xreplace({z: sympy.Rational(1, 6)}), -PROFILE),
-            (z - sympy.Rational(1, 6)) ** 2 * (sympy.Rational(17, 3) - 4 * z),
-        ),
-        rewrite(),
-        Domain(),
-    )
-    steps.claim(
         "near z = 1/6 the exact form has a maximum at j = M/6 − 5/24, up to a shift that vanishes "
         "as M → ∞",
         sympy.Tuple(gained(4), gained(5)),

@@ -10,11 +10,11 @@ from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, Symbol, Theorem, axioms, equation, lattice, minus, rewrite,
-    same, shown, terms, times, usual)
+    Derivation, Groups, Steps, Theorem, axioms, equation, lattice, minus, rewrite, same, shown,
+    terms, times, usual)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, L_minus, L_plus, M, e_x, e_y, f_load, i, j,
-    m, n, n_minus, n_plus, n_x, n_y, phi, t)
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, L_minus, L_plus, M, i, j, m, n, n_minus,
+    n_plus, phi, t)
 # fmt: on
 
 ON_SURFACE = eq11.LAYERS.loaded(axioms.SURFACE_TILTED)
@@ -47,7 +47,6 @@ PRINTED = (
     equation(ForcePlus(i, j) / L_plus, _along(sympy.S.One, t)),
     equation(ForceMinus(i, j) / L_minus, lattice.mirror(_along(sympy.S.One, 1 / t))),
 )
-SINE, COSINE = (Symbol(name, rf"\{name}\theta", f"{name} θ", real=True) for name in ("sin", "cos"))
 
 
 @cache
@@ -104,19 +103,6 @@ def show_steps(steps: Steps) -> None:
         equation(PRINTED[0].rhs.xreplace({t: sympy.S.One}), eq11.PRINTED.rhs),
         rewrite(),
         eq11.LAYERS,
-    )
-    scale = f_load / (2 * n_x * n_y)
-    plus, less = n_x * COSINE - n_y * SINE, n_x * COSINE + n_y * SINE
-    steps.claim(
-        "a load f_load at the angle θ from straight down has L⁺ and L⁻ with the signs of n_x cos θ "
-        "∓ n_y sin θ: the ordered packing is compressive for |tan θ| < n_x/n_y, a load within the "
-        "angle of the contacts",
-        equation(
-            terms(times(scale * plus, n_plus), times(scale * less, n_minus)),
-            f_load * (COSINE * e_y - SINE * e_x),
-        ),
-        rewrite(),
-        Domain(),
     )
 
 

@@ -9,8 +9,7 @@ from force_diffusion.derivations.calculator.statistics import (
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.closed_form import ClosedForm
 from force_diffusion.derivations.framework.layers import UNIT
-from force_diffusion.derivations.framework.rows import (
-    Row, are_same, equals, form_of, goes_as, highest, leads)
+from force_diffusion.derivations.framework.rows import Row, are_same, equals, goes_as, highest
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import ForcePlus, M, N, i, j, k, l, phi, r, sigma, z
@@ -132,8 +131,6 @@ DERIVATIONS: dict[Number, Row] = {
             (BEAD, "variance of the vertical force p that a bead gets from both upper contacts"),
         ),
         claimed=lambda of: {
-            "of a single bead it is half of Eq. 13, to leading order: its two contacts are "
-            "uncorrelated to that order": leads(of["bead"], eq13.PRINTED.rhs.doit() / 2),
             "of Eq. 13 a mean over few neighbours has 1/(3N²)":
                 goes_as(of["mean"], eq13.PRINTED.rhs.doit() / (3 * N**2), N >= 2, j - 2 >= N,
                         M - j - 1 >= N, at={j: z * M}),
@@ -166,9 +163,6 @@ DERIVATIONS: dict[Number, Row] = {
         claimed=lambda of: {
             **{f"the leading order at the heights z = j/M and z′ = l/M, {load} load":
                    goes_as(of[name], ON_DIAGONAL[load], *_INSIDE, at=AT_HEIGHTS)
-               for name, load in _BY_LOAD.items()},
-            **{f"for l = j it is Eq. {PAPER[load].DERIVATION.number}":
-                   equals(of[name], form_of(PAPER[load].DERIVATION.number, "layer"), Eq(j, l))
                for name, load in _BY_LOAD.items()},
             "along a diagonal from the base to the surface a correlation of √3/2 is left under a "
             "surface load, as M → ∞ and then z′ → 1":

@@ -122,10 +122,6 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
             f"for t₂ = t₃ = 1 it is Eq. {upright}":
                 equals(of["first"], form_of(upright, "first"),
                        at={t_2: sympy.S.One, t_3: sympy.S.One}),
-            "without load along the other vectors only the tilt of the contact itself is left, at "
-            "every M: φ²(4j + 1 + 2φ²) in units of (σ/r)²/[(1−φ)(1+2φ)]², for j ≥ 2":
-                equals(of["first"], phi**2 * (4 * j + 1 + 2 * phi**2) * IN_SPACE, j >= 2,
-                       j <= M - 2, at={t_2: sympy.S.Zero, t_3: sympy.S.Zero}),
         },
     )  # fmt: skip
 
