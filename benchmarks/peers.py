@@ -47,15 +47,14 @@ class Problem:
         with system.active():
             return spec.ordered(self.region.rows, spec.strength(self.n_x, system), system)
 
-    def solver(self, system: NumberSystem = FLOAT64) -> Callable[[], tuple[Solved, Solved]]:
+    def solver(self, system: NumberSystem = FLOAT64) -> Callable[[], Solved]:
         """Give a function that solves it from the radii."""
         region, rho, F = self.region, self.radii(system), self.ordered(system)
         phi = cosine(self.n_x)
 
-        def solve() -> tuple[Solved, Solved]:
+        def solve() -> Solved:
             with system.active():
-                solved = deposit(phi, region, rho, system)
-                return solved, sweep_down(solved, region.rows, F)
+                return sweep_down(deposit(phi, region, rho, system), region.rows, F)
 
         return solve
 

@@ -41,9 +41,9 @@ def forces() -> Iterator[Line]:
     problem = Problem(HEIGHT, WIDTH)
     compiled = problem.solver()
     numpy = by_numpy(compiled)
-    solved, change = numpy()
+    solved = numpy()
     n = axes(problem.n_x, FLOAT64)
-    reference = as_floats(stacked(problem.solver(Balls(106))()[1]))
+    reference = as_floats(stacked(problem.solver(Balls(106))()))
 
     def error(values: Any) -> float:
         return float(np.abs(values - reference).max() / np.abs(reference).max())
@@ -61,9 +61,9 @@ def forces() -> Iterator[Line]:
     yield Line("fast sweep", 1e3 * quick["fast"], " ms")
     yield Line("spsolve (NATURAL) / NumPy sweep", peer / quick["numpy"], "", ">", 2)
     yield Line("spsolve (NATURAL) / fast sweep", peer / quick["fast"], "", ">", 20)
-    own = error(stacked(change))
+    own = error(stacked(solved))
     yield Line("error of change, sweep (NumPy and fast alike)", own)
-    assert np.array_equal(stacked(change), stacked(compiled()[1]))
+    assert np.array_equal(stacked(solved), stacked(compiled()))
     times = error(changes(best(), 1 / (2 * n[1]), WIDTH)) / own
     yield Line("error of spsolve (NATURAL), geometry given / sweep", times, "", ">", 300)
 
@@ -178,7 +178,7 @@ def probe_solve(height: int, width: int) -> str:
         solve(packing_radii, spacing=3).force  # noqa: B018 - an attribute that is calculated
         spent.append(process_time() - start)
     problem = Problem(height, width, Fraction(1, 10**4))
-    packing, _ = problem.solver()()
+    packing = problem.solver()()
     system = force_balance(directions(packing, axes(problem.n_x, FLOAT64)))
     matrix = sparse.csc_matrix(
         (system.values, (system.rows, system.columns)), shape=(len(system.right),) * 2
