@@ -39,7 +39,7 @@ _BEYOND = {
 }
 """The labels by the modules that have them; the forces of B1 are what the calculator rests on.
 
-There is no B11 and no B20.
+The numbers B11 and B20 are not used.
 """
 
 
