@@ -11,7 +11,6 @@ from force_diffusion.derivations.framework.rows import (
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, ForceMinus, ForcePlus, M, e_y, i, j, n_y, phi, r, sigma, t, z)
-from sympy import Eq, Rational
 # fmt: on
 
 HEIGHT = Symbol("mean_delta_y", r"\langle\delta y_{ij}\rangle", "⟨δy_ij⟩")
@@ -35,13 +34,11 @@ PLUS, MINUS = (
 )
 _UNIT = UNIT * (1 - phi)
 """(σ/r)²/[(1−φ²)(1+φ)]."""
-BASE, ABOVE = (Eq(j, 0), M >= 3), (Eq(j, 1), M >= 3)
 
 
 def _upright(
     number: Number, load: str, symbol: sympy.Symbol, leading: sympy.Expr, turns: sympy.Expr
 ) -> Row:
-    share = {"surface": Rational(1, 4), "bulk": Rational(1, 8)}[load]
     return Row(
         number=number,
         name=f"mean_{load}",
@@ -55,10 +52,6 @@ def _upright(
             "the leading order": leads(of["force"], leading * _UNIT),
             f"to leading order forces rise above z = {'φ' if turns == phi else 'φ/(2 − φ)'}, "
             "and fall below": turns_positive(of["force"], z, turns),
-            "at j = 0 they rise":
-                goes_as(of["force"], 3 * M * (1 - 2 * phi) * share * _UNIT, *BASE),
-            "at j = 1 they fall for φ > −3/8, by shares that z → 0 does not give":
-                goes_as(of["force"], -M * (3 + 8 * phi) * share * _UNIT, *ABOVE),
         },
     )  # fmt: skip
 

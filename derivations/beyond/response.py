@@ -23,7 +23,7 @@ CONTACT = Symbol(
     "δ⟨f⁺_ij⟩/(f_load/2n_y)",
 )
 PUSH = Symbol("mean_push", r"\frac{\delta\langle p\rangle}{f^{\mathrm{load}}}", "δ⟨p⟩/f_load")
-FACE, FACE_BEAD, LEG, LEG_FORCE, INSIDE = (
+FACE, FACE_BEAD, LEG, INSIDE = (
     Symbol(name, rf"\frac{{\sigma_{{\mathrm{{{where}}}}}^{{2}}({of})}}{{{over}}}", words)
     for name, where, of, over, words in (
         ("face_response", "face", "n_{z} f", _FORCE_LOAD, "σ²(n_z f on a face)/f_load²"),
@@ -35,7 +35,6 @@ FACE, FACE_BEAD, LEG, LEG_FORCE, INSIDE = (
             "σ²(n_z f¹ + n_z f² on a face)/f_load²",
         ),
         ("leg_response", "leg", "n_{z} f", _FORCE_LOAD, "σ²(n_z f on a leg)/f_load²"),
-        ("leg_force", "leg", "f", "f_{0}^{2}", "σ²(f on a leg)/f₀²"),
         ("inside_force", "inside", "f", "f_{0}^{2}", "σ²(f inside)/f₀²"),
     )
 )
@@ -90,7 +89,6 @@ def _of_spheres() -> Forms:
         "contact": of(VerticalAlong(1, *on_face), *face).named(FACE),
         "bead": of(pushed, *face).named(FACE_BEAD),
         "leg": of(VerticalAlong(1, *on_leg), *leg).named(LEG),
-        "leg_force": of(ForceAlong(1, *on_leg), *leg).named(LEG_FORCE),
         "inside": of(ForceAlong(1, -p, -q, j + p + q), *inside).named(INSIDE),
     }
 
@@ -147,8 +145,8 @@ DERIVATIONS: dict[Number, Row] = {
             (FACE, "variance of the vertical force of one contact in a face of the cone"),
             (FACE_BEAD, "the same of both contacts of the face above a bead together"),
             (LEG, "the same of the contact on a leg of the cone"),
-            (LEG_FORCE, "variance of its magnitude over its squared mean f₀²"),
-            (INSIDE, "variance of a contact's magnitude inside the cone, over f₀²"),
+            (INSIDE, "variance of a contact's magnitude inside the cone, over the squared mean f₀² "
+             "on a leg"),
             (l, "layer of the loaded bead (0, 0, l)"),
             (q, "steps along that contact's own vector, from the leg where its path branches off"),
             (p, "steps down that leg"),
