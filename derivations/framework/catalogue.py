@@ -26,7 +26,6 @@ class NoSuchFormError(ForceDiffusionError, ValueError):
 _FOLDER = Path(__file__).parents[1]
 _PREFIX = re.compile(r"eq(uation|n|s)?\.?", re.IGNORECASE)
 _LONGEST = 40  # characters of what may be a number
-_MODULE = re.compile(r"eq(\d\d)_\w+")
 
 
 _BEYOND = {
@@ -46,10 +45,8 @@ The numbers B11 and B20 are not used.
 @cache
 def modules() -> dict[Number, str]:
     """Equation numbers and the modules that derive them: the paper's, then those beyond it."""
-    stems = sorted(path.stem for path in _FOLDER.glob("eq*.py"))
-    by_number: dict[Number, str] = {
-        int(match[1]): stem for stem in stems if (match := _MODULE.fullmatch(stem))
-    }
+    stems = sorted(path.stem for path in _FOLDER.glob("eq[0-9][0-9]_*.py"))
+    by_number: dict[Number, str] = {int(stem[2:4]): stem for stem in stems}
     beyond = {label: module for module, labels in _BEYOND.items() for label in labels}
     for label in sorted(beyond, key=lambda label: int(label[1:])):
         by_number[label] = beyond[label]
