@@ -52,11 +52,6 @@ TOP = (STRAIGHT_LOAD[0] - 1, M - 1)
 """Lower bead of the contact through which its load comes in."""
 
 
-def branched_load(count: sympy.Expr) -> tuple[sympy.Expr, sympy.Expr]:
-    """The surface bead whose force turns towards the contact ``count`` beads above (i, j)."""
-    return i + 2 * count - (M - j), M
-
-
 @cache
 def from_the_surface_down(formula: sympy.Eq, domain: Domain) -> Theorem:
     """Prove a force by induction, balancing bead after bead."""
@@ -96,13 +91,14 @@ def show_steps(steps: Steps) -> None:
         rewrite(),
         LAYERS,
     )
-    one_load = Domain.of(j >= 0, n >= 1, n <= M - j - 1)
     steps.show(
         "A load that reaches the contact by a path with one branch, at the bead (i+n, j+n), does "
         "so as in the mirror image of Eq. 10. It is the load on the bead (k, l) with",
-        sympy.Tuple(*map(equation, (k, l), branched_load(n))),
+        sympy.Tuple(equation(k, i + 2 * n - (M - j)), equation(l, M)),
         rewrite(),
-        one_load.also(sympy.Eq(2 * n, (l - j) - (i - k)), sympy.Eq(l, M), indices=(k, l)),
+        Domain.of(
+            j >= 0, n >= 1, n <= M - j - 1, sympy.Eq(2 * n, (l - j) - (i - k)), sympy.Eq(l, M)
+        ),
     )
     steps.show(
         "There is one such load for each n = 1, …, M−j−1. Relative to the force along n⁻ below its "
@@ -123,15 +119,6 @@ def show_steps(steps: Steps) -> None:
         "Both parts together balance every bead, as induction shows, layer after layer down.",
         PRINTED,
         from_the_surface_down,
-    )
-    steps.claim(
-        "each of these loads has one n, and each n one load",
-        sympy.Tuple(
-            equation(((M - j) + (branched_load(n)[0] - i)) / 2, n),
-            equation(branched_load(((M - j) + (k - i)) / 2)[0], k),
-        ),
-        rewrite(),
-        one_load.also(indices=(k, l)),
     )
     steps.claim(
         "the tilt of a contact, the component of δn⁻ along n⁺, is of order √j for j ≥ 1",
