@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache, reduce
+from functools import cache
 from importlib import import_module
 from typing import Any
 
@@ -49,7 +49,8 @@ class NumberSystem(ABC):
 
     def signs(self, values: Any) -> tuple[Array, Array]:
         """Give two boolean arrays: surely positive, surely not (balls may be neither)."""
-        return np.asarray(values > 0, dtype=bool), np.asarray(values <= 0, dtype=bool)
+        good = np.asarray(values > 0, dtype=bool)
+        return good, ~good if good.all() else np.asarray(values <= 0, dtype=bool)
 
     def array(self, values: Iterable[Fraction]) -> Any:
         """Turn rationals into a one-dimensional array."""
@@ -164,9 +165,8 @@ def as_ball(value: Any) -> Any:
 
 
 def largest_of(balls: Iterable[Any]) -> Any:
-    """Give the largest of balls that are not negative, 0 of none."""
-    arb = flint().arb
-    return reduce(arb.max, balls, arb(0))
+    """Give the largest of balls of radius zero that are not negative, 0 of none."""
+    return max(balls, default=flint().arb(0))
 
 
 _precision = threading.RLock()
