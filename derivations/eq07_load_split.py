@@ -5,15 +5,13 @@ from collections.abc import Iterable, Sequence
 from functools import cache, partial
 
 import sympy
-from force_diffusion.derivations import eq04_contact_plus as eq04
-from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations import eq06_force_balance as eq06
+from force_diffusion.derivations import (
+    eq04_contact_plus as eq04, eq05_contact_minus as eq05, eq06_force_balance as eq06)
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Rule, Steps, Theorem, along, axioms, below, equation, follows, inducted,
     minus, solve, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, j, k, l, n_minus, n_plus,
-    n_y, phi)
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, j, k, l, n_minus, n_plus, n_y, phi)
 # fmt: on
 
 LOADED = Domain.of(l >= 1, loading=axioms.LOADED_VERTICALLY)

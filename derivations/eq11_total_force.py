@@ -4,10 +4,9 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations import eq07_load_split as eq07
-from force_diffusion.derivations import eq09_straight_path as eq09
-from force_diffusion.derivations import eq10_branched_path as eq10
+from force_diffusion.derivations import (
+    eq05_contact_minus as eq05, eq07_load_split as eq07, eq09_straight_path as eq09,
+    eq10_branched_path as eq10)
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Groups, Steps, Theorem, axioms, equation, lattice, minus, mirror,
     mirror_of, moment, rewrite, shown, terms, times, usual)

@@ -4,11 +4,9 @@
 from functools import cache
 
 import sympy
-from force_diffusion.derivations import eq05_contact_minus as eq05
-from force_diffusion.derivations import eq07_load_split as eq07
-from force_diffusion.derivations import eq08_propagation as eq08
-from force_diffusion.derivations import eq10_branched_path as eq10
-from force_diffusion.derivations import eq11_total_force as eq11
+from force_diffusion.derivations import (
+    eq05_contact_minus as eq05, eq07_load_split as eq07, eq08_propagation as eq08,
+    eq10_branched_path as eq10, eq11_total_force as eq11)
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Groups, Steps, Theorem, axioms, equation, lattice, minus, rewrite, same, shown,
     terms, times, usual)

@@ -13,7 +13,7 @@ from force_diffusion.derivations.framework.rows import (
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceAlong, ForcePlus, N, VerticalAlong, i, j, k, l, p, phi, q, z)
-from sympy import Ge, Le, Rational, sqrt
+from sympy import Ge, Rational, sqrt
 # fmt: on
 
 _FORCE_LOAD = r"(f^{\mathrm{load}})^{2}"
@@ -129,7 +129,6 @@ DERIVATIONS: dict[Number, Row] = {
                         j >= 2, j <= l - 2, growing=j),
             "in p nothing is lost: in each layer all beads add up to no change":
                 adds_up_to_zero(of["bead"], i),
-            "outside the cone no mean changes": equals(of["bead"], sympy.S.Zero, Le(_ACROSS, -2)),
         },
     ),
     "B19": Row(
