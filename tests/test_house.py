@@ -18,12 +18,12 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
-    "derivations": 7_179,
+    "derivations": 7_191,
     "numeric": 9_062,
     "force_diffusion": 78,
     "benchmarks": 837,
     ".ci": 500,
-    "tests": 12_863,
+    "tests": 12_877,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

@@ -33,7 +33,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "columns": (lambda: fd.equation(13).latex(columns=3), "must be 1 or 2"),
     "columns of a form": (lambda: fd.equation(13).exact().latex(columns=LONG), "must be 1 or 2"),
     "no form": (lambda: fd.equation(3).exact(), "13, 14, 15, 16, B2"),
-    "another form": (lambda: fd.equation(16).exact("leg"), "Give bead, contact or force"),
+    "another form": (lambda: fd.equation(16).exact("leg"), "Give bead or contact"),
     "a form": (lambda: fd.equation(13).exact(DIGITS), "Give layer"),
     "a long z": (lambda: fd.equation(13).at(M=9, z=LONG, phi=0, sigma=1, r=1), "0 ≤ z ≤ 1"),
     "one number": (lambda: fd.derive(13), r"derive\(\[13\]\)"),  # type: ignore[arg-type]
@@ -61,6 +61,9 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "an observable": (lambda: fd.variance("f_plus"), "symbols of force_diffusion.symbols"),  # type: ignore[arg-type]
     "a load": (lambda: fd.variance(f_plus(i, j), laod="bulk"), "did you mean load"),  # type: ignore[call-arg]
     "neighbours": (lambda: fd.mean_over(f_plus(i, j), LONG), "a whole number from 1 up"),
+    "a far bead": (lambda: fd.variance(f_plus(i, j + 2**62)), "whole numbers up to 1000000000"),
+    "many neighbours": (lambda: fd.mean_over(f_plus(i, j), 2**62), "1 up to 1000000000"),
+    "a layer": (lambda: fd.variance(f_plus(i, j)).profile(M=3, j=1), "leave j out"),
     "orders": (lambda: fd.variance(f_plus(i, j)).leading(LONG), "from 1 to 100"),
     "layers": (lambda: fd.variance(f_plus(i, j)).profile(M=LONG, phi=0, sigma=1, r=1), "at.j=…"),
 }

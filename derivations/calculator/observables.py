@@ -35,7 +35,10 @@ _PARAMETERS = (
 NAMED = {symbol.name: symbol for symbol in (*INDICES, *_PARAMETERS, *sy.VECTORS)}
 """The symbols of ``force_diffusion.symbols``."""
 
-_PLACE = f"only whole numbers and {', '.join(map(text, INDICES))}, times whole numbers, are allowed"
+FARTHEST = 10**9
+"""The largest number in a place: isl takes machine integers, and sums of places are formed."""
+_NAMES = ", ".join(map(text, INDICES))
+_PLACE = f"only whole numbers up to {FARTHEST} and {_NAMES}, times such numbers, are allowed"
 
 
 def read(observable: Any, dimension: int) -> sympy.Expr:
@@ -116,10 +119,11 @@ def _check_quantity(quantity: sympy.Expr, dimension: int) -> None:
         raise ObservableError(f"{shown} is a quantity of discs: in three dimensions take f_along")
     for index in place:
         try:
-            factors, _ = sets.row(index)
+            factors, constant = sets.row(index)
         except NotExactError:
-            factors = {sy.n: 0}
-        if not {*factors} <= {*INDICES, sy.site_r, sy.site_s}:
+            factors, constant = {sy.n: 0}, 0
+        is_near = max(map(abs, (constant, *factors.values()))) <= FARTHEST
+        if not is_near or not {*factors} <= {*INDICES, sy.site_r, sy.site_s}:
             raise ObservableError(f"{shown} is at {text(index)}: {_PLACE}")
 
 

@@ -12,7 +12,7 @@ from force_diffusion.symbolic.printing.text import text
 
 from ..framework.closed_form import ClosedForm
 from .loads import PLANE, LoadCase, ObservableError, load_of, without_load
-from .observables import ACROSS, SPHERES, domain, layer_of, read, relations_of
+from .observables import ACROSS, FARTHEST, SPHERES, domain, layer_of, read, relations_of
 
 _ALLOWED = (
     "Allowed are sums of quantities times rational numbers and symbols; in mean(…, order=2) also "
@@ -63,8 +63,8 @@ def mean_over(observable: sympy.Expr, count: sympy.Expr | int, *across: sympy.Sy
     """
     try:
         averaged, number = sympy.sympify(observable, strict=True), sympy.sympify(count, strict=True)
-        if number.is_Integer and not 1 <= number <= sets.LARGEST:
-            allowed = "a whole number from 1 up is allowed"
+        if number.is_Integer and not 1 <= number <= FARTHEST:
+            allowed = f"a whole number from 1 up to {FARTHEST} is allowed"
             raise ObservableError(f"mean_over(…, {quoted(int(number))}): {allowed}")
         sets.row(number)
     except (sympy.SympifyError, NotExactError):

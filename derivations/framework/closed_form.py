@@ -45,7 +45,7 @@ from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .catalogue import Number as EquationNumber
-from .deciding import alternatives_of, decided, strange_symbol
+from .deciding import alternatives_of, cases_of, decided, strange_symbol
 from .display import alternatives_in_latex, over_common, room_of, with_commas
 from .evaluation import Number, evaluate, in_order, indices_at, with_values
 from .proof import equations_of
@@ -283,8 +283,10 @@ class ClosedForm:
         array([0.00375, 0.00215, 0.0004 ])
 
         Raises:
-            ArgumentError: it doesn't depend on the layer j; also as for :meth:`at`.
+            ArgumentError: it doesn't depend on the layer j, or j is given; also as for :meth:`at`.
         """
+        if "j" in values:
+            raise ArgumentError("a profile has all layers j: leave j out, or take at(j=…)")
         top = next((values[name] for name in ("M", "l") if name in values), None)
         if sy.j not in self._needed or top is None:
             raise ArgumentError("a profile needs a form that depends on the layer j, and M or l")
@@ -502,7 +504,7 @@ class ClosedForm:
         rest = function.points
         if rest.is_empty():
             raise NotAStatementError(f"{text(self.quantity)} is for {self.domain}")
-        cases = next(iter(candidate.atoms(sympy.Piecewise)), sympy.S.Zero)
+        cases = cases_of(candidate)
         parts = []
         for value, relations in alternatives_of(cases):
             here = rest & sets.where(*map(function.straight.relation, relations))
@@ -522,7 +524,7 @@ class ClosedForm:
 
     def _in_moments(self, formula: sympy.Eq) -> sympy.Eq:
         """An equation about the quantity as one about what that stands for."""
-        if formula.lhs in (self.quantity, self.statistic):
+        if formula.lhs in (self.quantity, self.statistic) and not formula.rhs.has(self.quantity):
             return equation(self.statistic, self.divisor * formula.rhs)
         quotient = sympy.Mul(self.statistic, 1 / self.divisor, evaluate=False)
         shown = by_name(self.quantity.free_symbols - self.statistic.free_symbols)

@@ -16,7 +16,7 @@ from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.signs import sign
 from force_diffusion.symbolic.trees import equation, in_place
 
-from .deciding import alternatives_of, strange_symbol
+from .deciding import alternatives_of, cases_of, strange_symbol
 from .record import Derivation, load
 
 OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
@@ -67,7 +67,7 @@ def _in_limit(formula: sympy.Eq, domain: Domain, limit: Limit) -> sympy.Eq:
     Raises:
         NotExactError: there is none, or its relations are not read.
     """
-    cases = next(iter(formula.atoms(sympy.Piecewise)))
+    cases = cases_of(formula)
     late = large(domain, limit) & domain.points
     for value, relations in alternatives_of(cases):
         here = late & sets.where(*map(domain.straight.relation, relations))

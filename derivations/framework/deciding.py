@@ -6,7 +6,7 @@ from numbers import Rational
 from typing import Any
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import NotAStatementError
+from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError
 from force_diffusion.symbolic.forms import SUMMATION
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
@@ -21,6 +21,7 @@ from force_diffusion.symbolic.piecewise import Relations
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.sizes import too_large
 from force_diffusion.symbolic.trees import equation
+from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanAtom
 
 from .lists import either
@@ -126,6 +127,19 @@ def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str
         if symbol.name in names:
             return f"this {symbol.name} is not that of the equation: take it from its symbols"
     return ""
+
+
+def cases_of(candidate: sympy.Basic) -> sympy.Expr:
+    """The function given in pieces that a candidate holds; 0 if it holds none.
+
+    Raises:
+        NotExactError: its cases depend on an index that is summed over.
+    """
+    cases: sympy.Expr = next(iter(candidate.atoms(sympy.Piecewise)), sympy.S.Zero)
+    named = set().union(*(each.free_symbols for each in cases.atoms(Relational)))
+    if bound := by_name(named - candidate.free_symbols):
+        raise NotExactError(f"cases depend on {text(bound[0])}, which is summed over")
+    return cases
 
 
 def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:

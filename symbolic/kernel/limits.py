@@ -52,7 +52,7 @@ def asymptotic(*groups: Group) -> Rule:
         left, right = (in_the_limit(side, domain, groups) for side in formula.args)
         apart, top = (left - right).reduced(), leading(right, limit)
         low, high = order(apart, limit), order(top, limit)
-        if not low <= high - limit.orders:
+        if not apart.is_zero() and low > high - limit.orders:
             same = order(left, limit) == high and limit.orders == 1
             first = leading(left, limit) if same else None
             raise other_order(leading(apart, limit), first, top, limit)

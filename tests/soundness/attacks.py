@@ -572,6 +572,7 @@ ASYMPTOTIC = limits.asymptotic()
 LIKE_M = M + H_M**3 / M**2 + phi, M
 table(
     ASYMPTOTIC, limit("∼"),
+    ("zero and zero", (0, 0), "may vanish", LIKE_M),
     ("twice as much", (2 * M, M), "left over right", LIKE_M),
     ("another power", (M**2, M), "left minus right", LIKE_M),
     ("a divisor that mixes", (M * (1 + over(1 + M**2 * phi**2)), M), "mixes what grows", LIKE_M),

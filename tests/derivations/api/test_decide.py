@@ -294,6 +294,21 @@ def test_z_stands_for_the_height_of_a_layer():
     assert form.decide(candidate).verdict is Verdict.PROVED
 
 
+def test_a_quantity_is_the_same_on_both_sides():
+    """Here the variance of a force over its mean."""
+    form = fd.variance(sy.ForcePlus(sy.i, sy.j))
+    rest = 2 * form.expr - form.quantity
+    for side, verdict in ((rest, Verdict.PROVED), (2 * rest, Verdict.REFUTED)):
+        assert form.decide(equal(form.quantity, side)).verdict is verdict
+
+
+def test_cases_within_a_sum_are_read_unless_they_depend_on_its_index():
+    form = fd.equation(13).exact()
+    for bound, verdict in ((sy.j, Verdict.REFUTED), (sy.m, Verdict.UNDECIDED)):
+        cases = sympy.Piecewise((1, bound <= 3), (0, True))
+        assert form.decide(sympy.Sum(cases, (sy.m, 1, sy.M))).verdict is verdict
+
+
 # what is assumed
 
 

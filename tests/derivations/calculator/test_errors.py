@@ -31,7 +31,7 @@ OBSERVABLES = [
     (own("A", commutative=False) * FORCE, "A: a constant has to be commutative"),
     (z * FORCE, "z can't be used in an observable: write j/M"),
     (f_plus(i + 2 * n, j), "n can't be used in an observable"),
-    (f_plus(own("a"), j), "f⁺_aj is at a: only whole numbers and i, j, k, l, p, q, M, N, times"),
+    (f_plus(own("a"), j), "f⁺_aj is at a: only whole numbers up to 1000000000 and i, j, k, l, p"),
     (f_plus(i + sympy.Rational(1, 2), j), r"is at i \+ 1/2: only whole numbers"),
     (f_plus(i + 2**70, j), "whole numbers"),
     (FORCE + f_plus(i + 1, j), r"i \+ j must be even for each bead \(i, j\)"),
