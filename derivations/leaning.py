@@ -96,12 +96,6 @@ def show_steps(steps: Steps) -> None:
         tuple(map(same, forces("bulk"))),
         IN_BULK,
     )
-    steps.claim(
-        "for t = 1 it is Eq. 11",
-        equation(PRINTED[0].rhs.xreplace({t: sympy.S.One}), eq11.PRINTED.rhs),
-        rewrite(),
-        eq11.LAYERS,
-    )
 
 
 DERIVATION = Derivation(
