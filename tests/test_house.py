@@ -23,7 +23,7 @@ LIMITS = {
     "force_diffusion": 78,
     "benchmarks": 837,
     ".ci": 500,
-    "tests": 12_877,
+    "tests": 12_884,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}

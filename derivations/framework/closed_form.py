@@ -524,10 +524,10 @@ class ClosedForm:
 
     def _in_moments(self, formula: sympy.Eq) -> sympy.Eq:
         """An equation about the quantity as one about what that stands for."""
-        if formula.lhs in (self.quantity, self.statistic) and not formula.rhs.has(self.quantity):
+        shown = by_name(self.quantity.free_symbols - self.statistic.free_symbols)
+        if formula.lhs == self.quantity and not formula.rhs.has(self.quantity, *shown):
             return equation(self.statistic, self.divisor * formula.rhs)
         quotient = sympy.Mul(self.statistic, 1 / self.divisor, evaluate=False)
-        shown = by_name(self.quantity.free_symbols - self.statistic.free_symbols)
         if not shown:
             return in_place(formula, {self.quantity: quotient})
         (symbol,) = shown  # the quantity may be this symbol less 1

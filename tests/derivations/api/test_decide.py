@@ -300,6 +300,16 @@ def test_a_quantity_is_the_same_on_both_sides():
     rest = 2 * form.expr - form.quantity
     for side, verdict in ((rest, Verdict.PROVED), (2 * rest, Verdict.REFUTED)):
         assert form.decide(equal(form.quantity, side)).verdict is verdict
+    shift = fd.equation("B5").exact()  # a symbol less 1
+    both = equal(shift.quantity, 2 * shift.expr - shift.quantity)
+    assert shift.decide(both).verdict is Verdict.PROVED
+
+
+def test_a_statistic_is_its_quantity_times_the_divisor():
+    """Eq. B18 divides by 1 − t, and what is divided is not the quotient."""
+    form = fd.equation("B18").exact("shear_surface")
+    assert form.decide(equal(form.quantity, form.expr)).verdict is Verdict.PROVED
+    assert not form.decide(equal(form.statistic, form.expr)).verdict.is_proved
 
 
 def test_cases_within_a_sum_are_read_unless_they_depend_on_its_index():
