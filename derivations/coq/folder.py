@@ -109,11 +109,9 @@ class CoqFolder:
                     if self.trouble(imports(sources[name])):
                         self.answers[name] = Answer(failed="what it imports does not compile")
                         order.done(name)
-                        continue
-                    notice(name)
-                    asked[pool.submit(self._run, "coqc", "-q", "-R", ".", LIBRARY, name)] = name
-                if not asked:
-                    continue
+                    else:
+                        notice(name)
+                        asked[pool.submit(self._run, "coqc", "-q", "-R", ".", LIBRARY, name)] = name
                 for done in wait(asked, return_when=FIRST_COMPLETED).done:
                     name = asked.pop(done)
                     self.answers[name] = done.result()
