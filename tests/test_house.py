@@ -18,8 +18,8 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
-    "derivations": 7_185,
-    "numeric": 9_062,
+    "derivations": 7_183,
+    "numeric": 9_059,
     "force_diffusion": 78,
     "benchmarks": 837,
     ".ci": 500,
