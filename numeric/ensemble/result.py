@@ -301,7 +301,7 @@ class Ensemble(tables.Answered):
 
     def __str__(self) -> str:
         """Say how many rows and packings there are, and how sure they are."""
-        rows = tables.counted(self.rows, "row")
+        rows = tables.counted(self.number_of_rows, "row")
         lines = [f"{self.quantity}: {rows}, {self.realisations} packings"]
         if math.isfinite(self.half_width):
             lines.append(
