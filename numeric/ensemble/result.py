@@ -240,9 +240,8 @@ class Ensemble(tables.Answered):
         """The columns as text, to two digits beyond their standard errors."""
         if self.bins is None:
             return _printed(self._groups)
-        numbers, errors = self.bins.copy(), {"share": self.bins["share_error"]}
-        del numbers["share_error"]
-        return _printed(Table({}, numbers, (), errors))
+        numbers = self.bins.copy()
+        return _printed(Table({}, numbers, (), {"share": numbers.pop("share_error")}))
 
     @cached_property
     def source(self) -> dict[str, Any]:
