@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
     "derivations": 7_183,
-    "numeric": 9_059,
+    "numeric": 9_058,
     "force_diffusion": 78,
     "benchmarks": 837,
     ".ci": 500,
