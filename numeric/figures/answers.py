@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .. import closed_forms
+from .. import generated
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import Branch
 from ..lattice.layers import Rows
@@ -24,6 +24,7 @@ from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.scene import refuse
 from ..scene.sections import SceneError
+from ..theory.expected import stds_by_layer
 from ..unilateral.network import Network
 from . import beads
 
@@ -273,9 +274,9 @@ def printed_over_exact(plan: Plan) -> Array:
     """Give σ_f of the printed Eq. 13 or 14 over the exact one, by layer 0 … M − 1."""
     M, phi = plan.problem.height, float(plan.problem.phi)
     bulk = plan.problem.load.kind == "bulk"
-    printed = closed_forms.bulk_diffusion if bulk else closed_forms.surface_diffusion
-    exact = closed_forms.bulk_variance if bulk else closed_forms.surface_variance
-    return np.sqrt([printed(M, j / M, phi, 1, 1) / exact(M, j, phi, 1, 1) for j in range(M)])
+    form = generated.bulk_diffusion if bulk else generated.surface_diffusion
+    printed = np.sqrt([form(M, j / M, phi) for j in range(M)])
+    return np.asarray(printed / stds_by_layer(plan.problem.load.kind, M, phi))
 
 
 def histogram(plan: Plan, columns: Columns, errors: Columns, network: Network | None) -> Figure:

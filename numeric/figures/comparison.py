@@ -13,9 +13,9 @@ from fractions import Fraction
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import closed_forms
+from .. import generated
 from ..arithmetic.systems import Array
-from ..theory.expected import critical_height
+from ..theory.expected import critical_height, stds_by_layer
 from . import packings
 from .packings import LEVEL, PAPER, Comparison, Made, Medium, Options
 from .q_model import weight_variance
@@ -28,9 +28,8 @@ MARKED = 16
 def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
     """Give σ_f/⟨f⟩ of layers 0 … M − 1 by Eq. 13: exact to first order at finite M, and printed."""
     phi, std = float(medium.phi), medium.std
-    exact = [closed_forms.surface_variance(M, j, phi, std, 1.0) for j in range(M)]
-    printed = [closed_forms.surface_diffusion(M, j / M, phi, std, 1.0) for j in range(M)]
-    return np.sqrt(exact), np.sqrt(printed)
+    printed = np.sqrt([generated.surface_diffusion(M, j / M, phi) for j in range(M)])
+    return stds_by_layer("surface", M, phi) * std, printed * std
 
 
 def simulated(M: int, o: Options) -> Comparison:
@@ -80,8 +79,8 @@ def _marked(M: int, number: int) -> slice:
 def _draw(axes: Axes, cases: Sequence[Comparison], medium: Medium) -> None:
     """Draw all σ_f/⟨f⟩ over M^(3/2)."""
     power = -math.floor(math.log10(medium.std))
-    z, form, phi = np.linspace(0, 1, 201), closed_forms.surface_diffusion, float(medium.phi)
-    printed = np.sqrt([form(1, at, phi, medium.std, 1.0) for at in z])
+    z, form, phi = np.linspace(0, 1, 201), generated.surface_diffusion, float(medium.phi)
+    printed = np.sqrt([form(1, at, phi) for at in z]) * medium.std
     axes.plot(z, printed * 10.0**power, "k--", lw=1, label="Eq. (13), printed")
     axes.plot([], [], color=GREY, label="exact at finite $M$")
     for c, case in enumerate(cases):

@@ -9,8 +9,8 @@ from math import asin, degrees, radians, sqrt, tan
 
 import numpy as np
 
-from .. import closed_forms
 from ..scene.sections import SurfaceLoad
+from ..theory.expected import stds_by_layer
 from . import packings
 from .packings import N_X, PAPER_STD, PHI, Comparison, Made, Options
 from .style import COLUMN, panels, points
@@ -29,12 +29,12 @@ def ratio(angle: float) -> float:
 
 def theory(angle: float) -> tuple[float, float]:
     """Root mean square over the layers of σ_f/⟨f⟩ of f⁺ and of f⁻ (Eq. B2)."""
-    form, share = closed_forms.surface_variance_at_angle, ratio(angle)
+    share, phi = ratio(angle), float(PHI)
     plus, minus = (
-        sum(form(HEIGHT, j, t, float(PHI), PAPER_STD, 1.0) for j in range(HEIGHT))
+        np.sqrt((stds_by_layer("surface", HEIGHT, phi, (1.0, t)) ** 2).mean())
         for t in (share, 1 / share)
     )
-    return sqrt(plus / HEIGHT), sqrt(minus / HEIGHT)
+    return plus * PAPER_STD, minus * PAPER_STD
 
 
 def simulated(o: Options) -> Comparison:

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..mechanics.sweep import Solved
 from ..quantities.base import ContactQuantity
+from ..theory.expected import stds_by_layer
 from .packings import Made, Options, gathered, planned, table
 from .style import PAGE, panels, points
 
@@ -55,7 +55,7 @@ def simulated(o: Options, number: int) -> tuple[Array, dict[str, Any]]:
         return np.asarray(g[0, :, 0] / F[0, 0])
 
     changes = gathered(plan, o.notice, f"P(f), {kind} radii, M = {M}", each, number << 32)
-    std = np.sqrt(closed_forms.surface_variance(M, 0, float(medium.phi), medium.std, 1.0))
+    std = stds_by_layer("surface", M, float(medium.phi))[0] * medium.std
     smirnov, anderson = p_values(changes / std, o.seed)
     return changes / std, {
         "radii": kind,

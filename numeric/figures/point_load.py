@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..arithmetic.systems import Array
-from ..closed_forms import response
+from ..generated import response
 from ..lattice.branch import Branch
 from ..mechanics.sweep import Solved
 from ..planning.plan import Plan
@@ -58,7 +58,7 @@ def simulated(o: Options) -> tuple[Table, Comparison]:
     low, high = (np.full(len(SITES), "", dtype=object) for _ in range(2))
     low[ON_CUTS], high[ON_CUTS] = (edge**2 for edge in band.limits)
     ordered = np.where(LEG, 0.5, 0.0)
-    printed = np.array([float(response(APEX, j, phi, 1, 1)) for j in LAYER.tolist()], dtype=object)
+    printed = np.array([float(response(j, APEX, phi)) for j in LAYER.tolist()], dtype=object)
     table = {
         "i": COLUMN,
         "j": LAYER,

@@ -6,9 +6,10 @@ curves are Eqs. B13 and B14, exact to first order at finite M, and their leading
 
 import numpy as np
 
-from .. import closed_forms
+from .. import generated
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
+from ..theory.expected import stds_by_layer
 from . import packings
 from .packings import PAPER_STD, PHI, Comparison, Made, Options
 from .style import COLUMN, GREY, RELATIVE_HEIGHT, panels, points
@@ -19,14 +20,13 @@ LOADS = {"surface": ("B13", SurfaceLoad), "bulk": ("B14", BulkLoad)}
 
 def exact(load: str, M: int) -> Array:
     """σ_f/⟨f⟩ by layer, to first order at finite M (Eqs. B13 and B14); shape (M,)."""
-    form = getattr(closed_forms, f"{load}_variance_of_spheres")
-    return np.sqrt([float(form(M, j, float(PHI), PAPER_STD, 1.0)) for j in range(M)])
+    return stds_by_layer(load, M, float(PHI), (1.0, 1.0, 1.0)) * PAPER_STD
 
 
 def leading(load: str, z: Array) -> Array:
     """The leading orders over M^(3/2)."""
-    form = getattr(closed_forms, f"{load}_diffusion_of_spheres")
-    return np.sqrt([form(1, at, float(PHI), PAPER_STD, 1.0) for at in z])
+    form = getattr(generated, f"{load}_diffusion_of_spheres")
+    return np.sqrt([form(1, at, float(PHI)) for at in z]) * PAPER_STD
 
 
 def simulated(o: Options, place: int) -> Comparison:

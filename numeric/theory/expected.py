@@ -9,7 +9,10 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import NamedTuple
 
+import numpy as np
+
 from .. import generated
+from ..arithmetic.systems import Array
 
 # A typical packing has tension: the chance of none, exp(−number), is below one half.
 TYPICAL = math.log(2)
@@ -51,6 +54,13 @@ def stds_of_contacts(
     pairs = ((own or NO_FORCE, other) for own, other in (components, components[::-1]))
     variances = ((own, tilted(M, j, M - j, other / own, phi)) for own, other in pairs)
     return tuple(abs(own) * math.sqrt(max(0.0, variance)) for own, variance in variances)
+
+
+def stds_by_layer(
+    load: str, M: int, phi: float, components: tuple[float, ...] = (1.0, 1.0)
+) -> Array:
+    """Give σ of f¹, or f⁺, of the layers from the base up, shape (M,); arguments as above."""
+    return np.array([stds_of_contacts(load, M, j, phi, components)[0] for j in range(M)])
 
 
 class ExpectedTension(NamedTuple):

@@ -3,8 +3,7 @@
 from statistics import NormalDist, fmean
 
 import pytest
-from force_diffusion.numeric import closed_forms
-from force_diffusion.numeric.theory.expected import expected_tension
+from force_diffusion.numeric.theory.expected import expected_tension, stds_by_layer
 
 import force_diffusion as fd
 from tests.numeric.scenes import question
@@ -51,8 +50,7 @@ def test_exact_packings_have_as_many(load, relative_std, packing, room):
 def test_the_number_is_the_fraction_times_the_contacts(load, height):
     """From 100 layers on not every layer is looked at: the sum is good to a thousandth."""
     std = 0.8 * height**-1.5
-    form = closed_forms.bulk_variance if load == "bulk" else closed_forms.surface_variance
-    tails = [NormalDist().cdf(-(form(height, j, PHI, std, 1) ** -0.5)) for j in range(height)]
+    tails = [NormalDist().cdf(-1 / (std * each)) for each in stds_by_layer(load, height, PHI)]
     number = expected_tension(height, 5000, PHI, std, load).contacts
     assert number == pytest.approx(fmean(tails) * 2 * 5000 * height, rel=1e-3, abs=1e-12)
 
