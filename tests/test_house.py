@@ -19,11 +19,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
     "derivations": 7_183,
-    "numeric": 9_058,
+    "numeric": 9_010,
     "force_diffusion": 78,
     "benchmarks": 837,
     ".ci": 500,
-    "tests": 12_884,
+    "tests": 12_848,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
