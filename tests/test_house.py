@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
-    "derivations": 7_183,
+    "derivations": 7_209,
     "numeric": 9_010,
     "force_diffusion": 78,
     "benchmarks": 837,

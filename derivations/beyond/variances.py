@@ -1,6 +1,6 @@
 """Variances of contact forces under loads in any direction, of discs and of spheres.
 
-Eqs. B2, B3, B13, B14, B24 and B25.
+Eqs. B2, B3, B11, B13, B14, B20, B24 and B25.
 """
 
 # fmt: off
@@ -32,23 +32,23 @@ _AVERAGE = {"surface": Rational(1, 2), "bulk": Rational(2, 3)}
 """The means of (1 − z)²(2z + 1) and (1 − z)²(4z + 1) over 0 < z < 1."""
 
 
-def of_spheres(load: str, shares: sympy.Expr = sympy.S.One) -> sympy.Expr:
-    """The leading order in three dimensions: that of discs with 10κ² in place of 3/(1 − φ²)².
-
-    In d dimensions, every bead resting on d others, both are (d − 1)(2d − 1)κ² with
-    κ = [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}.
+def in_dimensions(load: str, d: int, shares: sympy.Expr | None = None) -> sympy.Expr:
+    """The leading order in d dimensions, every bead resting on d others.
 
     Args:
         load: "surface" or "bulk".
-        shares: (2τ₁² + τ₂)/10 of a load −Σ_a L^a n^a, τₙ being the sum of (L^a/L¹)ⁿ over a ≠ 1.
+        d: such as 2 or 3.
+        shares: 2τ₁² + τ₂ of a load −Σ_a L^a n^a, τₙ being the sum of (L^a/L¹)ⁿ over a ≠ 1.
     """
-    profile = PAPER[load].PRINTED.rhs.doit() * (1 - phi**2) ** 2 / 3
-    return 10 * shares * (1 + phi) ** 2 / ((1 - phi) * (1 + 2 * phi)) ** 2 * profile
+    kappa = (1 + (d - 2) * phi) / ((1 - phi) * (1 + (d - 1) * phi))
+    number, slope = {"surface": (Rational(2, 3), 2), "bulk": (Rational(1, 10), 4)}[load]
+    upright = (d - 1) * (2 * d - 1)
+    profile = M**3 * (1 - z) ** 2 * (slope * z + 1)
+    return number * (shares or upright) * kappa**2 * profile * (sigma / r) ** 2
 
 
 def _of_discs(number: Number, load: str) -> Row:
-    paper = PAPER[load]
-    leading = t**2 * paper.PRINTED.rhs.doit()
+    paper, leading = PAPER[load], t**2 * in_dimensions(load, 2)
     at_base = leading.xreplace({z: sympy.S.Zero})
     under = leaning(t, load)
     return Row(
@@ -89,20 +89,19 @@ def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
         exact=lambda: {
             "first": variance(ForceAlong(1, 0, 0, j), load=load, dimension=3).named(FIRST)
         },
-        meaning="The profile over the height and the power of M are those of discs, Eq. "
-        f"{PAPER[load].DERIVATION.number}: where each bead rests on d others, (d − 1)(2d − 1) κ² "
-        "stands in front, with κ = [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}. At finite M sums along all "
-        "three base vectors contribute.",
+        meaning="The profile over the height is that of discs; at finite M sums along all three "
+        "base vectors contribute.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
         claimed=lambda of: {
-            "the two highest orders": leads(of["first"], of_spheres(load), following * IN_SPACE),
+            "the two highest orders":
+                leads(of["first"], in_dimensions(load, 3), following * IN_SPACE),
         },
     )  # fmt: skip
 
 
 def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
     first, second = t_2 + t_3, t_2**2 + t_3**2
-    leading = of_spheres(load, (2 * first**2 + second) / 10)
+    leading = in_dimensions(load, 3, 2 * first**2 + second)
     return Row(
         number=number,
         name=f"leaning_{load}",
@@ -126,9 +125,35 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
     )  # fmt: skip
 
 
+def _in_dimensions(number: Number, load: str, spheres: Number) -> Row:
+    paper = PAPER[load]
+    return Row(
+        number=number,
+        name="any_dimension" if load == "surface" else "any_dimension_bulk",
+        title=f"Variance of the forces in two and three dimensions under a {load} load",
+        call=f'variance(f_plus(i, j), load="{load}")',
+        exact=lambda: {
+            "discs": paper.DERIVATION.exact_forms["layer"],
+            "spheres": DERIVATIONS[spheres].exact_forms["first"],
+        },
+        meaning=f"Eqs. {paper.DERIVATION.number} and {spheres} side by side: for d = 2 and d = 3 "
+        "the variance has one profile and one power of M, with (d − 1)(2d − 1) κ² in front, κ "
+        "being [1 + (d−2)φ]/{(1−φ)[1 + (d−1)φ]}.",
+        quantities=(
+            (paper.RELATIVE_VARIANCE, "of discs"),
+            (FIRST, "of spheres, for the force along base vector 1"),
+        ),
+        claimed=lambda of: {
+            "the leading order of discs": leads(of["discs"], in_dimensions(load, 2)),
+            "the leading order of spheres": leads(of["spheres"], in_dimensions(load, 3)),
+        },
+    )
+
+
 DERIVATIONS: dict[Number, Row] = {
     "B2": _of_discs("B2", "surface"),
     "B3": _of_discs("B3", "bulk"),
+    "B11": _in_dimensions("B11", "surface", "B13"),
     "B13": _of_spheres(
         "B13",
         "surface",
@@ -139,6 +164,7 @@ DERIVATIONS: dict[Number, Row] = {
         "bulk",
         M**2 * (1 - z) * (5 + 4 * phi + 3 * phi**2 - z * (5 + 4 * phi - 13 * phi**2)) / 4,
     ),
+    "B20": _in_dimensions("B20", "bulk", "B14"),
     "B24": _leaning_spheres("B24", "surface", "B13"),
     "B25": _leaning_spheres("B25", "bulk", "B14"),
 }

@@ -1,4 +1,4 @@
-"""Generates ``numeric/generated.py``: closed forms as plain arithmetic.
+"""Generates ``numeric/closed_forms.py``: closed forms as plain arithmetic.
 
 Run ``python -m force_diffusion.derivations.export.generate_closed_forms`` in the repository.
 
@@ -19,11 +19,11 @@ from force_diffusion.symbolic.symbols import INDICES, M, j, k, l, phi, r, sigma
 from .. import eq13_surface_diffusion as eq13
 from .. import eq14_bulk_diffusion as eq14
 from .. import eq16_response as eq16
-from ..beyond.variances import of_spheres
+from ..beyond.variances import in_dimensions
 from ..framework.catalogue import Number
 from ..framework.record import load
 
-TARGET = Path(__file__).parents[2] / "numeric" / "generated.py"
+TARGET = Path(__file__).parents[2] / "numeric" / "closed_forms.py"
 
 HEADER = '''"""Closed forms as the derivations give them: Eqs. 13, 14, 16 and some of B2 to B14.
 
@@ -73,7 +73,7 @@ def _forms() -> Iterator[tuple[str, str, Iterable[Branch]]]:
     yield "surface_diffusion", "M z phi", _leading(eq13.PRINTED.rhs)
     yield "bulk_diffusion", "M z phi", _leading(eq14.PRINTED.rhs)
     for name in ("surface", "bulk"):
-        yield f"{name}_diffusion_of_spheres", "M z phi", _leading(of_spheres(name))
+        yield f"{name}_diffusion_of_spheres", "M z phi", _leading(in_dimensions(name, 3))
     for what, numbers, more in (
         ("variance_at_angle", ("B2", "B3"), " t"),
         ("variance_of_spheres", ("B13", "B14"), ""),

@@ -26,7 +26,7 @@ _INTRODUCTION = (
     "Each formula is exact for the indices beside or below it. Among several formulas, “otherwise” "
     "is for all indices that the others leave; what holds for all of them stands below the last. "
     "The word in brackets is the name of a form in the program. For spheres p and q count steps, "
-    "and the force on a bead is written out. The numbers B11 and B20 are not used."
+    "and the force on a bead is written out. B11 and B20 compare Eqs. 13, B13 and Eqs. 14, B14."
 )
 
 

@@ -30,16 +30,13 @@ _LONGEST = 40  # characters of what may be a number
 
 _BEYOND = {
     "leaning": ("B1",),
-    "beyond.variances": ("B2", "B3", "B13", "B14", "B24", "B25"),
+    "beyond.variances": ("B2", "B3", "B11", "B13", "B14", "B20", "B24", "B25"),
     "beyond.means": ("B4", "B5", "B6", "B15", "B16"),
     "beyond.stress": ("B10", "B17", "B18"),
     "beyond.correlations": ("B7", "B8", "B12", "B21"),
     "beyond.response": ("B9", "B19", "B22", "B23"),
 }
-"""The labels by the modules that have them; the forces of B1 are what the calculator rests on.
-
-The numbers B11 and B20 are not used.
-"""
+"""The labels by the modules that have them; the forces of B1 are what the calculator rests on."""
 
 
 @cache

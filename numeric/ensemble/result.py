@@ -235,6 +235,11 @@ class Ensemble(tables.Answered):
         """The table's columns by name; an entry for each group, or for each bin of a histogram."""
         return self.bins or self._groups.columns
 
+    @property
+    def rows(self) -> int:
+        """How many rows the table has."""
+        return self.number_of_rows
+
     @cached_property
     def text(self) -> dict[str, list[str]]:
         """The columns as text, to two digits beyond their standard errors."""

@@ -15,7 +15,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .. import generated
+from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import Branch
 from ..lattice.layers import Rows
@@ -274,7 +274,7 @@ def printed_over_exact(plan: Plan) -> Array:
     """Give σ_f of the printed Eq. 13 or 14 over the exact one, by layer 0 … M − 1."""
     M, phi = plan.problem.height, float(plan.problem.phi)
     bulk = plan.problem.load.kind == "bulk"
-    form = generated.bulk_diffusion if bulk else generated.surface_diffusion
+    form = closed_forms.bulk_diffusion if bulk else closed_forms.surface_diffusion
     printed = np.sqrt([form(M, j / M, phi) for j in range(M)])
     return np.asarray(printed / stds_by_layer(plan.problem.load.kind, M, phi))
 

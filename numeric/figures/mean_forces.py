@@ -9,7 +9,7 @@ from itertools import product
 
 import numpy as np
 
-from .. import generated
+from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
 from . import packings
@@ -22,8 +22,8 @@ STD = 1e-3
 SPACINGS = (Fraction(12, 5), Fraction(3))
 """s in units of r: φ = 7/25, where forces fall below z = φ; −1/8, where all rise but at j = 1."""
 LOADS = {
-    "surface": ("B5", SurfaceLoad, generated.surface_mean_shift),
-    "bulk": ("B6", BulkLoad, generated.bulk_mean_shift),
+    "surface": ("B5", SurfaceLoad, closed_forms.surface_mean_shift),
+    "bulk": ("B6", BulkLoad, closed_forms.bulk_mean_shift),
 }
 CASES = list(product(LOADS, SPACINGS))
 BULK = slice(2, HEIGHT - 1)

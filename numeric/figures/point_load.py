@@ -14,7 +14,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from ..arithmetic.systems import Array
-from ..generated import response
+from ..closed_forms import response
 from ..lattice.branch import Branch
 from ..mechanics.sweep import Solved
 from ..planning.plan import Plan

@@ -6,7 +6,7 @@ curves are Eqs. B13 and B14, exact to first order at finite M, and their leading
 
 import numpy as np
 
-from .. import generated
+from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
 from ..theory.expected import stds_by_layer
@@ -25,7 +25,7 @@ def exact(load: str, M: int) -> Array:
 
 def leading(load: str, z: Array) -> Array:
     """The leading orders over M^(3/2)."""
-    form = getattr(generated, f"{load}_diffusion_of_spheres")
+    form = getattr(closed_forms, f"{load}_diffusion_of_spheres")
     return np.sqrt([form(1, at, float(PHI)) for at in z]) * PAPER_STD
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from .. import generated
+from .. import closed_forms
 from ..arithmetic.systems import Array
 
 # A typical packing has tension: the chance of none, exp(−number), is below one half.
@@ -46,11 +46,10 @@ def stds_of_contacts(
     (L⁺, L⁻) of the load, the unit of the result; of spheres (L^a), all alike. Under a bulk load it
     is per layer above the contact.
     """
-    bulk = load == "bulk"
     if len(components) > 2:
-        form = generated.bulk_variance_of_spheres if bulk else generated.surface_variance_of_spheres
+        form = getattr(closed_forms, f"{load}_variance_of_spheres")
         return tuple(math.sqrt(form(M, j, M - j, phi)) * own for own in components)
-    tilted = generated.bulk_variance_at_angle if bulk else generated.surface_variance_at_angle
+    tilted = getattr(closed_forms, f"{load}_variance_at_angle")
     pairs = ((own or NO_FORCE, other) for own, other in (components, components[::-1]))
     variances = ((own, tilted(M, j, M - j, other / own, phi)) for own, other in pairs)
     return tuple(abs(own) * math.sqrt(max(0.0, variance)) for own, variance in variances)

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 from force_diffusion.derivations.export import generate_closed_forms as generator
-from force_diffusion.numeric import generated
+from force_diffusion.numeric import closed_forms
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -35,7 +35,7 @@ GIVEN = {"phi": Fraction(2, 7), "sigma": 1, "r": 1}
 
 def called(name: str, **numbers: Any) -> Any:
     """Call a function with those of these numbers that it takes; k is M − j."""
-    function = getattr(generated, name)
+    function = getattr(closed_forms, name)
     numbers = {"t": 1, "k": numbers["M"] - numbers["j"], **numbers}
     return function(**{key: numbers[key] for key in signature(function).parameters})
 
@@ -80,7 +80,7 @@ def test_leading_orders_are_those_of_tall_packings(name):
 
 def test_the_printed_response():
     at = {"j": 3, "l": 7, **GIVEN}
-    assert generated.response(3, 7, GIVEN["phi"]) == fd.equation(16).at(**at)
+    assert closed_forms.response(3, 7, GIVEN["phi"]) == fd.equation(16).at(**at)
 
 
 # float64

@@ -23,7 +23,7 @@ def test_arrays_rows_and_data_say_the_same(name):
     assert result.mean_square == pytest.approx(result.std**2 + result.mean_change**2, rel=1e-9)
     data = json.loads(json.dumps(result.data()))
     rows = rows_of(result.arrays)
-    assert result.number_of_rows == len(rows) == len(data["results"][result.quantity])
+    assert result.rows == len(rows) == len(data["results"][result.quantity])
     for row, printed in zip(rows, data["results"][result.quantity], strict=True):
         assert list(row) == list(printed)
         for key, value in row.items():

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric import generated
+from force_diffusion.numeric import closed_forms
 
 import force_diffusion as fd
 from tests.numeric.scenes import question
@@ -114,7 +114,7 @@ def test_a_profile_stands_beside_theory():
     # of the surface load the ordered force is 1/2n_y everywhere
     phi, F = 1 - 2 * 0.75**2, 0.5 / np.sqrt(1 - 0.75**2)
     figure = scene("profile").run().plot()
-    own = [generated.surface_diffusion(M, j / M, phi) * 1e-8 for j in range(M)]
+    own = [closed_forms.surface_diffusion(M, j / M, phi) * 1e-8 for j in range(M)]
     drawn = np.asarray(figure.axes[0].get_lines()[1].get_ydata())
     assert drawn == pytest.approx(F * np.sqrt(own))
 

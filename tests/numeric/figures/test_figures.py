@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("matplotlib")
-from force_diffusion.numeric import generated
+from force_diffusion.numeric import closed_forms
 from force_diffusion.numeric.figures import (
     chains, comparison, diffusion, directions, distribution, mean_forces, mean_response,
     neighbours, notation, point_load, spheres, style,
@@ -255,8 +255,8 @@ def test_points_with_bars_are_the_rows_of_the_table(module, name, rows):
 def test_figure_b13_has_the_leading_orders_of_the_exact_forms():
     z, M = np.array([0.25, 0.5]), 10**6
     for load, form in (
-        ("surface", generated.surface_variance_of_spheres),
-        ("bulk", generated.bulk_variance_of_spheres),
+        ("surface", closed_forms.surface_variance_of_spheres),
+        ("bulk", closed_forms.bulk_variance_of_spheres),
     ):
         at_large = [
             math.sqrt(form(M, int(at * M), M - int(at * M), float(spheres.PHI)) / M**3) * PAPER_STD
