@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_181,
     "derivations": 7_209,
-    "numeric": 9_010,
+    "numeric": 9_012,
     "force_diffusion": 78,
     "benchmarks": 837,
     ".ci": 500,
