@@ -12,7 +12,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cache
+from functools import cache, reduce
 from importlib import import_module
 from typing import Any
 
@@ -165,8 +165,12 @@ def as_ball(value: Any) -> Any:
 
 
 def largest_of(balls: Iterable[Any]) -> Any:
-    """Give the largest of balls of radius zero that are not negative, 0 of none."""
-    return max(balls, default=flint().arb(0))
+    """Give the largest of balls that are not negative, 0 of none; it is no number if one is none.
+
+    >>> largest_of(map(flint().arb, (1, 2))), largest_of(map(flint().arb, (1, "nan", 2)))
+    (2.00000000000000, nan)
+    """
+    return reduce(flint().arb.max, balls, flint().arb(0))
 
 
 _precision = threading.RLock()
