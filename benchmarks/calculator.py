@@ -37,9 +37,9 @@ def probe(call: str) -> str:
     from force_diffusion import symbols
 
     names = {name: getattr(fd, name) for name in dir(fd)} | vars(symbols)
-    row = load(call) if call in ROWS else None
+    exact = load(call).exact if call in ROWS else None
     start = process_time()
-    for form in row.exact().values() if row else [eval(call, names)]:
+    for form in exact().values() if exact else [eval(call, names)]:
         assert form.pieces
     return f"{imported} {process_time() - start}"
 

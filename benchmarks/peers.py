@@ -8,6 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
+from unittest import mock
 
 import numpy as np
 from force_diffusion.numeric.arithmetic.systems import FLOAT64, Array, NumberSystem
@@ -63,12 +64,8 @@ def by_numpy(solve: Callable[[], Any]) -> Callable[[], Any]:
     """Let NumPy sweep, as where numba is not installed."""
 
     def solved() -> Any:
-        before = sweep.loops
-        sweep.loops = lambda: None
-        try:
+        with mock.patch.object(sweep, "loops", return_value=None):
             return solve()
-        finally:
-            sweep.loops = before
 
     return solved
 
