@@ -196,7 +196,7 @@ class Disorder(Section):
 
 def radii_array(value: object) -> Array:
     """Hold a copy of an array of finite numbers."""
-    if np.ma.isMaskedArray(value):
+    if isinstance(value, np.ndarray) and hasattr(value, "mask"):  # numpy.ma takes long to load
         raise ValueError("must have no masked entries: fill them in")
     try:
         given = np.asarray(value)
