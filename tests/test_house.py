@@ -21,7 +21,7 @@ LIMITS = {
     "derivations": 7_209,
     "numeric": 9_012,
     "force_diffusion": 78,
-    "benchmarks": 837,
+    "benchmarks": 833,
     ".ci": 500,
     "tests": 12_848,
 }
