@@ -66,7 +66,29 @@ class Symbol(sympy.Symbol):  # type: ignore[misc]
         return self.in_latex or str(printer._print_Symbol(self))
 
 
-class Written(sympy.Function):  # type: ignore[misc]
+class OfExpressions(sympy.Function):  # type: ignore[misc]
+    """A function of expressions and numbers; text, which SymPy would evaluate, is refused.
+
+    Raises:
+        TypeError: an argument is something else.
+    """
+
+    in_code = ""
+
+    def __new__(cls, *arguments: Any, **options: Any) -> Any:
+        """Make it of checked arguments."""
+        for argument in arguments:
+            try:
+                sympy.sympify(argument, strict=True)
+            except sympy.SympifyError:
+                name = cls.in_code or cls.__name__
+                raise TypeError(
+                    f"{name} takes expressions, such as i + 1, not {argument!r}"
+                ) from None
+        return super().__new__(cls, *arguments, **options)
+
+
+class Written(OfExpressions):
     """A function written by forms, in which %(0)s, %(1)s, … stand for its arguments.
 
     Those in the places ``factors`` stand in a product.
@@ -95,10 +117,10 @@ def _raised_to(exponent: str | None, shown: str) -> str:
     return shown if exponent is None else rf"({shown})^{{{exponent}}}"
 
 
-class WrittenAtSite(sympy.Function):  # type: ignore[misc]
+class WrittenAtSite(OfExpressions):
     """A quantity of a bead, or of the contact along n⁺ or n⁻ above it, with its indices below."""
 
-    latex_head = text_head = in_code = ""
+    latex_head = text_head = ""
     branch = ""  # "+" or "-" for a contact's quantity
 
     def _subscript(self, printer: Any) -> tuple[str, bool]:

@@ -148,9 +148,13 @@ def domain(observables: Iterable[sympy.Expr], load: LoadCase, *more: sympy.Basic
     """Where all contacts and beads that are named exist, and further relations hold.
 
     Raises:
-        ObservableError: that is nowhere.
+        ObservableError: that is nowhere, or a relation is about something else.
     """
     observables = tuple(observables)
+    occurring = {sy.M, *load.loading.place}.union(*(each.free_symbols for each in observables))
+    for relation in more:
+        if others := by_name(relation.free_symbols - occurring):
+            raise ObservableError(f"where={text(relation)}: {text(others[0])} does not occur")
     quantities = by_name(
         set().union(*(observable.atoms(sy.SiteFunction, *SPHERES) for observable in observables))
     )

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cached_property, lru_cache
+from keyword import iskeyword
 from numbers import Integral
 from typing import Any
 
@@ -401,7 +402,13 @@ class ClosedForm:
         ]
 
     def python(self, name: str = "closed_form") -> str:
-        """Python source of a function that computes what :meth:`at` does, without imports."""
+        """Python source of a function that computes what :meth:`at` does, without imports.
+
+        Raises:
+            ArgumentError: ``name`` can't be that of a function.
+        """
+        if not isinstance(name, str) or not name.isidentifier() or iskeyword(name):
+            raise ArgumentError(f"name={quoted(name)}: must be a valid name of a Python function")
         lines = [f"def {name}({', '.join(self.symbols)}):"]
         lines.append(f'    """{self._heading}."""')
         relations, even = self._conditions_of(self._needed)

@@ -75,6 +75,7 @@ CALLS: list[tuple[Callable[[Any], Any], tuple[Any, ...], str]] = [
      ("j >= 2", [j], phi > 0, None, [j > 2, "M"], j**2 > 3),
      "relations between indices are allowed, such as"),
     (lambda where: fd.variance(FORCE, where=where), (j >= M,), "no packing has these beads"),
+    (lambda where: fd.variance(FORCE, where=where), (k >= 4, (j > 2, k > l)), "k does not occur"),
     (lambda count: fd.variance(fd.mean_over(FORCE, count)),
      (0, -1, 2.5, "N", None, own("N"), N / 2, N**2), "a whole number from 1 up"),
     (lambda f: fd.mean_over(f, N), (f_plus(1, j), f_plus(p, j), FORCE + f_plus(k, l)),
@@ -101,11 +102,25 @@ def test_text_is_never_evaluated(tmp_path):
         lambda text: fd.mean_over(text, 2),
         lambda text: fd.mean_over(FORCE, text),
         lambda text: fd.variance(FORCE, where=text),
+        lambda text: f_plus(text, j),
+        lambda text: fd.force_moment(i, j, text, text),
     ):
         for given in (code, [code], Exception(code)):
-            with pytest.raises(ObservableError):
+            with pytest.raises((ObservableError, TypeError), match="__import__"):
                 ask(given)
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("place", [None, "i", [1], object()])
+def test_places_are_expressions(place):
+    with pytest.raises(TypeError, match=r"f_plus takes expressions, such as i \+ 1, not"):
+        f_plus(place, j)
+
+
+@pytest.mark.parametrize("name", ["a b", "class", "", "1x", None])
+def test_names_of_functions(name):
+    with pytest.raises(ArgumentError, match="must be a valid name of a Python function"):
+        fd.variance(FORCE).python(name)
 
 
 # numbers put in
