@@ -13,6 +13,8 @@ from force_diffusion.symbolic.symbols import (
 ABOVE = Domain.of(j >= 1)
 SUPPORTS = ((i - 1, j - 1), (i + 1, j - 1))
 LEFT, RIGHT = (DeltaX(*support) for support in SUPPORTS)
+LEFT_RADII, RIGHT_RADII = (terms(DeltaR(i, j), DeltaR(*support)) for support in SUPPORTS)
+"""δr of the bead plus that of each support."""
 half = sympy.Rational(1, 2)
 
 PRINTED = equation(
@@ -20,8 +22,8 @@ PRINTED = equation(
     terms(
         times(half, terms(LEFT, RIGHT)),
         minus(times(half, MatrixTimes(0, n_y / n_x, n_x / n_y, 0, terms(RIGHT, minus(LEFT))))),
-        times(terms(DeltaR(i, j), DeltaR(i - 1, j - 1)), b_plus),
-        times(terms(DeltaR(i, j), DeltaR(i + 1, j - 1)), b_minus),
+        times(LEFT_RADII, b_plus),
+        times(RIGHT_RADII, b_minus),
     ),
 )
 
@@ -71,14 +73,8 @@ def show_steps(steps: Steps) -> None:
     components = steps.show(
         "So each contact fixes one component of the displacement:",
         sympy.Tuple(
-            equation(
-                Dot(n_plus, terms(DeltaX(i, j), minus(LEFT))),
-                terms(DeltaR(i, j), DeltaR(i - 1, j - 1)),
-            ),
-            equation(
-                Dot(n_minus, terms(DeltaX(i, j), minus(RIGHT))),
-                terms(DeltaR(i, j), DeltaR(i + 1, j - 1)),
-            ),
+            equation(Dot(n_plus, terms(DeltaX(i, j), minus(LEFT))), LEFT_RADII),
+            equation(Dot(n_minus, terms(DeltaX(i, j), minus(RIGHT))), RIGHT_RADII),
         ),
         tuple(map(follows, linear.theorems)),
     )
@@ -102,8 +98,8 @@ def show_steps(steps: Steps) -> None:
         equation(
             DeltaX(i, j),
             terms(
-                times(terms(Dot(n_plus, LEFT), DeltaR(i, j), DeltaR(i - 1, j - 1)), b_plus),
-                times(terms(Dot(n_minus, RIGHT), DeltaR(i, j), DeltaR(i + 1, j - 1)), b_minus),
+                times(terms(Dot(n_plus, LEFT), *LEFT_RADII.args), b_plus),
+                times(terms(Dot(n_minus, RIGHT), *RIGHT_RADII.args), b_minus),
             ),
         ),
         solved,

@@ -26,10 +26,7 @@ PRINTED = equation(
     ),
 )
 
-FIRST_LAYER = terms(
-    times(terms(DeltaR(i, j), DeltaR(i - 1, j - 1)), b_plus),
-    times(terms(DeltaR(i, j), DeltaR(i + 1, j - 1)), b_minus),
-)
+FIRST_LAYER = terms(times(eq02.LEFT_RADII, b_plus), times(eq02.RIGHT_RADII, b_minus))
 
 
 @cache
@@ -55,18 +52,15 @@ def show_steps(steps: Steps) -> None:
         rewrite(resting, base),
         ABOVE.also(sympy.Eq(j, 1)),
     )
-    left, right = DeltaX(i - 1, j - 1), DeltaX(i + 1, j - 1)
     steps.show(
         "By Eq. 2, the component along n⁺ is that of the left support, which lies on the same "
         "diagonal, plus two δr; and likewise to the right:",
         sympy.Tuple(
             equation(
-                Dot(n_plus, DeltaX(i, j)),
-                terms(Dot(n_plus, left), DeltaR(i, j), DeltaR(i - 1, j - 1)),
+                Dot(n_plus, DeltaX(i, j)), terms(Dot(n_plus, eq02.LEFT), *eq02.LEFT_RADII.args)
             ),
             equation(
-                Dot(n_minus, DeltaX(i, j)),
-                terms(Dot(n_minus, right), DeltaR(i, j), DeltaR(i + 1, j - 1)),
+                Dot(n_minus, DeltaX(i, j)), terms(Dot(n_minus, eq02.RIGHT), *eq02.RIGHT_RADII.args)
             ),
         ),
         [follows(along(resting, n_plus)), follows(along(resting, n_minus))],
