@@ -8,8 +8,8 @@ from force_diffusion.derivations import (
     eq05_contact_minus as eq05, eq07_load_split as eq07, eq09_straight_path as eq09,
     eq10_branched_path as eq10)
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, Theorem, axioms, equation, lattice, minus, mirror,
-    mirror_of, moment, rewrite, shown, terms, times, usual)
+    Derivation, Domain, Groups, Steps, Theorem, axioms, equation, lattice, minus, mirror, mirror_of,
+    moment, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     M, DeltaNMinus, DeltaNPlus, Dot, ForcePlus, Variance, f_load, i, j, k, l, n, n_minus, n_plus,
     n_y, phi, r, sigma)
@@ -19,29 +19,22 @@ LAYERS = Domain.of(j >= 0, j < M)
 LOADED = LAYERS.loaded(axioms.SURFACE)
 ORDERED = f_load / (2 * n_y)
 
+WEIGHT = 1 / (1 - phi**2)
+BRANCH = Dot(n_plus, terms(DeltaNMinus(i + n + 1, j + n - 1), minus(DeltaNMinus(i + n, j + n))))
+"""By how much a force along n⁻ turns at the bead from which it branches into the contact."""
+
 PRINTED = equation(
     ForcePlus(i, j) / ORDERED,
     terms(
         1,
         times(
-            1 / (1 - phi**2),
+            WEIGHT,
             terms(
                 times(phi, Dot(n_minus, DeltaNPlus(i, j))),
                 minus(Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1))),
             ),
         ),
-        minus(
-            times(
-                1 / (1 - phi**2),
-                sympy.Sum(
-                    Dot(
-                        n_plus,
-                        terms(DeltaNMinus(i + n + 1, j + n - 1), minus(DeltaNMinus(i + n, j + n))),
-                    ),
-                    (n, 1, M - j - 1),
-                ),
-            )
-        ),
+        minus(times(WEIGHT, sympy.Sum(BRANCH, (n, 1, M - j - 1)))),
     ),
 )
 

@@ -8,8 +8,7 @@ from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, at_fixed_height, equation, minus, moment, negligible, rewrite, terms,
     times)
 from force_diffusion.symbolic.symbols import (
-    Braces, DeltaNMinus, DeltaR, Dot, ForcePlus, M, Mean, SecondDifference, f_load, i, j, m, n,
-    n_plus, n_y, phi, r)
+    Braces, DeltaR, ForcePlus, M, Mean, SecondDifference, f_load, i, j, m, n, n_y, phi, r)
 # fmt: on
 
 ON_DIAGONAL = SecondDifference(i - (j - m), m)
@@ -26,9 +25,6 @@ PRINTED = equation(
 DOUBLE_SUM = sympy.Sum(sympy.Sum(ON_DIAGONAL, (m, 1, j + n)), (n, 1, M - j))
 """The paper's intermediate form: Δ summed over the layers below each branch."""
 
-BRANCH_TERM = Dot(
-    n_plus, terms(DeltaNMinus(i + n + 1, j + n - 1), minus(DeltaNMinus(i + n, j + n)))
-)
 BRANCH_IN_RADII = terms(
     sympy.Sum(ON_DIAGONAL, (m, 1, j + n - 1)),
     times(sympy.Rational(1, 2), SecondDifference(i - j, 0)),
@@ -60,7 +56,7 @@ def show_steps(steps: Steps) -> None:
         "Each term of the sum over n in Eq. 11 compares two neighbouring contacts along n⁻. By "
         "Eq. 5 it holds a second difference in every layer below the branch, half of one on the "
         "base, and four radii beside the branch:",
-        equation(BRANCH_TERM, times(1 / r, BRANCH_IN_RADII)),
+        equation(eq11.BRANCH, times(1 / r, BRANCH_IN_RADII)),
         rewrite(eq05.DERIVATION.theorem),
         Domain.of(j >= 0, n >= 1),
     )

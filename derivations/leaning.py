@@ -22,12 +22,11 @@ IN_BULK = eq11.LAYERS.loaded(axioms.BULK_TILTED)
 def _along(own: sympy.Expr, turned: sympy.Expr) -> sympy.Add:
     """Eq. 11: ``own`` comes along n⁺, and of the other branch's load ``turned``/(1 − φ²) turns."""
     weight = turned / (1 - phi**2)
-    changes = terms(DeltaNMinus(i + n + 1, j + n - 1), minus(DeltaNMinus(i + n, j + n)))
     return terms(
         own,
         times(own * phi / (1 - phi**2), Dot(n_minus, DeltaNPlus(i, j))),
         minus(times(weight, Dot(n_plus, DeltaNMinus(i + M - j + 1, M - 1)))),
-        minus(times(weight, sympy.Sum(Dot(n_plus, changes), (n, 1, M - j - 1)))),
+        minus(times(weight, sympy.Sum(eq11.BRANCH, (n, 1, M - j - 1)))),
     )
 
 
