@@ -33,14 +33,19 @@ TILTS = {
 }
 
 
+def at_bead(across: sympy.Expr, layer: sympy.Expr) -> dict[sympy.Symbol, sympy.Expr]:
+    """A bead in place of (r, s)."""
+    return {site_r: across, site_s: layer}
+
+
 def straight(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     """f⁺ leaving over f⁺ entering a bead (first part)."""
-    return PRINTED[0].rhs.xreplace({site_r: across, site_s: layer})
+    return PRINTED[0].rhs.xreplace(at_bead(across, layer))
 
 
 def branching(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     """f⁻ leaving over f⁺ entering a bead (second part)."""
-    return PRINTED[1].rhs.xreplace({site_r: across, site_s: layer})
+    return PRINTED[1].rhs.xreplace(at_bead(across, layer))
 
 
 def show_steps(steps: Steps) -> None:

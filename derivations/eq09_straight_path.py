@@ -5,10 +5,9 @@ import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq08_propagation as eq08
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Rule, Steps, Theorem, axioms, equation, minus, rewrite, terms, times,
-    usual)
+    Derivation, Domain, Rule, Steps, Theorem, axioms, equation, minus, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
-    DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, i, j, k, l, n_minus, phi, site_r, site_s)
+    DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, i, j, k, l, n_minus, phi)
 from sympy import Eq
 # fmt: on
 
@@ -58,9 +57,7 @@ def show_steps(steps: Steps) -> None:
         "Each bead that the force passes multiplies it by the factor of Eq. 8:",
         equation(ForcePlus(i, j) / ForcePlus(*above), eq08.straight(*above)),
         rewrite(eq08.DERIVATION.theorems[0]),
-        Domain.of(
-            j >= 0, loading=axioms.PASSING.put_in(dict(zip((site_r, site_s), above, strict=True)))
-        ),
+        Domain.of(j >= 0, loading=axioms.PASSING.put_in(eq08.at_bead(*above))),
     )
     steps.show(
         "To first order the changes in a product add up:",

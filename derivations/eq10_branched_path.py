@@ -7,7 +7,7 @@ from force_diffusion.derivations import eq09_straight_path as eq09
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, axioms, equation, lattice, minus, rewrite, terms, times)
 from force_diffusion.symbolic.symbols import (
-    DeltaNPlus, Dot, ForceMinus, ForcePlus, i, j, k, l, n, n_minus, p, phi, q, site_r, site_s)
+    DeltaNPlus, Dot, ForceMinus, ForcePlus, i, j, k, l, n, n_minus, p, phi, q)
 from sympy import Eq
 # fmt: on
 
@@ -70,11 +70,7 @@ def show_steps(steps: Steps) -> None:
         "By Eq. 8, the force that leaves this bead along n⁻ is",
         equation(ForceMinus(i - n + 1, j + n - 1) / ForcePlus(*bead), eq08.branching(*bead)),
         rewrite(eq08.DERIVATION.theorems[1]),
-        Domain.of(
-            n >= 1,
-            j >= 0,
-            loading=axioms.PASSING.put_in(dict(zip((site_r, site_s), bead, strict=True))),
-        ),
+        Domain.of(n >= 1, j >= 0, loading=axioms.PASSING.put_in(eq08.at_bead(*bead))),
     )
     steps.show(
         "The straight pieces count at order 0, where they are 1 (Eq. 9). By induction, layer after "
