@@ -6,7 +6,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import ForceDiffusionError, printable
+from force_diffusion.numeric.arithmetic.errors import (
+    ForceDiffusionError,
+    MissingLibraryError,
+    printable,
+)
+from force_diffusion.numeric.figures.names import KINDS as PICTURES
 from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 
 import force_diffusion as fd
@@ -15,7 +20,7 @@ from ..export.answers import Format, check, files_of, names_of
 from .guard import about as named
 from .guard import in_range, say, tell
 from .output import Output, Overwrite, out_option
-from .shared import Json, Quiet, Written, command_line, drawn, images, show, sourced, warn
+from .shared import Json, Quiet, Written, command_line, show, sourced, warn
 from .sweep import Settings, name_of, variants
 
 if TYPE_CHECKING:
@@ -146,7 +151,8 @@ def cost(
     from force_diffusion.numeric.tables import csv_bytes
 
     command = command_line()
-    folder = Output(out, ["cost.json", "cost.csv", *images("cost")], overwrite) if out else None
+    names = [f"cost.{kind}" for kind in ("json", "csv", *PICTURES)]
+    folder = Output(out, names, overwrite) if out else None
     head = iter([HEAD])
 
     def say_row(way: object) -> None:
@@ -159,7 +165,13 @@ def cost(
     data = {"command": command, "source": sourced(source_of(read), scene, None), **study.data()}
     if folder:
         title = f"Cost of accuracy: {printable(scene.stem)}"
-        plots = drawn(lambda: study.plot(title), "cost", title, command)
+        plots: dict[str, bytes] = {}
+        try:
+            from force_diffusion.numeric.figures import style
+
+            plots = style.images(study.plot(title), "cost", title, command, PICTURES)
+        except MissingLibraryError as error:
+            tell(f"no plot: {error}")
         text = json.dumps(data, indent=2) + "\n"
         columns = {name: [str(row[name]) for row in study.rows()] for name in study.rows()[0]}
         folder.write({"cost.json": text, "cost.csv": csv_bytes(columns), **plots})

@@ -1,4 +1,4 @@
-"""What several commands share: options, the printing of answers, a progress line, and plots."""
+"""What several commands share: options, the printing of answers, and a progress line."""
 
 import os
 import shlex
@@ -10,8 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import MissingLibraryError, printable
-from force_diffusion.numeric.figures.names import KINDS
+from force_diffusion.numeric.arithmetic.errors import printable
 
 from ..export import answers
 from ..export.answers import Format
@@ -20,7 +19,6 @@ from .guard import tell
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
     from force_diffusion.numeric.tables import Answered
-    from matplotlib.figure import Figure
 
 PROVED = (
     "Exit status: 0 all proved; 1 something refuted or undecided; 2 wrong usage or input; "
@@ -111,20 +109,3 @@ def noticing() -> Iterator[Callable[[str], None]]:
         yield notice
     finally:
         notice("")
-
-
-def drawn(plot: "Callable[[], Figure]", name: str, title: str, command: str) -> dict[str, bytes]:
-    """Give the files of a plot, which hold the command; or say what is missing, and none."""
-    try:
-        figure = plot()
-    except MissingLibraryError as error:
-        tell(f"no plot: {error}")
-        return {}
-    from force_diffusion.numeric.figures import style
-
-    return style.images(figure, name, title, command, KINDS)
-
-
-def images(name: str) -> list[str]:
-    """Files of a plot."""
-    return [f"{name}.{kind}" for kind in KINDS]
