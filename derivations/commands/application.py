@@ -14,7 +14,7 @@ from force_diffusion.numeric.arithmetic.errors import printable, rule, suggestio
 from typer.core import TyperGroup
 
 from ..framework.lists import either
-from . import certify, deriving, ensemble, equations, examples, figures, scenes
+from . import certify, deriving, ensemble, equations, figures, scenes
 from .shared import ANSWERED, PROVED
 
 COMMANDS: dict[str, tuple[Callable[..., None], str | None]] = {
@@ -22,7 +22,7 @@ COMMANDS: dict[str, tuple[Callable[..., None], str | None]] = {
     "certify": (certify.certify, certify.STATUSES),
     "show": (equations.show, None),
     "list": (equations.list_equations, None),
-    "examples": (examples.examples, examples.STATUSES),
+    "examples": (scenes.examples, scenes.COPIED),
     "run": (scenes.run, ANSWERED),
     "explain": (scenes.explain, ANSWERED),
     "cost": (scenes.cost, ANSWERED),

@@ -2,6 +2,7 @@
 
 import json
 import sys
+from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -19,12 +20,14 @@ import force_diffusion as fd
 from ..export.answers import Format, check, files_of, names_of
 from .guard import about as named
 from .guard import in_range, say, tell
-from .output import Output, Overwrite, out_option
+from .output import Output, Overwrite, folder_of, out_option
 from .shared import Json, Quiet, Written, command_line, show, sourced, warn
 from .sweep import Settings, name_of, variants
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.planning.plan import Plan
+
+COPIED = "Exit status: 0 copied; 2 the folder exists; 3 the disk failed; 130 interrupted."
 
 
 def scene_argument(command: str) -> Any:
@@ -179,3 +182,20 @@ def cost(
         print(json.dumps(data, indent=2))
     for name, why in study.skipped.items():
         tell(f"{name}: {why}")
+
+
+def examples(
+    folder: Annotated[
+        Path, typer.Argument(metavar="DIR", help="Where to copy them.", parser=folder_of)
+    ],
+    overwrite: Overwrite = False,
+) -> None:
+    """Copy the example scenes into a new folder."""
+    scenes = {
+        file.name: file.read_bytes()
+        for file in files("force_diffusion.scenes").iterdir()
+        if file.is_file() and not file.name.endswith(".py")
+    }
+    Output(folder, scenes, overwrite).write(scenes)
+    for name in sorted(scenes):
+        say(str(folder / name))
