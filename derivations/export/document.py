@@ -115,7 +115,7 @@ def section_latex(outcome: ProofOutcome, explained: str = "") -> str:
     ]
     if proof is None:
         checks = (f"{of.words}: {sentence(of.name)} {sentence(of.note)}" for of in outcome.checks)
-        return "".join([*parts, f"Verdict: {outcome.words}.\n\n", *map(prose_latex, checks)])
+        return "".join([*parts, f"Verdict: {outcome.ruling.words}.\n\n", *map(prose_latex, checks)])
     for reading in proof.refuted:
         formula = display([reading.formula], reading.relation)
         words = (prose_latex(sentence(part)) for part in (reading.reading, reading.reason))
@@ -148,7 +148,7 @@ def _sections(outcomes: Iterable[ProofOutcome], explained: str) -> str:
 def _verdicts(outcomes: Iterable[ProofOutcome]) -> str:
     rows = (
         f"({of.derivation.number}) & {prose_latex(of.derivation.title)} & "
-        f"{prose_latex(of.words)} & {recorded(of.derivation).partition(' by ')[0]} \\\\\n"
+        f"{prose_latex(of.ruling.words)} & {recorded(of.derivation).partition(' by ')[0]} \\\\\n"
         for of in outcomes
     )
     return (

@@ -49,7 +49,7 @@ def expected_text(refuted: int) -> str:
 
 def counts_text(outcomes: Sequence[ProofOutcome]) -> str:
     """How many equations have which verdict, and how many printed statements are refuted."""
-    counts = Counter(outcome.words.replace(",", "") for outcome in outcomes)
+    counts = Counter(outcome.ruling.words.replace(",", "") for outcome in outcomes)
     refuted = expected_text(sum(len(outcome.refuted) for outcome in outcomes))
     verdicts = (f"{count} {words}" for words, count in counts.items())
     return "; ".join(filter(None, [*verdicts, refuted]))
@@ -57,7 +57,7 @@ def counts_text(outcomes: Sequence[ProofOutcome]) -> str:
 
 def verdict_text(outcome: ProofOutcome) -> str:
     """The verdict on one equation; and printed statements of it that were refuted."""
-    return "; ".join(filter(None, [outcome.words, expected_text(len(outcome.refuted))]))
+    return "; ".join(filter(None, [outcome.ruling.words, expected_text(len(outcome.refuted))]))
 
 
 def heading(derivation: Statement) -> str:
@@ -139,8 +139,8 @@ def outcome_text(outcome: ProofOutcome) -> str:
 
 def summary_text(outcome: ProofOutcome) -> str:
     """Number, verdict and title, and the seconds it took; below it what kept it from proof."""
-    derivation, seconds = outcome.derivation, outcome.seconds
-    line = f"{derivation.number!s:>3}  {outcome.words:<9}  {derivation.title} ({seconds:.2f} s)"
+    derivation, words = outcome.derivation, outcome.ruling.words
+    line = f"{derivation.number!s:>3}  {words:<9}  {derivation.title} ({outcome.seconds:.2f} s)"
     open_checks = (
         check for check in outcome.checks if not (check.verdict.is_proved or check.is_expected)
     )
@@ -163,7 +163,7 @@ def outcomes_data(outcomes: Iterable[ProofOutcome], *, timed: bool = True) -> di
         {
             **statement_data(outcome.derivation),
             "verdict": str(outcome.verdict),
-            "assuming": list(outcome.assuming),
+            "assuming": list(outcome.ruling.assuming),
             "checks": [
                 {
                     "kind": check.kind,

@@ -161,6 +161,8 @@ class Refuted:
 class Steps(list[Step]):
     """The steps of a derivation, which number themselves.
 
+    ``seconds`` is how long their proof took, without those of the equations that it rests on.
+
     Args:
         equation: the number of the derivation.
         domain: of a step that does not have its own.
@@ -173,6 +175,7 @@ class Steps(list[Step]):
         self._definitions = definitions
         self.claims: list[Step] = []
         self.refuted: list[Refuted] = []
+        self.seconds = 0.0
 
     def show(
         self,

@@ -65,16 +65,9 @@ class Statement:
         start, others = perf_counter(), sum(_SECONDS)
         steps = Steps(self.number, self.step_domain or self.domain, self.definitions)
         self.show_steps(steps)
-        seconds = perf_counter() - start - (sum(_SECONDS) - others)
-        _SECONDS.append(seconds)
-        self.__dict__["seconds"] = seconds
+        steps.seconds = perf_counter() - start - (sum(_SECONDS) - others)
+        _SECONDS.append(steps.seconds)
         return steps
-
-    @property
-    def seconds(self) -> float:
-        """How long its proof took, without those of the equations that it rests on."""
-        _ = self.proof
-        return float(self.__dict__["seconds"])
 
     @property
     def premises(self) -> tuple[Number, ...]:
@@ -220,16 +213,6 @@ class ProofOutcome:
     def verdict(self) -> Verdict:
         """The verdict on the equation."""
         return self.ruling.verdict
-
-    @property
-    def assuming(self) -> tuple[str, ...]:
-        """What its proofs assume and no rule discharges, where it is proved."""
-        return self.ruling.assuming
-
-    @property
-    def words(self) -> str:
-        """Its verdict, and what it assumes."""
-        return self.ruling.words
 
     @property
     def refuted(self) -> tuple[Check, ...]:

@@ -56,7 +56,7 @@ def checks(statement: Statement) -> Iterator[Check]:
 def run(statement: Statement) -> ProofOutcome:
     """Prove all of one equation; what is not proved makes it undecided."""
     try:
-        return ProofOutcome(statement, tuple(checks(statement)), statement.seconds)
+        return ProofOutcome(statement, tuple(checks(statement)), statement.proof.seconds)
     except (NotProvedError, LookupError) as reason:
         failure = _check("proof", "its derivation", undecided(str(reason)))
         return ProofOutcome(statement, (failure,))

@@ -20,7 +20,7 @@ from tests.derivations.rows import each
 @pytest.mark.parametrize("number", each(modules()))
 def test_proved(number):
     outcome = run(load(number))
-    assert outcome.assuming == ((GAUSSIAN_FORCES,) if number == 15 else ())
+    assert outcome.ruling.assuming == ((GAUSSIAN_FORCES,) if number == 15 else ())
     assert outcome.verdict is (Verdict.ASSUMING if number == 15 else Verdict.PROVED)
     for check in outcome.checks:
         if check.name.startswith("printed equation"):

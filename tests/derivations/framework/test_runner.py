@@ -54,7 +54,7 @@ def test_a_printed_equation_that_no_step_shows_is_undecided():
 def test_an_assumption_is_named_in_every_report(make):
     outcome = run(make(fakes.guessed))
     assert outcome.verdict is Verdict.ASSUMING
-    assert outcome.assuming == (fakes.GUESS,)
+    assert outcome.ruling.assuming == (fakes.GUESS,)
     words = f"proved, assuming {fakes.GUESS}"
     (line,) = summary_text(outcome).splitlines()
     assert words in line
@@ -80,8 +80,8 @@ def test_what_rests_on_an_assumption_assumes_it():
     twice = equation(2 * left, 2 * right)
     outcome = run(replace(fakes.CONCLUSION, printed=(twice,), show_steps=conclusion))
     assert outcome.verdict is Verdict.ASSUMING
-    assert outcome.words == f"proved, assuming {fakes.GUESS}"
-    assert run(fakes.with_claim(fakes.baffled)).assuming == ()
+    assert outcome.ruling.words == f"proved, assuming {fakes.GUESS}"
+    assert run(fakes.with_claim(fakes.baffled)).ruling.assuming == ()
 
 
 def test_a_step_defines_new_symbols_alone_and_rests_on_nothing_supposed():
