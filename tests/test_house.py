@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_193,
-    "derivations": 7_216,
+    "derivations": 7_170,
     "numeric": 9_012,
     "force_diffusion": 78,
     "benchmarks": 833,
