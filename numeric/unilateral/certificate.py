@@ -12,6 +12,7 @@ this way.
 β is the inverse of A's smallest singular value, which one sparse factorisation bounds.
 """
 
+from collections.abc import Iterable
 from typing import Any
 
 import flint
@@ -98,11 +99,8 @@ def _enclosed(
     turned = 1.42 * reach / shortest  # how much a direction changes within reach
     across = root / _remaining(least, 2 * root * (off + turned))
     forces = _balanced(grains, contacts, place, directions, known, factors, across, turned)
-    radius = flint.arb(0, reach)
     enclosed = x.copy()
-    for bead in backbone:
-        for k in (0, 1):
-            enclosed[bead, k] = enclosed[bead, k] + radius
+    enclosed[backbone] += flint.arb(0, reach)
     return enclosed, forces, h
 
 
@@ -127,7 +125,8 @@ def smallest_gap(x: Array, known: Frame, touching: Pairs) -> float:
     gaps = grains.gaps(others)
     # radii of the balls: of two beads' coordinates, √2 · 2 < 3, and of two radii of beads; then
     # what float64 rounds, some ten operations on numbers of this size
-    off = 3 * _widest(x) + 2 * _widest(known.radii)
+    off = 3 * _largest(ball.rad() for ball in x.flat)
+    off += 2 * _largest(ball.rad() for ball in known.radii)
     off += 1e-13 * (1 + float(np.abs(grains.x).max()) + grains.period)
     smallest = min(float(gaps.min(initial=FAR)), FAR) - off
     if not smallest > 0:
@@ -137,10 +136,6 @@ def smallest_gap(x: Array, known: Frame, touching: Pairs) -> float:
             f"the gap is {gaps.min():.2g} r"
         )
     return smallest
-
-
-def _widest(balls: Array) -> float:
-    return max((_upper(ball.rad()) for ball in balls.ravel()), default=0.0)
 
 
 def _remaining(least: float, change: float) -> float:
@@ -197,8 +192,9 @@ def _upper(ball: Any) -> float:
     return float(abs(ball).upper()) * (1 + 1e-15) + 1e-300
 
 
-def _largest(balls: Array) -> float:
-    return max((_upper(ball) for ball in balls), default=0.0)
+def _largest(balls: Iterable[Any]) -> float:
+    """Bound the sizes of balls; NaN where one of them is none."""
+    return float(np.max([*map(_upper, balls)], initial=0.0))
 
 
 def _geometry(x: Array, pairs: Pairs, known: Frame, grains: Grains) -> tuple[Array, Array]:
@@ -240,9 +236,6 @@ def _balanced(
         kept = forces
         step = factors.solve(np.array([-float(value.mid()) for value in free]), trans="T")
         forces = _middle(forces + _exactly(step))
-    carried = np.zeros(len(grains.radii))
-    for (a, b), force in zip(contacts, kept, strict=True):
-        carried[a] += _upper(force)
-        carried[b] += _upper(force)
+    carried = np.bincount(contacts.ravel(), np.repeat([*map(_upper, kept)], 2))
     bound = across * (left + turned * float(carried.max()) * (1 + 1e-9)) * (1 + 1e-9)
     return np.asarray(kept + flint.arb(0, bound))
