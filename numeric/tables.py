@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from .arithmetic.decimals import short
 from .arithmetic.errors import MissingLibraryError
 from .arithmetic.systems import Array, as_floats
 
@@ -197,11 +198,13 @@ def significant(values: Array, digits: Array) -> list[str]:
 
 
 def text_of(column: Array) -> list[str]:
-    """Write whole numbers, words without quotes and commas, or floats with 15 digits.
+    """Write whole numbers, words without quotes and commas, floats (15 digits), fractions (12).
 
     >>> text_of(np.array([3, -12])), text_of(np.array(["+", "-"]))
     (['3', '-12'], ['+', '-'])
     """
+    if column.dtype == object:
+        return [short(value, 12) for value in column]
     if column.dtype.kind == "f":
         return significant(column, np.full(len(column), 15))
     shared = cache(str)  # few sites and branches, many times

@@ -61,6 +61,14 @@ def parse(text: str) -> Fraction:
     return exact(Decimal(stripped))
 
 
+def nearest(value: Fraction) -> float:
+    """Round to a float, which may be infinite."""
+    try:
+        return float(value)
+    except OverflowError:
+        return math.inf if value > 0 else -math.inf
+
+
 def decimal_string(value: Fraction) -> str:
     """Write all of an exact decimal, or 40 digits.
 

@@ -2,6 +2,7 @@
 
 import math
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -220,9 +221,7 @@ class Ensemble(tables.Answered):
         theory, ratio = self.first_order_std, self.std_over_mean
         index = {**self.index, "samples": np.full(self.measurement.groups, self.samples)}
         if theory is not None:
-            index["first_order_std"] = np.array(
-                tables.significant(theory, np.full(len(theory), 12))
-            )
+            index["first_order_std"] = np.array([*map(Fraction, theory)])
         index["tensile"] = self.tensile
         numbers = {"mean": self.mean, "mean_change": self.mean_change, "std": self.std}
         if ratio is not None:

@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from ..arithmetic.decimals import nearest
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..disorder.radii import DrawnRadii
 from ..lattice import regions
@@ -43,10 +44,11 @@ Bins = list[tuple[Fraction, Fraction, int]]
 class Table:
     """Rows of an answer, column by column; all columns have the same length.
 
-    ``index`` names the rows (sites, branches, realisations), ``numbers`` are in the arithmetic of
-    the run. ``small`` columns are the deviations from the ordered packing: accuracy is judged by
-    their error, relative to the largest of them. ``errors`` are standard errors of the columns that
-    are statistics over packings. ``bins`` are those of a histogram, whose rows are changes.
+    ``index`` names the rows (sites, branches, realisations), and holds what theory says of them, in
+    fractions (dtype object). ``numbers`` are in the arithmetic of the run. ``small`` columns are
+    the deviations from the ordered packing: accuracy is judged by their error, relative to the
+    largest of them. ``errors`` are standard errors of the columns that are statistics over
+    packings. ``bins`` are those of a histogram, whose rows are changes.
     """
 
     index: Columns
@@ -62,9 +64,9 @@ class Table:
 
     @property
     def columns(self) -> Columns:
-        """All columns, each standard error beside its number."""
+        """All columns, exact numbers as float64, each standard error beside its number."""
         columns = {
-            name: values.astype(np.float64) if name == "first_order_std" else values
+            name: np.array([*map(nearest, values)]) if values.dtype == object else values
             for name, values in self.index.items()
         }
         for name, values in self.numbers.items():

@@ -4,7 +4,6 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.decimals import short
 from ..arithmetic.systems import Array
 from ..lattice.layers import Block, Region
 from ..mechanics.problem import Problem
@@ -57,8 +56,7 @@ class Profile(Merged):
         contacts = zip(index["j"].tolist(), index["branch"], strict=True)
         theory = first_order_std(problem, contacts)
         if theory is not None:
-            stds = [short(std, 12) for std in theory * self.scene.load.magnitude]
-            index["first_order_std"] = np.array(stds, dtype="U")
+            index["first_order_std"] = theory * self.scene.load.magnitude
         numbers = {
             "mean": statistics.ordered + statistics.mean,
             "mean_change": statistics.mean,

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..accuracy import Accuracy, printed
-from ..arithmetic.decimals import bound_string, short
+from ..arithmetic.decimals import bound_string, nearest, short
 from ..arithmetic.systems import Array
 from ..mechanics.physicality import Physicality
 from ..planning.plan import Plan
@@ -54,8 +54,8 @@ class Result(Answered):
         if self.table.bins is not None:
             bins = self.table.bins  # none where no load reaches a contact
             return {
-                "low": np.array([_near(low) for low, _, _ in bins]),
-                "high": np.array([_near(high) for _, high, _ in bins]),
+                "low": np.array([nearest(low) for low, _, _ in bins]),
+                "high": np.array([nearest(high) for _, high, _ in bins]),
                 "count": np.array([count for _, _, count in bins], dtype=np.int64),
             }
         return self.table.columns
@@ -238,14 +238,6 @@ def _network_data(found: Network) -> dict[str, Any]:
         "kantorovich": found.kantorovich,
         "rest": found.rest,
     }
-
-
-def _near(value: Fraction) -> float:
-    """Round to a float, which may be infinite."""
-    try:
-        return float(value)
-    except OverflowError:
-        return math.inf if value > 0 else -math.inf
 
 
 def _bound(bound: float | Fraction) -> float | str | None:
