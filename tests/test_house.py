@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_193,
     "derivations": 7_170,
-    "numeric": 9_012,
+    "numeric": 9_007,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
