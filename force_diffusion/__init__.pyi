@@ -55,5 +55,4 @@ from .numeric.scene.sections import Packing as Packing
 from .numeric.scene.sections import PointLoad as PointLoad
 from .numeric.scene.sections import SceneError as SceneError
 from .numeric.scene.sections import SurfaceLoad as SurfaceLoad
-from .numeric.unilateral.linear_programs import MissingSolverError as MissingSolverError
 from .numeric.unilateral.network import UnfinishedError as UnfinishedError

@@ -1,17 +1,25 @@
-"""Measured radii and loads from CSV files: decimals read exactly, every error naming its line."""
+"""Files that other programs or people wrote: tables of radii and loads, and arrays.
+
+Decimals are read exactly, and every error names its line. Each file from outside is opened here.
+"""
 
 import csv
 import math
+import os
 import re
 from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from functools import partial
 from io import TextIOWrapper
 from pathlib import Path
+from tokenize import TokenError
+from typing import BinaryIO
+
+import numpy as np
 
 from ..arithmetic.decimals import parse, short
 from ..arithmetic.errors import ForceDiffusionError, quoted
-from ..arithmetic.foreign import ForeignFileError, opened, read_numbers
 from ..arithmetic.systems import Array
 from ..lattice.branch import Site, axis_names, bead_names
 from ..lattice.layers import Naming, whole
@@ -23,6 +31,50 @@ LARGEST = 2**31  # bytes of a table; 10^8 beads
 LONGEST_LINE = 20_000  # characters; numbers have at most 5000 digits
 MOST = 10**100  # of δr/r: gaps between beads are measured in float64, which holds their squares
 FARTHEST = 2**50  # r: beyond, float64 tells no beads apart
+
+
+class ForeignFileError(ForceDiffusionError, ValueError):
+    """A file can't be used; the message says why, and whoever opened it puts its name before."""
+
+
+@contextmanager
+def opened(path: Path, most: int | None = None) -> Iterator[BinaryIO]:
+    """Open an ordinary file of at most ``most`` bytes. Raises ``ForeignFileError``."""
+    if not path.is_file():  # a device or a pipe may have no end
+        raise ForeignFileError(
+            "must be a regular file" if path.exists() else "there is no such file"
+        )
+    try:
+        with path.open("rb") as file:
+            size = os.fstat(file.fileno()).st_size
+            if most is not None and size > most:
+                raise ForeignFileError(f"must have at most {most} bytes, and has {size}")
+            yield file
+    except OSError as error:
+        raise ForeignFileError(f"can't be read ({error.strerror})") from None
+
+
+def read_numbers(path: Path) -> Array:
+    """Map the array of a NumPy file (.npy) of real numbers; nothing of it is read yet.
+
+    Raises ``ForeignFileError``.
+    """
+    with opened(path) as file:
+        if file.read(2) == b"PK":
+            archive = "is a ZIP archive, as .npz is; save the one array with np.save"
+            raise ForeignFileError(archive)
+    try:
+        with np.errstate(all="raise"):  # of sizes beyond all memory
+            array = np.asarray(np.load(path, "r", allow_pickle=False))
+    except (ValueError, TypeError, ArithmeticError, SyntaxError, EOFError, OSError, TokenError):
+        raise ForeignFileError(
+            "is not a NumPy file of numbers, as np.save writes one, or is cut off"
+        ) from None
+    if not array.size:
+        raise ForeignFileError(f"is empty: its shape is {array.shape}")
+    if array.dtype.kind not in "iuf":
+        raise ForeignFileError(f"real numbers are needed, and it holds '{array.dtype}'")
+    return array
 
 
 class TableError(ForceDiffusionError, ValueError):

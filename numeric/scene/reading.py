@@ -10,7 +10,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TypeVar
 
-from ..arithmetic.foreign import ForeignFileError, opened
+from .files import ForeignFileError, opened
 from .scene import CheckedScene
 from .sections import SceneError, unknown
 

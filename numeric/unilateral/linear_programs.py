@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from ..arithmetic.errors import ForceDiffusionError
+from ..arithmetic.errors import MissingLibraryError
 from ..arithmetic.systems import Array
 from .grains import Grains, Pairs
 from .network import UnfinishedError
@@ -31,20 +31,11 @@ FEW = 200
 NO_FORCE = 1e-7
 
 
-class MissingSolverError(ForceDiffusionError, ImportError):
-    """HiGHS is not installed."""
-
-    def __init__(self) -> None:
-        super().__init__(
-            'contacts that open need highspy: pip install "force-diffusion[unilateral]"'
-        )
-
-
 def relax(grains: Grains, most: int, progress: Callable[[int], None]) -> tuple[Pairs, Array, int]:
     """Move ``grains``, which must not overlap, until they rest.
 
     Gives near pairs, the force of each, and how many programs it took. Raises ``UnfinishedError``
-    after ``most`` programs, and ``MissingSolverError`` without highspy.
+    after ``most`` programs, and ``MissingLibraryError`` without highspy.
     """
     scale, gains = float(np.abs(grains.weights).sum()), []
     programs, by_simplex, bore = _Programs(grains), False, np.array([])
@@ -112,7 +103,9 @@ class _Programs:
         try:
             import highspy
         except ImportError:
-            raise MissingSolverError from None
+            raise MissingLibraryError(
+                'contacts that open need highspy: pip install "force-diffusion[unilateral]"'
+            ) from None
         program = highspy.HighsLp()
         program.num_col_, program.num_row_ = A.shape[1], A.shape[0]
         program.col_cost_ = -self.grains.weights

@@ -7,8 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from force_diffusion.numeric.arithmetic.foreign import ForeignFileError, read_numbers
-from force_diffusion.numeric.scene.files import TableError
+from force_diffusion.numeric.scene.files import ForeignFileError, TableError, read_numbers
 from hypothesis import given
 from hypothesis import strategies as st
 
