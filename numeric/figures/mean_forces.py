@@ -11,6 +11,7 @@ import numpy as np
 
 from .. import closed_forms
 from ..arithmetic.systems import Array
+from ..planning.plan import Plan
 from ..scene.sections import BulkLoad, SurfaceLoad
 from . import packings
 from .packings import Comparison, Made, Medium, Options
@@ -50,16 +51,14 @@ def leading(load: str, z: Array, phi: float) -> Array:
 def simulated(o: Options, load: str, spacing: Fraction) -> Comparison:
     """Solve all packings exactly and to first order."""
     number, loaded, _ = LOADS[load]
-    where = f"{load} load, s = {float(spacing):g} r"
+    where, medium = f"{load} load, s = {float(spacing):g} r", Medium(spacing, STD)
 
-    def changed(geometry: str) -> Array:
-        medium = Medium(spacing, STD)
-        ensemble = packings.planned(
-            "profile", o, medium, height=HEIGHT, geometry=geometry, load=loaded()
-        )
-        return packings.moments(ensemble, o.notice, f"figure B5, {where}, {geometry}")[0]
+    def changes(plan: Plan) -> Array:
+        what = f"figure B5, {where}, {plan.problem.route}"
+        return packings.moments(plan, o.notice, what)[0]
 
-    band = packings.band_of_shift(changed, STD**2, o.seed)
+    ensemble = packings.planned("profile", o, medium, height=HEIGHT, load=loaded())
+    band = packings.band_of_shift(ensemble, changes, STD**2, o.seed)
     return Comparison(f"{where}: Eq. {number}", band, theory(load, HEIGHT, spacing))
 
 

@@ -10,6 +10,7 @@ import numpy as np
 
 from ..arithmetic.systems import Array
 from ..mechanics.sweep import Solved
+from ..planning.plan import Plan
 from ..scene.sections import PointLoad
 from . import packings
 from .mean_forces import STD, cosine
@@ -47,15 +48,13 @@ def simulated(o: Options, spacing: Fraction) -> Comparison:
     """Solve all packings exactly and to first order."""
     where, ordered = f"s = {float(spacing):g} r", 1 / (2 * np.sqrt((1 + cosine(spacing)) / 2))
 
-    def changed(geometry: str) -> Array:
-        medium, load = Medium(spacing, STD), PointLoad(at=(0, APEX))
-        ensemble = packings.planned(
-            "response", o, medium, height=APEX, width=None, geometry=geometry, load=load
-        )
-        what = f"figure B9, {where}, {geometry}"
-        return packings.gathered(ensemble, o.notice, what, beside)
+    def changes(plan: Plan) -> Array:
+        what = f"figure B9, {where}, {plan.problem.route}"
+        return packings.gathered(plan, o.notice, what, beside)
 
-    band = packings.band_of_shift(changed, ordered * STD**2, o.seed)
+    medium, load = Medium(spacing, STD), PointLoad(at=(0, APEX))
+    ensemble = packings.planned("response", o, medium, height=APEX, width=None, load=load)
+    band = packings.band_of_shift(ensemble, changes, ordered * STD**2, o.seed)
     return Comparison(f"{where}: Eq. B9", band, theory(spacing))
 
 

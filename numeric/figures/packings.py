@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from fractions import Fraction
 from math import sqrt
-from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -18,7 +18,7 @@ from ..planning.planner import plan
 from ..quantities.answer import answer
 from ..quantities.base import ContactQuantity
 from ..scene.scene import CheckedScene
-from ..scene.sections import Ask, Disorder, Effects, Load, Packing, SurfaceLoad
+from ..scene.sections import Ask, Disorder, Load, Packing, SurfaceLoad
 from ..statistics.bands import Band, log_relative_std, simultaneous
 
 if TYPE_CHECKING:
@@ -147,7 +147,6 @@ def planned(
     kind: Any = "uniform",
     at: tuple[int, int, str] | None = None,
     load: Load | None = None,
-    geometry: Any = "exact",
     dimension: int = 2,
 ) -> Plan:
     """Plan packings. Raises ``SceneError`` where a number is out of range or too large.
@@ -165,7 +164,6 @@ def planned(
         ),
         disorder=Disorder(kind=kind, relative_std=medium.std, seed=o.seed),
         load=SurfaceLoad() if load is None else load,
-        effects=Effects(geometry=geometry),
         ask=Ask(quantity=quantity, at=at, realisations=o.realisations or 1),
     )
     return plan(scene)
@@ -173,7 +171,7 @@ def planned(
 
 def solve_first(ensemble: Plan) -> Table:
     """Solve the first realisation; give the columns of its answer."""
-    table = answer(ensemble.quantities, ensemble.problem, [0], FLOAT64).table
+    table = answer(ensemble.quantities, ensemble.problem, [0], FLOAT64).tables[0]
     return table.index | table.numbers
 
 
@@ -254,14 +252,13 @@ def band_of_roots(squares: Array, seed: int) -> Band:
     return simultaneous(np.log(mean) / 2, squares / mean / 2 - 0.5, LEVEL, seed)
 
 
-def band_of_shift(
-    changes: Callable[[Literal["exact", "first-order"]], Array], unit: float, seed: int
-) -> Band:
+def band_of_shift(ensemble: Plan, changes: Callable[[Plan], Array], unit: float, seed: int) -> Band:
     """Give the band of a mean at order σ²: exact packings less the same ones to first order.
 
     The first-order change has mean zero and carries nearly all of the noise, so that the difference
     shows a shift far smaller than the scatter of the forces. ``changes``: (realisations, L).
     """
-    each = (changes("exact") - changes("first-order")) / unit
+    linear = replace(ensemble, problem=replace(ensemble.problem, route=Route.FIRST_ORDER))
+    each = (changes(ensemble) - changes(linear)) / unit
     mean = each.mean(axis=0)
     return simultaneous(mean, each - mean, LEVEL, seed, logarithmic=False)
