@@ -97,7 +97,7 @@ def differs(rough: fd.Outcome, sharp: fd.Outcome) -> str:
     stated = rough.accuracy.error_bound
     if math.isinf(stated):  # and that is said
         return "" if rough.accuracy.note else "it tells no error, and not why"
-    names = rough.answer.table.small
+    names = rough.table.small
     mine, true = balls(rough, names), balls(sharp, names)
     if [len(one) for one in mine] != [len(one) for one in true]:
         return f"{[len(one) for one in mine]} rows, in balls {[len(one) for one in true]}"
@@ -117,4 +117,4 @@ def differs(rough: fd.Outcome, sharp: fd.Outcome) -> str:
 
 def balls(outcome: fd.Outcome, names: tuple[str, ...]) -> list[list[Any]]:
     """Give the numbers of some columns."""
-    return [[as_ball(x) for x in outcome.answer.table.numbers[name]] for name in names]
+    return [[as_ball(x) for x in outcome.table.numbers[name]] for name in names]

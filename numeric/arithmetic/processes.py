@@ -9,17 +9,14 @@ from multiprocessing import connection, parent_process
 
 
 @contextmanager
-def without_interrupts(*more: int) -> Iterator[None]:
-    """Let signals of a terminal, and ``more``, wait; they come to us afterwards.
+def without_interrupts() -> Iterator[None]:
+    """Let signals of a terminal wait; they come to us afterwards.
 
     None of these signals reaches processes that are started meanwhile: those that load their
     modules could only end with a traceback, and the one that keeps account of all others must see
     their end.
     """
-    if not hasattr(signal, "pthread_sigmask"):  # not on this system
-        yield
-        return
-    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP, *more})
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP})
     try:
         yield
     finally:

@@ -39,10 +39,6 @@ class NumberSystem(ABC):
         """Turn a float64 into a number, exactly."""
         return self.number(Fraction(value))
 
-    def from_ball(self, value: Any) -> Any:
-        """Turn an arb ball into a number: its midpoint, or the ball itself for balls."""
-        return self.number(midpoint(value))
-
     def root(self, value: Fraction) -> Any:
         """Give the square root of a rational."""
         return np.sqrt(self.number(value))
@@ -106,11 +102,9 @@ class Float64(NumberSystem):
         """Stay the one that there is: a plan asks whether a system *is* that of float64."""
         return "FLOAT64"
 
-    @contextmanager
-    def active(self) -> Iterator[None]:
+    def active(self) -> AbstractContextManager[None]:
         """Silence floating-point warnings: the sweeps check for what is not finite themselves."""
-        with np.errstate(all="ignore"):
-            yield
+        return np.errstate(all="ignore")
 
 
 FLOAT64 = Float64()
@@ -197,10 +191,6 @@ class Balls(NumberSystem):
     def from_float(self, value: float) -> Any:
         """Give a ball of radius zero."""
         return flint().arb(value)
-
-    def from_ball(self, value: Any) -> Any:
-        """Keep the ball."""
-        return value
 
     @contextmanager
     def active(self) -> Iterator[None]:

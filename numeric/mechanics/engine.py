@@ -7,6 +7,7 @@ from typing import Any
 
 from ..arithmetic.carried import CARRYING
 from ..arithmetic.systems import FLOAT64, NumberSystem
+from ..lattice.layers import Rows
 from . import first_order
 from .physicality import Physicality
 from .problem import Problem, Route
@@ -87,7 +88,9 @@ def _ordered(problem: Problem, system: NumberSystem) -> Solved:
     if problem.needs_forces:
         strength = load.strength(problem.n_x, system)
         if problem.contact is not None:
-            force = first_order.ordered_force(problem.contact, load, strength, system)
+            i, j, branch = problem.contact
+            beads = Rows([i, i + branch.side], [1, 1], j)  # the lower and the upper one
+            force = load.ordered(beads, strength, system)[branch.number, 0]
             return replace(solved, single=(force, system.number(problem.n_x * 0)))
         F = load.ordered(rows, strength, system)
         return replace(solved, rows=rows, F=F, g=system.zeros(1, *F.shape))
@@ -105,7 +108,8 @@ def _line_sums(problem: Problem, realisation: int, system: NumberSystem, work: W
         single = first_order.contact_change(contact, load, rho, problem.n_x, system)
     else:
         assert problem.site is not None
-        lines = first_order.bead_lines(problem.site)
+        i, j = problem.site  # c⁺ and c⁻ are sums along the diagonals up to it (Eq. 3)
+        lines = first_order.Line(i - j, 1, j), first_order.Line(i + j, -1, j)
         plus, minus = (first_order.line_sum(rho(line))[-1] for line in lines)
         single = plus, minus
     work.did("summed", problem.line_beads)

@@ -18,7 +18,7 @@ import numpy as np
 
 from ..arithmetic.carried import accumulated
 from ..arithmetic.systems import FLOAT64, NumberSystem
-from ..lattice.branch import Contact, Site
+from ..lattice.branch import Contact
 from ..lattice.layers import Rows
 from .loads import LoadSpec, Strength
 from .local import cosine
@@ -51,15 +51,6 @@ def line_sum(rho: Any) -> Any:
     c = 0 * rho
     c[1:] = accumulated(rho[np.arange(1, 2 * len(rho) - 1) // 2])[1::2]
     return c
-
-
-def ordered_force(
-    contact: Contact, load: LoadSpec, strength: Strength, system: NumberSystem
-) -> Any:
-    """Give the ordered force of a contact."""
-    i, j, branch = contact
-    rows = Rows([i, i + branch.side], [1, 1], j)
-    return load.ordered(rows, strength, system)[branch.number, 0]
 
 
 def ordered_forces(
@@ -108,12 +99,6 @@ def contact_change(
     crossing = change(above, "outer", "main", j + 2) - change(below, "main", "inner", j + 1)
     force = own[0] if "upper" in lines else zero
     return force, (crossing + cosine_ * change(own, "upper", "lower", j + 1)) * over
-
-
-def bead_lines(site: Site) -> tuple[Line, Line]:
-    """Give the diagonals up to a bead whose sums are c⁺ and c⁻ (Eq. 3)."""
-    i, j = site
-    return Line(i - j, 1, j), Line(i + j, -1, j)
 
 
 def lines_read(contact: Contact, load: LoadSpec) -> dict[str, Line]:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from ..arithmetic.carried import CARRYING
-from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, flint
+from ..arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, flint, midpoint
 from ..lattice.branch import Site
 from ..lattice.layers import Rows
 from .local import level, vertical_square
@@ -112,7 +112,9 @@ class LoadSpec:
         with balls.active():
             angle = flint().fmpq(*self.angle_deg.as_integer_ratio()) / 180
             sin, cos = flint().arb.sin_cos_pi_fmpq(angle)
-        return system.from_ball(sin), system.from_ball(cos)
+        if balls is system:
+            return sin, cos
+        return system.number(midpoint(sin)), system.number(midpoint(cos))
 
     def ordered(self, rows: Rows, strength: Strength, system: NumberSystem) -> Any:
         """Give the ordered forces below the beads of all ``rows`` but the lowest, (d, beads).

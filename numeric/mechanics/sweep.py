@@ -309,19 +309,11 @@ def _compiled_deposit(phi: Fraction, region: Region, rho: Any, system: NumberSys
 @lru_cache(maxsize=4)
 def _reached(region: Region, rows: Rows) -> Array:
     """Give the rows of ``loops.sweep_down``."""
-    near, deposited = rows.starts_above, region.rows[: len(rows)]
-    return np.stack(
-        [
-            near[:-1],
-            rows.counts,
-            region.starts[: len(rows)],
-            deposited.counts,
-            shift_of(rows, deposited, (0, 0)),
-            shift_of(rows, rows, (1, 0)),
-            shift_of(rows, deposited, (1, 0)),
-        ],
-        axis=1,
-    )
+    deposited, first = region.rows[: len(rows)], region.starts[: len(rows)]
+    places = (deposited, (0, 0)), (rows, (1, 0)), (deposited, (1, 0))
+    shifts = (shift_of(rows, sources, steps) for sources, steps in places)
+    columns = [rows.starts_above[:-1], rows.counts, first, deposited.counts, *shifts]
+    return np.stack(columns, axis=1)
 
 
 def _compiled_balance(packing: Solved, rows: Rows, F: Any) -> Any:

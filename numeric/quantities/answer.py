@@ -33,11 +33,6 @@ class Answer(NamedTuple):
     network: Network | None = None
     sizes: Sizes = NONE
 
-    @property
-    def table(self) -> Table:
-        """The answer to the first question."""
-        return self.tables[0]
-
 
 def answer(
     quantities: Sequence[Quantity],

@@ -284,7 +284,7 @@ def _run(planned: Plan, name: str, digits: int) -> _Timed:
     while not spent or (len(spent) < RUNS and sum(spent) < SHORT):
         start = process_time()
         if name == "mpmath":
-            table = answer(planned.quantities, planned.problem, [0], BigFloat(digits)).table
+            (table,) = answer(planned.quantities, planned.problem, [0], BigFloat(digits)).tables
             stated = 0.0
         else:
             outcome = run(planned)

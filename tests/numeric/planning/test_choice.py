@@ -43,7 +43,7 @@ def reference(sections: dict[str, dict[str, Any]]) -> Outcome:
 def recounted(bins: list[dict[str, Any]], plan: Plan) -> list[int]:
     """Count the true changes into the printed bins; of realisations that are alike, all of them."""
     realisations = range(plan.problem.realisations)
-    table = answer(plan.quantities, plan.problem, realisations, plan.system).table
+    table = answer(plan.quantities, plan.problem, realisations, plan.system).tables[0]
     values = [midpoint(value) for value in table.numbers["change"]]
     edges = [(Fraction(row["low"]), Fraction(row["high"])) for row in bins]
     alike = (plan.scene.ask.realisations or 1) // plan.problem.realisations
