@@ -32,11 +32,6 @@ def without_load() -> Groups:
     return eq05.directions(), eq03.positions()
 
 
-def _with_positions(forces: Callable[[], Groups]) -> Groups:
-    """What forces, contact directions and positions are in the radii."""
-    return *forces(), eq03.positions()
-
-
 @dataclass(frozen=True)
 class LoadCase:
     """A load, and the forces in the ordered packing.
@@ -46,14 +41,17 @@ class LoadCase:
         top: the layer that bears it, or the highest of those.
         ordered: the ordered forces of a contact of layer j along n⁺ and along n⁻ (in three
             dimensions along n¹, n² and n³), or what forces are compared with where some are zero.
-        groups: theorems that give forces in the radii, to be put in one group after the other; of
-            spheres none.
+        forces: gives what they and contact directions are in the radii; of spheres nothing.
     """
 
     loading: Loading
     top: sympy.Symbol
     ordered: tuple[sympy.Expr, ...]
-    groups: Callable[[], Groups]
+    forces: Callable[[], Groups]
+
+    def groups(self) -> Groups:
+        """What forces, contact directions and positions are in the radii; of spheres nothing."""
+        return (*self.forces(), eq03.positions()) if self.dimension == PLANE else ()
 
     @property
     def dimension(self) -> int:
@@ -69,13 +67,12 @@ class LoadCase:
 def _vertical(
     forces: Callable[[], Groups], loading: Loading, top: sympy.Symbol, force: sympy.Expr
 ) -> LoadCase:
-    return LoadCase(loading, top, (force / (2 * n_y),) * 2, partial(_with_positions, forces))
+    return LoadCase(loading, top, (force / (2 * n_y),) * 2, forces)
 
 
 def _leaning(load: str, loading: Loading, layers: sympy.Expr) -> LoadCase:
     ordered = layers * L_plus, layers * t * L_plus
-    forces = partial(tilted.in_radii, load)
-    return LoadCase(loading, M, ordered, partial(_with_positions, forces))
+    return LoadCase(loading, M, ordered, partial(tilted.in_radii, load))
 
 
 _POINT_LOAD = _vertical(eq16.in_radii, axioms.POINT, l, f_load)

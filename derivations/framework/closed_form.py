@@ -76,6 +76,7 @@ class ClosedForm:
         quantity: the symbol or statistic that it is printed as.
         statistic: the quantity times ``divisor``, written in means and covariances.
         kernel_domain: its domain and load, as the kernel holds them.
+        groups: gives the theorems that express its observables by the radii, in order of use.
         divisor: a divisor of the statistic that may be zero, such as 1 − t; otherwise 1.
     """
 
@@ -88,11 +89,11 @@ class ClosedForm:
         divisor: sympy.Expr = sympy.S.One,
     ) -> None:
         self.quantity, self.statistic, self.kernel_domain = quantity, statistic, kernel_domain
-        self.divisor, self._groups = divisor, groups
+        self.divisor, self.groups = divisor, groups
 
     def __reduce__(self) -> tuple[Any, ...]:
         """No theorem comes out of a pickle: what it says is worked out again."""
-        own = self.quantity, self.statistic, self.kernel_domain, self._groups
+        own = self.quantity, self.statistic, self.kernel_domain, self.groups
         return ClosedForm, (*own, self.divisor)
 
     def named(self, quantity: sympy.Expr) -> "ClosedForm":
@@ -102,11 +103,6 @@ class ClosedForm:
         form.function = self.function
         return form
 
-    @property
-    def groups(self) -> tuple[Group, ...]:
-        """The theorems that express its observables by the radii, in the order of their use."""
-        return tuple(self._groups())
-
     @cached_property
     def function(self) -> PiecewiseFunction:
         """Its value as a function of indices.
@@ -115,13 +111,13 @@ class ClosedForm:
             NotExactError: an observable is not linear in the radii, or not determined by them.
         """
         return PiecewiseFunction.of(
-            self.statistic, self.kernel_domain, *self.groups, divisor=self.divisor
+            self.statistic, self.kernel_domain, *self.groups(), divisor=self.divisor
         )
 
     @property
     def premises(self) -> tuple[EquationNumber, ...]:
         """The equations it rests on, read off its theorems."""
-        return equations_of(flat(self.groups))
+        return equations_of(flat(self.groups()))
 
     def on(self, *relations: sympy.Basic) -> sympy.Expr:
         """Its formula on a part of its domain where a single formula holds.
@@ -520,7 +516,7 @@ class ClosedForm:
         if not rest.is_empty():
             left_out = words.alternatives(function.relations(rest))
             raise NotAStatementError(f"it has no value for {left_out}")
-        by = moment(*self.groups, on=self.kernel_domain)
+        by = moment(*self.groups(), on=self.kernel_domain)
         for value, here in parts:
             formula = in_place(candidate, {cases: value}) if cases else candidate
             for part in function.relations(here):

@@ -108,7 +108,7 @@ class Row(Statement):
     def show_steps(self, steps: Steps) -> None:
         """A step for each formula and part of its domain."""
         for form in self.exact_forms.values():
-            by = moment(*form.groups, on=form.kernel_domain)
+            by = moment(*form.groups(), on=form.kernel_domain)
             shown = form.quantity if form.divisor == 1 else form.divisor * form.quantity
             for piece in form.pieces:
                 for part in piece.where:
