@@ -1,8 +1,6 @@
 """Proves derivations, premises first, and rules on each."""
 
-import gc
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
 
 from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved_by_rules, refuted, undecided
@@ -13,17 +11,6 @@ from .rows import Row
 
 Watch = Callable[[Statement], None]
 """Called with the statement that is proved next."""
-
-
-@contextmanager
-def _rarely_collected() -> Iterator[None]:
-    """Look for circles of objects seldom: expressions make few, and the search takes a tenth."""
-    before = gc.get_threshold()
-    gc.set_threshold(100_000)
-    try:
-        yield
-    finally:
-        gc.set_threshold(*before)
 
 
 def _check(kind: str, name: str, ruling: Ruling) -> Check:
@@ -88,6 +75,4 @@ def with_premises(wanted: Iterable[Number], watch: Watch) -> Iterator[Statement]
 
 def run_all(numbers: Iterable[Number], watch: Watch = lambda _: None) -> Iterator[ProofOutcome]:
     """Prove equations and all that they rest on, premises first."""
-    with _rarely_collected():
-        for statement in with_premises(numbers, watch):
-            yield run(statement)
+    return map(run, with_premises(numbers, watch))
