@@ -5,11 +5,7 @@ from functools import cache, cached_property, partial
 from typing import Any
 
 import sympy
-from force_diffusion.numeric.arithmetic.errors import (
-    ArgumentError,
-    WrongTypeError,
-    quoted,
-)
+from force_diffusion.numeric.arithmetic.errors import ArgumentError, WrongTypeError, quoted
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.decisions import Ruling
 from force_diffusion.symbolic.notation import Symbol

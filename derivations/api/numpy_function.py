@@ -21,10 +21,7 @@ here: ``Equation.at`` does that.
 
 
 def numpy_function(
-    expressions: Sequence[sympy.Expr],
-    name: str,
-    heading: str,
-    meanings: Mapping[sympy.Basic, str],
+    expressions: Sequence[sympy.Expr], name: str, heading: str, meanings: Mapping[sympy.Basic, str]
 ) -> Callable[..., Any]:
     """The function, of float64; it computes what SymPy's ``lambdify`` writes.
 

@@ -40,8 +40,7 @@ def scene_argument(command: str) -> Any:
 
 _Scene = Annotated[Path, scene_argument("run")]
 _Tolerance = Annotated[
-    str | None,
-    typer.Option(metavar="T", help="Largest relative error allowed, such as 1e-30."),
+    str | None, typer.Option(metavar="T", help="Largest relative error allowed, such as 1e-30.")
 ]
 _Certified = Annotated[
     bool, typer.Option("--certified", help="With a tolerance: accept only a rigorous bound.")

@@ -36,8 +36,7 @@ Quiet = Annotated[
     typer.Option("--quiet", "-q", help="Print all rows and nothing else; with --out, nothing."),
 ]
 Written = Annotated[
-    Format,
-    typer.Option("--format", help="Format of the rows; npz and parquet are for many rows."),
+    Format, typer.Option("--format", help="Format of the rows; npz and parquet are for many rows.")
 ]
 
 GIVEN: ContextVar[list[str]] = ContextVar("given")

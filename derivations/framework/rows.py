@@ -154,10 +154,7 @@ def averages_to(form: ClosedForm, value: sympy.Expr) -> Ruling:
 
 
 def equals(
-    form: ClosedForm,
-    value: sympy.Expr | ClosedForm,
-    *where: sympy.Basic,
-    at: Values | None = None,
+    form: ClosedForm, value: sympy.Expr | ClosedForm, *where: sympy.Basic, at: Values | None = None
 ) -> Ruling:
     """It is an expression, or another form, on a part of its domain."""
     function = form.function.put_in(at or {}).part(*where)
