@@ -70,29 +70,17 @@ def arguments(
     return by_name
 
 
-def read_arguments(
-    about: str,
-    needed: set[sympy.Symbol],
+def _values(
+    symbols: Mapping[str, sympy.Symbol],
     given: Mapping[str, Number],
-    dimension: int = 2,
-    *,
-    in_packing: bool = True,
+    dimension: int,
+    in_packing: bool,
 ) -> dict[sympy.Symbol, sympy.Rational]:
-    """Values of the symbols that a formula needs.
-
-    In place of z, ``j`` may be given: z = j/M.
-
-    Args:
-        about: what is evaluated, for messages.
-        needed: symbols of the formula.
-        given: values by name.
-        dimension: of the packing, d; no spheres overlap where −1/d < φ < 1/2.
-        in_packing: whether i, j, k, l and M have to be those of a bead and of a packing.
+    """Values of symbols by name, exactly; of z, too, where M and j of a packing are given.
 
     Raises:
-        ArgumentError: a name is unknown or missing, or a value is not allowed.
+        ArgumentError: a value is not allowed.
     """
-    symbols = arguments(about, needed, given)
     values = {symbols[name]: _exactly(name, value) for name, value in given.items()}
     for name, symbol in symbols.items():
         number, value = given[name], values[symbol]
@@ -104,7 +92,7 @@ def read_arguments(
     for pair, (words, together) in _TOGETHER.items() if in_packing else ():
         if set(pair) <= set(values) and not together(*(values[symbol] for symbol in pair)):
             raise ArgumentError(f"{with_values(pair, values)}: {words} is allowed")
-    if sy.z in needed - {*values}:
+    if in_packing and {sy.j, sy.M} <= {*values}:
         values[sy.z] = values[sy.j] / values[sy.M]
     return values
 
@@ -211,8 +199,8 @@ def evaluate(
         sides: give the exact values for exact numbers, and know whether these were given.
         unnamed: values without names, of which there may be none.
         given: values by name.
-        dimension: as for ``read_arguments``.
-        in_packing: as for ``read_arguments``.
+        dimension: of the packing, d; no spheres overlap where −1/d < φ < 1/2.
+        in_packing: whether i, j, k, l and M have to be those of a bead and of a packing.
 
     Raises:
         ArgumentError: a name is unknown or missing, a value is not allowed, or shapes differ; the
@@ -222,7 +210,7 @@ def evaluate(
     if unnamed:
         call = ", ".join(f"{name}=…" for name in in_order(map(name_of, formula[1])))
         raise WrongTypeError(f"{quoted(unnamed[0])} has no name: give values as at({call})")
-    arguments(*formula, given)
+    symbols = arguments(*formula, given)
     arrays = {name: _array(name, value) for name, value in given.items()}
     exact = all(map(_is_exact, arrays.values()))
     shapes = {name: array.shape for name, array in arrays.items() if array.ndim}
@@ -238,7 +226,7 @@ def evaluate(
     for place in np.ndindex(shape):
         numbers = {name: _plain(array[place]) for name, array in arrays.items()}
         try:
-            values = read_arguments(*formula, numbers, dimension, in_packing=in_packing)
+            values = _values(symbols, numbers, dimension, in_packing)
             for n, side in enumerate(sides):
                 value = side(values, exact)
                 results[n, *place] = value if exact else rounded(value)
