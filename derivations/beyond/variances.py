@@ -11,7 +11,8 @@ from force_diffusion.derivations.calculator.loads import leaning
 from force_diffusion.derivations.calculator.statistics import variance
 from force_diffusion.derivations.framework.catalogue import Number
 from force_diffusion.derivations.framework.layers import UNIT
-from force_diffusion.derivations.framework.rows import Row, averages_to, equals, form_of, leads
+from force_diffusion.derivations.framework.rows import (
+    Forms, Row, averages_to, equals, form_of, leads)
 from force_diffusion.symbolic.notation import Symbol
 from force_diffusion.symbolic.symbols import (
     ForceAlong, ForceMinus, ForcePlus, M, i, j, phi, r, sigma, t, t_2, t_3, z)
@@ -80,15 +81,17 @@ def _of_discs(number: Number, load: str) -> Row:
     )  # fmt: skip
 
 
+def _along_first(load: str) -> Forms:
+    return {"first": variance(ForceAlong(1, 0, 0, j), load=load, dimension=3).named(FIRST)}
+
+
 def _of_spheres(number: Number, load: str, following: sympy.Expr) -> Row:
     return Row(
         number=number,
         name=f"spheres_{load}",
         title=f"Variance of the forces in three dimensions under a {load} load",
         call=f'variance(f_along(1, 0, 0, j), load="{load}", dimension=3)',
-        exact=lambda: {
-            "first": variance(ForceAlong(1, 0, 0, j), load=load, dimension=3).named(FIRST)
-        },
+        exact=lambda: _along_first(load),
         meaning="The profile over the height is that of discs; at finite M sums along all three "
         "base vectors contribute.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
@@ -107,11 +110,7 @@ def _leaning_spheres(number: Number, load: str, upright: Number) -> Row:
         name=f"leaning_{load}",
         title=f"Variance of the forces in three dimensions, {load} load in any direction",
         call=f'variance(f_along(1, 0, 0, j), load="{load} leaning", dimension=3)',
-        exact=lambda: {
-            "first": variance(
-                ForceAlong(1, 0, 0, j), load=f"{load} leaning", dimension=3
-            ).named(FIRST)
-        },
+        exact=lambda: _along_first(f"{load} leaning"),
         meaning="The loads along the other vectors feed a force: the smaller the share of the load "
         "along its own vector, the more it fluctuates relative to its mean.",
         quantities=((FIRST, "variance of the force along base vector 1 over its mean squared"),),
