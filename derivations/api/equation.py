@@ -94,7 +94,7 @@ class Equation:
         >>> fd.equation(13).relation
         '∼'
         """
-        return self._derivation.relation
+        return self._derivation.domain.relation
 
     @property
     def assumptions(self) -> tuple[str, ...]:

@@ -80,7 +80,7 @@ def _step(step: Step, derivation: Statement) -> str:
     rests = [*map(str, step.steps_used), *(f"({number})" for number in step.equations_used)]
     rests += step.assuming
     head = f"\\step{{{step.number}}}{{{', '.join(rests)}}}"
-    if {*step.equations} <= {*derivation.printed} and step.relation == derivation.relation:
+    if {*step.equations} <= {*derivation.printed} and step.relation == derivation.domain.relation:
         # not the same display twice
         return f"{head}{prose_latex(step.reason.rstrip('.:'))}: Eq.~({derivation.number}).\n"
     shown = (
@@ -108,7 +108,7 @@ def section_latex(outcome: ProofOutcome, explained: str = "") -> str:
     parts = [
         f"\\heading{{Eq.~({number}). {prose_latex(derivation.title)}}}\n",
         f"\\begin{{equation}}\\label{{eq:fd{label(number)}}}\\tag{{{number}}}\n",
-        f"{latex_body(derivation.printed, RELATIONS[derivation.relation], _ROOM)}\n",
+        f"{latex_body(derivation.printed, RELATIONS[derivation.domain.relation], _ROOM)}\n",
         "\\end{equation}\n",
         _aside("Symbols", symbols),
         _aside("Assumptions", map(prose_latex, derivation.assumptions)),
@@ -117,7 +117,7 @@ def section_latex(outcome: ProofOutcome, explained: str = "") -> str:
         checks = (f"{of.words}: {sentence(of.name)} {sentence(of.note)}" for of in outcome.checks)
         return "".join([*parts, f"Verdict: {outcome.ruling.words}.\n\n", *map(prose_latex, checks)])
     for reading in proof.refuted:
-        formula = display([reading.formula], reading.relation)
+        formula = display([reading.formula], reading.domain.relation)
         words = (prose_latex(sentence(part)) for part in (reading.reading, reading.reason))
         parts.append(f"\n{formula}".join(words) + "\n")
     parts += [_step(step, derivation) for step in proof]

@@ -36,7 +36,7 @@ def refuted_text(derivation: Statement) -> list[str]:
     lines = []
     for reading in derivation.proof.refuted:
         lines += ["", _paragraph(f"Printed as well; {reading.reading}.", "")]
-        shown = text_lines(reading.formula, reading.relation, TEXT_WIDTH - 2)
+        shown = text_lines(reading.formula, reading.domain.relation, TEXT_WIDTH - 2)
         lines += ["  " + line for line in shown]
     return lines
 

@@ -73,8 +73,7 @@ class Step:
     @property
     def relation(self) -> str:
         """How it relates its sides: "=", or as in the limit that it is about."""
-        limit = self.domains[0].limit
-        return limit.relation if limit else "="
+        return self.domains[0].relation
 
     @property
     def assuming(self) -> tuple[str, ...]:
@@ -151,11 +150,6 @@ class Refuted:
     formula: sympy.Eq
     domain: Domain
     reason: str
-
-    @property
-    def relation(self) -> str:
-        """How it relates its sides."""
-        return self.domain.limit.relation if self.domain.limit else "="
 
 
 class Steps(list[Step]):

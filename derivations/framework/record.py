@@ -78,11 +78,6 @@ class Statement:
             return ()
         return in_order(number for step in shown for number in step.equations_used)
 
-    @property
-    def relation(self) -> str:
-        """The printed sign: "=", or that of the limit in which it is proved."""
-        return self.domain.limit.relation if self.domain.limit else "="
-
     @cached_property
     def exact_forms(self) -> Mapping[str, ClosedForm]:
         """Closed forms, exact at finite size, by name; the first is the usual one."""
@@ -104,18 +99,18 @@ class Statement:
         """The step that shows one of ``printed``, and its place there.
 
         Raises:
-            LookupError: there is none of its domain and sign.
+            LookupError: there is none of its domain, and so of its sign.
         """
+        wanted = self.printed[part], self.domain
         for step in self.proof:
-            shown = zip(step.equations, step.domains, strict=True)
-            for place, pair in enumerate(shown):
-                if pair == (self.printed[part], self.domain) and step.relation == self.relation:
-                    return step, place
+            shown = [*zip(step.equations, step.domains, strict=True)]
+            if wanted in shown:
+                return step, shown.index(wanted)
         raise LookupError(f"no step of Eq. {self.number} shows what is printed, on its domain")
 
     def latex(self, columns: int = 1) -> str:
         """What is printed, for one display in text of one column or of two."""
-        return latex_body(self.printed, RELATIONS[self.relation], room_of(columns))
+        return latex_body(self.printed, RELATIONS[self.domain.relation], room_of(columns))
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same, in as many displays as it takes to fit pages."""
@@ -124,7 +119,9 @@ class Statement:
     def lines(self, room: int) -> list[str]:
         """What is printed, as lines of plain text."""
         return [
-            line for equation in self.printed for line in text_lines(equation, self.relation, room)
+            line
+            for equation in self.printed
+            for line in text_lines(equation, self.domain.relation, room)
         ]
 
 

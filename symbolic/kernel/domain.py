@@ -207,6 +207,11 @@ class Domain:
         conditions = tuple(each for each in dict.fromkeys(relations) if each != sympy.true)
         return cls(ordered, conditions, loading, tuple(dict.fromkeys(places)), dimension, limit)
 
+    @property
+    def relation(self) -> str:
+        """How a statement on it relates its sides: "=", or as in its limit."""
+        return self.limit.relation if self.limit else "="
+
     def also(self, *relations: sympy.Basic, indices: Iterable[sympy.Symbol] = ()) -> "Domain":
         """The part of it where further relations hold, in further indices."""
         new = {*indices}.union(*(relation.free_symbols for relation in relations)) - {*self.indices}

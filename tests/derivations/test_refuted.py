@@ -19,7 +19,7 @@ def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure():
     derivation = load(16)
     (reading,) = derivation.proof.refuted
     assert reading.formula.rhs == derivation.printed[0].rhs
-    assert reading.relation == "∼"
+    assert reading.domain.relation == "∼"
     assert "goes to (j + n)/(2 j + n + q), not to 1" in reading.reason
 
 

@@ -44,9 +44,12 @@ def refuted_shown(refutation: Refuted) -> str:
     """A printed statement that does not hold, as text and below it as LaTeX."""
     shown = (
         f"Printed as well: {refutation.reading}",
-        indent("\n".join(text_lines(refutation.formula, refutation.relation, TEXT_WIDTH)), "    "),
+        indent(
+            "\n".join(text_lines(refutation.formula, refutation.domain.relation, TEXT_WIDTH)),
+            "    ",
+        ),
         prose_latex(refutation.reading),
-        indent(latex_body([refutation.formula], RELATIONS[refutation.relation]), "    "),
+        indent(latex_body([refutation.formula], RELATIONS[refutation.domain.relation]), "    "),
     )
     return "\n\n".join(shown) + "\n"
 
