@@ -17,15 +17,10 @@ from .branch import Contact, Site
 from .layers import Layer, Region, Rows, closed_below, taken
 
 
-def triangle(i: int, j: int, width: int | None) -> Region:
-    """Give the beads on which the exact position of (i, j) depends: the triangle below it."""
-    depth = np.arange(j, -1, -1)
-    return Region(width, Rows.between(i - depth, i + depth, width))
-
-
 def downward_cone(loaded: Iterable[Site], width: int | None) -> Rows:
     """Give the beads that loads on ``loaded`` reach: rows of layers 0 … highest load.
 
+    Of one bead that is the triangle below it, on which its exact position depends.
     Loads far apart share a row that holds the beads between them too.
     """
     sites = np.array(list(loaded), np.int64).reshape(-1, 2)

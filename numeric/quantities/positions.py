@@ -32,7 +32,7 @@ class Positions(Quantity):
     def region(self, force_rows: Rows) -> Region:
         """Give the triangle below the bead, or the whole packing."""
         if self.scene.site is not None:
-            return regions.triangle(*self.scene.site, self.width)
+            return Region(self.width, regions.downward_cone([self.scene.site], self.width))
         return self.layers_up_to(self.height)
 
     def answer_rows(self, region: Region, realisations: int) -> int:
