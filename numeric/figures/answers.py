@@ -15,7 +15,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from .. import closed_forms
 from ..arithmetic.systems import FLOAT64, Array, as_floats
 from ..lattice.branch import Branch
 from ..lattice.layers import Rows
@@ -24,7 +23,7 @@ from ..planning.plan import Plan
 from ..quantities.base import first_order_std
 from ..scene.scene import refuse
 from ..scene.sections import SceneError
-from ..theory.expected import stds_by_layer
+from ..theory.expected import leading_stds, stds_by_layer
 from ..unilateral.network import Network
 from . import beads
 
@@ -257,7 +256,9 @@ def profile(plan: Plan, columns: Columns, errors: Columns, network: Network | No
         axes.plot(z, exact[0], color=style.GREY, label="exact at finite $M$")
         if plan.problem.dimension == 2:
             name = f"Eq. ({14 if load.kind == 'bulk' else 13}), printed"
-            axes.plot(z, exact[0] * printed_over_exact(plan), "k--", label=name)
+            kind, phi = load.kind, float(plan.problem.phi)
+            printed_over_exact = leading_stds(kind, M, z, phi) / stds_by_layer(kind, M, phi)
+            axes.plot(z, exact[0] * printed_over_exact, "k--", label=name)
     for c, own in enumerate(plan.quantity.branches):
         rows = columns["branch"] == own
         error = errors["std"][rows] if "std" in errors else None
@@ -268,15 +269,6 @@ def profile(plan: Plan, columns: Columns, errors: Columns, network: Network | No
     axes.set_ylim(bottom=0)
     axes.legend()
     return figure
-
-
-def printed_over_exact(plan: Plan) -> Array:
-    """Give σ_f of the printed Eq. 13 or 14 over the exact one, by layer 0 … M − 1."""
-    M, phi = plan.problem.height, float(plan.problem.phi)
-    bulk = plan.problem.load.kind == "bulk"
-    form = closed_forms.bulk_diffusion if bulk else closed_forms.surface_diffusion
-    printed = np.sqrt([form(M, j / M, phi) for j in range(M)])
-    return np.asarray(printed / stds_by_layer(plan.problem.load.kind, M, phi))
 
 
 def histogram(plan: Plan, columns: Columns, errors: Columns, network: Network | None) -> Figure:

@@ -13,9 +13,8 @@ from fractions import Fraction
 import numpy as np
 from matplotlib.axes import Axes
 
-from .. import closed_forms
 from ..arithmetic.systems import Array
-from ..theory.expected import critical_height, stds_by_layer
+from ..theory.expected import critical_height, leading_stds, stds_by_layer
 from . import packings
 from .packings import LEVEL, PAPER, Comparison, Made, Medium, Options
 from .q_model import weight_variance
@@ -27,9 +26,8 @@ MARKED = 16
 
 def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
     """Give σ_f/⟨f⟩ of layers 0 … M − 1 by Eq. 13: exact to first order at finite M, and printed."""
-    phi, std = float(medium.phi), medium.std
-    printed = np.sqrt([closed_forms.surface_diffusion(M, j / M, phi) for j in range(M)])
-    return stds_by_layer("surface", M, phi) * std, printed * std
+    phi, std, z = float(medium.phi), medium.std, [j / M for j in range(M)]
+    return stds_by_layer("surface", M, phi) * std, leading_stds("surface", M, z, phi) * std
 
 
 def simulated(M: int, o: Options) -> Comparison:
@@ -79,8 +77,8 @@ def _marked(M: int, number: int) -> slice:
 def _draw(axes: Axes, cases: Sequence[Comparison], medium: Medium) -> None:
     """Draw all σ_f/⟨f⟩ over M^(3/2)."""
     power = -math.floor(math.log10(medium.std))
-    z, form, phi = np.linspace(0, 1, 201), closed_forms.surface_diffusion, float(medium.phi)
-    printed = np.sqrt([form(1, at, phi) for at in z]) * medium.std
+    z = np.linspace(0, 1, 201)
+    printed = leading_stds("surface", 1, z, float(medium.phi)) * medium.std
     axes.plot(z, printed * 10.0**power, "k--", lw=1, label="Eq. (13), printed")
     axes.plot([], [], color=GREY, label="exact at finite $M$")
     for c, case in enumerate(cases):

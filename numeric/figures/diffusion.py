@@ -23,8 +23,7 @@ CROSSOVER = 0.25
 
 def displacement_std(height: int, medium: Medium = PAPER) -> tuple[Array, Array]:
     """Give σ_x and σ_y of beads in layers 0 … M, in units of σ_δr; exact to first order (Eq. 3)."""
-    nx, j = float(medium.n_x), np.arange(height + 1)
-    ny = np.sqrt(1 - nx**2)
+    nx, ny, j = float(medium.n_x), medium.n_y, np.arange(height + 1)
     x, y = (4 * j - 3) / (2 * nx**2), (4 * j - 1) / (2 * ny**2)
     return np.sqrt(np.where(j > 0, x, 0)), np.sqrt(np.where(j > 0, y, 0))
 

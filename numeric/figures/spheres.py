@@ -6,10 +6,9 @@ curves are Eqs. B13 and B14, exact to first order at finite M, and their leading
 
 import numpy as np
 
-from .. import closed_forms
 from ..arithmetic.systems import Array
 from ..scene.sections import BulkLoad, SurfaceLoad
-from ..theory.expected import stds_by_layer
+from ..theory.expected import leading_stds, stds_by_layer
 from . import packings
 from .packings import PAPER_STD, PHI, Comparison, Made, Options
 from .style import COLUMN, GREY, RELATIVE_HEIGHT, panels, points
@@ -25,8 +24,7 @@ def exact(load: str, M: int) -> Array:
 
 def leading(load: str, z: Array) -> Array:
     """The leading orders over M^(3/2)."""
-    form = getattr(closed_forms, f"{load}_diffusion_of_spheres")
-    return np.sqrt([form(1, at, float(PHI)) for at in z]) * PAPER_STD
+    return leading_stds(load, 1, z, float(PHI), spheres=True) * PAPER_STD
 
 
 def simulated(o: Options, place: int) -> Comparison:

@@ -7,7 +7,7 @@ Estimates: to first order in δr (Eqs. 13, 14, B2, B3, B13 and B14), with Gaussi
 import math
 from fractions import Fraction
 from functools import lru_cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -60,6 +60,12 @@ def stds_by_layer(
 ) -> Array:
     """Give σ of f¹, or f⁺, of the layers from the base up, shape (M,); arguments as above."""
     return np.array([stds_of_contacts(load, M, j, phi, components)[0] for j in range(M)])
+
+
+def leading_stds(load: str, M: int, z: Any, phi: float, *, spheres: bool = False) -> Array:
+    """Give their leading orders at the relative heights z (Eqs. 13, 14, B13 and B14 as printed)."""
+    form = getattr(closed_forms, f"{load}_diffusion{'_of_spheres' if spheres else ''}")
+    return np.sqrt([form(M, at, phi) for at in z])
 
 
 class ExpectedTension(NamedTuple):
