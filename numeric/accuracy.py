@@ -16,17 +16,7 @@ import numpy as np
 from .arithmetic.carried import UNIT, Sizes, bound_error
 from .arithmetic.decimals import short
 from .arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
-from .arithmetic.systems import (
-    FLOAT64,
-    MOST_BITS,
-    Array,
-    Balls,
-    NumberSystem,
-    as_floats,
-    flint,
-    largest_of,
-    midpoint,
-)
+from .arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats, largest_of, midpoint
 from .mechanics.sweep import NotStandingError
 from .mechanics.work import Work
 from .planning.plan import Plan
@@ -35,6 +25,8 @@ from .quantities.answer import Answer, answer
 from .quantities.base import RATIO, SCATTER_OF, Bins, Quantity, Table
 from .tables import significant, text_of
 
+# No balls of more bits are tried: what they leave open stays open.
+MOST_BITS = 8192
 CARRIED = "estimated, as the sweep carried it, not certified"
 # A decimal that a ball's radius cuts off is wrong by at most one unit in its last digit: 20 radii.
 CUT_OFF = 20
@@ -92,7 +84,8 @@ def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:
             return Accuracy(math.inf, True, system.name)
         largest = system.number(floor)
         note = "no change can be told from zero; the error is relative to σ/r instead"
-    printed = (radius / largest).upper() * CUT_OFF + flint().arb(10) ** (1 - most_digits(system))
+    rounded = system.number(Fraction(10) ** (1 - most_digits(system)))
+    printed = (radius / largest).upper() * CUT_OFF + rounded
     return Accuracy(upper(printed), True, system.name, note)
 
 

@@ -168,8 +168,6 @@ def largest_of(balls: Iterable[Any]) -> Any:
 
 
 _precision = threading.RLock()
-# No balls of more bits are tried: what they leave open stays open.
-MOST_BITS = 8192
 
 
 @dataclass(frozen=True)

@@ -156,10 +156,7 @@ def _chosen(name: str, spacing: Any, relative_std: Any) -> tuple[Fraction | None
     if not LEAST_STD <= std <= MOST_STD:
         allowed = f"must lie between {LEAST_STD:g} and {MOST_STD:g}"
         raise SceneError("relative_std", relative_std, allowed)
-    return (
-        None if spacing is None else scene.packing.s,
-        None if relative_std is None else std,
-    )
+    return (None if spacing is None else scene.packing.s, None if relative_std is None else std)
 
 
 def csv_file(table: Table, title: str, command: str) -> str:

@@ -199,11 +199,7 @@ def unit_changes(ensemble: Plan) -> Plan:
 
 
 def gathered(
-    ensemble: Plan,
-    notice: Notice,
-    what: str,
-    each: Callable[[Solved, int], Array],
-    start: int = 0,
+    ensemble: Plan, notice: Notice, what: str, each: Callable[[Solved, int], Array], start: int = 0
 ) -> Array:
     """Solve all realisations from ``start`` on; join what ``each`` gives, (realisations, …).
 
@@ -218,11 +214,7 @@ def gathered(
 
 
 def moments(
-    ensemble: Plan,
-    notice: Notice,
-    what: str,
-    start: int = 0,
-    axes: tuple[int, ...] = (1, 3),
+    ensemble: Plan, notice: Notice, what: str, start: int = 0, axes: tuple[int, ...] = (1, 3)
 ) -> tuple[Array, Array]:
     """Solve all realisations of a profile; give averages of g/F and of its square.
 

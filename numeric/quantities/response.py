@@ -67,19 +67,15 @@ class Response(Merged):
         contacts = self.naming.contacts(self.blocks(problem))
         half = len(statistics.mean) // 2
         force, vertical = slice(half), slice(half, None)
-        means = statistics.ordered + statistics.mean
+        means, changes = statistics.ordered + statistics.mean, statistics.mean
         if problem.realisations == 1:
-            numbers = {
-                "force": means[force],
-                "change": statistics.mean[force],
-                "vertical": means[vertical],
-                "vertical_change": statistics.mean[vertical],
-            }
+            numbers = {"force": means[force], "change": changes[force]}
+            numbers |= {"vertical": means[vertical], "vertical_change": changes[vertical]}
             return Table(contacts, numbers, ("change", "vertical_change"))
         numbers, errors = {}, {}
         for name, part in (("force", force), ("vertical", vertical)):
             numbers[f"{name}_mean"] = means[part]
-            numbers[f"{name}_mean_change"] = statistics.mean[part]
+            numbers[f"{name}_mean_change"] = changes[part]
             numbers[f"{name}_std"] = statistics.std[part]
             errors[f"{name}_mean_change"] = statistics.mean_error[part]
             errors[f"{name}_std"] = statistics.std_error[part]

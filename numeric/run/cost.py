@@ -17,14 +17,7 @@ import numpy as np
 from .. import tables
 from ..accuracy import ToleranceError, upper
 from ..arithmetic.decimals import bound_string
-from ..arithmetic.errors import (
-    ForceDiffusionError,
-    UndecidedError,
-    WrongTypeError,
-    check_progress,
-    checked,
-    printable,
-)
+from ..arithmetic.errors import UndecidedError, WrongTypeError, check_progress, checked, printable
 from ..arithmetic.systems import Array, Balls, BigFloat, as_ball, largest_of
 from ..disorder.radii import BeadError
 from ..mechanics.problem import Route
@@ -135,9 +128,7 @@ class CostStudy:
 
 @checked
 def cost(
-    scene: Scene | str | Path,
-    seconds: float = 20,
-    progress: bool | Callable[[Way], object] = False,
+    scene: Scene | str | Path, seconds: float = 20, progress: bool | Callable[[Way], object] = False
 ) -> CostStudy:
     """Measure what accuracy costs: the error and time of one packing in each arithmetic.
 
@@ -199,7 +190,7 @@ class _Study:
     def __init__(self, scene: Scene, end: float) -> None:
         self.scene, self.end = scene, end
         self.plan = plan(scene, Fraction(1, 10), certified=True)
-        self.failures: dict[str, ForceDiffusionError | ArithmeticError] = {}
+        self.failures: dict[str, Exception] = {}
         self.true: tuple[Array, Balls] | None = None
         if self.plan.problem.route == Route.ORDERED:
             self._refuse_zero()

@@ -11,17 +11,7 @@ from force_diffusion import __version__
 from ..arithmetic.decimals import decimal_string, short
 from ..lattice.branch import Branch, Contact, Site
 from .combinations import NEEDS, Need, either, refusal
-from .sections import (
-    PLACES,
-    Ask,
-    Disorder,
-    Effects,
-    GivenRadii,
-    Load,
-    Packing,
-    SceneError,
-    Section,
-)
+from .sections import PLACES, Ask, Disorder, Effects, GivenRadii, Load, Packing, SceneError, Section
 
 PROGRAM = "force-diffusion"
 FARTHEST = 10**307  # units of length, in which float64 are given

@@ -88,8 +88,7 @@ class Grains:
         values = np.concatenate([n, -n], axis=1).ravel()
         free = columns.ravel() >= 0
         return sparse.csr_array(
-            (values[free], (rows[free], columns.ravel()[free])),
-            shape=(len(pairs), self.unknowns),
+            (values[free], (rows[free], columns.ravel()[free])), shape=(len(pairs), self.unknowns)
         )
 
     def factors(self, pairs: Pairs, place: Array) -> Any:
