@@ -17,37 +17,10 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from .branch import Branch, Site, bead_names, directions
+from .branch import Branch, bead_names, directions
 
 Array = NDArray[Any]
 _NONE = np.empty(0, dtype=np.int64)
-
-
-Bead = tuple[int, ...]
-"""A bead (p, q, j) in three dimensions.
-
-A layer of W² beads is one row here, in which q neighbours q + 1: column p W + q.
-"""
-
-
-def bead_of(site: tuple[Any, Any], side: int) -> Bead:
-    """Name a bead (p, q, j), of a site of the row of W² beads, W the ``side``.
-
-    Or give columns p, q and j, of columns i and j.
-    """
-    i, j = site
-    number = (i - j % 2) // 2
-    return number // side, number % side, j
-
-
-def site_of(bead: Sequence[Any], side: int) -> Site:
-    """Give the site in the row of W² beads; of columns of names, columns.
-
-    >>> site_of((2, 1, 3), 5), bead_of((23, 3), 5)
-    ((23, 3), (2, 1, 3))
-    """
-    p, q, j = bead
-    return 2 * (p % side * side + q % side) + j % 2, j
 
 
 @dataclass(frozen=True)
@@ -214,8 +187,7 @@ class Region:
 
     def numbers(self, beads: Array) -> Array:
         """Number beads, columns of their names; −1 where the region lacks them."""
-        sites: Any = beads if self.dimension == 2 else site_of([*beads], self.side)
-        i, j = sites
+        i, j = self.naming.site(beads)
         there, j = j <= self.top, np.minimum(j, self.top)
         column = (i - self.rows.firsts[j]) // 2
         if self.width is not None:
@@ -347,19 +319,29 @@ class Naming(NamedTuple):
             beads[:-1] %= 2 * self.side if self.dimension == 2 else self.side
         return beads
 
-    def site(self, at: Sequence[Any]) -> Site:
-        """Give the site in its row of a bead that is named as a scene does."""
-        if self.dimension == 2:
-            return int(at[0]), int(at[1])
-        assert self.side is not None
-        return site_of([int(coordinate) for coordinate in at], self.side)
+    def site(self, bead: Any) -> tuple[Any, Any]:
+        """Give the site, in the row of its layer, of a bead that is named as a scene does.
 
-    def bead(self, site: Site) -> tuple[int, ...]:
-        """Name a bead as a scene does."""
+        Or give columns i and j, of columns of names. In three dimensions q neighbours q + 1.
+
+        >>> Naming(3, 5).site((2, 1, 3)), Naming(3, 5).bead((23, 3))
+        ((23, 3), (2, 1, 3))
+        """
+        if self.dimension == 2:
+            i, j = bead
+            return i, j
+        assert self.side is not None
+        p, q, j = bead
+        return 2 * (p % self.side * self.side + q % self.side) + j % 2, j
+
+    def bead(self, site: tuple[Any, Any]) -> tuple[Any, ...]:
+        """Name a bead as a scene does; or give columns of names, of columns i and j."""
         if self.dimension == 2:
             return site
         assert self.side is not None
-        return bead_of(site, self.side)
+        i, j = site
+        number = (i - j % 2) // 2
+        return number // self.side, number % self.side, j
 
     def beyond(self, bead: Sequence[int], steps: Sequence[int]) -> tuple[int, ...]:
         """Name the bead so many steps along each base vector on, within the period."""
@@ -386,8 +368,7 @@ class Naming(NamedTuple):
         """Give the columns i and j, or p, q and j, of beads."""
         j = np.repeat([row.j for row in rows] or _NONE, [row.count for row in rows] or _NONE)
         i = np.concatenate([_NONE, *(row.first + 2 * np.arange(row.count) for row in rows)])
-        names = (i, j) if self.dimension == 2 else bead_of((i, j), self.side or 1)
-        return self._named(self.folded(np.stack(names)))
+        return self._named(self.folded(np.stack(self.bead((i, j)))))
 
     def contacts(self, blocks: Sequence[Block]) -> dict[str, Array]:
         """Give the columns of the lower beads, and branch, of contacts."""
