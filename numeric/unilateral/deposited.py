@@ -40,9 +40,8 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
         if (grains.gaps(others) > 1e-9).all():
             return grains, supports
     except UnbuildableError:
-        pass
-    if radii.min() <= 0:
-        raise UnbuildableError((0, 0), "a radius is not positive")
+        if radii.min() <= 0:
+            raise
     apart = 2 * float(radii.max()) * (1 + 1e-9)
     if apart >= 8 * nx:
         raise UnfinishedError("can't start without overlaps: some radius is at least the spacing")
@@ -102,8 +101,7 @@ def as_deposited(problem: Problem, realisation: int, known: Frame, system: Balls
     pairs, values = lattice_contacts(problem.region), (solved.F + solved.g[0]).T.ravel()
     bearing = np.array([not (f.rad() == 0 and f == 0) for f in values], dtype=bool)
     x = _centres(problem, solved, system)
-    free = np.arange(len(known.base), len(x))
-    rattlers = free[~np.isin(free, pairs[bearing])]
+    rattlers = np.setdiff1d(np.arange(len(known.base), len(x)), pairs[bearing])
     smallest = smallest_gap(x, known, pairs)
     return Network(x, pairs[bearing], values[bearing], rattlers, smallest, known)
 

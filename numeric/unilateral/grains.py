@@ -47,13 +47,11 @@ class Grains:
 
     def backbone(self, contacts: Pairs) -> Array:
         """Give the free beads that contacts touch."""
-        free = np.arange(self.fixed, len(self.radii))
-        return np.asarray(free[np.isin(free, contacts)])
+        return np.intersect1d(np.arange(self.fixed, len(self.radii)), contacts)
 
     def rattlers(self, contacts: Pairs) -> Array:
         """Give the free beads that contacts don't touch."""
-        free = np.arange(self.fixed, len(self.radii))
-        return np.asarray(free[~np.isin(free, contacts)])
+        return np.setdiff1d(np.arange(self.fixed, len(self.radii)), contacts)
 
     def move(self, moves: Array) -> None:
         """Move all coordinates that may change."""

@@ -143,8 +143,6 @@ def _close(grains: Grains, contacts: Pairs) -> None:
 
 def _free(grains: Grains, rattlers: Array) -> None:
     """Move rattlers away from what they touch: no load presses them anywhere."""
-    if not len(rattlers):
-        return
     for _ in range(5):
         pairs = grains.near(0.5)
         pairs = pairs[np.isin(pairs, rattlers).any(axis=1)]
