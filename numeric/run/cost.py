@@ -85,10 +85,9 @@ class CostStudy:
 
     def data(self) -> dict[str, Any]:
         """Data for JSON."""
-        relative = "the largest |change| of the answer"
         return {
             "quantity": self.quantity,
-            "errors_relative_to": relative,
+            "errors_relative_to": "the largest |change| of the answer",
             "rows": self.rows(),
             "skipped": self.skipped,
         }

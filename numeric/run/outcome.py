@@ -187,14 +187,10 @@ def _physical_data(found: Physicality, plan: Plan) -> dict[str, Any]:
     pulls = found.tensile + found.undecided_signs
     problem, gap = plan.problem, found.smallest_gap
     width, height = problem.width, problem.height
-    whole = (
-        width is not None
-        and problem.region.beads == width * (height + 1)
-        and found.contacts == problem.dimension * width * height * problem.realisations
-    )
+    every = problem.dimension * (width or 0) * height * problem.realisations
     data: dict[str, Any] = {
         "physical": found.sound,
-        "whole": whole,
+        "whole": problem.region.is_whole and found.contacts == every,
         "smallest_gap": None if gap is None else _length(gap, plan.scene.packing.radius),
         "smallest_gap_between": None if found.between is None else [list(s) for s in found.between],
         "smallest_gap_realisation": found.smallest_in if problem.realisations > 1 else None,

@@ -153,4 +153,4 @@ def read_scene(path: str | Path, changes: Mapping[str, str] | None = None) -> Sc
     for key, value in (changes or {}).items():
         if not isinstance(value, str):
             raise SceneError(key, value, "must be text, as a scene file has it")
-    return reading.read_scene(Path(path), Scene, changes or {})
+    return reading.read_scene(Path(path), Scene, changes)

@@ -7,7 +7,6 @@ import tomllib
 from collections.abc import Mapping
 from decimal import Decimal
 from pathlib import Path
-from types import MappingProxyType
 from typing import TypeVar
 
 from .files import ForeignFileError, opened
@@ -21,7 +20,7 @@ _NO_SCENE = "is not a scene, which is a TOML file with [packing] and [ask]"
 _WORD = re.compile(r"(?!(true|false|inf|nan)$)[A-Za-z][A-Za-z_-]*", re.ASCII)
 
 
-def read_scene(path: Path, kind: type[S], changes: Mapping[str, str] = MappingProxyType({})) -> S:
+def read_scene(path: Path, kind: type[S], changes: Mapping[str, str] | None = None) -> S:
     """Read and check a scene file. Raises ``SceneError``.
 
     ``changes`` are keys, as "packing.height", with values as a scene file has them.
@@ -67,10 +66,7 @@ def _value(name: str, written: str) -> object:
 
 
 def parse_scene(
-    text: str,
-    kind: type[S],
-    folder: Path = Path(),
-    changes: Mapping[str, str] = MappingProxyType({}),
+    text: str, kind: type[S], folder: Path = Path(), changes: Mapping[str, str] | None = None
 ) -> S:
     """Check the text of a scene, whose files lie in ``folder``. Raises ``SceneError``.
 
@@ -92,7 +88,7 @@ def parse_scene(
         raise SceneError("scene", None, why) from None
     if "folder" in raw:
         raise SceneError("folder", raw["folder"], unknown("folder", CheckedScene))
-    for name, written in changes.items():
+    for name, written in (changes or {}).items():
         section, _, key = name.partition(".")
         keys = raw.setdefault(section, {})
         if not key or "." in key or not isinstance(keys, dict):
