@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_196,
     "derivations": 7_131,
-    "numeric": 8_914,
+    "numeric": 8_893,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
