@@ -13,6 +13,8 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.structure import is_vector
 from force_diffusion.symbolic.printing.text import text
 
+from force_diffusion import symbols
+
 from .loads import PLANE, LoadCase, ObservableError
 
 DISCS = (sy.ForcePlus, sy.ForceMinus, sy.VerticalPlus, sy.VerticalMinus)
@@ -28,11 +30,7 @@ INDICES = (sy.i, sy.j, sy.k, sy.l, sy.p, sy.q, sy.M, sy.N)
 ACROSS = (sy.i, sy.k, sy.p, sy.q)
 """Those that may lie across the packing."""
 
-_PARAMETERS = (
-    sy.phi, sy.sigma, sy.r, sy.n_x, sy.n_y, sy.f_load, sy.m_g, sy.z,
-    sy.t, sy.t_2, sy.t_3, sy.L_plus, sy.H_M,
-)  # fmt: skip
-NAMED = {symbol.name: symbol for symbol in (*INDICES, *_PARAMETERS, *sy.VECTORS)}
+NAMED = {each.name: each for each in vars(symbols).values() if isinstance(each, sympy.Symbol)}
 """The symbols of ``force_diffusion.symbols``."""
 
 FARTHEST = 10**9
