@@ -11,10 +11,11 @@ from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.words import in_words as where_in_words
 
+from ..coq.record import Certificate
 from ..coq.statements import recorded
 from ..framework.lists import both
 from ..framework.proof import Step
-from ..framework.record import Check, ProofOutcome, Statement
+from ..framework.record import Check, ProofOutcome, Statement, load
 
 _PAIR = re.compile(r"\((\S+), (\S+)\)")
 
@@ -180,3 +181,12 @@ def outcomes_data(outcomes: Iterable[ProofOutcome], *, timed: bool = True) -> di
         for outcome in outcomes
     ]
     return {"equations": equations}
+
+
+def certificate_text(certificate: Certificate) -> str:
+    """One line about an equation, and below it what it is about and what is wrong with it."""
+    about = (re.sub(r"^\((.*)\)%Z$", r"\1", words) for words in certificate.about)
+    shown = ", ".join(about).replace(">=", "≥").replace("<=", "≤")
+    number, title = certificate.number, load(certificate.number).title
+    line = f"Eq. {number!s:>2}  {certificate!s:<24}  {title}\n    for {shown}"
+    return f"{line}\n    {certificate.note}" if certificate.note else line
