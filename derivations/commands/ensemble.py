@@ -6,14 +6,9 @@ from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import (
-    ArgumentError,
-    ForceDiffusionError,
-    NotReachedError,
-)
 from force_diffusion.numeric.scene.combinations import answered
 
 import force_diffusion as fd
@@ -23,10 +18,6 @@ from .guard import about, in_range, say, tell
 from .output import Output, Overwrite, out_option
 from .scenes import scene_argument
 from .shared import Json, Quiet, Written, show, sourced, warn
-
-if TYPE_CHECKING:
-    from force_diffusion.numeric.ensemble.result import Ensemble
-    from force_diffusion.numeric.scene.scene import CheckedScene
 
 # Seconds until a scheduler has to answer, and a worker of it has to be there.
 PATIENCE = 10
@@ -76,7 +67,7 @@ def ensemble(
 ) -> None:
     """Gather statistics over many packings, on all cores, and save them in a file."""
     if scheduler is not None and workers is not None:
-        raise ForceDiffusionError("--scheduler and --workers exclude each other: leave one out")
+        raise fd.ForceDiffusionError("--scheduler and --workers exclude each other: leave one out")
     with about(scene.name):
         read = fd.read_scene(scene)
     check(written, out)
@@ -101,23 +92,23 @@ def ensemble(
             if more < 1e6
             else "that needs more realisations than an ensemble may have"
         )
-        raise NotReachedError(
+        raise fd.NotReachedError(
             f"the confidence is not reached: σ_f is known to {result.half_width:.2g}, not {until}; "
             f"{remedy}"
         )
 
 
 def _solved(
-    scene: "CheckedScene", store: Path | None, scheduler: str | None, **more: Any
-) -> "Ensemble":
+    scene: "fd.Scene", store: Path | None, scheduler: str | None, **more: Any
+) -> "fd.Ensemble":
     """Solve under a progress bar; errors name options as they are written here."""
     try:
         with ExitStack() as stack, in_range():
             if scheduler is not None:
                 more["executor"] = stack.enter_context(_cluster(scheduler))
             return fd.ensemble(scene, store=store, **more)
-    except ArgumentError as error:
-        raise ForceDiffusionError(f"--{error}") from None
+    except fd.ArgumentError as error:
+        raise fd.ForceDiffusionError(f"--{error}") from None
     except KeyboardInterrupt as interrupt:
         nothing = "nothing was saved; with --store FILE it would have been."
         for note in getattr(interrupt, "__notes__", [] if store else [nothing]):
@@ -128,25 +119,23 @@ def _solved(
 @contextmanager
 def _cluster(address: str) -> Iterator[Executor]:
     """Give the executor of the Dask cluster at an address."""
-    from force_diffusion.numeric.ensemble.ensemble import WorkersError
-
     try:
         import distributed as untyped
     except ImportError:
-        raise ForceDiffusionError(
+        raise fd.ForceDiffusionError(
             "a cluster needs Dask, which is missing: pip install 'force-diffusion[cluster]'"
         ) from None
     distributed: Any = untyped  # it has no types
     try:
         client = distributed.Client(address, timeout=PATIENCE)
     except (OSError, ValueError) as error:
-        raise WorkersError(f"no Dask scheduler answers at {address} ({error})") from None
+        raise fd.WorkersError(f"no Dask scheduler answers at {address} ({error})") from None
     with client:
         try:
             client.wait_for_workers(1, timeout=PATIENCE)
             yield client.get_executor(pure=False)
         except (TimeoutError, distributed.KilledWorker) as error:
-            raise WorkersError(f"{error}: give the cluster workers, or more memory") from None
+            raise fd.WorkersError(f"{error}: give the cluster workers, or more memory") from None
 
 
 def ensemble_status(

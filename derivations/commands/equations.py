@@ -2,17 +2,13 @@
 
 import json
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Any, Literal
+from typing import Annotated, Any, Literal
 
 import typer
 
 import force_diffusion as fd
 
 from ..framework.catalogue import modules, number_of
-
-if TYPE_CHECKING:
-    from ..api.equation import Equation
-
 
 OutputForm = Literal["text", "latex", "sympy", "python", "steps", "json"]
 """How ``show`` prints an equation."""
@@ -43,7 +39,7 @@ def show(
     print("\n\n".join(part for eq in equations for part in _written(eq, form, columns, exact)))
 
 
-def _written(equation: "Equation", form: OutputForm, columns: int, exact: bool) -> Iterator[str]:
+def _written(equation: "fd.Equation", form: OutputForm, columns: int, exact: bool) -> Iterator[str]:
     """An equation, or its exact forms. Raises ``NoSuchFormError`` where there are none."""
     from force_diffusion.symbolic.printing.code import sympy_source
 

@@ -7,11 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
-from force_diffusion.numeric.arithmetic.errors import (
-    ForceDiffusionError,
-    MissingLibraryError,
-    printable,
-)
+from force_diffusion.numeric.arithmetic.errors import printable
 from force_diffusion.numeric.figures.names import KINDS as PICTURES
 from force_diffusion.numeric.scene.combinations import KINDS, answered, either
 
@@ -56,11 +52,11 @@ def _planned(
     try:
         asked = None if tolerance is None else read_tolerance(tolerance)
     except fd.SceneError as error:
-        raise ForceDiffusionError(f"--{error}") from None
+        raise fd.ForceDiffusionError(f"--{error}") from None
     with named(scene.name):
         read = fd.read_scene(scene, changes)
         if certified and asked is None and read.ask.tolerance is None:
-            raise ForceDiffusionError(
+            raise fd.ForceDiffusionError(
                 "--certified needs a tolerance: give --tolerance T, such as 1e-30"
             )
         return read.explain(asked, certified=certified)
@@ -172,7 +168,7 @@ def cost(
             from force_diffusion.numeric.figures import style
 
             plots = style.images(study.plot(title), "cost", title, command, PICTURES)
-        except MissingLibraryError as error:
+        except fd.MissingLibraryError as error:
             tell(f"no plot: {error}")
         text = json.dumps(data, indent=2) + "\n"
         columns = {name: [str(row[name]) for row in study.rows()] for name in study.rows()[0]}
