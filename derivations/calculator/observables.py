@@ -1,6 +1,5 @@
 """Observables of the calculator: what they may contain, and where all their beads exist."""
 
-from collections.abc import Iterable
 from keyword import iskeyword
 from typing import Any
 
@@ -142,23 +141,19 @@ def relations_of(where: Any) -> tuple[sympy.Basic, ...]:
     return several
 
 
-def domain(observables: Iterable[sympy.Expr], load: LoadCase, *more: sympy.Basic) -> Domain:
-    """Where all contacts and beads that are named exist, and further relations hold.
+def domain(statistic: sympy.Expr, load: LoadCase, *more: sympy.Basic) -> Domain:
+    """Where all contacts and beads that a statistic names exist, and further relations hold.
 
     Raises:
         ObservableError: that is nowhere, or a relation is about something else.
     """
-    observables = tuple(observables)
-    occurring = {sy.M, *load.loading.place}.union(*(each.free_symbols for each in observables))
+    occurring = {sy.M, *load.loading.place, *statistic.free_symbols}
     for relation in more:
         if others := by_name(relation.free_symbols - occurring):
             raise ObservableError(f"where={text(relation)}: {text(others[0])} does not occur")
-    quantities = by_name(
-        set().union(*(observable.atoms(sy.SiteFunction, *SPHERES) for observable in observables))
-    )
-    averages = set().union(*(observable.atoms(sy.MeanOver) for observable in observables))
+    quantities = by_name(statistic.atoms(sy.SiteFunction, *SPHERES))
     under_load = any(isinstance(quantity, (*DISCS, *SPHERES)) for quantity in quantities)
-    counts = by_name({average.args[1] for average in averages})
+    counts = by_name({average.args[1] for average in statistic.atoms(sy.MeanOver)})
     relations = [sympy.Ge(count, 1, evaluate=False) for count in counts]
     for quantity in quantities:
         layer = layer_of(quantity)
@@ -174,7 +169,7 @@ def domain(observables: Iterable[sympy.Expr], load: LoadCase, *more: sympy.Basic
         beads.append(load.loading.place)
     whole = Domain.of(
         *(relation for relation in relations if relation.free_symbols),
-        indices=set().union(*(observable.free_symbols for observable in observables)),
+        indices=statistic.free_symbols,
         loading=load.loading if under_load else None,
         beads=beads,
         dimension=load.dimension,

@@ -171,7 +171,7 @@ def _closed(
 ) -> ClosedForm:
     under = load_of(load, dimension)
     statistic = kind(*(read(each, under.dimension) for each in observables))
-    on = domain(statistic.args, under, *relations_of(where))
+    on = domain(statistic, under, *relations_of(where))
     scales = _scales(statistic, under) if relative else {}
     groups = under.groups
     if under.dimension == PLANE and not on.loading:
