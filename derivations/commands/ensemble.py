@@ -78,7 +78,7 @@ def ensemble(
             confidence=confidence, workers=workers, reach=reach,
             progress=not quiet and sys.stderr.isatty(),
         )  # fmt: skip
-    warn(scene, result.measurement.plan)
+    warn(scene, result.measurement.plan.notes)
     data = result.data(rows=False)
     data["source"] = sourced(data["source"], scene, None)  # the same, whoever solved it
     if folder:

@@ -1,7 +1,7 @@
 """The command ``figures``: a thin layer over ``fd.figure``."""
 
 import json
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from enum import StrEnum
 from fractions import Fraction
 from pathlib import Path
@@ -30,7 +30,6 @@ from .shared import Json, command_line, noticing, sourced, warn
 
 if TYPE_CHECKING:
     from force_diffusion.numeric.figures.catalogue import PaperFigure
-    from force_diffusion.numeric.figures.packings import Notice
 
 STATUSES = (
     "Exit status: 0 drawn; 2 wrong usage or input; 3 matplotlib is missing, the disk failed, or "
@@ -196,7 +195,7 @@ def figures(
         print("\n".join(f"  {line}" for line in figure["says"]))
 
 
-def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
+def _own(path: Path, command: str, notice: Callable[[str], None]) -> "PaperFigure":
     """Answer a scene, and draw the answer; a question that has no figure raises ``SceneError``."""
     from force_diffusion.numeric.figures import style
     from force_diffusion.numeric.figures.catalogue import PaperFigure
@@ -208,7 +207,7 @@ def _own(path: Path, command: str, notice: "Notice") -> "PaperFigure":
     refuse("figures", scene)
     notice(f"{name}: solving")
     result = scene.run()
-    warn(path, result.plan)
+    warn(path, result.plan.notes)
     title = f"{printable(name)}: {scene.ask.quantity}"
     notice(f"{name}: drawing")
     files: dict[str, str | bytes] = {

@@ -72,7 +72,7 @@ def explain(
     from force_diffusion.numeric.planning.plan import plan_lines
 
     planned = _planned(scene, tolerance, certified)
-    warn(scene, planned)
+    warn(scene, planned.notes)
     data = planned.data()
     print(json.dumps(data, indent=2) if as_json else "\n".join(plan_lines(data)))
 
@@ -118,7 +118,7 @@ def _answer(
     from force_diffusion.numeric.run.outcome import outcome_lines
     from force_diffusion.numeric.tables import counted
 
-    warn(scene, planned)
+    warn(scene, planned.notes)
     with named(scene.name), in_range():
         # the progress of a single packing is not known
         many = planned.problem.realisations > 1

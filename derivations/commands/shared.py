@@ -17,7 +17,6 @@ from ..export.answers import Format
 from .guard import tell
 
 if TYPE_CHECKING:
-    from force_diffusion.numeric.planning.plan import Plan
     from force_diffusion.numeric.tables import Answered
 
 PROVED = (
@@ -48,9 +47,9 @@ def command_line() -> str:
     return printable(shlex.join(["force-diffusion", *GIVEN.get()])).replace("\n", r"\n")
 
 
-def warn(scene: Path, plan: "Plan") -> None:
+def warn(scene: Path, notes: Iterable[str]) -> None:
     """Tell what should be known of a scene before its answer is used."""
-    for note in plan.notes:
+    for note in notes:
         tell(f"{scene.name}: {note}")
 
 
