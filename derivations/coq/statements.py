@@ -81,7 +81,7 @@ def _load(derivation: Derivation) -> CoqLoad | None:
 
 def _about(
     numbers: str,
-    example: Iterable[object],
+    example: Iterable[str],
     conditions: Iterable[str],
     load: CoqLoad | None,
     *,
@@ -100,7 +100,7 @@ def _about(
         given, objects = "forall (G : lattice) (rho : radii),", "(X : centres)"
         packing, carries = "packing G M rho X", "carries M X ({}) F"
         objects += " (F : forces)" if load else ""
-    hypotheses, values = [packing, *conditions], [str(value) for value in example]
+    hypotheses, values = [packing, *conditions], [*example]
     if load:
         hypotheses += [carries.format(load.words), *load.supposed]
         numbers, values = f"{numbers} {load.variable}", [*values, load.example]
@@ -110,10 +110,6 @@ def _about(
     exists = f"  {given}\n  exists {variables},\n  {_all(hypotheses)}"
     proof = f"intros. exists {', '.join(values)}. something."
     return before, Companion("is_about_something", exists, proof)
-
-
-def _integers(values: Iterable[int]) -> list[str]:
-    return [f"({value})%Z" for value in values]
 
 
 # What it says
@@ -233,7 +229,7 @@ def statement(derivation: Derivation, part: int, *, mirrored: bool = False) -> C
         symbols, values = [*symbols, "W"], [*values, example[sy.M] + abs(example[sy.i]) + 2]
     before, something = _about(
         f"({' '.join(symbols)} : Z)",
-        _integers(values),
+        [f"({value})%Z" for value in values],
         (*sites, *([free] if random else [])),
         load,
         random=random,

@@ -54,10 +54,9 @@ def _leading(printed: sympy.Expr) -> Iterator[Branch]:
     yield "", f"({top}) / ({bottom})"
 
 
-def _exact(number: Number, name: str | None = None) -> Iterator[Branch]:
-    """A closed form, by default the usual one of its equation; its first piece is what is left."""
-    forms = load(number).exact_forms
-    form = forms[name] if name else next(iter(forms.values()))
+def _exact(number: Number) -> Iterator[Branch]:
+    """The usual closed form of an equation; its first piece is what is left."""
+    form = next(iter(load(number).exact_forms.values()))
     for piece in reversed(form.pieces):
         parts = (" and ".join(words.parts(part, words.PYTHON)) for part in piece.where)
         value = piece.expr

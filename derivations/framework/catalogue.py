@@ -45,9 +45,7 @@ def modules() -> dict[Number, str]:
     stems = sorted(path.stem for path in _FOLDER.glob("eq[0-9][0-9]_*.py"))
     by_number: dict[Number, str] = {int(stem[2:4]): stem for stem in stems}
     beyond = {label: module for module, labels in _BEYOND.items() for label in labels}
-    for label in sorted(beyond, key=lambda label: int(label[1:])):
-        by_number[label] = beyond[label]
-    return by_number
+    return by_number | dict(sorted(beyond.items(), key=lambda item: int(item[0][1:])))
 
 
 def in_order(numbers: Iterable[Number]) -> tuple[Number, ...]:

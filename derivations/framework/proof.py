@@ -218,21 +218,14 @@ class Steps(list[Step]):
     claim = partialmethod(show, is_claim=True)
     """Prove a further statement, which is not one of the steps."""
 
-    def refute(
-        self,
-        reading: str,
-        formula: sympy.Eq,
-        rule: Rule,
-        domain: Domain,
-        definitions: Definitions = {},  # noqa: B006 (it is not changed)
-    ) -> None:
+    def refute(self, reading: str, formula: sympy.Eq, rule: Rule, domain: Domain) -> None:
         """Show that a printed statement is false.
 
         Raises:
             NotProvedError: it is not shown to be so.
         """
         try:
-            rule(in_place(formula, {**self._definitions, **definitions}), domain)
+            rule(in_place(formula, self._definitions), domain)
         except FalseStatementError as reason:
             self.refuted.append(Refuted(reading, formula, domain, str(reason)))
             return
