@@ -1,6 +1,9 @@
 """A scene becomes an ensemble: blocks that are missing are solved, kept, and joined in order."""
 
 import math
+import os
+import signal
+import threading
 from collections import deque
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent import futures
@@ -8,7 +11,7 @@ from concurrent.futures import Executor
 from contextlib import AbstractContextManager, closing, contextmanager, nullcontext
 from dataclasses import replace
 from itertools import islice
-from multiprocessing import get_context
+from multiprocessing import connection, get_context, parent_process
 from numbers import Real
 from operator import index
 from pathlib import Path
@@ -26,7 +29,6 @@ from ..arithmetic.errors import (
     quoted,
 )
 from ..arithmetic.machine import cores, memory_limit
-from ..arithmetic.processes import end_with_parent, without_interrupts
 from ..arithmetic.systems import FLOAT64
 from ..mechanics import engine
 from ..mechanics.work import bar
@@ -235,6 +237,34 @@ def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
     if compiled or workers == 1:
         return futures.ThreadPoolExecutor(workers)
     return futures.ProcessPoolExecutor(workers, get_context("spawn"), end_with_parent)
+
+
+@contextmanager
+def without_interrupts() -> Iterator[None]:
+    """Let signals of a terminal wait; they come to us afterwards.
+
+    None of these signals reaches processes that are started meanwhile: those that load their
+    modules could only end with a traceback, and the one that keeps account of all others must see
+    their end.
+    """
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT, signal.SIGHUP})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def end_with_parent() -> None:
+    """Leave interrupts to the parent, and end with it, however it ends; a pool does not see it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # held back until now
+    threading.Thread(target=_follow_parent, daemon=True).start()
+
+
+def _follow_parent() -> None:
+    parent = parent_process()
+    if parent is not None:
+        connection.wait([parent.sentinel])
+        os._exit(1)
 
 
 def _size(scene: CheckedScene, realisations: object) -> int:

@@ -31,11 +31,6 @@ class Branch(StrEnum):
         """0, 1, …, in the order in which they are named."""
         return ("+-" if self.side else "123").index(self)
 
-    @property
-    def other(self) -> "Branch":
-        """The other branch of discs."""
-        return Branch.MINUS if self is Branch.PLUS else Branch.PLUS
-
 
 def directions(dimension: int) -> tuple[Branch, ...]:
     """Give the directions along which contacts lead up.

@@ -31,11 +31,6 @@ class Layer:
     first: int
     count: int
 
-    @property
-    def last(self) -> int:
-        """The largest i of the row."""
-        return self.first + 2 * (self.count - 1)
-
     def sites(self) -> range:
         """All i of the row, from left to right."""
         return range(self.first, self.first + 2 * self.count, 2)

@@ -31,10 +31,6 @@ class Line(NamedTuple):
     step: int
     top: int
 
-    def at(self, m: int) -> int:
-        """Give i in layer m."""
-        return self.start + self.step * m
-
     @property
     def rows(self) -> Rows:
         """Its beads, one a row, from the base up."""
@@ -63,7 +59,7 @@ def ordered_forces(
     upper one on, and those below these beads.
     """
     i, j, branch = contact
-    side, other = branch.side, branch.other.number
+    side, other = branch.side, 1 - branch.number
     main, outer = (
         load.ordered(Line(i - side * (j + 2 * off), side, load.top).rows, strength, system)
         for off in (0, 1)

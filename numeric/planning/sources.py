@@ -46,7 +46,7 @@ def radii_of(scene: CheckedScene, rows: Rows) -> Radii:
 
     def needed(site: Site) -> bool:
         i, j = site  # line sums, which have no rows, look up what they need
-        return not rows or (j < len(rows) and rows[j].first <= i <= rows[j].last)
+        return not rows or (j < len(rows) and i in rows[j].sites())
 
     measured = read_radii(path, packing, needed)
     if packing.width is None:
