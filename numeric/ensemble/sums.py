@@ -210,30 +210,26 @@ def solve_block(m: Measurement, first: int, stop: int) -> Sums:
         return reduce(add, (summed(m, numbers) for numbers in cuts))
 
 
-# Of packings by their numbers: means (packings, 2, G), contacts that pull (packings, G), and counts
-# of bins (packings, B + 2).
-_Solved = tuple[Sequence[int], Array, Array, Array]
+# Of packings by their numbers: means (packings, 2, G), and counts of contacts that pull, then of
+# changes in bins (packings, G + B + 2).
+_Solved = tuple[Sequence[int], Array, Array]
 
 
 def summed(m: Measurement, numbers: Sequence[int]) -> Sums:
     """Solve packings and sum them up, if they can be built."""
     G, B = m.groups, m.counted
-    nothing: _Solved = (
-        (),
-        np.zeros((0, 2, G)),
-        np.zeros((0, G), np.int64),
-        np.zeros((0, B), np.int64),
-    )
+    nothing: _Solved = (), np.zeros((0, 2, G)), np.zeros((0, G + B), np.int64)
     parts = [nothing, *_solved(m, numbers)]
     lost = sorted(set(numbers).difference(*(some for some, *_ in parts)))
-    means, tensile, counts = map(np.concatenate, list(zip(*parts, strict=True))[1:])
+    means, counts = map(np.concatenate, list(zip(*parts, strict=True))[1:])
+    tensile, binned = np.split(counts, [G], axis=1)
     mean = means.sum(axis=0) / max(len(means), 1)
     return Sums(
         len(means),
         len(lost),
         lost[0] if lost else 0,
         tensile.sum(axis=0),
-        np.stack([counts.sum(axis=0), (counts**2).sum(axis=0)]),
+        np.stack([binned.sum(axis=0), (binned**2).sum(axis=0)]),
         mean,
         sums_of_products(means - mean),
     )
@@ -259,15 +255,15 @@ def _measured(m: Measurement, solved: Solved, some: Sequence[int]) -> _Solved:
     means = np.stack([scaled.sum(axis=2), (scaled * scaled).sum(axis=2)]) / m.members
     if not np.isfinite(means).all():
         raise ArithmeticError("a change, or its square, is not finite")
-    tensile = np.zeros((len(some), m.groups), np.int64)
+    counts = np.zeros((len(some), m.groups + m.counted), np.int64)
+    tensile, binned = np.split(counts, [m.groups], axis=1)
     if F.min() + g.min() < 0:
         tensile[:] = np.count_nonzero(F[:, None] + g < 0, axis=2).T
-    counts = np.zeros((len(some), m.counted), np.int64)
     if m.edges:
-        for row, values in zip(counts, g[0], strict=True):
+        for row, values in zip(binned, g[0], strict=True):
             places = np.searchsorted(m.edges, values, side="right")
             row[:] = np.bincount(places, minlength=m.counted)
-    return some, np.moveaxis(means, 2, 0), tensile, counts
+    return some, np.moveaxis(means, 2, 0), counts
 
 
 def why_left_out(m: Measurement, number: int) -> Exception | None:

@@ -8,7 +8,6 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
@@ -236,12 +235,6 @@ class ContactQuantity(Quantity):
 
     roundings = 1
 
-    @cached_property
-    def layers(self) -> frozenset[int] | None:
-        """The layers of lower beads that are asked for; None: all."""
-        asked = self.scene.ask.layers
-        return None if asked is None else frozenset(asked)
-
     def force_rows(self, load: LoadSpec) -> Rows:
         """Give the beads whose force balance decides the one contact's force, or all."""
         contact = self.scene.contact
@@ -261,9 +254,8 @@ class ContactQuantity(Quantity):
         """
         if self.scene.ask.at is not None:
             return [self.naming.contact(self.scene.ask.at)]
-        rows = [row for row in problem.reached if row.j and row.count]
-        if self.layers is not None:
-            rows = [row for row in rows if row.j - 1 in self.layers]
+        asked = set(self.scene.ask.layers or range(self.height))  # layers of lower beads
+        rows = [row for row in problem.reached if row.count and row.j - 1 in asked]
         return [Block(branch, row) for row in rows for branch in self.branches]
 
     @property

@@ -26,9 +26,9 @@ class Response(Merged):
 
     def answer_rows(self, region: Region, realisations: int) -> int:
         """The contacts below each bead of the cone."""
-        beads = region.beads
-        if self.layers is not None:
-            beads = sum(region.rows[j + 1].count for j in self.layers if j < region.top)
+        beads, layers = region.beads, self.scene.ask.layers
+        if layers is not None:
+            beads = sum(region.rows[j + 1].count for j in layers if j < region.top)
         return len(self.branches) * beads
 
     def kept(self, region: Region, realisations: int) -> int:

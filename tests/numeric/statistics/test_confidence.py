@@ -77,7 +77,7 @@ def test_99_percent_of_the_intervals_hold_the_true_std():
     theory = first_order_std(m.problem, [(0, "+")])
     true = float(theory[0]) * 2.0**-m.unit
     numbers = range(REPEATS * PACKINGS)
-    parts = [means[:, :, 0] for _, means, _, _ in sums._solved(m, numbers)]
+    parts = [means[:, :, 0] for _, means, _ in sums._solved(m, numbers)]
     each = np.concatenate(parts).reshape(REPEATS, PACKINGS, 2)
     a, b = np.moveaxis(each - each.mean(axis=1, keepdims=True), 2, 0)
     products = np.stack([(x * y).sum(axis=1) for x, y in ((a, a), (a, b), (b, b))])
