@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_196,
     "derivations": 7_093,
-    "numeric": 8_893,
+    "numeric": 8_871,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
