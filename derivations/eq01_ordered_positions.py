@@ -31,6 +31,12 @@ def squared_distance(across: sympy.Expr, up: sympy.Expr) -> sympy.Expr:
     return Dot(apart, apart)
 
 
+def beyond_the_closest(across: sympy.Expr, up: sympy.Expr, closest: tuple[int, int]) -> sympy.Eq:
+    """A pair's squared distance less 4r²: that of the closest pair, and two terms more."""
+    more = times(4 * r**2, across, n_x**2), times(4 * r**2, up, n_y**2)
+    return equation(D(p, q) - 4 * r**2, terms(*more, terms(D(*closest), -4 * r**2)))
+
+
 def show_steps(steps: Steps) -> None:
     """From touching along the two lattice directions to the range of the spacing."""
     touching = steps.show(
@@ -78,20 +84,8 @@ def show_steps(steps: Steps) -> None:
         "All other pairs are at least as far apart: none of the terms is negative for |p| ≥ 2 "
         "(first line) or |q| ≥ 2 (second line), and the last is that of the closest pair.",
         sympy.Tuple(
-            *(
-                equation(
-                    D(p, q) - 4 * r**2,
-                    terms(
-                        times(4 * r**2, across, n_x**2),
-                        times(4 * r**2, up, n_y**2),
-                        terms(D(*tightest), -4 * r**2),
-                    ),
-                )
-                for across, up, tightest in (
-                    (terms(p**2, -4), q**2, (2, 0)),
-                    (p**2, terms(q**2, -4), (0, 2)),
-                )
-            )
+            beyond_the_closest(terms(p**2, -4), q**2, (2, 0)),
+            beyond_the_closest(p**2, terms(q**2, -4), (0, 2)),
         ),
         rewrite(printed.theorem),
         PAIRS,

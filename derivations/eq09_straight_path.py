@@ -16,13 +16,8 @@ ENTRY = (k - 1, l - 1)
 BELOW = Domain.of(j >= 0, j <= l - 1, indices=(i,), loading=axioms.ENTERING)
 STRAIGHT = Domain.of(Eq(k - i, l - j), l - j >= 1, j >= 0, loading=axioms.ENTERING)
 
-PRINTED = equation(
-    ForcePlus(i, j) / ForcePlus(*ENTRY),
-    terms(
-        1,
-        times(phi / (1 - phi**2), Dot(n_minus, terms(DeltaNPlus(i, j), minus(DeltaNPlus(*ENTRY))))),
-    ),
-)
+TURN = Dot(n_minus, terms(DeltaNPlus(i, j), minus(DeltaNPlus(*ENTRY))))
+PRINTED = equation(ForcePlus(i, j) / ForcePlus(*ENTRY), terms(1, times(phi / (1 - phi**2), TURN)))
 
 NOTHING_TO_THE_LEFT = (
     (equation(ForceMinus(i, j), sympy.S.Zero), BELOW.also(k - i >= l - j)),

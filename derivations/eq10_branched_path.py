@@ -16,15 +16,8 @@ BRANCHED = Domain.of(
     n >= 1, n < l - j, Eq(2 * n, (l - j) - (k - i)), j >= 0, loading=axioms.ENTERING
 )
 
-PRINTED = equation(
-    ForceMinus(i, j) / ForcePlus(*ENTRY),
-    minus(
-        times(
-            1 / (1 - phi**2),
-            Dot(n_minus, terms(DeltaNPlus(i - n - 1, j + n - 1), minus(DeltaNPlus(i - n, j + n)))),
-        )
-    ),
-)
+TURN = Dot(n_minus, terms(DeltaNPlus(i - n - 1, j + n - 1), minus(DeltaNPlus(i - n, j + n))))
+PRINTED = equation(ForceMinus(i, j) / ForcePlus(*ENTRY), minus(times(1 / (1 - phi**2), TURN)))
 
 NOTHING_BESIDE = tuple(
     (equation(force(i, j), sympy.S.Zero), BELOW.also(where))

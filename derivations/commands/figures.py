@@ -143,9 +143,10 @@ def figures(
         "spacing": (spacing, OWN_SPACING),
         "relative_std": (relative_std, OWN_STD),
     }
+    given = {key: option for key, option in options.items() if option[0] is not None}
     models = {f"with {model}": (model, (MODELS[model],)) for model in beside or ()}
-    for key, (value, those) in {**options, **models}.items():
-        if value is not None and not set(those) & set(wanted):
+    for key, (_, those) in {**given, **models}.items():
+        if not set(those) & set(wanted):
             add = those[0] if len(those) == 1 else "one of them"
             raise typer.BadParameter(
                 f"goes with figure{'s' * (len(those) > 1)} {', '.join(those)} only; add {add}"
@@ -174,11 +175,7 @@ def figures(
             if name in scenes:
                 made = _own(Path(name), data["command"], notice)
             else:
-                own = {
-                    key: value
-                    for key, (value, those) in options.items()
-                    if value is not None and name in those
-                }
+                own = {key: value for key, (value, those) in given.items() if name in those}
                 own["beside"] = [model for model in beside or () if MODELS[model] == name]
                 own["seed"] = 1 if seed is None else seed
                 made = fd.figure(name, notice=notice, command=data["command"], **own)
