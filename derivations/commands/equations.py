@@ -2,7 +2,7 @@
 
 import json
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 import typer
 
@@ -12,9 +12,6 @@ from ..framework.catalogue import modules, number_of
 
 OutputForm = Literal["text", "latex", "sympy", "python", "steps", "json"]
 """How ``show`` prints an equation."""
-Columns = Annotated[
-    int, typer.Option(min=1, max=2, help="Columns of the page that the LaTeX is for.")
-]
 
 
 def show(
@@ -24,7 +21,9 @@ def show(
         bool,
         typer.Option("--exact", help="Print the exact forms at finite size, if there are any."),
     ] = False,
-    columns: Columns = 1,
+    columns: Annotated[
+        int, typer.Option(min=1, max=2, help="Columns of the page that the LaTeX is for.")
+    ] = 1,
 ) -> None:
     """Print equations without deriving them."""
     if exact and form == "steps":
@@ -36,32 +35,49 @@ def show(
     if form == "json":
         print(json.dumps({"equations": [equation.data() for equation in equations]}, indent=2))
         return
-    print("\n\n".join(part for eq in equations for part in _written(eq, form, columns, exact)))
+    if exact:
+        parts = [part for each in equations for part in _exact_forms(each, form, columns)]
+    else:
+        parts = [_printed(each, form, columns) for each in equations]
+    print("\n\n".join(parts))
 
 
-def _written(equation: "fd.Equation", form: OutputForm, columns: int, exact: bool) -> Iterator[str]:
-    """An equation, or its exact forms. Raises ``NoSuchFormError`` where there are none."""
+def _printed(equation: "fd.Equation", form: OutputForm, columns: int) -> str:
+    """An equation as the paper has it, or its steps."""
+    match form:
+        case "latex":
+            return _numbered(equation.displays(columns))
+        case "sympy":
+            return equation.sympy_code()
+        case "python":
+            return equation.python_code()
+        case "steps":
+            return str(equation.steps())
+        case _:
+            return str(equation)
+
+
+def _exact_forms(equation: "fd.Equation", form: OutputForm, columns: int) -> Iterator[str]:
+    """Its exact forms. Raises ``NoSuchFormError`` where there are none."""
     from force_diffusion.symbolic.printing.code import sympy_source
 
-    if exact:
-        equation.exact()
-    parts: dict[str, Any] = {name: equation.exact(name) for name in equation.forms if exact}
-    for name, part in (parts or {"": equation}).items():
+    equation.exact()
+    for name in equation.forms:
+        exact = equation.exact(name)
         match form:
             case "latex":
-                displays = part.displays(columns)
-                yield "\n".join(
-                    f"\\begin{{equation}}\n{body}\n\\end{{equation}}" for body in displays
-                )
+                yield _numbered(exact.displays(columns))
             case "sympy":
-                yield sympy_source(part.expr) if exact else part.sympy_code()
+                yield sympy_source(exact.expr)
             case "python":
-                yield part.python(f"{equation.name}_{name}") if exact else part.python_code()
-            case "steps":
-                yield str(equation.steps())
+                yield exact.python(f"{equation.name}_{name}")
             case _:
-                lines = "\n".join(part.lines()) if exact else ""
-                yield f"Eq. {equation.number}, {name}: {lines}" if exact else str(equation)
+                lines = "\n".join(exact.lines())
+                yield f"Eq. {equation.number}, {name}: {lines}"
+
+
+def _numbered(displays: list[str]) -> str:
+    return "\n".join(f"\\begin{{equation}}\n{body}\n\\end{{equation}}" for body in displays)
 
 
 def list_equations() -> None:
