@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_196,
-    "derivations": 7_093,
+    "derivations": 7_080,
     "numeric": 8_871,
     "force_diffusion": 78,
     "benchmarks": 833,
