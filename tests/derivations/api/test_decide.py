@@ -202,6 +202,16 @@ def test_what_is_no_equation_is_refused_by_its_type(given, says):
         assert says in ruling.note
 
 
+def test_large_numbers_are_too_large_and_many_terms_are_not():
+    eq = fd.equation(13)
+    terms = (sy.z**n / (n * (1 - sy.phi**2) ** (n % 4)) for n in range(1, 300))
+    assert eq.decide(eq.rhs + sympy.Add(*terms)).verdict is Verdict.PROVED  # of a lower order
+    power = sympy.Pow(sympy.Pow(Rational(3, 2), 300, evaluate=False), 300, evaluate=False)
+    ruling = eq.decide(eq.rhs * (1 + power))
+    assert ruling.verdict is Verdict.UNDECIDED
+    assert "may hold numbers of more than 50000 bits" in ruling.note
+
+
 # exact forms
 
 
