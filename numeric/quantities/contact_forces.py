@@ -87,8 +87,8 @@ def of_network(network: Network) -> tuple[Table, Array, Array, Array]:
     order = np.lexsort((network.pairs[:, 0], network.pairs[:, 1]))
     pairs = network.pairs[order]
     (upper_i, upper_j), (i, j) = (network.names(pairs[:, end]) for end in (0, 1))
-    branch = np.array([network.branch(pair) for pair in pairs])
-    index = {"i": i, "j": j, "branch": branch, "upper_i": upper_i, "upper_j": upper_j}
+    names = {"i": i, "j": j, "branch": network.branches(pairs)}
+    index = names | {"upper_i": upper_i, "upper_j": upper_j}
     high, low = as_floats(network.x)[pairs].transpose(1, 2, 0)
     turns = np.round((low[0] - high[0]) / float(network.frame.period))
     high[0] += turns * float(network.frame.period)

@@ -41,9 +41,8 @@ class Grains:
         return np.asarray(self.load[self.fixed :].ravel())
 
     def coordinates(self, beads: Array) -> Array:
-        """Give the places of free beads' coordinates among those that may change."""
-        first = 2 * (beads - self.fixed)
-        return np.asarray(np.stack([first, first + 1], axis=1).ravel())
+        """Give the places of beads' coordinates among those that may change; others are below 0."""
+        return np.asarray((2 * (beads - self.fixed)[:, None] + [0, 1]).ravel())
 
     def backbone(self, contacts: Pairs) -> Array:
         """Give the free beads that contacts touch."""
@@ -81,13 +80,11 @@ class Grains:
         """Give the derivatives of the gaps, a sparse matrix of shape (pairs, unknowns)."""
         n = self.directions(pairs)
         rows = np.repeat(np.arange(len(pairs)), 4)
-        first = 2 * (pairs - self.fixed)
-        columns = np.stack([first[:, 0], first[:, 0] + 1, first[:, 1], first[:, 1] + 1], axis=1)
+        columns = self.coordinates(pairs.ravel())
         values = np.concatenate([n, -n], axis=1).ravel()
-        free = columns.ravel() >= 0
-        return sparse.csr_array(
-            (values[free], (rows[free], columns.ravel()[free])), shape=(len(pairs), self.unknowns)
-        )
+        free = columns >= 0
+        entries = values[free], (rows[free], columns[free])
+        return sparse.csr_array(entries, shape=(len(pairs), self.unknowns))
 
     def factors(self, pairs: Pairs, place: Array) -> Any:
         """Factorise the derivatives of as many gaps as there are coordinates at ``place``.

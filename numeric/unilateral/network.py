@@ -7,7 +7,6 @@ import numpy as np
 
 from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
 from ..arithmetic.systems import Array
-from ..lattice.branch import directions
 from ..mechanics.sweep import Solved
 
 
@@ -87,15 +86,12 @@ class Network(NamedTuple):
         j, q = divmod(numbers, self.width)
         return 2 * q + j % 2, j
 
-    def branch(self, pair: Array) -> str:
-        """Give "+" or "-" where a pair are neighbours of the lattice, else an empty string."""
-        (k, upper), (i, j) = self.names(pair[0]), self.names(pair[1])
-        if upper != j + 1:
-            return ""
-        for branch in directions(2):
-            if (i + branch.side - k) % (2 * self.width) == 0:
-                return branch.value
-        return ""
+    def branches(self, pairs: Array) -> Array:
+        """Give "+" or "-" of pairs that are neighbours of the lattice, else an empty string."""
+        (k, upper), (i, j) = self.names(pairs[:, 0]), self.names(pairs[:, 1])
+        above, across = upper == j + 1, (k - i) % (2 * self.width)
+        sides = [above & (across == 1), above & (across == 2 * self.width - 1)]
+        return np.select(sides, ["+", "-"], "")
 
 
 @dataclass(frozen=True, kw_only=True)
