@@ -59,7 +59,7 @@ class Accuracy(NamedTuple):
     def still(self) -> str:
         """Say how large the error still is."""
         if not math.isfinite(self.error_bound):
-            return "nothing is left of the answer"
+            return self.note or "nothing is left of the answer"
         return f"the error is still {short(Fraction(self.error_bound))}"
 
 
@@ -186,8 +186,7 @@ def shortfall(plan: Plan, solved: Answer, judged: Sequence[Accuracy]) -> str:
         return ""
     for table, accuracy in zip(solved.tables, judged, strict=True):
         if not accuracy.within(plan.tolerance):
-            finite = math.isfinite(accuracy.error_bound)
-            return accuracy.still if finite else accuracy.note
+            return accuracy.still
         if table.bins and edge_in_doubt(table, table.bins, accuracy):
             return "a change lies within its error of the edge of a bin"
     return ""

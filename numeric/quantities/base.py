@@ -337,11 +337,10 @@ def first_order_std(problem: Problem, contacts: Iterable[tuple[int, str]]) -> Ar
     Shape (contacts,): fractions, a float64 times the exact σ/r, in units of the load. None where
     the equations don't apply.
     """
-    load, radii, height = problem.load, problem.radii, problem.height
+    load, height = problem.load, problem.height
     if not has_theory(problem):
         return None
-    assert isinstance(radii, DrawnRadii)
-    std, phi = radii.relative_std, float(problem.phi)
+    std, phi = problem.radii.relative_std, float(problem.phi)
     unit = tuple(map(float, load.strength(problem.n_x, FLOAT64).unit))
     stds = []
     for j, branch in contacts:

@@ -76,12 +76,7 @@ class Band(NamedTuple):
 
 
 def simultaneous(
-    estimate: Array,
-    influence: Array,
-    level: float = 0.99,
-    seed: int = 0,
-    *,
-    logarithmic: bool = True,
+    estimate: Array, influence: Array, level: float, seed: int, *, logarithmic: bool = True
 ) -> Band:
     """Give the band that holds all true values with probability ``level``.
 
