@@ -113,12 +113,7 @@ class Made(NamedTuple):
 
 
 def compared(
-    figure: "Figure",
-    name: str,
-    o: Options,
-    cases: Sequence[Comparison],
-    rows: Table,
-    **parameters: Any,
+    figure: "Figure", name: str, o: Options, cases: Sequence[Comparison], rows: Table, **facts: Any
 ) -> Made:
     """Give a figure of ensembles beside theory; ``rows`` names the rows of its CSV file."""
     columns = ([c.band.value, *c.band.limits, c.theory] for c in cases)
@@ -128,7 +123,7 @@ def compared(
         {"of": c.of, "inside": c.deviation <= 1, "deviation_in_half_widths": c.deviation}
         for c in cases
     ]
-    facts = {**parameters, "realisations": o.realisations, "level": LEVEL, "comparisons": verdicts}
+    facts |= {"realisations": o.realisations, "level": LEVEL, "comparisons": verdicts}
     return Made(figure, {name: table}, facts, [c.verdict() for c in cases])
 
 
@@ -154,14 +149,11 @@ def planned(
     A ``width`` of 0 is 2M: then no exact force sees an image. None is the infinite slab.
     """
     width, narrow = 2 * height if width == 0 else width, width is not None
+    packing = Packing(
+        height=height, width=width, spacing=medium.spacing, dimension=dimension, allow_images=narrow
+    )
     scene = CheckedScene(
-        packing=Packing(
-            height=height,
-            width=width,
-            spacing=medium.spacing,
-            dimension=dimension,
-            allow_images=narrow,
-        ),
+        packing=packing,
         disorder=Disorder(kind=kind, relative_std=medium.std, seed=o.seed),
         load=SurfaceLoad() if load is None else load,
         ask=Ask(quantity=quantity, at=at, realisations=o.realisations or 1),

@@ -109,13 +109,8 @@ def vtk(beads: Array, radii: Array, contacts: Contacts) -> str:
 
 def dump_local(contacts: Contacts, box: list[str]) -> str:
     """LAMMPS's format *dump local*: a line per contact, with the numbers of its beads, from 1."""
-    pairs = contacts.pairs + 1
-    rows = zip(
-        pairs.tolist(),
-        as_floats(contacts.force).tolist(),
-        _three(contacts.force_vector).tolist(),
-        strict=True,
-    )
+    pairs, vectors = contacts.pairs + 1, _three(contacts.force_vector)
+    rows = zip(pairs.tolist(), as_floats(contacts.force).tolist(), vectors.tolist(), strict=True)
     header = _header("ENTRIES", len(pairs), box, "index batom1 batom2 force fx fy fz")
     lines = (_words([k, *pair, force, *v]) for k, (pair, force, v) in enumerate(rows, 1))
     return "\n".join([*header, *lines, ""])

@@ -93,12 +93,9 @@ class Section(BaseModel):
     Raises ``SceneError``, which names the key, its value and what is allowed.
     """
 
+    # built when it is first used: most commands need few sections
     model_config = ConfigDict(
-        extra="forbid",
-        frozen=True,
-        strict=True,
-        arbitrary_types_allowed=True,
-        defer_build=True,  # most commands need few sections
+        extra="forbid", frozen=True, strict=True, arbitrary_types_allowed=True, defer_build=True
     )
     section: ClassVar[str] = ""
 
