@@ -15,7 +15,7 @@ import numpy as np
 
 from .arithmetic.carried import UNIT, Sizes, bound_error
 from .arithmetic.decimals import short
-from .arithmetic.errors import NOT_REACHED, ForceDiffusionError, UndecidedError
+from .arithmetic.errors import NotReachedError, UndecidedError
 from .arithmetic.systems import FLOAT64, Array, Balls, NumberSystem, as_floats, largest_of, midpoint
 from .mechanics.sweep import NotStandingError
 from .mechanics.work import Work
@@ -63,10 +63,8 @@ class Accuracy(NamedTuple):
         return f"the error is still {short(Fraction(self.error_bound))}"
 
 
-class ToleranceError(ForceDiffusionError, ArithmeticError):
+class ToleranceError(NotReachedError, ArithmeticError):
     """The tolerance can't be reached; the message says why."""
-
-    exit_status = NOT_REACHED
 
 
 def of_balls(table: Table, system: Balls, floor: Fraction) -> Accuracy:

@@ -52,7 +52,7 @@ class WrongTypeError(ForceDiffusionError, TypeError):
 
 
 class NotReachedError(ForceDiffusionError):
-    """What was asked for can't be reached with the memory, the range or the libraries at hand."""
+    """What was asked for can't be reached, with the memory, range, libraries or bits at hand."""
 
     exit_status = NOT_REACHED
 
@@ -61,10 +61,8 @@ class MissingLibraryError(NotReachedError):
     """An optional library is not installed; the message says how to install it."""
 
 
-class UndecidedError(ForceDiffusionError, ArithmeticError):
+class UndecidedError(NotReachedError, ArithmeticError):
     """Balls are too wide to answer a question, so more bits are needed."""
-
-    exit_status = NOT_REACHED
 
 
 def quoted(value: object) -> str:

@@ -20,9 +20,9 @@ from typing import SupportsIndex
 from force_diffusion import __version__
 
 from ..arithmetic.errors import (
-    NOT_REACHED,
     ArgumentError,
     ForceDiffusionError,
+    NotReachedError,
     WrongTypeError,
     check_progress,
     checked,
@@ -57,10 +57,8 @@ class RealisationError(ForceDiffusionError, ValueError):
     """Hardly any packing can be built; the message names one that can't, and says why."""
 
 
-class WorkersError(ForceDiffusionError, RuntimeError):
+class WorkersError(NotReachedError, RuntimeError):
     """Workers are missing or have died; the message says what to do."""
-
-    exit_status = NOT_REACHED
 
 
 @checked

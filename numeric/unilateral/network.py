@@ -5,15 +5,13 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from ..arithmetic.errors import NOT_REACHED, ForceDiffusionError
+from ..arithmetic.errors import NotReachedError
 from ..arithmetic.systems import Array
 from ..mechanics.sweep import Solved
 
 
-class UnfinishedError(ForceDiffusionError, ArithmeticError):
+class UnfinishedError(NotReachedError, ArithmeticError):
     """Beads did not come to rest: no answer is given."""
-
-    exit_status = NOT_REACHED
 
 
 class ImpossibleError(UnfinishedError):
