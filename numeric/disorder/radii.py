@@ -107,11 +107,6 @@ class MeasuredRadii:
         """Mean of δr/r."""
         return math.fsum(map(float, self.rho.values())) / max(len(self.rho), 1)
 
-    @cached_property
-    def least(self) -> Fraction:
-        """The smallest |δr|/r that is not 0; 0 if all are 0."""
-        return min((abs(v) for v in self.rho.values() if v), default=Fraction(0))
-
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Any:
         """Look the radii up; a bead that the file lacks raises ``RadiusError``."""
         values = []

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, reduce
-from itertools import product
+from itertools import pairwise, product
 from operator import add
 from typing import Any
 
@@ -97,11 +97,9 @@ class Measurement:
         """Cut realisations 0 … size − 1 where sums are looked at, and after so many packings."""
         beads = max(self.problem.region.beads, 1)
         most = 1 << max(min(PACKINGS, BEADS // beads), 1).bit_length() - 1
-        first = 0
-        for end in (*looks(size), size):
-            while first < end:
+        for start, end in pairwise((0, *looks(size), size)):
+            for first in range(start, end, most):
                 yield first, min(first + most, end)
-                first = min(first + most, end)
 
 
 def measurement(scene: CheckedScene, *, reach: float | None = None) -> Measurement:

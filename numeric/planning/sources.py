@@ -64,7 +64,7 @@ def beyond_floats(scene: CheckedScene, radii: Radii, load: LoadSpec) -> bool:
     """
     packing, spread = scene.packing, radii.relative_std
     if isinstance(radii, MeasuredRadii):
-        spread = radii.least
+        spread = min((abs(v) for v in radii.rho.values() if v), default=Fraction(0))
     if isinstance(radii, ArrayRadii) and not CLOSEST_UNIT <= packing.radius <= FARTHEST_UNIT:
         return True
     units = [packing.radius if "positions" in scene.ask.quantities else Fraction(1)]

@@ -154,7 +154,7 @@ class Quantity(ABC):
         if self.by_layers:
             region = self.layers_up_to(self.top)
             return region.rows if self.needs_forces else Rows(), region
-        rows = self.force_rows(load)
+        rows = self.force_rows(load) if self.needs_forces else Rows()
         return rows, self.region(rows)
 
     def force_rows(self, load: LoadSpec) -> Rows:

@@ -8,7 +8,6 @@ from ..arithmetic.systems import Array
 from ..lattice import regions
 from ..lattice.branch import axis_names
 from ..lattice.layers import Layer, Region, Rows, columns_of, taken
-from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, cartesian, ordered_places
 from ..mechanics.sweep import Solved
 from ..unilateral.network import Relaxed
@@ -24,10 +23,6 @@ class Positions(Quantity):
 
     name = "positions"
     of_forces = False
-
-    def force_rows(self, load: LoadSpec) -> Rows:
-        """No forces are needed."""
-        return Rows()
 
     def region(self, force_rows: Rows) -> Region:
         """Give the triangle below the bead, or the whole packing."""

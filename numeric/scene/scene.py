@@ -201,9 +201,8 @@ def _check_layers(ask: Ask, load: Load, height: int) -> None:
 
 def files_read(scene: CheckedScene) -> dict[str, str]:
     """Give the SHA-256 of the bytes of the files of radii and loads, as they are now."""
-    disorder, load = scene.disorder, scene.load
-    radii = None if disorder is None else disorder.file
-    files = {"disorder.file": radii, "load.file": load.file}
+    radii = None if scene.disorder is None else scene.disorder.file
+    files = {"disorder.file": radii, "load.file": scene.load.file}
     return {key: sha256(scene.folder / file) for key, file in files.items() if file is not None}
 
 
@@ -213,11 +212,10 @@ def source_of(scene: CheckedScene, files: dict[str, str] | None = None) -> dict[
     Numbers of the scene are strings, exact. ``sha256`` is that of the ``files_read``, and of the
     doubles of an array, in the order of its rows.
     """
-    held = {name: getattr(scene, name) for name in CheckedScene.model_fields if name != "folder"}
     sections = {
         name: {key: _exact(value) for key, value in section if value is not None}
-        for name, section in held.items()
-        if section is not None
+        for name, section in scene
+        if name != "folder" and section is not None
     }
     sections["packing"]["spacing"] = _exact(scene.packing.s)
     disorder, hashes = scene.disorder, dict(files_read(scene) if files is None else files)
