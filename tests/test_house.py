@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_211,
     "derivations": 7_080,
-    "numeric": 8_840,
+    "numeric": 8_826,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
