@@ -1,6 +1,7 @@
 """Why a statement is not proved: where its sides differ. No theorem rests on what is found here."""
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import cycle, islice
 
 import islpy as isl
 import sympy
@@ -94,15 +95,21 @@ def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> st
 def _samples(
     points: sets.Set, among: Iterable[sympy.Symbol] = (), most: int = 8
 ) -> Iterator[dict[sympy.Symbol, int]]:
-    """Some points of a set, which differ in what it is said by and in symbols ``among``."""
-    idle = [
-        dimension
-        for dimension in sets.DIMENSIONS
-        if dimension not in among and not sets.depends_on(points, dimension)
+    """Some points of a set, which differ in what it is said by and in symbols ``among``.
+
+    A function may vanish along a line: each symbol in turn goes on, farther each time.
+    """
+    axes = [
+        symbol for symbol in sets.DIMENSIONS if symbol in among or sets.depends_on(points, symbol)
     ]
+    idle = (symbol for symbol in sets.DIMENSIONS if symbol not in axes)
     points = points & sets.where(*(sympy.Eq(symbol, 0, evaluate=False) for symbol in idle))
-    for _ in range(most):
+    ahead = points
+    for turn, symbol in enumerate(islice(cycle(axes or sets.DIMENSIONS), most), start=1):
         if points.is_empty():
             return
-        yield sets.sample(points)
-        points = points - isl.Set.from_point(points.sample_point())
+        here = points if ahead.is_empty() else ahead
+        at = sets.sample(here)
+        yield at
+        points = points - isl.Set.from_point(here.sample_point())
+        ahead = points & sets.where(sympy.Ge(symbol, at[symbol] + turn, evaluate=False))

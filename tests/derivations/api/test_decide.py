@@ -247,6 +247,13 @@ def test_one_formula_is_refuted_at_a_place_that_tells_it_apart():
         assert form.at(M=height, j=layer, **at) != piece.expr.xreplace(values)
 
 
+def test_a_difference_that_vanishes_along_a_line_is_found_off_it():
+    form = fd.mean(sy.ForcePlus(sy.i, sy.j), order=2, where=(sy.j >= 2, sy.j <= sy.M - 3))
+    for factors in ((1, 2), (2, 3), (2, 3, 4)):
+        apart = sy.phi * sympy.Mul(*(sy.j - zero for zero in factors)) * (sy.sigma / sy.r) ** 2
+        assert form.decide(form.expr + apart).verdict is Verdict.REFUTED
+
+
 def test_the_printed_form_is_not_the_exact_one():
     """Eq. 13 is proved with its own sign, ∼, and refuted with "="."""
     eq, form = fd.equation(13), fd.equation(13).exact()
