@@ -113,8 +113,6 @@ def _parts(word: str) -> tuple[str, str, str]:
         core, closing = f"{core})", closing[1:]
     while core.count(")") > core.count("(") and opening.endswith("("):
         core, opening = f"({core}", opening[:-1]
-    if core.find(")") < core.find("(") and opening.endswith("(") and closing.startswith(")"):
-        opening, core, closing = opening[:-1], f"({core})", closing[1:]  # (a)^(b)
     return opening, core, closing
 
 
