@@ -18,7 +18,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_215,
-    "derivations": 7_080,
+    "derivations": 7_078,
     "numeric": 8_826,
     "force_diffusion": 78,
     "benchmarks": 833,
