@@ -198,10 +198,7 @@ def named(forces: Array, what: str) -> list[tuple[float, str]]:
     if beads.alike(forces):
         if largest - smallest < beads.EQUAL * largest:
             return [(mean, f"all, ${what}={mean:.3g}$")]
-        return [(mean, f"mean, ${what}={mean:.3g}$")] + [
-            (force, f"{name}, ${100 * (force / mean - 1):+.2g}" + r"\%$")
-            for name, force in (("smallest", smallest), ("largest", largest))
-        ]
+        return [(mean, f"mean, ${what}={mean:.3g}$"), *beads.extremes(forces, mean)]
     size = float(np.abs(forces).mean())
     shown = [(size, f"mean, ${what}={size:.3g}$"), (largest, f"largest, ${what}={largest:.3g}$")]
     if smallest < 0:

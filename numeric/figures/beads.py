@@ -102,6 +102,12 @@ def alike(forces: Array) -> bool:
     return bool(forces.min() > forces.max() / 3)
 
 
+def extremes(forces: Array, mean: float) -> list[tuple[float, str]]:
+    """Give the smallest and the largest force, and how far they are from the mean, in words."""
+    ends = ("smallest", float(forces.min())), ("largest", float(forces.max()))
+    return [(force, rf"{name}, ${100 * (force / mean - 1):+.2g}\%$") for name, force in ends]
+
+
 def thickness(some: Any, forces: Array) -> Array:
     """Widths of lines, in points, for some of all ``forces``: in proportion to them.
 

@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 
 from ..theory.expected import critical_height
-from .beads import alike, bare, draw_base, draw_chains, draw_surface_load
+from .beads import alike, bare, draw_base, draw_chains, draw_surface_load, extremes
 from .packings import Made, Medium, Options, Table, planned, solve_first
 from .style import PAGE, panels
 
@@ -42,9 +42,7 @@ def figure(o: Options) -> Made:
     f = r"$f=\langle f\rangle$"
     keys = [(1.0, f), (3.0, r"$f=3\langle f\rangle$"), (-1.0, r"pulling, $f=-\langle f\rangle$")]
     if alike(forces):
-        keys = [(1.0, f)]
-        for name, force in (("smallest", forces.min()), ("largest", forces.max())):
-            keys.append((float(force), rf"{name}, ${100 * (force - 1):+.2g}\%$"))
+        keys = [(1.0, f), *extremes(forces, 1)]
     drawn, (axes,) = panels("a", PAGE, 2.75)
     draw_chains(axes, ends, forces, keys)
     draw_base(axes, 0, right)

@@ -66,9 +66,8 @@ def answer(
             if "samples" in table.index:
                 table.index["samples"] *= alike
             if isinstance(quantity, Histogram):
-                counted = histogram(table.numbers["change"], quantity.bins, system)
-                bins = [(low, high, count * alike) for low, high, count in counted]
-                table = replace(table, bins=bins)
+                bins = histogram(table.numbers["change"], quantity.bins, system)
+                table = replace(table, bins=bins._replace(counts=bins.counts * alike))
             tables.append(table)
     return Answer(tuple(tables), physical, network, sizes)
 

@@ -22,6 +22,7 @@ from ..mechanics.loads import LoadSpec
 from ..mechanics.problem import Problem, Route
 from ..mechanics.sweep import Solved
 from ..scene.scene import CheckedScene
+from ..statistics.bins import Bins
 from ..theory.expected import stds_of_contacts
 
 # σ_f/⟨f⟩, and the columns that scatter from sample to sample as others do, whose errors are known.
@@ -35,8 +36,6 @@ SCATTER_OF = {
 
 
 Columns = dict[str, Array]
-Bins = list[tuple[Fraction, Fraction, int]]
-"""Of a histogram: low, high and count."""
 
 
 @dataclass(frozen=True)

@@ -52,12 +52,8 @@ class Result(Answered):
         magnitude is written. The guide to scenes says what each column means.
         """
         if self.table.bins is not None:
-            bins = self.table.bins  # none where no load reaches a contact
-            return {
-                "low": np.array([nearest(low) for low, _, _ in bins]),
-                "high": np.array([nearest(high) for _, high, _ in bins]),
-                "count": np.array([count for _, _, count in bins], dtype=np.int64),
-            }
+            edges = np.array([*map(nearest, self.table.bins.edges)])
+            return {"low": edges[:-1], "high": edges[1:], "count": self.table.bins.counts}
         return self.table.columns
 
     def rows(self) -> list[Row]:

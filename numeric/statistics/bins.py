@@ -1,7 +1,9 @@
 """Counting changes of forces into bins whose edges are exact decimals."""
 
 import math
+from collections.abc import Sequence
 from fractions import Fraction
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,10 +12,15 @@ from ..arithmetic.errors import UndecidedError
 from ..arithmetic.systems import Array, Balls, NumberSystem, as_floats, midpoint
 
 
-def histogram(
-    values: Array, bins: int, system: NumberSystem
-) -> list[tuple[Fraction, Fraction, int]]:
-    """Count ``values`` into equal bins: [(low edge, high edge, count)], low ≤ value < high.
+class Bins(NamedTuple):
+    """Edges of bins, one more than there are counts, (bins,); or none of both."""
+
+    edges: Sequence[Fraction]
+    counts: Array
+
+
+def histogram(values: Array, bins: int, system: NumberSystem) -> Bins:
+    """Count ``values`` into equal bins, low edge ≤ value < high edge.
 
     The outer edges lie a little outside of the extreme values, by unequal shares of their distance:
     symmetric values then have no edge at zero, which no ball around zero could be told from.
@@ -21,7 +28,7 @@ def histogram(
     ``UndecidedError`` where a ball lies across an edge all the same.
     """
     if not len(values):
-        return []
+        return Bins([], np.zeros(0, np.int64))
     unit, rough, off = Fraction(1), values, np.zeros(len(values))
     if isinstance(system, Balls):
         unit, rough, off = _scaled(values)
@@ -31,9 +38,7 @@ def histogram(
     before, at = (np.searchsorted(inner, rough + side, "right") for side in (-off, off))
     if (before != at).any():
         raise UndecidedError("a change lies across the edge of a bin")
-    counts = np.bincount(at, minlength=len(edges) - 1).tolist()
-    edges = [edge * unit for edge in edges]
-    return list(zip(edges[:-1], edges[1:], counts, strict=True))
+    return Bins([edge * unit for edge in edges], np.bincount(at, minlength=len(edges) - 1))
 
 
 def edges_between(least: float, most: float, bins: int) -> list[Fraction]:
@@ -49,11 +54,10 @@ def edges_between(least: float, most: float, bins: int) -> list[Fraction]:
     return [Fraction(start + each * k, below * bins) for k in range(bins + 1)]
 
 
-def printed(bins: list[tuple[Fraction, Fraction, int]]) -> dict[str, list[str]]:
-    """Print bins as columns, edges as the decimals that they are; each begins where one ends."""
-    highs = [decimal_string(high) for _, high, _ in bins]
-    lows = [decimal_string(low) for low, *_ in bins[:1]] + highs[:-1]
-    return {"low": lows, "high": highs, "count": [str(count) for *_, count in bins]}
+def printed(bins: Bins) -> dict[str, list[str]]:
+    """Print bins as columns, edges as the decimals that they are."""
+    edges = [*map(decimal_string, bins.edges)]
+    return {"low": edges[:-1], "high": edges[1:], "count": [*map(str, bins.counts.tolist())]}
 
 
 def _scaled(values: Array) -> tuple[Fraction, Array, Array]:
