@@ -6,14 +6,13 @@ to what the operands carry along. What is left out are products of two errors. V
 plain float64, to the bit.
 """
 
-from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from .systems import FLOAT64, Array, NumberSystem
+from .systems import Array, Float64
 
 _SPLIT = 2.0**27 + 1
 # Room for printing: a number that its error swallows is printed as 0, and digits are cut off.
@@ -140,11 +139,10 @@ def accumulated(x: Any) -> Any:
 
 
 @dataclass(frozen=True)
-class Carrying(NumberSystem):
+class Carrying(Float64):
     """float64, with the error of each number carried along: the system of ``Carried``."""
 
     name: str = "float64 with errors"
-    dtype: Any = np.float64
 
     def number(self, value: Fraction) -> Carried:
         """Round a rational, and keep what that lost."""
@@ -159,7 +157,7 @@ class Carrying(NumberSystem):
 
     def signs(self, values: Any) -> tuple[Array, Array]:
         """Look at the values."""
-        return FLOAT64.signs(values.value)
+        return super().signs(values.value)
 
     def zeros(self, *shape: int) -> Any:
         """Give exact zeros."""
@@ -173,10 +171,6 @@ class Carrying(NumberSystem):
         """Put numbers into an array of values and one of errors."""
         return Carried(*(np.array([getattr(x, part) for x in numbers], np.float64)
                          for part in ("value", "error")))  # fmt: skip
-
-    def active(self) -> AbstractContextManager[None]:
-        """Silence floating-point warnings."""
-        return FLOAT64.active()
 
 
 CARRYING = Carrying()

@@ -16,7 +16,7 @@ import numpy as np
 
 from ..arithmetic.carried import CARRYING, NONE, Carried, Carrying, Sizes
 from ..arithmetic.errors import UndecidedError
-from ..arithmetic.systems import FLOAT64, Array, NumberSystem
+from ..arithmetic.systems import FLOAT64, Array, Float64, NumberSystem
 from ..disorder.radii import BeadError, Radii, RadiusError
 from ..lattice.layers import Layer, Region, Rows, columns_of, taken
 from .loads import LoadSpec
@@ -288,8 +288,7 @@ def _supports(region: Region) -> Array:
 
 def _loops_of(region: Region, system: NumberSystem) -> Loops | None:
     """Give the compiled loops for discs in float64, with or without errors, where numba is."""
-    floats = system is FLOAT64 or isinstance(system, Carrying)
-    return loops() if region.dimension == 2 and floats else None
+    return loops() if region.dimension == 2 and isinstance(system, Float64) else None
 
 
 def _compiled_deposit(phi: Fraction, region: Region, rho: Any, system: NumberSystem) -> Any:
