@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_215,
     "derivations": 7_078,
-    "numeric": 8_820,
+    "numeric": 8_815,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
