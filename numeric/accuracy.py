@@ -23,7 +23,6 @@ from .planning.plan import Plan
 from .planning.planner import gathering, initial_bits
 from .quantities.answer import Answer, answer
 from .quantities.base import RATIO, SCATTER_OF, Quantity, Table
-from .statistics.bins import Bins
 from .tables import significant, text_of
 
 # No balls of more bits are tried: what they leave open stays open.
@@ -186,14 +185,14 @@ def shortfall(plan: Plan, solved: Answer, judged: Sequence[Accuracy]) -> str:
     for table, accuracy in zip(solved.tables, judged, strict=True):
         if not accuracy.within(plan.tolerance):
             return accuracy.still
-        if table.bins is not None and edge_in_doubt(table, table.bins, accuracy):
+        if table.bins is not None and edge_in_doubt(table, table.bins.edges, accuracy):
             return "a change lies within its error of the edge of a bin"
     return ""
 
 
-def edge_in_doubt(table: Table, bins: Bins, accuracy: Accuracy) -> bool:
+def edge_in_doubt(table: Table, exact: Sequence[Fraction], accuracy: Accuracy) -> bool:
     """Say whether a change lies within its error of the edge of a bin: counts may be off."""
-    edges = np.array([*map(nearest, bins.edges)])
+    edges = np.array([*map(nearest, exact)])
     values = np.sort(as_floats(table.numbers["change"]))
     # bins are counted in float64, whatever the arithmetic; edges are rounded, too
     error = (float(accuracy.error_bound) + 2.0**-51) * table.largest

@@ -15,7 +15,6 @@ from force_diffusion.numeric.quantities.base import Table
 from force_diffusion.numeric.run.outcome import Outcome
 from force_diffusion.numeric.run.running import run
 from force_diffusion.numeric.scene.sections import SceneError
-from force_diffusion.numeric.statistics.bins import Bins
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -78,8 +77,8 @@ def assert_kept(outcome: Outcome, true: Outcome, tolerance: Fraction) -> None:
 @pytest.mark.parametrize(("value", "near"), [(0.5, True), (0.5 + 1e-9, True), (0.51, False)])
 def test_changes_near_the_edge_of_a_bin_are_left_to_balls(value, near):
     table = Table({}, {"change": np.array([0.9, 1.0, value])}, ("change",))
-    bins = Bins([Fraction(0), Fraction(1, 2), Fraction(2)], np.array([0, 3]))
-    assert edge_in_doubt(table, bins, Accuracy(1e-8, False, "float64")) == near
+    edges = [Fraction(0), Fraction(1, 2), Fraction(2)]
+    assert edge_in_doubt(table, edges, Accuracy(1e-8, False, "float64")) == near
 
 
 def test_changes_that_float64_can_not_hold_are_left_to_balls():
