@@ -19,11 +19,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_215,
     "derivations": 7_078,
-    "numeric": 8_815,
+    "numeric": 8_814,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_865,
+    "tests": 12_864,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
