@@ -6,7 +6,7 @@ from functools import cache
 import sympy
 from force_diffusion.derivations import eq02_displacement as eq02
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, Theorem, along, axioms, equation, follows, induct, rewrite, shown,
+    Derivation, Domain, Steps, Theorem, along, axioms, equation, follows, inducted, rewrite, shown,
     terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaR, DeltaX, Dot, b_minus, b_plus, i, j, m, n_minus, n_plus)
@@ -34,7 +34,7 @@ def from_the_base_up(formula: sympy.Eq, domain: Domain) -> Theorem:
     """Prove a displacement by induction: a bead rests on two of the layer below (Eq. 2)."""
     resting, base = eq02.DERIVATION.theorem, axioms.base()
     first, next_layer = rewrite(resting, base), lambda supposed: rewrite(resting, supposed)
-    return induct(j, 1, first, next_layer)(formula, domain)
+    return inducted(j, 1, first, next_layer, [(formula, domain)])[0]
 
 
 def positions() -> tuple[Theorem, ...]:

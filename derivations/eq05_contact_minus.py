@@ -4,8 +4,8 @@
 import sympy
 from force_diffusion.derivations import eq04_contact_plus as eq04
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, Theorem, equation, lattice, minus, mirror_of, rewrite, terms, times,
-    usual)
+    Derivation, Domain, Steps, Theorem, equation, follows, lattice, minus, mirror, rewrite, terms,
+    times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaR, Dot, b_minus, b_plus, i, j, m, n_minus, r)
 # fmt: on
@@ -40,7 +40,7 @@ def show_steps(steps: Steps) -> None:
     steps.show(
         "It is also the mirror image of Eq. 4, in which i → −i at every bead, n⁺ ↔ n⁻ and b⁺ ↔ b⁻:",
         lattice.mirror(eq04.PRINTED),
-        mirror_of(eq04.DERIVATION.theorem),
+        follows(mirror(eq04.DERIVATION.theorem)),
     )
     steps.show(
         "Again a unit vector changes at right angles to itself:",

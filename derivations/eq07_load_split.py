@@ -8,10 +8,11 @@ import sympy
 from force_diffusion.derivations import (
     eq04_contact_plus as eq04, eq05_contact_minus as eq05, eq06_force_balance as eq06)
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Rule, Steps, Theorem, along, axioms, below, equation, follows, inducted,
-    minus, solve, terms, times, usual)
+    Derivation, Domain, NotProvedError, Rule, Steps, Theorem, along, axioms, equation, follows,
+    inducted, instance, isolated, minus, solve, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
-    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, j, k, l, n_minus, n_plus, n_y, phi)
+    DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, f_load, j, k, l, n_minus, n_plus, n_y,
+    phi, site_r, site_s)
 # fmt: on
 
 LOADED = Domain.of(l >= 1, loading=axioms.LOADED_VERTICALLY)
@@ -19,6 +20,9 @@ FORCES = ForcePlus(k - 1, l - 1), ForceMinus(k + 1, l - 1)
 TILT_PLUS = Dot(n_minus, DeltaNPlus(k - 1, l - 1))
 TILT_MINUS = Dot(n_plus, DeltaNMinus(k + 1, l - 1))
 ORDERED = f_load / (2 * n_y)
+
+SIDES = {ForcePlus: 1, ForceMinus: -1}
+"""Forces of contacts, and the side of the upper bead."""
 
 SHARES = tuple(
     terms(1, times(1 / (1 - phi**2), terms(times(phi, own), minus(other))))
@@ -48,8 +52,18 @@ def right_angles() -> tuple[Theorem, ...]:
 
 
 def balancing(loads: tuple[Theorem, ...], above: tuple[Theorem, ...] = ()) -> Rule:
-    """The rule for the contacts below beads, given the forces above, if any."""
-    return below((*above, *loads), right_angles())
+    """The rule for a force, from the balance of the bead above, given the forces above that."""
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        force, _ = isolated(formula, domain)
+        if type(force) not in SIDES:
+            raise NotProvedError("it is not about a contact force")
+        across, layer = force.args[0] + SIDES[type(force)], force.args[1] + 1
+        bead = instance(axioms.balance(), {site_r: across, site_s: layer}, domain)
+        forces = [kind(across - side, layer - 1) for kind, side in SIDES.items()]
+        return solve([bead], forces, (*above, *loads), right_angles())(formula, domain)
+
+    return rule
 
 
 def carried_down(

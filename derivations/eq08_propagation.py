@@ -6,7 +6,7 @@ from force_diffusion.derivations import eq06_force_balance as eq06
 from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Steps, Symbol, along, axioms, equation, follows, instance, lattice, minus,
-    mirror_of, solve, terms, times, usual)
+    mirror, solve, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, epsilon, n_minus, n_plus, phi,
     site_r, site_s)
@@ -79,7 +79,7 @@ def show_steps(steps: Steps) -> None:
     steps.show(
         "For an incoming force along n⁻, which the paper leaves to symmetry, the same system gives",
         sympy.Tuple(*map(lattice.mirror, PRINTED)),
-        tuple(map(mirror_of, printed.theorems)),
+        tuple(follows(mirror(each)) for each in printed.theorems),
         PASSED.mirrored(),
     )
 

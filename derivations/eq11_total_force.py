@@ -8,7 +8,7 @@ from force_diffusion.derivations import (
     eq05_contact_minus as eq05, eq07_load_split as eq07, eq09_straight_path as eq09,
     eq10_branched_path as eq10)
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Groups, Steps, Theorem, axioms, equation, lattice, minus, mirror, mirror_of,
+    Derivation, Domain, Groups, Steps, Theorem, axioms, equation, follows, lattice, minus, mirror,
     moment, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     M, DeltaNMinus, DeltaNPlus, Dot, ForcePlus, Variance, f_load, i, j, k, l, n, n_minus, n_plus,
@@ -96,7 +96,7 @@ def show_steps(steps: Steps) -> None:
         "There is one such load for each n = 1, …, M−j−1. Relative to the force along n⁻ below its "
         "bead, it contributes",
         lattice.mirror(eq10.PRINTED),
-        mirror_of(eq10.DERIVATION.theorem),
+        follows(mirror(eq10.DERIVATION.theorem)),
         eq10.BRANCHED.mirrored(),
     )
     branched = sympy.Sum(eq10.branched_plus(i, j, n), (n, 1, M - j - 1))

@@ -4,6 +4,7 @@ They make expressions as they are printed, axioms, rules and derivations.
 """
 
 # fmt: off
+from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.as_printed import certificate, minus, power, terms, times
 from force_diffusion.symbolic.trees import equation
 from force_diffusion.symbolic.kernel import axioms
@@ -12,10 +13,10 @@ from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_heigh
 from force_diffusion.symbolic.kernel.limits import (
     asymptotic, drop_terms, leading_order_of, negligible)
 from force_diffusion.symbolic.kernel.rules import (
-    Rule, along, below, differentiate, follows, induct, inducted, instance, mirror, mirror_of,
-    order, reach, rewrite, same, solve)
+    Rule, along, differentiate, follows, inducted, instance, mirror, order, reach, rewrite, same,
+    solve)
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import Group, Theorem
+from force_diffusion.symbolic.kernel.theorem import Group, Theorem, isolated
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
 

@@ -18,7 +18,6 @@ from ..printing.text import text
 from ..signs import never_zero
 from ..trees import equation
 from ..weights import Weights
-from . import axioms
 from .domain import LATTICE, Domain
 from .refuted import refuse
 from .theorem import (
@@ -182,32 +181,6 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
     return rule
 
 
-BRANCHES = {sy.ForcePlus: 1, sy.ForceMinus: -1}
-"""Forces of contacts, and the side of the upper bead."""
-
-
-def below(*groups: Group) -> Rule:
-    """A contact's force, by ``solve`` from the balance of the bead above it.
-
-    Args:
-        groups: what is put in for loads, and for the forces and directions of contacts.
-    """
-
-    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
-        about, _ = isolated(formula, domain)
-        branch = BRANCHES.get(type(about))
-        if branch is None:
-            raise NotProvedError(f"{text(about)} is not a contact force")
-        across, layer = sympy.expand(about.args[0] + branch), sympy.expand(about.args[1] + 1)
-        at = [(sympy.expand(across - side), sympy.expand(layer - 1)) for side in BRANCHES.values()]
-        unknowns = [force(*place) for force, place in zip(BRANCHES, at, strict=True)]
-        row = moved(axioms.balance(), {sy.site_r: across, sy.site_s: layer}, domain)
-        proved = solve([row], unknowns, *groups)(equation(*isolated(formula, domain)), domain)
-        return made(formula, domain, "balancing the bead above", proved.premises)
-
-    return rule
-
-
 def instance(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
     """A theorem at another place, where it is checked to be a statement.
 
@@ -240,44 +213,10 @@ def _across_by_itself(node: sympy.Basic) -> bool:
     return any(map(_across_by_itself, node.args))
 
 
-def mirror_of(theorem: Theorem) -> Rule:
-    """It says what the mirror image of a theorem says."""
-    return follows(mirror(theorem))
-
-
 # induction
 
 Member = tuple[sympy.Eq, Domain]
 """A statement and its domain."""
-
-
-def induct(
-    over: sympy.Symbol,
-    start: sympy.Expr | int,
-    base: Rule,
-    step: Callable[[tuple[Theorem, ...]], Rule],
-    *,
-    down: bool = False,
-    mirrored: bool = False,
-    family: Sequence[Member] = (),
-) -> Rule:
-    """From the first value of an index on, upwards or downwards, for a statement and its family.
-
-    Args:
-        over: the index.
-        start: its first value.
-        base: proves each statement there.
-        step: proves each one from all of them before, which are supposed.
-        down: whether the index falls from its first value on.
-        mirrored: whether the mirror images of what is supposed are put in, too.
-        family: further statements, proved together with it, each with its domain.
-    """
-
-    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
-        members = [(formula, domain), *family]
-        return inducted(over, start, base, step, members, down=down, mirrored=mirrored)[0]
-
-    return rule
 
 
 def suppose(formula: sympy.Eq, domain: Domain, supposition: Supposition) -> Theorem:
@@ -306,7 +245,17 @@ def inducted(
     down: bool = False,
     mirrored: bool = False,
 ) -> tuple[Theorem, ...]:
-    """All of a family of statements, by ``induct``."""
+    """Statements proved together, from the first value of an index on, upwards or downwards.
+
+    Args:
+        over: the index.
+        start: its first value.
+        base: proves each statement there.
+        step: proves each one from all of them before, which are supposed.
+        members: the statements, each with its domain.
+        down: whether the index falls from its first value on.
+        mirrored: whether the mirror images of what is supposed are put in, too.
+    """
     first = sympy.sympify(start)
     supposition = Supposition(over, first, -1 if down else 1, tuple(members))
     supposed = []

@@ -13,6 +13,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import sympy
+from force_diffusion.derivations import eq07_load_split as eq07
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
@@ -326,7 +327,7 @@ beside("two components", solved(MINUS, UP_ONLY),
 VERTICALLY = axioms.loads(axioms.LOADED_VERTICALLY)
 SUPPORTED = Domain.of(l >= 1, loading=axioms.LOADED_VERTICALLY)
 attack("f⁺ = 5 f_load",
-       proof(rules.below(VERTICALLY), (sy.ForcePlus(k - 1, l - 1), 5 * sy.f_load), SUPPORTED),
+       proof(eq07.balancing(VERTICALLY), (sy.ForcePlus(k - 1, l - 1), 5 * sy.f_load), SUPPORTED),
        "not the solution", lambda: load(7).proof[0].theorems)
 
 # instance, mirror
@@ -365,11 +366,11 @@ def vertical(kind: Any, turn: Any, force: Any) -> Sides:
 
 
 TILTED = prove(REWRITE, *vertical(sy.VerticalPlus, sy.DeltaNPlus, sy.ForcePlus), BEADS)
-table(rules.mirror_of(TILTED), BEADS,
+table(rules.follows(rules.mirror(TILTED)), BEADS,
       ("the mirror image of a vertical component",
        vertical(sy.VerticalPlus, sy.DeltaNMinus, sy.ForceMinus), "not a multiple",
        vertical(sy.VerticalMinus, sy.DeltaNMinus, sy.ForceMinus)))
-table(rules.mirror_of(DIRECTIONS[0]), BEADS,
+table(rules.follows(rules.mirror(DIRECTIONS[0])), BEADS,
       ("its own mirror image", (sy.DeltaNMinus(i, j), DIRECTIONS[0].formula.rhs),
        "not a multiple", DIRECTIONS[1].formula.args))
 TURNED = sy.MatrixTimes(0, 0, 1, 0, sy.n_plus), n_x * sy.e_y
@@ -419,7 +420,7 @@ def leak(supposed: tuple[Theorem, ...]) -> Rule:
 
 
 def leaked(formula: sympy.Eq, domain: Domain) -> Theorem:
-    prove(rules.induct(q, 0, STAYS, leak), *grows(Integer(0)), COUNT)
+    rules.inducted(q, 0, STAYS, leak, [(equation(*grows(Integer(0))), COUNT)])
     return rules.rewrite(BASE, SUPPOSED[0])(formula, domain)
 
 
@@ -427,7 +428,9 @@ def induction(
     size: Any, start: Any = 0, at_first: Rule = STAYS, step: Any = never,
     index: sympy.Symbol = q, down: bool = False,
 ) -> Attempt:
-    rule = rules.induct(index, start, at_first, step, down=down)
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        return rules.inducted(index, start, at_first, step, [(formula, domain)], down=down)[0]
+
     return proof(rule, grows(sympy.sympify(size)), COUNT)
 
 
