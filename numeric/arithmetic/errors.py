@@ -6,7 +6,8 @@ All derive from ``ForceDiffusionError``, which carries the exit status of the co
 import inspect
 from collections.abc import Callable, Iterable
 from functools import wraps
-from typing import TYPE_CHECKING, Any, ClassVar, ParamSpec, TypeVar
+from operator import index
+from typing import TYPE_CHECKING, Any, ClassVar, ParamSpec, SupportsIndex, TypeGuard, TypeVar
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
@@ -108,6 +109,15 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
         return function(*args, **kwargs)
 
     return call
+
+
+def is_whole(value: object, least: int, most: int) -> TypeGuard[int]:
+    """Say whether a value is a whole number, NumPy's included, from ``least`` to ``most``.
+
+    >>> is_whole(3, 1, 3), is_whole(3.0, 1, 3), is_whole(4, 1, 3)
+    (True, False, False)
+    """
+    return isinstance(value, SupportsIndex) and least <= index(value) <= most
 
 
 def check_progress(progress: object) -> None:

@@ -13,9 +13,7 @@ from dataclasses import replace
 from itertools import islice
 from multiprocessing import connection, get_context, parent_process
 from numbers import Real
-from operator import index
 from pathlib import Path
-from typing import SupportsIndex
 
 from force_diffusion import __version__
 
@@ -26,6 +24,7 @@ from ..arithmetic.errors import (
     WrongTypeError,
     check_progress,
     checked,
+    is_whole,
     quoted,
 )
 from ..arithmetic.machine import cores, memory_limit
@@ -221,8 +220,7 @@ def _solve(version: str, m: Measurement, first: int, stop: int) -> Sums:
 
 def _executor(m: Measurement, size: int, workers: int | None) -> Executor:
     """Give threads where loops are compiled, and else processes."""
-    whole = workers is None or isinstance(workers, SupportsIndex)
-    if not whole or (workers is not None and not 1 <= workers <= MOST_WORKERS):
+    if workers is not None and not is_whole(workers, 1, MOST_WORKERS):
         allowed = f"must be a whole number between 1 and {MOST_WORKERS}"
         raise ArgumentError(f"workers = {quoted(workers)}: {allowed}")
     room = max(1, memory_limit() // (m.plan.memory + BATCH))
@@ -267,8 +265,8 @@ def _follow_parent() -> None:
 
 def _size(scene: CheckedScene, realisations: object) -> int:
     size = scene.ask.realisations if realisations is None else realisations
-    if isinstance(size, SupportsIndex) and 2 <= index(size) <= MOST_REALISATIONS:
-        return index(size)
+    if is_whole(size, 2, MOST_REALISATIONS):
+        return int(size)
     allowed = f"must be a whole number from 2 to {MOST_REALISATIONS} for an ensemble"
     if realisations is None:
         raise SceneError("ask.realisations", size, allowed)

@@ -5,10 +5,9 @@ from dataclasses import dataclass
 from decimal import Decimal
 from fractions import Fraction
 from importlib import import_module
-from operator import index
-from typing import Any, SupportsIndex
+from typing import Any
 
-from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, checked, quoted
+from ..arithmetic.errors import ForceDiffusionError, WrongTypeError, checked, is_whole, quoted
 from ..scene.sections import MOST_REALISATIONS, SceneError
 from ..tables import csv_bytes
 from .names import FIGURES, HEIGHTS, KINDS, LEAST_REALISATIONS, MODELS, OWN_SPACING, OWN_STD
@@ -111,11 +110,9 @@ def figure(
                 f"there is no model {quoted(model)} beside figure {name}: give 'q-model' with "
                 "figure 3 or 'double-y' with figure 4"
             )
-    if realisations is not None and not (
-        isinstance(realisations, SupportsIndex)
-        and LEAST_REALISATIONS <= index(realisations) <= MOST_REALISATIONS
-    ):
-        allowed = f"must be a whole number from {LEAST_REALISATIONS} to {MOST_REALISATIONS}"
+    least, most = LEAST_REALISATIONS, MOST_REALISATIONS
+    if realisations is not None and not is_whole(realisations, least, most):
+        allowed = f"must be a whole number from {least} to {most}"
         raise SceneError("realisations", realisations, allowed)
     listed = isinstance(heights, Iterable) and not isinstance(heights, str)
     layers = tuple(heights) if listed else ()
