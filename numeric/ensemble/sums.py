@@ -221,16 +221,10 @@ def summed(m: Measurement, numbers: Sequence[int]) -> Sums:
     lost = sorted(set(numbers).difference(*(some for some, *_ in parts)))
     means, counts = map(np.concatenate, list(zip(*parts, strict=True))[1:])
     tensile, binned = np.split(counts, [G], axis=1)
-    mean = means.sum(axis=0) / max(len(means), 1)
-    return Sums(
-        len(means),
-        len(lost),
-        lost[0] if lost else 0,
-        tensile.sum(axis=0),
-        np.stack([binned.sum(axis=0), (binned**2).sum(axis=0)]),
-        mean,
-        sums_of_products(means - mean),
-    )
+    bins = np.stack([binned.sum(axis=0), (binned**2).sum(axis=0)])
+    mean, first = means.sum(axis=0) / max(len(means), 1), lost[0] if lost else 0
+    products = sums_of_products(means - mean)
+    return Sums(len(means), len(lost), first, tensile.sum(axis=0), bins, mean, products)
 
 
 def _solved(m: Measurement, numbers: Sequence[int]) -> Iterator[_Solved]:

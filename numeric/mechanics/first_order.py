@@ -67,12 +67,12 @@ def ordered_forces(
     return main[branch.number, j : j + 1], outer[other, j + 1 :], main[other, j:]
 
 
+LineRadii = Callable[[Line], Any]
+"""Gives δr/r of the beads of a line."""
+
+
 def contact_change(
-    contact: Contact,
-    load: LoadSpec,
-    rho: Callable[[Line], Any],
-    n_x: Fraction,
-    system: NumberSystem,
+    contact: Contact, load: LoadSpec, rho: LineRadii, n_x: Fraction, system: NumberSystem
 ) -> tuple[Any, Any]:
     """Give F^±_ij and g^±_ij to first order, from δr/r of the beads of ``lines_read``."""
     j, phi = contact.j, cosine(n_x)
