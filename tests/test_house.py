@@ -19,7 +19,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_184,
     "derivations": 7_089,
-    "numeric": 8_812,
+    "numeric": 8_803,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
