@@ -73,17 +73,14 @@ class OfExpressions(sympy.Function):  # type: ignore[misc]
         TypeError: an argument is something else.
     """
 
-    in_code = ""
-
     def __new__(cls, *arguments: Any, **options: Any) -> Any:
         """Make it of checked arguments."""
         for argument in arguments:
             try:
                 sympy.sympify(argument, strict=True)
             except sympy.SympifyError:
-                name = cls.in_code or cls.__name__
                 raise TypeError(
-                    f"{name} takes expressions, such as i + 1, not {argument!r}"
+                    f"an expression is needed, such as i + 1, and {argument!r} is none"
                 ) from None
         return super().__new__(cls, *arguments, **options)
 
@@ -120,7 +117,7 @@ def _raised_to(exponent: str | None, shown: str) -> str:
 class WrittenAtSite(OfExpressions):
     """A quantity of a bead, or of the contact along n⁺ or n⁻ above it, with its indices below."""
 
-    latex_head = text_head = ""
+    latex_head = text_head = in_code = ""
     branch = ""  # "+" or "-" for a contact's quantity
 
     def _subscript(self, printer: Any) -> tuple[str, bool]:

@@ -54,6 +54,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "a kind": (lambda: fd.figure(3, kinds=("gif",)), "png, svg, pdf"),
     "seconds": (lambda: fd.cost(SCENE, "a"), "positive number"),  # type: ignore[arg-type]
     "a path": (lambda: fd.read_scene(3), "the path of a file"),  # type: ignore[arg-type]
+    "a key": (lambda: fd.read_scene("a", {3: "a"}), "keys of changes are text"),  # type: ignore[dict-item]
     "a store": (lambda: fd.read_store(3), "the path of a file"),  # type: ignore[arg-type]
     "an order": (lambda: fd.Packing(3, 4), "by name: height=…"),  # type: ignore[call-arg]
     "a field": (lambda: fd.Packing(hight=3), 'did you mean "height"'),  # type: ignore[call-arg]

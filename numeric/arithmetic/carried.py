@@ -144,6 +144,10 @@ class Carrying(Float64):
 
     name: str = "float64 with errors"
 
+    def __reduce__(self) -> str:
+        """Stay the one that there is."""
+        return "CARRYING"
+
     def number(self, value: Fraction) -> Carried:
         """Round a rational, and keep what that lost."""
         near = value.numerator / value.denominator

@@ -253,7 +253,8 @@ class ContactQuantity(Quantity):
         """
         if self.scene.ask.at is not None:
             return [self.naming.contact(self.scene.ask.at)]
-        asked = set(self.scene.ask.layers or range(self.height))  # layers of lower beads
+        layers = self.scene.ask.layers  # of lower beads
+        asked = range(self.height) if layers is None else set(layers)
         rows = [row for row in problem.reached if row.count and row.j - 1 in asked]
         return [Block(branch, row) for row in rows for branch in self.branches]
 

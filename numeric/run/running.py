@@ -151,6 +151,8 @@ def read_scene(path: str | Path, changes: Mapping[str, str] | None = None) -> Sc
     if not isinstance(changes, Mapping | None):
         raise WrongTypeError(f"changes are values by key, not {quoted(changes)}")
     for key, value in (changes or {}).items():
+        if not isinstance(key, str):
+            raise WrongTypeError(f"keys of changes are text, such as 'ask.at', not {quoted(key)}")
         if not isinstance(value, str):
             raise SceneError(key, value, "must be text, as a scene file has it")
     return reading.read_scene(Path(path), Scene, changes)

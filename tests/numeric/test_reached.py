@@ -1,5 +1,6 @@
 """Contacts that no load reaches are none of a histogram, nor of a slab's contact forces."""
 
+import tracemalloc
 from pathlib import Path
 from typing import Any
 
@@ -49,6 +50,21 @@ def test_a_point_load_on_spheres():
     """Its cone has 1, 3 and 6 beads; layers of 7 × 7 are solved."""
     load = fd.PointLoad(at=(5, 6, 3))
     assert count(question("histogram", 3, 7, dimension=3, load=load)) == 3 * (1 + 3 + 6)
+
+
+def test_layers_above_a_load_take_no_memory():
+    low, high = (
+        question("contact_forces", height, None, std=1e-12, load=fd.PointLoad(at=(0, 4)))
+        for height in (4, 10**7)
+    )
+    low.run()  # loads what is needed
+    tracemalloc.start()
+    try:
+        high.run()
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert most < 10**7  # a byte a layer
 
 
 @st.composite

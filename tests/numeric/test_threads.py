@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 from force_diffusion.numeric.arithmetic import systems
+from force_diffusion.numeric.arithmetic.carried import CARRYING
 from force_diffusion.numeric.arithmetic.systems import FLOAT64
 from hypothesis import given
 from hypothesis import strategies as st
@@ -66,9 +67,10 @@ def test_a_ball_comes_back_hardly_wider(middle, radius):
         assert ball.rad() <= again.rad() <= ball.rad() * (1 + arb(2) ** -28)
 
 
-def test_there_is_one_system_of_doubles():
-    assert pickle.loads(pickle.dumps(FLOAT64)) is FLOAT64
-    assert copy.deepcopy(FLOAT64) is FLOAT64
+@pytest.mark.parametrize("system", [FLOAT64, CARRYING])
+def test_there_is_one_system_of_doubles(system):
+    assert pickle.loads(pickle.dumps(system)) is system
+    assert copy.deepcopy(system) is system
 
 
 RADII = 1 + 0.001 * np.random.default_rng(1).standard_normal((5, 10))
