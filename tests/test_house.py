@@ -17,13 +17,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_184,
+    "symbolic": 4_182,
     "derivations": 7_089,
-    "numeric": 8_803,
+    "numeric": 8_808,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_866,
+    "tests": 12_883,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
