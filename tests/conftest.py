@@ -1,5 +1,6 @@
 """What every test may use."""
 
+import gc
 import signal
 from collections import defaultdict
 from collections.abc import Callable
@@ -62,9 +63,15 @@ def pytest_report_header(config: pytest.Config) -> str | None:
 
 MANY = 8
 """Cases of a slow test, of which CI runs a third."""
+FORGETTING = "tests/soundness/test_bad_kernels"
+"""Tests after which nothing is known that was worked out: the last of a process."""
 DERIVING = tuple(
-    f"tests/{place}" for place in ("derivations/", "symbolic/", "cli/test_derive", "cli/test_show")
-)
+    f"tests/{place}"
+    for place in (
+        "derivations/", "soundness/", "symbolic/",
+        "cli/test_derive", "cli/test_readme", "cli/test_show",
+    )
+)  # fmt: skip
 """Tests that prove equations and work out closed forms: in one process, which does so once."""
 
 
@@ -74,12 +81,14 @@ def pytest_xdist_make_scheduler(config: pytest.Config, log: Any) -> Any:
 
     class Scheduling(LoadScopeScheduling):
         def _split_scope(self, nodeid: str) -> str:
-            return "deriving" if nodeid.startswith(DERIVING) else nodeid
+            deriving = nodeid.startswith(DERIVING) and not nodeid.startswith(FORGETTING)
+            return "deriving" if deriving else nodeid
 
     return Scheduling(config, log)
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
+    items.sort(key=lambda item: item.nodeid.startswith(FORGETTING))
     of_ci = config.getoption("--hypothesis-profile") == "ci"
     if not _leaves_out(config) and not of_ci:
         return
@@ -103,6 +112,11 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         left_out |= {item for n, item in enumerate(every) if n not in wanted}
     config.hook.pytest_deselected(items=list(left_out))
     items[:] = [item for item in items if item not in left_out]
+
+
+def pytest_collection_finish() -> None:
+    """Look for cycles of garbage less often: what tests have loaded is no garbage."""
+    gc.set_threshold(10_000, 20, 20)
 
 
 @pytest.fixture

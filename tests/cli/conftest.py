@@ -12,3 +12,12 @@ def without_matplotlib(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("force_diffusion.numeric.figures.style", *loaded):
         monkeypatch.delitem(sys.modules, name, raising=False)
     monkeypatch.setitem(sys.modules, "matplotlib", None)
+
+
+@pytest.fixture
+def only_svg(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draw figures in one of their formats, where another test looks at the other two."""
+    from force_diffusion.numeric.figures import style
+
+    images = style.images
+    monkeypatch.setattr(style, "images", lambda *given: images(*given[:-1], ["svg"]))

@@ -127,6 +127,7 @@ CELLS += [
 
 
 @pytest.mark.long(sample=9, share=4)
+@pytest.mark.usefixtures("only_svg")
 @pytest.mark.parametrize(("command", "quantity", "kind", "load", "setting"), CELLS)
 def test_a_cell_is_answered_or_refused_as_the_table_says(
     command, quantity, kind, load, setting,
@@ -178,6 +179,7 @@ def test_an_ensemble_of_anything_is_asked_until(quantity, tmp_path, call):
 
 
 @pytest.mark.long(sample=2)
+@pytest.mark.usefixtures("only_svg")
 @pytest.mark.parametrize(
     ("std", "bins"), [("0", 20), ("1e-320", 20), ("1e-200", 1), ("1e-17", 20), ("1e-15", 1)]
 )

@@ -77,6 +77,7 @@ def test_without_matplotlib(tmp_path, call):
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("only_svg")
 def test_simpler_models_are_drawn_and_overwritten_with_their_figures(tmp_path, call):
     out, models = tmp_path / "out", ["--with", "q-model", "--with", "double-y"]
     words = [3, 4, "--heights", "3", "--realisations", 32, *models, "--out", out]

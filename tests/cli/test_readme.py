@@ -41,6 +41,7 @@ def test_its_python_prints_what_it_says():
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("only_svg")
 @pytest.mark.parametrize("use", USES)
 def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, call):
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")

@@ -89,6 +89,7 @@ def test_documented_columns_are_those_of_an_answer(quantity, realisations, tmp_p
 
 
 @pytest.mark.long
+@pytest.mark.usefixtures("only_svg")
 def test_documented_columns_are_those_of_a_study_of_costs(tmp_path, call):
     assert call("cost", _asking(tmp_path, "contact"), "--out", tmp_path / "cost")[0] == 0
     with (tmp_path / "cost" / "cost.csv").open(newline="", encoding="utf-8") as file:

@@ -11,7 +11,7 @@ import importlib
 import inspect
 import textwrap
 from collections.abc import Iterator
-from functools import _lru_cache_wrapper, cached_property
+from functools import _lru_cache_wrapper, cache, cached_property
 from types import CodeType, FunctionType
 from typing import Any
 
@@ -136,6 +136,7 @@ def forget() -> None:
     proof._PLACE_OF.clear()
 
 
+@cache
 def _is_own(obj: object) -> bool:
     return str(getattr(obj, "__module__", None)).startswith("force_diffusion.")
 
