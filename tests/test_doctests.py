@@ -1,6 +1,7 @@
 """Every example in a docstring is run, module by module, as it is installed."""
 
 import doctest
+import linecache
 import pkgutil
 from importlib import import_module
 
@@ -33,5 +34,6 @@ def test_examples(name):
         if missing.name not in EXTRAS:
             raise
         pytest.skip(f"{missing.name} is missing")
+    linecache.clearcache()  # doctest asks for each of its files whether it has changed
     results = doctest.testmod(module)
     assert not results.failed
