@@ -12,6 +12,9 @@ from hypothesis import HealthCheck, settings
 Call = Callable[..., tuple[int, str, str]]
 """Calls a command: its status, what it prints, and what it says of errors."""
 
+# Cycles of garbage are looked for less often: that took a twentieth of the time.
+gc.set_threshold(10_000, 20, 20)
+
 # Each run draws anew; a failure is replayed from .hypothesis, or with what is printed beside it.
 # .ci/run says which seed it has drawn: with it, and the same profile, all examples are the same.
 EXAMPLES = {"quick": 20, "ci": 50, "thorough": 10_000}
@@ -112,11 +115,6 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
         left_out |= {item for n, item in enumerate(every) if n not in wanted}
     config.hook.pytest_deselected(items=list(left_out))
     items[:] = [item for item in items if item not in left_out]
-
-
-def pytest_collection_finish() -> None:
-    """Look for cycles of garbage less often: what tests have loaded is no garbage."""
-    gc.set_threshold(10_000, 20, 20)
 
 
 @pytest.fixture
