@@ -23,7 +23,7 @@ LIMITS = {
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_883,
+    "tests": 12_905,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
