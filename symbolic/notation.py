@@ -80,7 +80,7 @@ class OfExpressions(sympy.Function):  # type: ignore[misc]
                 sympy.sympify(argument, strict=True)
             except sympy.SympifyError:
                 raise TypeError(
-                    f"an expression is needed, such as i + 1, and {argument!r} is none"
+                    f"an expression is needed, such as i + 1, not {argument!r}"
                 ) from None
         return super().__new__(cls, *arguments, **options)
 
