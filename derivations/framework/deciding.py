@@ -20,7 +20,7 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import Relations
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.sizes import too_large
-from force_diffusion.symbolic.trees import equation
+from force_diffusion.symbolic.trees import equation, nodes
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanAtom
 
@@ -130,12 +130,13 @@ def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str
 
 
 def cases_of(candidate: sympy.Basic) -> sympy.Expr:
-    """The function given in pieces that a candidate holds; 0 if it holds none.
+    """The function given in pieces that a candidate holds, with all within it; 0 if there is none.
 
     Raises:
         NotExactError: its cases depend on an index that is summed over.
     """
-    cases: sympy.Expr = next(iter(candidate.atoms(sympy.Piecewise)), sympy.S.Zero)
+    given = [node for node in nodes(candidate) if isinstance(node, sympy.Piecewise)]
+    cases: sympy.Expr = given[-1] if given else sympy.S.Zero  # what it is made of comes before it
     named = set().union(*(each.free_symbols for each in cases.atoms(Relational)))
     if bound := by_name(named - candidate.free_symbols):
         raise NotExactError(f"cases depend on {text(bound[0])}, which is summed over")

@@ -304,6 +304,15 @@ def test_pieces_that_leave_a_part_of_the_domain_out_are_no_statement():
     assert ruling.note == "it has no value for M = 1"
 
 
+def test_pieces_within_pieces_are_read_from_outside():
+    form = fd.equation(13).exact()
+    for factor, verdict in ((1, Verdict.PROVED), (2, Verdict.REFUTED)):
+        within = factor * form.expr
+        for bound in range(6):
+            within = sympy.Piecewise((within, sy.j >= -bound), (0, True), evaluate=False)
+        assert form.decide(within).verdict is verdict
+
+
 def test_z_stands_for_the_height_of_a_layer():
     form = fd.equation(13).exact()
     in_z = form.pieces[0].expr.subs(sy.j, sy.z * sy.M)
