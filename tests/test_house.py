@@ -18,12 +18,12 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_182,
-    "derivations": 7_089,
+    "derivations": 7_090,
     "numeric": 8_808,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_905,
+    "tests": 12_912,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
