@@ -21,11 +21,16 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
     """Deposit the beads, in float64, and give them with the contacts of the lattice.
 
     Where some bead can't be deposited, or overlaps another one: a stretched lattice, and None.
-    Raises ``UnbuildableError`` for radii that are none, ``UnfinishedError`` for too large ones.
+    Raises ``UnbuildableError`` for a radius that is not positive, and ``UnfinishedError`` for one
+    that is too large.
     """
     rows, width = problem.region.rows, problem.region.widest
     (rho,) = problem.radii.of(rows, [realisation], FLOAT64)
-    radii = 1 + rho
+    radii, (i, j) = 1 + rho, rows.sites
+    if radii.min() <= 0:
+        first = int(np.argmax(radii <= 0))
+        why = "its radius is not a positive number"
+        raise UnbuildableError((int(i[first]), int(j[first])), why)
     nx, ny = (float(n) for n in axes(problem.n_x, FLOAT64))
     load = as_floats(loads(problem, FLOAT64))
     grains = Grains(np.zeros((len(radii), 2)), radii, 4 * nx * width, load, width)
@@ -40,8 +45,7 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
         if (grains.gaps(others) > 1e-9).all():
             return grains, supports
     except UnbuildableError:
-        if radii.min() <= 0:
-            raise
+        pass
     apart = 2 * float(radii.max()) * (1 + 1e-9)
     if apart >= 8 * nx:
         raise UnfinishedError("can't start without overlaps: some radius is at least the spacing")
@@ -50,7 +54,6 @@ def start(problem: Problem, realisation: int) -> tuple[Grains, Pairs | None]:
         turn[1::2] = 1
         turn[-1] += width % 2 * 2  # the first follows the last
         rise = apart * (1 + turn.max())
-    i, j = rows.sites
     lift = np.where(j > 0, apart * np.tile(turn, len(rows)), 0)
     grains.x = np.stack([2 * nx * i, rise * j + lift], axis=1)
     return grains, None

@@ -216,6 +216,12 @@ def test_the_error_says_why_there_is_no_answer(scene, words):
         scene.run()
 
 
+def test_a_radius_that_is_not_positive_is_named_before_beads_that_find_no_rest():
+    loose = {(0, 0): -0.7, (0, 1): -0.7, (1, 0): -0.7}
+    with pytest.raises(fd.UnbuildableError, match=r"bead \(4, 2\): its radius is not a positive"):
+        own({**loose, (2, 2): -1.5}).run()
+
+
 def test_a_load_that_lifts_beads_off_is_never_an_answer(tmp_path):
     scene = strip(load=fd.Load(kind="file", file="loads.csv"))
     M, W = scene.packing.height, scene.packing.width or 0
