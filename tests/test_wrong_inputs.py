@@ -51,6 +51,7 @@ WRONG: dict[str, tuple[Callable[[], object], str]] = {
     "figure 7": (lambda: fd.figure(7), "give 1, 2, 3"),
     "a model": (lambda: fd.figure("3", beside=["double-y"]), "no model 'double-y' beside figure 3"),
     "few packings": (lambda: fd.figure(4, realisations=3), "from 16 to"),
+    "arrays": (lambda: fd.figure(4, realisations=np.array([20])), "from 16 to"),  # type: ignore[arg-type]
     "a kind": (lambda: fd.figure(3, kinds=("gif",)), "png, svg, pdf"),
     "seconds": (lambda: fd.cost(SCENE, "a"), "positive number"),  # type: ignore[arg-type]
     "a path": (lambda: fd.read_scene(3), "the path of a file"),  # type: ignore[arg-type]

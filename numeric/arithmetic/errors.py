@@ -7,7 +7,7 @@ import inspect
 from collections.abc import Callable, Iterable
 from functools import wraps
 from operator import index
-from typing import TYPE_CHECKING, Any, ClassVar, ParamSpec, SupportsIndex, TypeGuard, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, ParamSpec, TypeGuard, TypeVar
 
 if TYPE_CHECKING:
     from pydantic import ValidationError
@@ -111,13 +111,16 @@ def checked(function: Callable[P, T]) -> Callable[P, T]:
     return call
 
 
-def is_whole(value: object, least: int, most: int) -> TypeGuard[int]:
+def is_whole(value: Any, least: int, most: int) -> TypeGuard[int]:
     """Say whether a value is a whole number, NumPy's included, from ``least`` to ``most``.
 
     >>> is_whole(3, 1, 3), is_whole(3.0, 1, 3), is_whole(4, 1, 3)
     (True, False, False)
     """
-    return isinstance(value, SupportsIndex) and least <= index(value) <= most
+    try:
+        return least <= index(value) <= most
+    except TypeError:  # arrays have ``__index__``, too
+        return False
 
 
 def check_progress(progress: object) -> None:
