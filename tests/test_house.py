@@ -19,11 +19,11 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_182,
     "derivations": 7_090,
-    "numeric": 8_810,
+    "numeric": 8_813,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_916,
+    "tests": 12_917,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
