@@ -465,7 +465,8 @@ def _names(expressions: Iterable[sympy.Basic]) -> dict[str, Any]:
     """Symbols and functions by the names that they have in code, in their order of appearance."""
     names: dict[str, Any] = {}
     for expression in expressions:
-        for node in sympy.preorder_traversal(expression):
+        # parts of a condition, And(…), have no order of their own
+        for node in sympy.preorder_traversal(expression, keys=expression.has(sympy.Piecewise)):
             if isinstance(node, Symbol):
                 names.setdefault(node.in_code, node)
             elif isinstance(node, sy.SiteFunction | sy.Dot | sy.MatrixTimes | sy.Braces):
