@@ -191,6 +191,7 @@ def test_standard_errors_in_units_beyond_floats_are_not_known():
 
 def test_progress_is_shown(capsys, monkeypatch):
     monkeypatch.setenv("FORCE_COLOR", "1")  # as on a terminal
+    monkeypatch.setenv("TERM", "xterm")
     fd.run(scene(basic(4, 9, realisations=30)), progress=True)
     shown = capsys.readouterr().err
     assert "solving" in shown
