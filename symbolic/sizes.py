@@ -48,7 +48,7 @@ def _length(node: sympy.Basic, parts: list[Lengths]) -> Lengths:
             before = shared.get(base, 0)
             shared[base] = max(before, length) if isinstance(node, sympy.Add) else before + length
     tops = [top for top, _ in parts]
-    if isinstance(node, sympy.Add):
+    if isinstance(node, sympy.Add):  # numerators are multiplied by the others' divisors
         return 8 + len(tops).bit_length() + max(tops) + sum(shared.values()), shared
     return 8 + sum(tops), shared
 

@@ -12,7 +12,7 @@ from hypothesis import HealthCheck, settings
 Call = Callable[..., tuple[int, str, str]]
 """Calls a command: its status, what it prints, and what it says of errors."""
 
-# Cycles of garbage are looked for less often: that took a twentieth of the time.
+# The garbage collector runs less often: it took a twentieth of the time.
 gc.set_threshold(10_000, 20, 20)
 
 # Each run draws anew; a failure is replayed from .hypothesis, or with what is printed beside it.
@@ -67,7 +67,7 @@ def pytest_report_header(config: pytest.Config) -> str | None:
 MANY = 8
 """Cases of a slow test, of which CI runs a third."""
 FORGETTING = "tests/soundness/test_bad_kernels"
-"""Tests after which nothing is known that was worked out: the last of a process."""
+"""Tests that clear all caches, and so come last in their process."""
 DERIVING = tuple(
     f"tests/{place}"
     for place in (
