@@ -23,7 +23,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
     all_of,
-    decide,
     not_a_statement,
     undecided,
 )
@@ -46,7 +45,7 @@ from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .catalogue import Number as EquationNumber
-from .deciding import alternatives_of, cases_of, decided, strange_symbol
+from .deciding import alternatives_of, cases_of, decided, ruling_on, strange_symbol
 from .display import alternatives_in_latex, over_common, room_of, with_commas
 from .evaluation import Number, evaluate, in_order, indices_at, with_values
 from .proof import equations_of
@@ -489,6 +488,8 @@ class ClosedForm:
         }
         if {sy.j, sy.M} <= known:
             known.add(sy.z)
+        if sy.t in known:
+            candidate = candidate.xreplace({sy.L_minus: sy.t * sy.L_plus})
         for symbol in by_name(candidate.free_symbols - known):
             return not_a_statement(
                 strange_symbol(symbol, known)
@@ -520,7 +521,7 @@ class ClosedForm:
         for value, here in parts:
             formula = in_place(candidate, {cases: value}) if cases else candidate
             for part in function.relations(here):
-                ruling = decide(self._in_moments(formula), domain.also(*part), [by])
+                ruling = ruling_on(self._in_moments(formula), domain.also(*part), [by])
                 yield ruling
                 if ruling.verdict is Verdict.REFUTED:
                     return

@@ -7,16 +7,17 @@ from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError, NotProvedError
 from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement, undecided
+from force_diffusion.symbolic.kernel.decisions import Ruling, not_a_statement, undecided
 from force_diffusion.symbolic.kernel.domain import Domain, Limit
 from force_diffusion.symbolic.kernel.limits import large
 from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, Theorem
-from force_diffusion.symbolic.signs import sign
-from force_diffusion.symbolic.trees import equation, in_place
+from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.trees import in_place
 
-from .deciding import alternatives_of, cases_of, strange_symbol
+from .deciding import alternatives_of, cases_of, ruling_on, strange_symbol
 from .record import Derivation, load
 
 OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
@@ -54,11 +55,9 @@ def candidate_for(
             return not_a_statement(str(reason))
         except NotExactError as reason:
             return undecided(str(reason))
-    attempts = [step.rules[place], *_further(statement, formula, domain)]
-    ruling = decide(formula, domain, attempts)
-    if not ruling.verdict.is_proved and (squares := _squares(formula, domain)) is not None:
-        return decide(squares, domain, attempts)
-    return ruling
+    if domain.limit and (own := by_name(formula.free_symbols - OURS - {sy.H_M})):
+        return undecided(f"a limit is read in the equation's symbols, and {text(own[0])} is none")
+    return ruling_on(formula, domain, [step.rules[place], *_further(statement, formula, domain)])
 
 
 def _in_limit(formula: sympy.Eq, domain: Domain, limit: Limit) -> sympy.Eq:
@@ -111,41 +110,3 @@ def _geometry() -> tuple[Group, ...]:
     """Contact directions, and the positions in which they are, in the radii."""
     positions, plus, minus = (load(number).theorem for number in (3, 4, 5))
     return (plus, minus), (positions, axioms.base())
-
-
-def _squares(formula: sympy.Eq, domain: Domain) -> sympy.Eq | None:
-    """Both sides squared, where both are roots that are not negative; None for other equations."""
-    sides = []
-    for side in formula.args:
-        factors = list(_factors(side))
-        has_root = any((2 * exponent).is_odd for _, exponent in factors)
-        if not has_root or not all(_is_root(*factor, domain) for factor in factors):
-            return None
-        squares = (sympy.Pow(base, 2 * exponent, evaluate=False) for base, exponent in factors)
-        sides.append(sympy.Mul(*squares, evaluate=False))
-    return equation(*sides)
-
-
-def _factors(side: sympy.Expr) -> Iterator[tuple[sympy.Expr, sympy.Expr]]:
-    """Bases and exponents; an absolute value is the root of a square."""
-    for factor in sympy.Mul.make_args(side):
-        base, exponent = factor.as_base_exp()
-        if factor.is_Mul:
-            yield from _factors(factor)
-        elif isinstance(base, sympy.Abs):
-            yield base.args[0] ** 2, exponent / 2
-        else:
-            yield base, exponent
-
-
-def _is_root(base: sympy.Expr, exponent: sympy.Expr, domain: Domain) -> bool:
-    """Whether a power has a rational square, and is not negative on a domain."""
-    if not (2 * exponent).is_Integer:
-        return False
-    if base.is_nonnegative or isinstance(base, sy.Variance):
-        return True
-    value = base.xreplace({sy.z: sy.j / sy.M}) if sy.j in domain.indices else base
-    try:
-        return sign(domain.reader().scalar(value), domain.points) == 1
-    except NotExactError:
-        return False

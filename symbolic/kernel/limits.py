@@ -21,11 +21,10 @@ from ..sets import EVERYTHING
 from ..signs import sign
 from ..weights import Weights
 from .domain import Domain, Limit
-from .refuted import other_order
+from .refuted import other_order, too_large
 from .rules import Rule
 from .statistics import MomentReader, worked_out
 from .theorem import (
-    FalseStatementError,
     Group,
     Groups,
     Theorem,
@@ -83,8 +82,7 @@ def negligible(*groups: Group) -> Rule:
         if not _vanishes_nowhere(leading(kept, limit), limit):
             raise NotProvedError("the force is not shown to vary everywhere")
         if not order(dropped, limit) < order(kept, limit):
-            powers = f"{order(dropped, limit)}, and that of the force {order(kept, limit)}"
-            raise FalseStatementError(f"the variance of what is dropped has the power {powers}")
+            raise too_large(order(dropped, limit), order(kept, limit), limit)
         return made(formula, domain, "bounding dropped terms", flat(groups))
 
     return rule

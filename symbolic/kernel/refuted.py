@@ -17,11 +17,17 @@ from .theorem import FalseStatementError, Groups, flat, names_for
 
 
 def refuse(
-    apart: Sequence[Form], domain: Domain, groups: Groups = (), formula: sympy.Basic = sympy.S.Zero
+    apart: Sequence[Form],
+    domain: Domain,
+    groups: Groups = (),
+    formula: sympy.Basic = sympy.S.Zero,
+    *,
+    implied: str = "",
 ) -> NotProvedError:
     """Why two sides of a formula that differ are not equal: that they do somewhere, or may.
 
-    Radii are independent: what holds nothing else is false where a weight differs.
+    Radii are independent: what holds nothing else is false where a weight differs. If the formula
+    is ``implied`` by another one, which is false then, its own words name it.
     """
     keys = {key for form in apart for key in form.parts}
     if keys <= {NUMBER, RADII} and not any(group.supposed for group in flat(groups)):
@@ -30,7 +36,7 @@ def refuse(
                 for points, value in weights.pieces:
                     if where := _witness(points, value, domain):
                         own = {there: symbol for symbol, there in names_for(formula).items()}
-                        return FalseStatementError(_at_odds(key, where, own))
+                        return FalseStatementError(implied + _at_odds(key, where, own))
     return NotProvedError("the normal forms of both sides differ")
 
 
@@ -48,11 +54,39 @@ def other_order(
     return (NotProvedError if right.holds(sy.H_M) else FalseStatementError)(words)
 
 
+def other_ratio(ratio: RationalFunction, power: int, limit: Limit) -> FalseStatementError:
+    """How left over right, to a power that frees it of roots, goes otherwise than the sign says."""
+    subject = "left over right" if power == 1 else f"left over right, to the power {power},"
+    if limit.relation == "∝":
+        words = f"varies as {shown(ratio)}, and not with φ alone"
+    else:
+        words = f"goes to {shown(ratio)}, not to 1"
+    return FalseStatementError(f"as {limit.words}, {subject} {words}")
+
+
+def too_large(dropped: int, kept: int, limit: Limit) -> FalseStatementError:
+    """That the variance of what is dropped is not of lower order than that of the force."""
+    of_rest, of_force = (text(limit.growing[0] ** power) for power in (dropped, kept))
+    return FalseStatementError(
+        f"as {limit.words}, the variance of left minus right goes as {of_rest}, and has to be of "
+        f"lower order than that of the force, which goes as {of_force}"
+    )
+
+
 def shown(value: RationalFunction, limit: Limit | None = None) -> str:
     """A function in words, of z where that is fixed."""
     if limit and {*limit.growing} == {sy.M, sy.j}:
         value = value.substitute({sy.j: FIELD.generator(sy.z) * FIELD.generator(sy.M)})
-    return text(factored(value.reduced()))
+    return _short(factored(value.reduced()))
+
+
+_LONGEST = 400
+"""Characters of a value that is shown."""
+
+
+def _short(value: sympy.Expr) -> str:
+    words = text(value)
+    return words if len(words) <= _LONGEST else f"an expression of {len(words)} characters"
 
 
 def _witness(
@@ -83,12 +117,13 @@ def _witness(
 def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> str:
     """How two sides differ at a point, in words, with a user's own symbols."""
     indices, site, value = where[0], where[1], where[2].xreplace(dict(own))
-    at = ", ".join(f"{text(symbol)} = {number}" for symbol, number in indices.items())
+    at = ", ".join(f"{text(symbol)} = {text(number)}" for symbol, number in indices.items())
     if any(name == RADII[0][0] for name, _ in key):
         first, second, *_ = site.values()
-        what = f"the weight of δr_({first - second}, {first + second}) differs by {text(value)}"
+        bead = f"({text(first - second)}, {text(first + second)})"
+        what = f"the weight of δr_{bead} differs by {_short(value)}"
     else:
-        what = f"the sides differ by {text(value)}"
+        what = f"the sides differ by {_short(value)}"
     return f"at {at}: {what}" if at else what
 
 

@@ -320,7 +320,8 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
             here = moved(fact, {}, where)
             apart = difference(read(with_value(here.formula), where), where)
             if any(form.parts for form in apart):
-                raise refuse(apart, where)
+                left, right = map(text, here.formula.args)
+                raise refuse(apart, where, implied=f"with it, {left} = {right} fails: ")
         return made(formula, domain, "adding up steps from bead (0, 0)", (origin, *up))
 
     return rule

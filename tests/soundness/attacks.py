@@ -454,7 +454,7 @@ beside("induction", induction(0),
 
 
 def decided(rule: Rule, theorem: Theorem) -> str:
-    ruling = decide.decide(theorem.formula, theorem.domain, [rule])
+    ruling = decide.ruling_on(theorem.formula, theorem.domain, [rule])
     if not ruling.verdict.is_proved:
         raise ValueError(ruling.note)
     return str(ruling)
@@ -608,8 +608,8 @@ LEFT, RIGHT = eq12.PRINTED.args
 DROPPED = LEFT, RIGHT + H_M * M * HERE
 table(
     limits.negligible(*FORCES), DROPPING,
-    ("half of it", (LEFT, RIGHT / 2), "is dropped", DROPPED),
-    ("a large radius", (LEFT, RIGHT + M**2 * HERE), "is dropped", DROPPED),
+    ("half of it", (LEFT, RIGHT / 2), "goes as M³, and has", DROPPED),
+    ("a large radius", (LEFT, RIGHT + M**2 * HERE), "goes as M⁴, and has", DROPPED),
     ("a place across", (LEFT, RIGHT + i * HERE), "place across the packing matters", DROPPED),
     ("another mean", (LEFT, RIGHT + 1), "means of both sides differ", DROPPED),
     ("two forces", (LEFT, RIGHT + sy.ForcePlus(i + 2, j)), "not about one contact force", DROPPED),

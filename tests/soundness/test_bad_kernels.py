@@ -75,7 +75,7 @@ FAULTS = {
     "large shares": ("kernel.limits", "bounded", "2 * height > order(whole, limit)", "False"),
     "H_M is as large as M": ("kernel.limits", "order", "_degrees(value.denominator, limit.growing)", "_degrees(value.denominator, (*limit.growing, sy.H_M))"),
     "powers of negative numbers": ("kernel.averages", "_powers", "sign(value, EVERYTHING) != 1", "False"),
-    "any prefactor": ("kernel.averages", "power_law", "not (ratio - FIELD.one).is_zero()", "False"),
+    "any prefactor": ("kernel.averages", "power_law", "(ratio - FIELD.one).is_zero()", "True"),
     # what is read
     "no bead is anywhere": ("forms", "Reader.site", "not self.points.is_subset(above)", "False"),
     "divisors that are zero": ("forms", "Reader.scalar", "not never_zero(base, self.points)", "False"),

@@ -202,6 +202,45 @@ def test_what_is_no_equation_is_refused_by_its_type(given, says):
         assert says in ruling.note
 
 
+LINES = sy.b_plus, sy.b_minus
+REFUTED = [
+    (1, lambda eq: 2 * eq.rhs, "with it, x_(i+1,j+1) − x_ij = 2 r n⁺ fails: at j = 0: "),
+    (4, lambda eq: eq.rhs.xreplace(dict(zip(LINES, LINES[::-1], strict=True))), "at i = −1, j = 1: "),
+    (12, lambda eq: 2 * eq.rhs, "the variance of left minus right goes as M³, and has to be of l"),
+    (13, lambda eq: eq.rhs * (1 + Rational(1, 10**3000)), "to an expression of 6003 characters"),
+    (15, lambda eq: equal(eq.expr[0].lhs, sy.M**2 * sy.sigma / sy.r),
+     "as M → ∞, left over right, to the power 2, varies as 1/[M (1 − φ²)²], and not with φ alone"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("number", "make", "says"), REFUTED)
+def test_a_refutation_says_what_differs_and_where(number, make, says):
+    eq = fd.equation(number)
+    ruling = eq.decide(make(eq))
+    assert ruling.verdict is Verdict.REFUTED
+    assert says in ruling.note
+
+
+def test_roots_of_an_exact_form_are_decided_by_their_squares():
+    """Of a root that is multiplied by −1 nothing is said."""
+    form = fd.equation(13).exact()
+    left, right = sympy.sqrt(form.quantity), sympy.sqrt(form.expr)
+    assert form.decide(equal(left, right)).verdict is Verdict.PROVED
+    ruling = form.decide(equal(left, sympy.sqrt(2) * right))
+    assert ruling.verdict is Verdict.REFUTED
+    assert ruling.note.startswith("both sides squared: at j = ")
+    assert form.decide(equal(left, -right)).verdict is Verdict.UNDECIDED
+    two = sympy.sqrt(form.pieces[0].expr) * sympy.sqrt(sy.j - 5) / sympy.sqrt(sy.j - 5)
+    assert form.decide(equal(left, two), M=12, j=4).verdict is not Verdict.REFUTED
+
+
+def test_t_is_also_the_ratio_of_both_components_of_a_load():
+    form = fd.equation("B2").exact()
+    ratio = sy.L_minus / sy.L_plus
+    assert form.decide(form.expr.xreplace({sy.t: ratio})).verdict is Verdict.PROVED
+    assert form.decide(form.expr.xreplace({sy.t: 1 / ratio})).verdict is Verdict.REFUTED
+
+
 def test_large_numbers_are_too_large_and_many_terms_are_not():
     eq = fd.equation(13)
     terms = (sy.z**n / (n * (1 - sy.phi**2) ** (n % 4)) for n in range(1, 300))
