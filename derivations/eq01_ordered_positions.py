@@ -98,7 +98,7 @@ def show_steps(steps: Steps) -> None:
             equation(sympy.Rational(1, 2) + phi, (12 * r**2 - spacing**2) / (8 * r**2)),
             equation(1 - phi**2, 4 * n_x**2 * n_y**2),
         ),
-        rewrite(printed.theorem),
+        rewrite(),
         definitions=in_spacing,
     )
 

@@ -99,7 +99,7 @@ def tensile_fraction(load: str) -> sympy.Expr:
 NEGATIVE = (
     "A Gaussian force of mean 1 and variance v is tensile with the probability ½ erfc(1/√(2v)). To "
     "first order the forces are Gaussian for normal radii and, in the limit, for all radii of "
-    "finite variance: by Eqs. 13 and 14 no radius dominates, which is what Lindeberg's theorem "
+    "finite variance: no radius dominates (Eqs. 13 and 14), which is what Lindeberg's theorem "
     "needs. Averaged over the layers as M → ∞ at fixed M/M*, the expected fraction under a surface "
     "load is"
 )

@@ -113,11 +113,11 @@ def show_steps(steps: Steps) -> None:
         rewrite(),
     )
     steps.show(
-        "By Eqs. 4 and 5, f⁺_ij is a sum of second differences up to the layer below its branch, "
-        "as in Eq. 12, and of four radii. Its vertical component p⁺_ij has, for n, q ≥ 1 and j + "
-        "n ≥ 2, exactly the variance",
+        "By Eq. 5, f⁺_ij is a sum of second differences up to the layer below its branch, as in "
+        "Eq. 12, and of four radii. Its vertical component p⁺_ij has, for n, q ≥ 1 and j + n ≥ 2, "
+        "exactly the variance",
         equation(ONE_CONTACT, EXACT[ONE_CONTACT]),
-        by,
+        moment(forces(), eq05.DERIVATION.theorem),
         INSIDE.also(j + n >= 2),
     )
     exact = steps.show(
@@ -135,7 +135,7 @@ def show_steps(steps: Steps) -> None:
         equation(
             LEG_RESPONSE, terms(Rational(1, 2), times(Rational(1, 2), 1 / (1 - phi**2), LEG_TILTS))
         ),
-        rewrite(eq07.right_angles()),
+        rewrite(eq07.right_angles()[0]),
         LEFT_LEG,
     )
     steps.show(
@@ -155,7 +155,7 @@ def claims(steps: Steps) -> None:
         "to leading order the variance at one contact is 3s/2 in units of (σ/r)²/(1−φ²)², where "
         "s = ½(l+j+k−i) is the layer in which its path branches",
         equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), layers.UNIT)),
-        leading,
+        asymptotic(forces(), eq05.DERIVATION.theorem),
         CONE,
     )
     steps.refute(

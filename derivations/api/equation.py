@@ -118,11 +118,13 @@ class Equation:
 
     @property
     def premises(self) -> tuple["Equation", ...]:
-        """The equations that it is derived from.
+        """The equations that the theorem of what is printed rests on.
+
+        Steps that lead to something else, and claims, may use others; each has its own ``uses``.
 
         >>> import force_diffusion as fd
         >>> [premise.number for premise in fd.equation(13).premises]
-        [4, 5, 11, 12]
+        [12]
         """
         return tuple(_equation(number) for number in self._derivation.premises)
 
@@ -400,7 +402,7 @@ class Equation:
         >>> str(proof.verdict)
         'proved'
         >>> print(str(proof).splitlines()[0])
-        Eq. 9 is proved. It rests on Eqs. 4, 5, 8.
+        Eq. 9 is proved. It rests on Eqs. 4, 5. Steps and claims beside its proof use Eq. 8.
         """
         return Proof(tuple(run_all([self.number])))
 

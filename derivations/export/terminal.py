@@ -13,6 +13,7 @@ from force_diffusion.symbolic.words import in_words as where_in_words
 
 from ..coq.record import Certificate
 from ..coq.statements import recorded
+from ..framework.catalogue import Number
 from ..framework.lists import both
 from ..framework.proof import Step
 from ..framework.record import Check, ProofOutcome, Statement, load
@@ -85,11 +86,16 @@ def statement_text(derivation: Statement) -> str:
 
 
 def rests_text(derivation: Statement) -> str:
-    """The equations that it rests on, in words."""
-    numbers = [str(number) for number in derivation.premises]
-    if not numbers:
-        return "It rests on no other equation."
-    return f"It rests on Eq{'s' * (len(numbers) > 1)}. {', '.join(numbers)}."
+    """The equations that it rests on, in words, and those that only other steps and claims use."""
+    premises = derivation.premises
+    words = f"It rests on {_equations(premises) or 'no other equation'}."
+    further = _equations(number for number in derivation.used if number not in premises)
+    return f"{words} Steps and claims beside its proof use {further}." if further else words
+
+
+def _equations(numbers: Iterable[Number]) -> str:
+    listed = [str(number) for number in numbers]
+    return f"Eq{'s' * (len(listed) > 1)}. {', '.join(listed)}" * bool(listed)
 
 
 def follows_text(step: Step) -> str:

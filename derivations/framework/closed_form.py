@@ -116,7 +116,19 @@ class ClosedForm:
     @property
     def premises(self) -> tuple[EquationNumber, ...]:
         """The equations it rests on, read off its theorems."""
-        return equations_of(flat(self.groups()))
+        return equations_of(flat(self.groups_used()))
+
+    def groups_used(self) -> tuple[Group, ...]:
+        """The groups, without what is known of displacements where it holds none.
+
+        Forces and contact directions are given in the radii.
+        """
+        return tuple(
+            group
+            for group in self.groups()
+            if self.statistic.has(sy.DeltaX)
+            or not any(theorem.formula.lhs.has(sy.DeltaX) for theorem in flat([group]))
+        )
 
     def on(self, *relations: sympy.Basic) -> sympy.Expr:
         """Its formula on a part of its domain where a single formula holds.

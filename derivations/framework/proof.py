@@ -116,20 +116,23 @@ def shown(equation: Number, *theorems: Theorem) -> tuple[Theorem, ...]:
     return theorems
 
 
-def equations_of(theorems: Iterable[Theorem]) -> tuple[Number, ...]:
-    """The equations that show theorems, or what these rest on."""
-    return in_order(equation for equation, _ in _sources(theorems))
+def equations_of(theorems: Iterable[Theorem], own: Number = 0) -> tuple[Number, ...]:
+    """The equations, but for their ``own``, that show theorems, or what these rest on."""
+    return in_order(equation for equation, _ in _sources(theorems, own))
 
 
-def _sources(theorems: Iterable[Theorem]) -> Iterator[Place]:
-    """Where theorems are shown, or what these rest on: the nearest place on each way."""
+def _sources(theorems: Iterable[Theorem], own: Number = 0) -> Iterator[Place]:
+    """Where theorems are shown, or what these rest on: the nearest place on each way.
+
+    Places of their ``own`` equation are passed.
+    """
     rest, seen = list(theorems), set[Theorem]()
     while rest:
         theorem = rest.pop(0)
         if theorem in seen:
             continue
         seen.add(theorem)
-        if theorem in _PLACE_OF:
+        if theorem in _PLACE_OF and _PLACE_OF[theorem][0] != own:
             yield _PLACE_OF[theorem]
         else:
             rest += theorem.premises

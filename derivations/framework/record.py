@@ -19,7 +19,7 @@ from force_diffusion.symbolic.printing.lines import latex_body, text_lines
 from .catalogue import Number, in_order, modules
 from .closed_form import ClosedForm
 from .display import room_of
-from .proof import Definitions, Step, Steps
+from .proof import Definitions, Step, Steps, equations_of
 
 _SECONDS: list[float] = []
 """How long each proof took, without those that ran within it."""
@@ -71,7 +71,15 @@ class Statement:
 
     @property
     def premises(self) -> tuple[Number, ...]:
-        """The equations that it rests on, as its theorems say; none where it is not proved."""
+        """The equations that what is printed rests on, as its theorems say; none if not proved."""
+        try:
+            return equations_of(self.theorems, self.number)
+        except (NotProvedError, LookupError):
+            return ()
+
+    @property
+    def used(self) -> tuple[Number, ...]:
+        """The equations that some step or claim rests on; none where it is not proved."""
         try:
             shown = (*self.proof, *self.proof.claims)
         except NotProvedError:

@@ -10,6 +10,7 @@ from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted, undecided
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
+from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import PiecewiseFunction
 from force_diffusion.symbolic.printing.lines import stacked
@@ -88,6 +89,11 @@ class Row(Statement):
         """The closed forms as equations."""
         return tuple(form.equation for form in self.exact_forms.values())
 
+    @property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """What the kernel proves of it: a theorem for each formula and part of its domain."""
+        return tuple(step.theorem for step in self.proof)
+
     def latex(self, columns: int = 1) -> str:
         """The closed forms, for one display in text of one column or of two."""
         return stacked([form.latex(columns) for form in self.exact_forms.values()])
@@ -108,7 +114,7 @@ class Row(Statement):
     def show_steps(self, steps: Steps) -> None:
         """A step for each formula and part of its domain."""
         for form in self.exact_forms.values():
-            by = moment(*form.groups(), on=form.kernel_domain)
+            by = moment(*form.groups_used(), on=form.kernel_domain)
             shown = form.quantity if form.divisor == 1 else form.divisor * form.quantity
             for piece in form.pieces:
                 for part in piece.where:

@@ -65,8 +65,8 @@ def with_premises(wanted: Iterable[Number], watch: Watch) -> Iterator[Statement]
             seen.add(number)
             statement = load(number)
             watch(statement)
-            for premise in statement.premises:
-                yield from visit(premise)
+            for number_used in statement.used:
+                yield from visit(number_used)
             yield statement
 
     for number in wanted:

@@ -5,10 +5,11 @@ from collections.abc import Iterator
 
 import pytest
 import sympy
+from force_diffusion.derivations.export.terminal import rests_text
 from force_diffusion.derivations.framework.catalogue import Number, modules, paper
 from force_diffusion.derivations.framework.decide import candidate_for
 from force_diffusion.derivations.framework.proof import Step
-from force_diffusion.derivations.framework.record import load
+from force_diffusion.derivations.framework.record import Derivation, load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_FORCES
@@ -59,8 +60,8 @@ def test_a_term_that_is_not_of_the_cone_is_not_proved(stranger):
 
 
 def _named(words: str) -> Iterator[Number]:
-    """The equations that words put in: By Eq. 3, With Eqs. 4 and 5."""
-    for match in re.finditer(r"\b(?:By|With) Eqs?\. (\d+)(?: and (\d+))?", words):
+    """The equations that words put in: by Eq. 3, with Eqs. 4 and 5."""
+    for match in re.finditer(r"\b(?:[Bb]y|[Ww]ith) Eqs?\. (\d+)(?: and (\d+))?", words):
         yield from (int(number) for number in match.groups() if number)
 
 
@@ -79,6 +80,44 @@ def _rests_on(step: Step) -> set[Number]:
             seen.add(id(theorem))
             queue += theorem.premises
     return {shown[key] for key in seen & {*shown}}
+
+
+def _nearest(derivation: Derivation) -> set[Number]:
+    """The other equations in whose steps and claims a theorem stands that the printed ones need."""
+    others = {
+        id(theorem): number
+        for number in paper()
+        if number != derivation.number
+        for step in (*load(number).proof, *load(number).proof.claims)
+        for theorem in step.theorems
+    }
+    queue, found = list(derivation.theorems), set()
+    while queue:
+        theorem = queue.pop()
+        if id(theorem) in others:
+            found.add(others[id(theorem)])
+        else:
+            queue += theorem.premises
+    return found
+
+
+@pytest.mark.parametrize("number", paper())
+def test_an_equation_rests_on_what_its_own_theorems_need(number):
+    derivation = load(number)
+    assert {*derivation.premises} == _nearest(derivation)
+    assert {*derivation.premises} <= {*derivation.used}
+
+
+def test_what_other_steps_use_is_said_apart():
+    assert load(11).premises == (4, 5)
+    words = rests_text(load(11))
+    assert words == "It rests on Eqs. 4, 5. Steps and claims beside its proof use Eqs. 7, 9, 10."
+    assert rests_text(load(2)) == "It rests on no other equation."
+
+
+@pytest.mark.parametrize(("number", "premises"), [("B4", (3, 4, 5)), ("B5", (4, 5, 11))])
+def test_a_row_rests_on_displacements_only_where_it_holds_one(number, premises):
+    assert load(number).premises == premises
 
 
 @pytest.mark.parametrize("number", paper())
