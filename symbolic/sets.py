@@ -37,12 +37,14 @@ _FIXED_FIRST = {
 """Which symbol an equation gives, the first that it holds: M and N also stand in denominators."""
 LARGEST = 2**62  # isl takes machine integers
 
+_remembered = lru_cache(maxsize=4096)  # proofs ask the same of the same sets many times
+
 
 class OpenSumError(NotExactError):
     """A sum over a set has no closed form of this kind, as its bounds have to be rounded."""
 
 
-@lru_cache(maxsize=4096)
+@_remembered
 def row(form: sympy.Expr) -> Row:
     """A form in indices with whole factors.
 
@@ -72,7 +74,7 @@ def constraint(form: Row, equation: bool) -> Any:
     return row
 
 
-@lru_cache(maxsize=4096)
+@_remembered
 def condition(relation: sympy.Basic) -> tuple[Row, bool]:
     """What is at least 0 where a relation holds, and whether it is 0 there.
 
@@ -88,6 +90,7 @@ def condition(relation: sympy.Basic) -> tuple[Row, bool]:
     raise NotExactError(f"{relation} is not a relation between whole numbers")
 
 
+@_remembered
 def where(*relations: sympy.Basic) -> Set:
     """The points at which all relations between whole numbers hold.
 
@@ -146,25 +149,28 @@ def _affine(form: Row) -> Any:
 # what a set is made of
 
 
-def parts(points: Set) -> list[Set]:
+@_remembered
+def parts(points: Set) -> Sequence[Set]:
     """Convex parts of a set, no two of which share a point."""
     convex = (part.to_set() for part in points.make_disjoint().get_basic_sets())
-    return [part for part in convex if not part.is_empty()]
+    return tuple(part for part in convex if not part.is_empty())
 
 
-def rows(part: Set) -> tuple[list[Row], list[Row]]:
+@_remembered
+def rows(part: Set) -> tuple[Sequence[Row], Sequence[Row]]:
     """Forms that are 0, and that are at least 0, on a convex set.
 
     Raises:
         OpenSumError: the set holds a condition on remainders.
     """
     (basic,) = part.get_basic_sets()
-    by_kind: tuple[list[Row], list[Row]] = ([], [])
+    equations: list[Row] = []
+    bounds: list[Row] = []
     for relation, form in _forms(basic):
         if form is None:
             raise OpenSumError(f"{part} holds a remainder")
-        by_kind[0 if relation.is_equality() else 1].append(form)
-    return by_kind
+        (equations if relation.is_equality() else bounds).append(form)
+    return tuple(equations), tuple(bounds)
 
 
 def _forms(part: Any) -> Iterator[tuple[Any, Row | None]]:
@@ -202,19 +208,20 @@ def _conditions(part: Set) -> Iterator[Condition]:
         yield tuple((_PLACE[symbol], -factor) for symbol, factor in factors.items()), -constant
 
 
-@lru_cache(maxsize=4096)
+@_remembered
 def _negated(condition: Condition) -> Condition:
     return tuple((place, -factor) for place, factor in condition[0]), -condition[1] - 1
 
 
-@lru_cache(maxsize=4096)
+@_remembered
 def _half(condition: Condition) -> Set:
     """The points at which a condition holds."""
     factors = {DIMENSIONS[place]: factor for place, factor in condition[0]}
     return EVERYTHING.add_constraint(constraint((factors, condition[1]), False))
 
 
-def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
+@_remembered
+def arrangement(parts: tuple[Set, ...]) -> Sequence[tuple[Set, Sequence[int]]]:
     """Convex cells, each in all of some sets and outside of the others: it, and which sets.
 
     Space is halved by the conditions of the sets, the most frequent one first, until none is left
@@ -247,7 +254,8 @@ def arrangement(parts: Sequence[Set]) -> Iterator[tuple[Set, list[int]]]:
         elif inside:
             yield cell, inside
 
-    yield from halved(EVERYTHING, [(n, [*_conditions(part)]) for n, part in enumerate(parts)], [])
+    conditions = [(n, [*_conditions(part)]) for n, part in enumerate(parts)]
+    return tuple(halved(EVERYTHING, conditions, []))
 
 
 def least(symbol: sympy.Symbol, points: Set) -> int | None:
@@ -256,13 +264,17 @@ def least(symbol: sympy.Symbol, points: Set) -> int | None:
     return value.to_python() if value.is_int() else None
 
 
-def equations(points: Set) -> list[Row]:
+@_remembered
+def equations(points: Set) -> Sequence[Row]:
     """Forms that are 0 on all of a set; remainders are left out."""
     forms = _forms(points.affine_hull())
-    return [form for relation, form in forms if form is not None and relation.is_equality()]
+    return tuple(form for relation, form in forms if form is not None and relation.is_equality())
 
 
-def fixed(points: Set, first: Sequence[sympy.Symbol] = ()) -> dict[sympy.Symbol, RationalFunction]:
+@_remembered
+def fixed(
+    points: Set, first: tuple[sympy.Symbol, ...] = ()
+) -> Mapping[sympy.Symbol, RationalFunction]:
     """Symbols that the equations of a set fix, by those that they leave free.
 
     A polynomial in what is left that is zero on all of the set is zero, unless the set is finite in
@@ -362,7 +374,8 @@ def _bounds(
 # points
 
 
-def sample(points: Set) -> dict[sympy.Symbol, int]:
+@_remembered
+def sample(points: Set) -> Mapping[sympy.Symbol, int]:
     """A point of a set that is not empty."""
     point = points.sample_point()
     return {

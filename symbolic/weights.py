@@ -132,7 +132,7 @@ class Weights:
         """The same in convex pieces that share no point."""
         pieces = [(part, value) for points, value in self.pieces for part in sets.parts(points)]
         nonzero = []
-        for cell, inside in sets.arrangement([part for part, _ in pieces]):
+        for cell, inside in sets.arrangement(tuple(part for part, _ in pieces)):
             value = FIELD.total(pieces[number][1] for number in inside)
             if not value.is_zero():
                 nonzero.append((cell, value))

@@ -7,7 +7,7 @@ written by φ before the numerator is compared with zero.
 
 from collections.abc import Iterable, Mapping, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, lru_cache
 from math import comb, prod
 from typing import Any, Self
 
@@ -79,23 +79,7 @@ class Field:
             NotExactError: for anything else, floats included.
             NotAStatementError: it is infinite, or no number.
         """
-        if expression in self.position:
-            return self.generator(expression)
-        if isinstance(expression, sympy.Rational):
-            return self.constant(expression)
-        if isinstance(expression, sympy.Add):
-            total = self.zero
-            for term in expression.args:
-                total = total + self.from_sympy(term)
-            return total
-        if isinstance(expression, sympy.Mul):
-            product = self.one
-            for factor in expression.args:
-                product = product * self.from_sympy(factor)
-            return product
-        if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Integer):
-            return self.from_sympy(expression.base) ** int(expression.exp)
-        raise _not_exact(expression)
+        return _read(self, expression)
 
     def expanded(self, polynomial: Polynomial) -> sympy.Expr:
         """A polynomial as a SymPy sum."""
@@ -131,6 +115,21 @@ class Field:
             else:
                 same[0] = same[0] + value.numerator
         return sum((RationalFunction(self, *part) for part in sums), self.zero)
+
+
+@lru_cache(maxsize=4096, typed=True)
+def _read(field: Field, expression: sympy.Expr) -> "RationalFunction":
+    if expression in field.position:
+        return field.generator(expression)
+    if isinstance(expression, sympy.Rational):
+        return field.constant(expression)
+    if isinstance(expression, sympy.Add):
+        return sum((_read(field, term) for term in expression.args), field.zero)
+    if isinstance(expression, sympy.Mul):
+        return prod((_read(field, factor) for factor in expression.args), start=field.one)
+    if isinstance(expression, sympy.Pow) and isinstance(expression.exp, sympy.Integer):
+        return _read(field, expression.base) ** int(expression.exp)
+    raise _not_exact(expression)
 
 
 _MOST_TERMS = 20_000
@@ -187,14 +186,10 @@ class RationalFunction:
     def __init__(self, domain: Field, numerator: Polynomial, denominator: Polynomial):
         self.domain = domain
         self._degrees: tuple[Sequence[int], Sequence[int]] | None = None
-        if numerator == 0:
-            denominator = domain.context.constant(1)
-        elif not denominator.is_constant():
+        if not denominator.is_one():
             common = numerator.gcd(denominator)
-            if common != 1:
-                numerator, denominator = numerator / common, denominator / common
-        lead = denominator.leading_coefficient()
-        if lead != 1:
+            numerator, denominator = numerator / common, denominator / common
+            lead = denominator.leading_coefficient()
             numerator, denominator = numerator / lead, denominator / lead
         self.numerator = numerator
         self.denominator = denominator
@@ -257,8 +252,10 @@ class RationalFunction:
 
     def is_zero(self) -> bool:
         """Decide whether this is zero, given n_x² + n_y² = 1."""
+        if len(self.numerator) <= 1:  # a single term is not zero
+            return len(self.numerator) == 0
         if not (self.holds(n_x) or self.holds(n_y)):
-            return bool(self.numerator == 0)
+            return False
         return bool(self._on_circle(self.numerator) == 0)
 
     def reduced(self) -> "RationalFunction":

@@ -272,8 +272,8 @@ def _large(limit: Limit) -> Iterator[sympy.Basic]:
     return (sympy.Ge(expression, _LARGE, evaluate=False) for expression in limit.positive)
 
 
-def _not_in(symbols: Iterable[sympy.Symbol]) -> list[sympy.Symbol]:
-    return [dimension for dimension in sets.DIMENSIONS if dimension not in {*symbols}]
+def _not_in(symbols: Iterable[sympy.Symbol]) -> tuple[sympy.Symbol, ...]:
+    return tuple(dimension for dimension in sets.DIMENSIONS if dimension not in {*symbols})
 
 
 def large(domain: Domain, limit: Limit) -> sets.Set:

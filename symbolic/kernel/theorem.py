@@ -322,7 +322,7 @@ def _what_it_says(theorem: Theorem, later: Mapping[type, tuple[Known, ...]]) -> 
     site = reader.site(*quantity.args)
     here = zip(SOURCE, site, strict=False)
     points = reader.points & sets.where(*(sympy.Eq(a, b, evaluate=False) for a, b in here))
-    bound = [symbol for symbol in domain.indices if symbol not in _named(theorem)]
+    bound = tuple(symbol for symbol in domain.indices if symbol not in _named(theorem))
     given = sets.fixed(points, bound)
     by_bead = {symbol: given[symbol].to_sympy() for symbol in bound if symbol in given}
     forms = tuple(form.on(points).renamed(by_bead).without(*bound).merged() for form in forms)
