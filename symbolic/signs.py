@@ -4,19 +4,18 @@ A sign is found exactly, by isl or by the number of real roots of a polynomial i
 is not shown to have one sign has none.
 """
 
-from collections.abc import Sequence
 from functools import lru_cache
 
 import sympy
 
 from . import sets
-from .algebra.exact import FIELD, SITE, SOURCE, NotExactError, Polynomial, RationalFunction
+from .algebra.exact import FIELD, SITE, SOURCE, NotExactError, RationalFunction
 from .notation import by_name
 from .symbols import INDICES, M, N, epsilon, n_x, n_y, phi, z
 
 _WHOLE = {*INDICES, *SITE, *SOURCE}
 
-Symbols = Sequence[sympy.Symbol]
+Symbols = tuple[sympy.Symbol, ...]
 
 
 def never_zero(value: RationalFunction, points: sets.Set, dimension: int = 2) -> bool:
@@ -46,22 +45,22 @@ def sign(
         number, factors = polynomial.factor()
         product *= 1 if number > 0 else -1
         for factor, power in factors:
-            own = _of_factor(factor, points, tuple(positive), dimension)
+            own = _of_factor(FIELD.expanded(factor), points, positive, dimension)
             if own == 0:
                 return 0
             product *= own ** (int(power) % 2)
     return product
 
 
-def _of_factor(factor: Polynomial, points: sets.Set, positive: Symbols, dimension: int) -> int:
-    expression = RationalFunction(FIELD, factor, FIELD.one.numerator).to_sympy()
-    symbols = expression.free_symbols
-    if symbols <= _WHOLE and (result := _of_whole_numbers(expression, points)):
+@lru_cache(maxsize=1024)
+def _of_factor(factor: sympy.Expr, points: sets.Set, positive: Symbols, dimension: int) -> int:
+    symbols = factor.free_symbols
+    if symbols <= _WHOLE and (result := _of_whole_numbers(factor, points)):
         return result
-    if symbols <= {n_x, n_y, phi} and dimension == 2 and (result := _of_cosines(expression)):
+    if symbols <= {n_x, n_y, phi} and dimension == 2 and (result := _of_cosines(factor)):
         return result
     least = {symbol: _least(symbol, points) for symbol in symbols & _WHOLE}
-    return _of_terms(expression, least, positive, sympy.Rational(-1, dimension))
+    return _of_terms(factor, least, positive, sympy.Rational(-1, dimension))
 
 
 def _of_whole_numbers(form: sympy.Expr, points: sets.Set) -> int:
