@@ -1,9 +1,10 @@
 """LaTeX in the paper's notation."""
 
 import re
+from functools import lru_cache
 from typing import Any
 
-from sympy import Expr, Sum
+from sympy import Basic, Expr, Sum
 from sympy.printing.latex import LatexPrinter
 
 from .structure import StructuredPrinter
@@ -20,6 +21,11 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
 
     def __init__(self) -> None:
         LatexPrinter.__init__(self, {"order": "none"})
+        self._remembered = lru_cache(maxsize=16_384)(super()._print)
+
+    def _print(self, expr: Any, **kwargs: Any) -> str:
+        hashable = isinstance(expr, Basic) and not kwargs
+        return str(self._remembered(expr) if hashable else super()._print(expr, **kwargs))
 
     def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
         """A fraction."""
@@ -66,6 +72,10 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
         return text + (self.set_brackets(inner) if expr.function.is_Add else inner)
 
 
+LATEX = PaperLatex()
+"""The printer; it remembers what it has written, since lines are broken by trying."""
+
+
 def latex(expr: Expr) -> str:
     """One expression as LaTeX for mathematics mode.
 
@@ -73,4 +83,4 @@ def latex(expr: Expr) -> str:
     >>> print(latex(DeltaR(i - j, 0) / (1 - phi**2)))
     \\frac{\\delta r_{i-j,0}}{1 - \\phi^{2}}
     """
-    return str(PaperLatex().doprint(expr))
+    return str(LATEX.doprint(expr))

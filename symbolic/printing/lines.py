@@ -12,7 +12,7 @@ from itertools import zip_longest
 
 from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 
-from .latex import PaperLatex
+from .latex import LATEX, PaperLatex
 from .structure import in_order, is_negative, without_sign
 from .text import PaperText
 
@@ -310,7 +310,7 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
     before = max(width(line.split("&")[0]) for line in lines)  # further lines begin behind it
     if all(before + width(line.split("&", 1)[1]) <= room for line in lines):
         return lines
-    pieces = _Pieces(PaperLatex(), r"\biggl\{", r"\biggr\}")
+    pieces = _Pieces(LATEX, r"\biggl\{", r"\biggr\}")
     sides = equation.args if isinstance(equation, Eq) else (equation,)
     joined = (" ".join(piece for piece, _ in pieces.of(side, room)) for side in sides)
     whole = f" {relation} ".join(joined)
@@ -319,11 +319,10 @@ def latex_lines(equation: Basic, relation: str = "=", room: float = LINE_WIDTH) 
 
 
 def _at_terms(equation: Basic, relation: str, room: float) -> list[str]:
-    printer = PaperLatex()
-    pieces = _Pieces(printer, r"\biggl\{", r"\biggr\}")
+    pieces = _Pieces(LATEX, r"\biggl\{", r"\biggr\}")
     if not isinstance(equation, Eq):
         return ["&" + line for line in pack(pieces.of(equation, room), room, room)]
-    lhs = printer.doprint(equation.lhs)
+    lhs = LATEX.doprint(equation.lhs)
     rhs = pieces.of(equation.rhs, room)
     if width(lhs) > room / 3 and len(equation.lhs.args) > 1:
         left = pack(pieces.of(equation.lhs, room), room, room)
@@ -397,9 +396,8 @@ def latex_cases(
 
     ``below``: pieces of LaTeX for where they hold together.
     """
-    printer = PaperLatex()
-    scale, sign = ("", "") if factor == 1 else (f" {printer.doprint(factor)}", r" \times")
-    head = f"{printer.doprint(left)} ="
+    scale, sign = ("", "") if factor == 1 else (f" {LATEX.doprint(factor)}", r" \times")
+    head = f"{LATEX.doprint(left)} ="
     alone = width(head + scale + sign) > room / 3
     left_over = room - 16 - (20 if alone else width(head + scale + sign))
     body = " \\\\[3pt]\n".join(" \\\\\n".join(lines) for lines in _laid_out(rows, left_over))
