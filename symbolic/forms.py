@@ -204,17 +204,19 @@ Vector = tuple[Form, Form]
 Value = Form | Vector
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Known:
     """What a quantity of a bead is, by the bead's coordinates ``SOURCE``, on a set of beads."""
 
     points: Set
     value: tuple[Form, ...]
 
-    def at(self, site: tuple[sympy.Expr, ...]) -> tuple[Set, tuple[Form, ...]]:
-        """The same of a bead with other coordinates."""
-        image = dict(zip(SOURCE, site, strict=False))
-        return sets.at(self.points, image), tuple(form.at(image) for form in self.value)
+
+@lru_cache(maxsize=4096)
+def _at(known: Known, site: tuple[sympy.Expr, ...]) -> tuple[Set, tuple[Form, ...]]:
+    """The same of a bead with other coordinates."""
+    image = dict(zip(SOURCE, site, strict=False))
+    return sets.at(known.points, image), tuple(form.at(image) for form in known.value)
 
 
 @dataclass(frozen=True, eq=False)
@@ -334,7 +336,7 @@ class Reader:
             return self._vertical(kind, quantity)
         left, total = self.points, None
         for known in self.known.get(kind, ()):
-            points, value = known.at(site)
+            points, value = _at(known, site)
             inside = left & points
             if not inside.is_empty():
                 there = tuple(part.on(inside).renamed(self._fixed) for part in value)
@@ -378,7 +380,7 @@ class Reader:
         if type(quantity) not in self.known or axis not in (1, 2, 3):
             raise NotExactError(f"{text(quantity)} is not known")
         site = tuple(sympy.expand(coordinate.xreplace(self.straight.image)) for coordinate in place)
-        form: Form = self.known[type(quantity)](int(axis) - 1).at(site)[1][0]
+        form: Form = _at(self.known[type(quantity)](int(axis) - 1), site)[1][0]
         return form
 
     def _vertical(self, kind: type[sy.SiteFunction], quantity: sy.SiteFunction) -> Form:

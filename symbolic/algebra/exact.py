@@ -188,9 +188,11 @@ class RationalFunction:
         self._degrees: tuple[Sequence[int], Sequence[int]] | None = None
         if not denominator.is_one():
             common = numerator.gcd(denominator)
-            numerator, denominator = numerator / common, denominator / common
+            if common != 1:
+                numerator, denominator = numerator / common, denominator / common
             lead = denominator.leading_coefficient()
-            numerator, denominator = numerator / lead, denominator / lead
+            if lead != 1:
+                numerator, denominator = numerator / lead, denominator / lead
         self.numerator = numerator
         self.denominator = denominator
 
