@@ -227,17 +227,19 @@ def height_of(places: Array) -> float:
 def positions(plan: Plan, columns: Columns, errors: Columns, network: Network | None) -> Figure:
     """Draw the beads where they lie, each with its radius, as dark as it is displaced."""
     rows = of_first(columns)
-    unit, places = float(plan.scene.packing.radius), plan.problem.region.rows
+    places = plan.problem.region.rows
     if plan.scene.ask.at is not None:
         places = Rows(rows["i"], [1], int(rows["j"][0]))
     with FLOAT64.active():
-        radii = unit * (1 + plan.problem.radii.of(places, [0], FLOAT64)[0])
-    centres, away = np.stack([rows["x"], rows["y"]], axis=-1), np.hypot(rows["dx"], rows["dy"])
-    figure, (axes,) = style.panels("a", style.PAGE, height_of(centres / unit) + 0.4)
-    name = r"displacement $(\delta x^2+\delta y^2)^{1/2}$"
+        radii = 1 + plan.problem.radii.of(places, [0], FLOAT64)[0]
+    r = float(plan.scene.packing.radius)
+    centres = np.stack([rows["x"], rows["y"]], axis=-1) / r
+    away = np.hypot(rows["dx"], rows["dy"]) / r
+    figure, (axes,) = style.panels("a", style.PAGE, height_of(centres) + 0.4)
+    name = r"displacement $(\delta x^2+\delta y^2)^{1/2}/r$"
     circles = beads.draw_beads(axes, centres, radii)
     beads.shade(axes, circles, away, float(away.max()) or 1.0, location="bottom", label=name)
-    axes.set(xlabel="$x$", ylabel="$y$", aspect="equal")
+    axes.set(xlabel="$x/r$", ylabel="$y/r$", aspect="equal")
     return figure
 
 
@@ -257,7 +259,8 @@ def profile(plan: Plan, columns: Columns, errors: Columns, network: Network | No
             printed_over_exact = leading_stds(kind, M, z, phi) / stds_by_layer(kind, M, phi)
             axes.plot(z, exact[0] * printed_over_exact, "k--", label=name)
     for c, own in enumerate(plan.quantity.branches):
-        rows = columns["branch"] == own
+        rows = np.flatnonzero(columns["branch"] == own)
+        rows = rows[style.marked(M, c, len(plan.quantity.branches))]
         error = errors["std"][rows] if "std" in errors else None
         std, name = floats(columns["std"])[rows], f"simulated, $f^{own}$"
         style.points(axes, columns["j"][rows] / M, std, c, name, error, ms=5.2 * NESTED**c)
@@ -323,6 +326,7 @@ def response(plan: Plan, columns: Columns, errors: Columns, network: Network | N
     places = np.stack([unwrapped(plan, rows["i"]), rows["j"]], axis=1)
     sites, which = np.unique(places, axis=0, return_inverse=True)
     p = np.bincount(which, rows["vertical" if vertical else "vertical_mean"])
+    p /= float(plan.scene.load.magnitude)
     figure, (left, right) = style.panels("ab", style.PAGE, 2.9)
     name = r"$p\,/\,f^{\rm load}$" if vertical else r"$\langle p\rangle\,/\,f^{\rm load}$"
     centres = ordered(plan, *sites.T)

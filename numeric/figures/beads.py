@@ -14,7 +14,7 @@ from matplotlib.patches import Circle
 from ..arithmetic.systems import Array
 
 PRESSING, PULLING = "0.12", "#D55E00"
-WIDEST, THINNEST = 3.0, 0.05  # points
+WIDEST, THINNEST, THINNEST_KEY = 3.0, 0.05, 0.4  # points; the last is seen in a legend
 EQUAL = 1e-12
 """Forces that differ by less than this share are equal: their differences are rounding."""
 MOST_ARROWS = 40
@@ -142,9 +142,9 @@ def draw_chains(axes: Axes, ends: Array, forces: Array, shown: Sequence[tuple[fl
         lines = LineCollection(list(ends[own]), linewidths=widths, colors=colour)
         lines.set(capstyle="round", zorder=1 + (colour == PULLING))
         axes.add_collection(lines)
-    keys = [
-        Line2D([], [], c=PULLING if f < 0 else PRESSING, lw=float(thickness(f, forces)), label=name)
-        for f, name in shown
-    ]
+    keys = []
+    for f, name in shown:
+        width = max(float(thickness(f, forces)), THINNEST_KEY)
+        keys.append(Line2D([], [], c=PULLING if f < 0 else PRESSING, lw=width, label=name))
     if keys:
         axes.figure.legend(handles=keys, loc="outside lower center", ncols=3)

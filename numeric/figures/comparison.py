@@ -18,10 +18,7 @@ from ..theory.expected import critical_height, leading_stds, stds_by_layer
 from . import packings
 from .packings import LEVEL, PAPER, Comparison, Made, Medium, Options
 from .q_model import weight_variance
-from .style import COLUMN, GREY, PAGE, RELATIVE_HEIGHT, panels, points
-
-MARKED = 16
-"""About so many layers get a marker."""
+from .style import COLUMN, GREY, PAGE, RELATIVE_HEIGHT, marked, panels, points
 
 
 def curves(M: int, medium: Medium = PAPER) -> tuple[Array, Array]:
@@ -68,12 +65,6 @@ def figure(o: Options) -> Made:
     return Made(drawn, {**made.tables, **own}, made.facts, made.lines)
 
 
-def _marked(M: int, number: int) -> slice:
-    """Choose the layers that get a marker, other ones for each height."""
-    step = -(-M // MARKED)
-    return slice(number * step // 3, None, step)
-
-
 def _draw(axes: Axes, cases: Sequence[Comparison], medium: Medium) -> None:
     """Draw all σ_f/⟨f⟩ over M^(3/2)."""
     power = -math.floor(math.log10(medium.std))
@@ -83,7 +74,7 @@ def _draw(axes: Axes, cases: Sequence[Comparison], medium: Medium) -> None:
     axes.plot([], [], color=GREY, label="exact at finite $M$")
     for c, case in enumerate(cases):
         M = len(case.theory)
-        unit, z, some = M**1.5 / 10.0**power, np.arange(M) / M, _marked(M, c)
+        unit, z, some = M**1.5 / 10.0**power, np.arange(M) / M, marked(M, c, 3)
         low, high = case.band.limits
         axes.plot(z, case.theory / unit, color=f"C{c}")
         axes.fill_between(z, low / unit, high / unit, color=f"C{c}", alpha=0.25, lw=0)
@@ -100,7 +91,7 @@ def _draw_ratio(axes: Axes, cases: Sequence[Comparison]) -> None:
     widest = 0.0
     for c, case in enumerate(cases):
         M = len(case.theory)
-        z, some = np.arange(M) / M, _marked(M, c)
+        z, some = np.arange(M) / M, marked(M, c, 3)
         low, high = (100 * (edge / case.theory - 1) for edge in case.band.limits)
         axes.fill_between(z, low, high, color=f"C{c}", alpha=0.18, lw=0)
         axes.plot(z, low, z, high, color=f"C{c}", lw=0.5)
@@ -118,7 +109,7 @@ def _draw_q_model(axes: Axes, heights: Sequence[int]) -> None:
     for c, M in enumerate(heights):
         std, here = np.sqrt(weight_variance(M)), 1 - np.arange(M + 1) / M
         axes.plot(here, std / std[-1], color=f"C{c}")
-        some = slice(None, None, max(1, M // MARKED))
+        some = marked(M + 1, 0, 1)
         points(axes, here[some], (std / std[-1])[some], c, f"$q$-model, $M={M}$")
     axes.set(xlabel=RELATIVE_HEIGHT, ylabel=r"$\sigma(z)\,/\,\sigma(0)$", ylim=(0, 1.04))
     axes.legend(loc="lower left")

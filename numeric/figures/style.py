@@ -29,6 +29,8 @@ except ModuleNotFoundError as error:
 COLUMN, PAGE = 3.4, 7.0  # inches
 MARKERS = "os^DvP"
 """Of the series C0, C1, ..."""
+MARKED = 16
+"""Layers that get a marker: between more of them no curve would be seen."""
 GREY = "0.35"
 """Of keys that stand for all colours."""
 RELATIVE_HEIGHT = "relative height $z=j/M$"
@@ -80,6 +82,12 @@ def points(
     )  # fmt: skip
     drawn.lines[0].set_clip_on(not len(x))  # markers on an axis are drawn in full, bars end there
     return drawn
+
+
+def marked(layers: int, series: int, of: int) -> slice:
+    """Choose the layers that get a marker, of many only some; other ones in each ``of`` series."""
+    step = -(-layers // MARKED)
+    return slice(series * step // of, None, step)
 
 
 def curve(axes: Axes, x: Array, y: Array, bulk: slice, series: int) -> None:

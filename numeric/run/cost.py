@@ -99,16 +99,19 @@ class CostStudy:
         with house_style():
             figure = HouseFigure(figsize=(PAGE, 3.4))
             axes = figure.subplots()
-            for name, marker in zip(DIGITS, "os^", strict=True):
+            for c, (name, marker) in enumerate(zip(DIGITS, "os^", strict=True)):
+                color = f"C{c}"
                 ways = [way for way in self.ways if way.way == name]
                 seconds, errors = [w.seconds for w in ways], [w.error for w in ways]
-                (line,) = axes.loglog(seconds, errors, ":", label=name)
+                axes.loglog(seconds, errors, f":{marker}", c=color, mfc=color, label=name)
                 for way in ways:
-                    face = "none" if way.extrapolated else line.get_color()
-                    at, color = (way.seconds, way.error), line.get_color()
-                    axes.plot(*at, marker, color=color, markerfacecolor=face)
+                    at = way.seconds, way.error
+                    if way.extrapolated:
+                        axes.plot(*at, marker, color=color)  # hollow, as the house style has it
                     axes.annotate(f" {way.digits} digits", at, va="bottom")
-            axes.set_xlabel("seconds of the processor (hollow: estimated from fewer layers)")
+            hollow = any(way.extrapolated for way in self.ways)
+            fewer = " (hollow: estimated from fewer layers)" if hollow else ""
+            axes.set_xlabel(f"processor time in seconds{fewer}")
             axes.set_ylabel("error / largest |change|")
             axes.set_title(printable(title or self.quantity).replace("$", r"\$"))
             axes.margins(x=0.15)

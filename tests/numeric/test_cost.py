@@ -144,4 +144,5 @@ def test_the_plot_shows_every_way():
     assert high > 1e-16
     assert [text.get_text() for text in axes.texts] == [" 16 digits", " 100 digits"]
     assert axes.get_title() == r"\$name"
+    assert [key.get_marker() for key in axes.get_legend().get_lines()] == ["o", "s", "^"]
     figure.canvas.draw()

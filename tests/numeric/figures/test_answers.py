@@ -82,7 +82,8 @@ def test_chains_are_as_thick_as_forces_and_tension_has_its_colour():
 
 
 def test_a_point_load_near_the_edge_has_one_cone():
-    load = fd.PointLoad(at=(0, M))
+    size = Fraction(3, 10)
+    load = fd.PointLoad(at=(0, M), magnitude=size)
     outcome = scene("response", load=load, width=2 * M).run()
     figure = outcome.plot()
     beads, _ = (c for c in figure.axes[0].collections if isinstance(c, PatchCollection))
@@ -96,7 +97,7 @@ def test_a_point_load_near_the_edge_has_one_cone():
     vertical = outcome.arrays["vertical"]
     for height in np.unique(centres[:, 1].round(6)):  # each layer bears the whole load
         assert shades[centres[:, 1].round(6) == height].sum() == pytest.approx(1, abs=1e-3)
-    assert vertical.sum() == pytest.approx(M, abs=1e-3 * M)
+    assert vertical.sum() == pytest.approx(float(size) * M, abs=1e-3 * M)
 
 
 def test_a_profile_stands_beside_theory():
@@ -117,6 +118,13 @@ def test_a_profile_stands_beside_theory():
     own = [closed_forms.surface_diffusion(M, j / M, phi) * 1e-8 for j in range(M)]
     drawn = np.asarray(figure.axes[0].get_lines()[1].get_ydata())
     assert drawn == pytest.approx(F * np.sqrt(own))
+
+
+def test_of_many_layers_some_are_marked_so_that_theory_is_seen():
+    outcome = question("profile", 40, 82, std=1e-4, seed=3, realisations=2).run()
+    plus, minus = ((40 * z).round().astype(int) for z, _ in points(outcome.plot()))
+    assert plus.tolist() == list(range(0, 40, 3))
+    assert minus.tolist() == list(range(1, 40, 3))
 
 
 def test_theory_of_a_load_at_an_angle_is_drawn_for_either_branch():
@@ -145,13 +153,14 @@ def test_densities_are_those_of_all_changes(at):
 
 
 def test_beads_have_their_radii():
-    outcome = scene("positions", std=0.02).run()
+    unit = Fraction(5, 2)
+    outcome = scene("positions", std=0.02, radius=unit, spacing=3 * unit).run()
     (beads,) = (c for c in outcome.plot().axes[0].collections if isinstance(c, PatchCollection))
     boxes = np.array([path.get_extents().get_points() for path in beads.get_paths()])
-    assert boxes.mean(axis=1)[:, 0] == pytest.approx(outcome.arrays["x"], abs=1e-6)
+    x, y = outcome.arrays["x"] / float(unit), outcome.arrays["y"] / float(unit)
+    assert boxes.mean(axis=1)[:, 0] == pytest.approx(x, abs=1e-6)
     radii = np.ptp(boxes, axis=1)[:, 0] / 2
     assert radii.std() == pytest.approx(0.02, rel=0.3)
-    x, y = outcome.arrays["x"], outcome.arrays["y"]
     apart = np.hypot(x[:, None] - x, y[:, None] - y)
     touching = np.abs(apart - (radii[:, None] + radii)) < 1e-5
     assert touching.sum() // 2 >= 2 * M * (W - 1)  # but for those across the edge
