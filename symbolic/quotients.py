@@ -3,7 +3,7 @@
 import sympy
 
 from .algebra.exact import Field, Polynomial, RationalFunction
-from .symbols import M, l, phi
+from .symbols import M, j, l, phi
 
 
 def factored(value: RationalFunction) -> sympy.Expr:
@@ -38,7 +38,7 @@ def _factors(domain: Field, polynomial: Polynomial) -> tuple[sympy.Rational, dic
 
 def _reads_negative(factor: sympy.Expr) -> bool:
     """Whether −factor reads better: M − j rather than j − M, 1 − z rather than z − 1."""
-    if height := next((symbol for symbol in (M, l) if symbol in factor.free_symbols), None):
+    if height := next((symbol for symbol in (M, l, j) if symbol in factor.free_symbols), None):
         powers = {term: term.as_powers_dict()[height] for term in sympy.Add.make_args(factor)}
         highest = max(powers.values())
         top = sympy.Add(*(t / height**highest for t, power in powers.items() if power == highest))

@@ -19,6 +19,8 @@ _ALLOWED = (
     "products and whole powers of quantities"
 )
 
+ORDERED = "forces over their ordered values"
+
 
 def response(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
     """The vertical force on bead (i, j) from both contacts above it."""
@@ -172,12 +174,12 @@ def _closed(
     under = load_of(load, dimension)
     statistic = kind(*(read(each, under.dimension) for each in observables))
     on = domain(statistic, under, *relations_of(where))
-    scales = _scales(statistic, under) if relative else {}
+    scales, units = _scales(statistic, under) if relative else ({}, "")
     groups = under.groups
     if under.dimension == PLANE and not on.loading:
         groups = without_load
     multiple, divisor = _without_divisors(statistic.xreplace(scales))
-    form = ClosedForm(statistic, multiple, on, groups, divisor)
+    form = ClosedForm(statistic, multiple, on, groups, divisor, units)
     try:
         _ = form.function
     except NotExactError as reason:
@@ -212,20 +214,21 @@ def _may_vanish(divisor: sympy.Expr) -> bool:
     return not divisor.is_positive and bool(constants) and constants == divisor.free_symbols
 
 
-def _scales(statistic: sympy.Expr, load: LoadCase) -> dict[sympy.Expr, sympy.Expr]:
-    """Every quantity over what it is compared with."""
-    scales = {}
+def _scales(statistic: sympy.Expr, load: LoadCase) -> tuple[dict[sympy.Expr, sympy.Expr], str]:
+    """Every quantity over what it is compared with, and the same in words."""
+    scales, units = {}, set()
     for quantity in statistic.atoms(sy.SiteFunction, *SPHERES):
         match quantity:
             case sy.VerticalPlus() | sy.VerticalMinus() | sy.VerticalAlong():
-                unit = load.unit
+                unit, word = load.unit, "vertical forces over the load above"
             case sy.ForceAlong():
-                unit = load.ordered[int(quantity.args[0]) - 1]
+                unit, word = load.ordered[int(quantity.args[0]) - 1], ORDERED
             case sy.ForcePlus() | sy.ForceMinus():
-                unit = load.ordered[isinstance(quantity, sy.ForceMinus)]
+                unit, word = load.ordered[isinstance(quantity, sy.ForceMinus)], ORDERED
             case sy.DeltaX() | sy.DeltaR():
-                unit = sy.r
+                unit, word = sy.r, "lengths over the mean radius"
             case _:
                 continue
         scales[quantity] = quantity / unit.xreplace({sy.j: layer_of(quantity)})
-    return scales
+        units.add(word)
+    return scales, ", ".join(sorted(units))

@@ -66,7 +66,7 @@ class ClosedForm:
     >>> import force_diffusion as fd
     >>> from force_diffusion.symbols import f_plus, i, j
     >>> print(fd.variance(f_plus(i, j) - f_plus(i - 1, j - 1)))
-    var(f⁺_ij − f⁺_(i−1,j−1)), exact for 1 ≤ j ≤ M − 1
+    var(f⁺_ij − f⁺_(i−1,j−1)), exact for 1 ≤ j ≤ M − 1; forces over their ordered values
       j ≥ 3: ([12 j (φ² + 1) + φ⁴ + 3 φ² − 6]/[2 (1 − φ²)²]) (σ_δr/r)²
       j = 2: ((φ⁴ + 27 φ² + 3 φ + 18)/[2 (1 − φ²)²]) (σ_δr/r)²
       j = 1: ((φ⁴ − φ³ + 12 φ² − 5 φ + 7)/[2 (1 − φ²)²]) (σ_δr/r)²
@@ -77,6 +77,7 @@ class ClosedForm:
         kernel_domain: its domain and load, as the kernel holds them.
         groups: gives the theorems that express its observables by the radii, in order of use.
         divisor: a divisor of the statistic that may be zero, such as 1 − t; otherwise 1.
+        units: what the quantities in it are divided by, in words; "" if by nothing.
     """
 
     def __init__(
@@ -86,18 +87,19 @@ class ClosedForm:
         kernel_domain: Domain,
         groups: Callable[[], Sequence[Group]],
         divisor: sympy.Expr = sympy.S.One,
+        units: str = "",
     ) -> None:
         self.quantity, self.statistic, self.kernel_domain = quantity, statistic, kernel_domain
-        self.divisor, self.groups = divisor, groups
+        self.divisor, self.groups, self.units = divisor, groups, units
 
     def __reduce__(self) -> tuple[Any, ...]:
         """No theorem comes out of a pickle: what it says is worked out again."""
         own = self.quantity, self.statistic, self.kernel_domain, self.groups
-        return ClosedForm, (*own, self.divisor)
+        return ClosedForm, (*own, self.divisor, self.units)
 
     def named(self, quantity: sympy.Expr) -> "ClosedForm":
         """The same form, printed with a symbol for its quantity."""
-        _, (_, *others) = self.__reduce__()
+        _, (_, *others, _) = self.__reduce__()
         form = ClosedForm(quantity, *others)
         form.function = self.function
         return form
@@ -212,7 +214,8 @@ class ClosedForm:
 
     @property
     def _heading(self) -> str:
-        return f"{text(self.quantity)}, exact{self._for_domain}"
+        units = f"; {self.units}" if self.units else ""
+        return f"{text(self.quantity)}, exact{self._for_domain}{units}"
 
     # numbers
 
@@ -364,11 +367,12 @@ class ClosedForm:
         """LaTeX of some of its pieces; where all hold, below the last."""
         is_last = pieces[-1] is self._in_latex[-1]
         room, domain = room_of(columns), self.conditions(words.LATEX) if is_last else []
-        below = with_commas(domain, "for")
+        units = [rf"\text{{{self.units}}}"] if self.units and is_last else []
+        below = with_commas([*domain, *units], "for" if domain else "")
         if len(pieces) == 1:
             (piece,) = pieces
             if alternatives := self._where(piece, "if"):
-                below = [*alternatives, *with_commas(domain, " for")]
+                below = [*alternatives, *with_commas([*domain, *units], " for" if domain else "")]
             line = equation(self.quantity, piece.expr)
             return latex_body((line,), room=room, below=below)
         factor, values = self._over_common

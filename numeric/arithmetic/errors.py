@@ -84,12 +84,14 @@ def quoted(value: object) -> str:
 def suggestion(name: str, known: Iterable[str]) -> str:
     """Say which of the known names could be meant; "" if none is close.
 
-    >>> suggestion("spacng", ["radii", "spacing"])
-    'did you mean spacing? '
+    >>> suggestion("spacng", ["radii", "spacing"]), suggestion("std", ["seed", "relative_std"])
+    ('did you mean spacing? ', 'did you mean relative_std? ')
     """
     from difflib import get_close_matches  # of wrong names alone
 
-    close = get_close_matches(name[:LONGEST], list(known), n=1)
+    names, word = list(known), name[:LONGEST]
+    close = [each for each in names if word.strip('"') in each.strip('"').split("_")]
+    close = close or get_close_matches(word, names, n=1)
     return f"did you mean {close[0]}? " if close else ""
 
 

@@ -99,7 +99,10 @@ def refuse_memory(scene: CheckedScene, needed: int, room: int) -> None:
         }
         key = max(sizes, key=sizes.__getitem__)
         needs = f"this scene would need about {size(needed)} of memory"
-        raise TooLargeError(key, sizes[key], f"{needs} and {size(room)} may be used")
+        less = "a smaller packing needs less"
+        if key == "ask.realisations":
+            less = "the command ensemble needs less, since it keeps sums alone"
+        raise TooLargeError(key, sizes[key], f"{needs} and {size(room)} may be used; {less}")
 
 
 def size(number: int) -> str:

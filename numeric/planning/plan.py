@@ -96,7 +96,7 @@ class Plan:
         if tension is not None and tension.typical:
             contacts = problem.dimension * (problem.width or 0) * problem.height
             notes.append(
-                f"a typical packing of this scene has tension: about {tension.contacts:.2g} of its "
+                f"a typical packing of this scene has tension: about {tension.contacts:.0f} of its "
                 f"{contacts} contacts pull; at this width the first one is expected at a height of "
                 f"about {tension.height_of_one}"
             )

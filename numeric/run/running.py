@@ -89,7 +89,7 @@ def read_tolerance(value: Any) -> Fraction:
     except ValueError as error:
         raise SceneError("tolerance", value, str(error)) from None
     if not 0 < asked < 1:
-        raise SceneError("tolerance", value, "must lie between 0 and 1")
+        raise SceneError("tolerance", value, "must lie between 0 and 1: 1e-12 asks for 12 digits")
     return asked
 
 

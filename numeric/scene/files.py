@@ -210,8 +210,10 @@ def read_radii(
         delta -= radius if header[-1] == "r" else 0
         site = _site(where, bead, packing)
         if delta <= -radius or delta > MOST * radius:
-            allowed = "leaves no positive radius" if delta < 0 else "must be at most 1e100 r"
-            raise TableError(f"{where}: bead {bead}: delta_r = {short(delta)} {allowed}")
+            what = f"delta_r = {short(delta)} must be at most 1e100 r"
+            if delta < 0:
+                what = f"its radius is {short(radius + delta)}, and must be greater than 0"
+            raise TableError(f"{where}: bead {bead}: {what}")
         if width is not None or needed(site):
             if site in rho:
                 raise TableError(f"{where}: bead {bead} is named twice")

@@ -123,7 +123,7 @@ def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> st
         bead = f"({text(first - second)}, {text(first + second)})"
         what = f"the weight of δr_{bead} differs by {_short(value)}"
     else:
-        what = f"the sides differ by {_short(value)}"
+        what = f"left minus right is {_short(value)}"
     return f"at {at}: {what}" if at else what
 
 

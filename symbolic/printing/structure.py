@@ -316,6 +316,7 @@ class StructuredPrinter(Printer):  # type: ignore[misc]
         simple = isinstance(expr.base, Symbol | sy.SiteFunction) or (
             expr.base.is_Integer and expr.base >= 0
         )
+        simple &= expr.base != sy.m_g  # printed as a product
         return self.set_power(base if simple else self.set_brackets(base), expr.exp)
 
     def parenthesize(self, item: Expr, level: int, *_: Any, **__: Any) -> str:

@@ -1,5 +1,6 @@
 """What a user types: calls, symbols, and constants of one's own."""
 
+import pickle
 import subprocess
 import sys
 from fractions import Fraction
@@ -12,7 +13,7 @@ import force_diffusion as fd
 from force_diffusion import symbols
 from force_diffusion.symbols import (
     M, N, delta_n_plus, delta_r, delta_x, dot, e_x, e_y, f_load, f_minus, f_plus, i, j, k, l,
-    m_g, n_y, p_plus, phi, r, sigma,
+    m_g, n_minus, n_y, p_plus, phi, r, sigma,
 )  # fmt: skip
 
 _CALLS = """
@@ -72,7 +73,7 @@ def test_a_constant_in_source_leading_orders_and_candidates():
     ruling = str(mean.decide(2 / a))
     assert ruling.startswith("refuted")
     doubled = fd.mean(a * f_plus(i, j)).decide(3 * a)
-    assert str(doubled) == "refuted: at j = 0, M = 1: the sides differ by −2 a"
+    assert str(doubled) == "refuted: at j = 0, M = 1: left minus right is −2 a"
     assert str(mean.decide(sympy.Symbol("a"))).startswith("not a statement: this a is not that of")
     assert str(mean.decide(sympy.Symbol("b"))).startswith("not a statement: b is not a symbol of")
 
@@ -154,6 +155,38 @@ def test_the_ordered_forces_are_means():
 )
 def test_domains_in_words(observable, words):
     assert fd.variance(observable).domain == words
+
+
+@pytest.mark.parametrize(
+    ("observable", "words"),
+    [
+        (f_plus(i, j), "forces over their ordered values"),
+        (fd.response(i, j), "vertical forces over the load above"),
+        (
+            f_plus(i, j) + delta_r(i, j),
+            "forces over their ordered values, lengths over the mean radius",
+        ),
+        (dot(n_minus, delta_n_plus(i, j)), ""),
+    ],
+)
+def test_what_quantities_are_divided_by_is_said(observable, words):
+    form, bare = fd.variance(observable), fd.variance(observable, relative=False)
+    said, bare_said = (str(each).partition("\n")[0] for each in (form, bare))
+    assert said == bare_said + (f"; {words}" if words else "")
+    assert (rf"\text{{{words}}}" in form.latex()) == bool(words)
+    assert fd.equation(13).exact().units == pickle.loads(pickle.dumps(bare)).units == ""
+    assert pickle.loads(pickle.dumps(form)).units == words
+
+
+def test_the_weight_of_a_bead_is_squared_as_a_product():
+    form = fd.variance(f_plus(i, j), load="bulk", relative=False)
+    assert "(mg)²" in str(form)
+    assert "(mg)^{2}" in form.latex()
+
+
+def test_no_variance_has_a_minus_sign_that_it_can_do_without():
+    up = fd.variance(dot(e_y, delta_x(i, j)))
+    assert str(up.pieces[0].expr) == "sigma**2*(4*j - 1)/(r**2*(phi + 1))"
 
 
 def test_a_domain_that_the_caller_gives():

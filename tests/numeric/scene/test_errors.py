@@ -175,7 +175,7 @@ GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
     [
         (GOOD[:3], r"bead \(3, 1\) is missing"),
         ([*GOOD, GOOD[0]], r"bead \(0, 0\) is named twice"),
-        ([*GOOD[:3], "3,1,-1.0"], r"bead \(3, 1\).*no positive radius"),
+        ([*GOOD[:3], "3,1,-1.0"], r"bead \(3, 1\).*its radius is 0, and must be greater than 0"),
         ([*GOOD[:3], "3,1,1e9999999999"], r"bead \(3, 1\)"),
         ([*GOOD[:3], "2,1,0"], r"\(2, 1\).*even"),
         ([*GOOD[:3], "3,1"], "2 values where 3"),
