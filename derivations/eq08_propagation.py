@@ -89,7 +89,7 @@ DERIVATION = Derivation(
     name="propagation",
     title="Passage of a contact force through a bead",
     symbols=(
-        (ENTERING, "force entering bead (r, s) from above along n⁺"),
+        (ENTERING, "force entering bead (r, s), here two indices, from above along n⁺"),
         (FORCES[0], "force leaving it along n⁺"),
         (FORCES[1], "force leaving it along n⁻: the branch"),
         *usual(phi),

@@ -67,8 +67,8 @@ FAMILY = (
 """All forces along n⁺ below the load: on the left leg, inside the cone, and none beside it."""
 
 EXACT = {
-    RESPONSE: times(terms(6 * (l + j), -6, phi**2), layers.UNIT / 4),
-    ONE_CONTACT: times(terms(3 * (l + j + k - i), -3, phi**2 / 2), layers.UNIT / 4),
+    RESPONSE: times(terms(6 * l, 6 * j, -6, phi**2), layers.UNIT / 4),
+    ONE_CONTACT: times(terms(3 * l, 3 * j, 3 * k, -3 * i, -3, phi**2 / 2), layers.UNIT / 4),
 }
 """The usual formulas, away from base, load and legs."""
 ON_LEG = times(terms(2 * l, 2 * j, -2, 2 * phi, phi**2), layers.UNIT / 4)
@@ -152,8 +152,8 @@ def claims(steps: Steps) -> None:
     groups = in_radii()
     by, leading = moment(*groups), asymptotic(*groups)
     steps.claim(
-        "to leading order the variance at one contact is 3s/2 in units of (σ/r)²/(1−φ²)², where "
-        "s = ½(l+j+k−i) is the layer in which its path branches",
+        "to leading order the variance at one contact is 3m/2 in units of (σ/r)²/(1−φ²)², where "
+        "m = ½(l+j+k−i) is the layer in which its path branches",
         equation(ONE_CONTACT, times(Rational(3, 4), terms(l, j, k, -i), layers.UNIT)),
         asymptotic(forces(), eq05.DERIVATION.theorem),
         CONE,
@@ -229,8 +229,8 @@ DERIVATION = Derivation(
     },
     remarks=(
         "Erratum: the paper's p is the vertical component of the force at a contact f^±_ij. For "
-        "one contact the printed form does not hold: the variance is (3/2) s (σ/r)²/(1−φ²)² with "
-        "the layer s = ½(l+j±(k−i)) in which its path branches, so it grows from (3/2) j beside "
+        "one contact the printed form does not hold: the variance is (3/2) m (σ/r)²/(1−φ²)² with "
+        "the layer m = ½(l+j±(k−i)) in which its path branches, so it grows from (3/2) j beside "
         "one leg to (3/2) l beside the other. The printed form holds for both upper contacts of a "
         "bead together, and also for both lower ones, since the bead passes these forces on.",
         "For this p the horizontal position drops out exactly, not only to leading order, from the "

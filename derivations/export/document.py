@@ -96,15 +96,17 @@ def _aside(title: str, parts: Iterable[str]) -> str:
     return f"\\aside{{\\emph{{{title}:}} {listed}.}}\n" if listed else ""
 
 
-def section_latex(outcome: ProofOutcome, explained: str = "") -> str:
-    """One equation and its steps; symbols that stand in what is ``explained`` are not again."""
+def _meanings(derivation: Statement, frame: str) -> list[str]:
+    """What its symbols mean, but for those that the document explains before all equations."""
+    named = [(f"${latex(symbol)}$", meaning) for symbol, meaning in derivation.symbols]
+    return [f"{name}: {prose_latex(meaning)}" for name, meaning in named if name not in frame]
+
+
+def section_latex(outcome: ProofOutcome, frame: str = "", explained: Sequence[str] = ()) -> str:
+    """One equation and its steps; what is ``explained`` of a symbol is not said again."""
     derivation, number = outcome.derivation, outcome.derivation.number
     proof = derivation.proof if outcome.verdict.is_proved else None
-    symbols = (
-        f"${latex(symbol)}$: {prose_latex(meaning)}"
-        for symbol, meaning in derivation.symbols
-        if f"${latex(symbol)}$" not in explained
-    )
+    symbols = [each for each in _meanings(derivation, frame) if each not in explained]
     parts = [
         f"\\heading{{Eq.~({number}). {prose_latex(derivation.title)}}}\n",
         f"\\begin{{equation}}\\label{{eq:fd{label(number)}}}\\tag{{{number}}}\n",
@@ -135,13 +137,14 @@ def section_latex(outcome: ProofOutcome, explained: str = "") -> str:
     return "".join(parts)
 
 
-def _sections(outcomes: Iterable[ProofOutcome], explained: str) -> str:
-    """The paper's equations; each symbol is explained where it comes first."""
-    sections = []
+def _sections(outcomes: Iterable[ProofOutcome], frame: str) -> str:
+    """The paper's equations; each symbol is explained where it first has that meaning."""
+    sections: list[str] = []
+    explained: list[str] = []
     for outcome in outcomes:
         if isinstance(outcome.derivation.number, int):
-            sections.append(section_latex(outcome, explained))
-            explained += "".join(f"${latex(symbol)}$" for symbol, _ in outcome.derivation.symbols)
+            sections.append(section_latex(outcome, frame, explained))
+            explained += _meanings(outcome.derivation, frame)
     return "\n".join(sections)
 
 

@@ -62,6 +62,13 @@ def test_cases_of_a_quantity_are_in_one_display():
     assert r"j = M - 1,\; M \geq 3" in text
 
 
+def test_a_symbol_is_explained_again_where_it_means_something_else():
+    text = document([run(load(number)) for number in (4, 5, 10, 11)])
+    assert "$n$: steps from the branch down" in text
+    assert "$n$: layers between the contact" in text
+    assert text.count(r"$\delta r_{ij}$: ") <= 1
+
+
 def test_errata_stand_with_their_equation():
     assert "Erratum: the printed formula is for $j" in section_latex(run(load(3)))
 
