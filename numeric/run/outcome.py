@@ -265,6 +265,8 @@ def outcome_lines(data: dict[str, Any]) -> list[str]:
 def _physical_words(p: dict[str, Any]) -> str:
     """Say whether a packing is physical, of how much of it that is known, and why it is not."""
     if p["physical"]:
+        if p["tensile_contacts"] is None:
+            return "no overlaps; whether contacts pull was not asked"
         return "physical" if p["whole"] else "physical, as far as it was checked"
     words = "NOT physical"
     if not p["overlaps"] and not p["tensile_contacts"]:

@@ -24,6 +24,12 @@ def test_the_examples_work(path, call):
     assert json.loads(explained) == {key: data[key] for key in json.loads(explained)}
 
 
+def test_of_positions_alone_it_is_open_whether_contacts_pull(call):
+    status, stdout, _ = call("run", SCENES / "settled.toml")
+    assert status == 0
+    assert "no overlaps; whether contacts pull was not asked" in stdout
+
+
 def test_text_output_says_what_was_done(call):
     status, stdout, _ = call("run", SCENES / "one_contact.toml")
     assert status == 0
