@@ -325,8 +325,8 @@ def response(plan: Plan, columns: Columns, errors: Columns, network: Network | N
     rows = {name: floats(column) for name, column in columns.items()}
     places = np.stack([unwrapped(plan, rows["i"]), rows["j"]], axis=1)
     sites, which = np.unique(places, axis=0, return_inverse=True)
-    p = np.bincount(which, rows["vertical" if vertical else "vertical_mean"])
-    p /= float(plan.scene.load.magnitude)
+    unit = float(plan.scene.load.magnitude)
+    p = np.bincount(which, rows["vertical" if vertical else "vertical_mean"]) / unit
     figure, (left, right) = style.panels("ab", style.PAGE, 2.9)
     name = r"$p\,/\,f^{\rm load}$" if vertical else r"$\langle p\rangle\,/\,f^{\rm load}$"
     centres = ordered(plan, *sites.T)
