@@ -1,6 +1,6 @@
 """Why a statement is not proved: where its sides differ. No theorem rests on what is found here."""
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import cycle, islice
 
 import islpy as isl
@@ -129,7 +129,7 @@ def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> st
 
 def _samples(
     points: sets.Set, among: Iterable[sympy.Symbol] = (), most: int = 8
-) -> Iterator[dict[sympy.Symbol, int]]:
+) -> Iterator[Mapping[sympy.Symbol, int]]:
     """Some points of a set, which differ in what it is said by and in symbols ``among``.
 
     A function may vanish along a line: each symbol in turn goes on, farther each time.
