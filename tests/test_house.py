@@ -17,13 +17,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_217,
-    "derivations": 7_125,
-    "numeric": 8_813,
+    "symbolic": 4_218,
+    "derivations": 7_130,
+    "numeric": 8_829,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_978,
+    "tests": 13_022,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
