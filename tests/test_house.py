@@ -7,6 +7,7 @@ away; cramming lines, or turning code into strings and data, is no answer.
 import ast
 import re
 import tokenize
+from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
@@ -211,3 +212,15 @@ def test_every_room_is_on_the_map():
         named = {name.strip("`/") for row in part.splitlines() for name in row.split("`")[1:-1:2]}
         there = {room for room in rooms(folder) if not room.startswith("eq")}
         assert there <= named, folder
+
+
+def test_no_two_classes_share_a_name():
+    """Nor do private classes, or those within functions."""
+    classes = Counter(
+        node.name
+        for folder in ("symbolic", "derivations", "numeric", "force_diffusion")
+        for path in (ROOT / folder).rglob("*.py")
+        for node in ast.walk(parsed(path))
+        if isinstance(node, ast.ClassDef)
+    )
+    assert [name for name, count in classes.items() if count > 1] == []

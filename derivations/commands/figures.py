@@ -37,7 +37,7 @@ STATUSES = (
 )
 
 
-class Model(StrEnum):
+class SimplerModel(StrEnum):
     """A simpler model that may be drawn beside a figure."""
 
     Q_MODEL = "q-model"
@@ -108,7 +108,7 @@ def figures(
         ),
     ] = None,
     beside: Annotated[
-        list[Model] | None,
+        list[SimplerModel] | None,
         typer.Option(
             "--with",
             metavar="MODEL",

@@ -38,7 +38,7 @@ class CoqAbsentError(ForceDiffusionError):
 
 
 @dataclass(frozen=True)
-class Answer:
+class Reply:
     """What a program of Coq's printed; ``failed`` is why it did not do what it was asked to."""
 
     printed: str = ""
@@ -61,7 +61,7 @@ class CoqFolder:
             if not shutil.which(program):
                 raise CoqAbsentError(f"{program} is not there. Install Coq: {INSTALL}")
         self.folder = folder
-        self.answers: dict[str, Answer] = {}
+        self.answers: dict[str, Reply] = {}
         self._under_way: set[Popen[str]] = set()
         version = self._run("coqc", "--print-version")
         number = re.match(r"(\d+(?:\.\w+)+)\s", version.printed)
@@ -72,7 +72,7 @@ class CoqFolder:
             )
         self.checker = f"Coq {number[1]}"
 
-    def _run(self, program: str, *arguments: str) -> Answer:
+    def _run(self, program: str, *arguments: str) -> Reply:
         environment = {name: at for name, at in os.environ.items() if not name.startswith("COQ")}
         with Popen(
             [program, *arguments],
@@ -83,12 +83,12 @@ class CoqFolder:
             try:
                 printed, errors = process.communicate(timeout=LIMIT)
             except TimeoutExpired:
-                return Answer(failed=f"no answer within {LIMIT:.0f} s")
+                return Reply(failed=f"no answer within {LIMIT:.0f} s")
             finally:
                 process.kill()
                 self._under_way.discard(process)
         status = process.returncode
-        return Answer(printed + errors, (_error(errors) or f"status {status}") if status else "")
+        return Reply(printed + errors, (_error(errors) or f"status {status}") if status else "")
 
     def compile(self, sources: Mapping[str, str], notice: Notice) -> None:
         """Compile these files, those first that others import; ``answers`` has one for each.
@@ -102,12 +102,12 @@ class CoqFolder:
         )
         order.prepare()
         pool = ThreadPoolExecutor(os.cpu_count())
-        asked: dict[Future[Answer], str] = {}
+        asked: dict[Future[Reply], str] = {}
         try:
             while order.is_active():
                 for name in order.get_ready():
                     if self.trouble(imports(sources[name])):
-                        self.answers[name] = Answer(failed="what it imports does not compile")
+                        self.answers[name] = Reply(failed="what it imports does not compile")
                         order.done(name)
                     else:
                         notice(name)
