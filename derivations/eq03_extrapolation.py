@@ -50,7 +50,7 @@ def show_steps(steps: Steps) -> None:
         "2 gives the printed equation at j = 1, where both sums are empty:",
         equation(DeltaX(i, j), FIRST_LAYER),
         rewrite(resting, base),
-        ABOVE.also(sympy.Eq(j, 1)),
+        Domain.of(sympy.Eq(j, 1)),
     )
     steps.show(
         "By Eq. 2, the component along n⁺ is that of the left support, which lies on the same "

@@ -76,6 +76,13 @@ def in_words(relations: Iterable[sympy.Basic]) -> str:
     return ", ".join(parts(relations))
 
 
+def in_their_words(relations: Sequence[sympy.Basic]) -> str:
+    """Relations as text: as they are written, or as a person writes those of forms with 0."""
+    if all(relation.rhs == 0 for relation in relations):
+        return in_words(relations)
+    return ", ".join(chains(relations))
+
+
 def alternatives(several: Iterable[Iterable[sympy.Basic]]) -> str:
     """Relations as text, those of any of several parts."""
     return "; or ".join(map(in_words, several))

@@ -75,6 +75,6 @@ class StepList(tuple[Step, ...]):
         return self.of, (self._derivation,)
 
     def __str__(self) -> str:
-        return f"{terminal.heading(self._derivation)}\n\n{terminal.steps_text(self)}"
+        return f"{terminal.heading(self._derivation)}\n\n{terminal.steps_text(self._derivation)}"
 
     __repr__ = __str__

@@ -9,6 +9,7 @@ from importlib.resources import files
 from force_diffusion.symbolic import words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
 from force_diffusion.symbolic.printing.lines import LINE_WIDTH, latex_body, latex_cases, width
+from force_diffusion.symbolic.symbols import SiteFunction
 from sympy import Basic
 
 from ..coq.statements import recorded
@@ -67,7 +68,7 @@ def display(formulas: Sequence[Basic], relation: str) -> str:
 
 def step_latex(step: Step, room: float = LINE_WIDTH) -> str:
     """What a step shows, for one display: the cases of a quantity, or its formulas."""
-    if len(step.cases) < 2:
+    if not _is_in_cases(step):
         return latex_body([step.formula], RELATIONS[step.relation], room)
     factor, values = over_common([equation.rhs for equation in step.equations])
     where = [with_commas(words.parts(case, words.LATEX)) for case in step.cases]
@@ -75,17 +76,24 @@ def step_latex(step: Step, room: float = LINE_WIDTH) -> str:
     return latex_cases(step.equations[0].lhs, factor, rows, (), room)
 
 
+def _is_in_cases(step: Step) -> bool:
+    """Whether it shows the cases of one quantity."""
+    quantities = {equation.lhs for equation in step.equations}
+    return bool(step.cases) and len(quantities) == 1 and not step.formula.has(SiteFunction)
+
+
 def _step(step: Step, derivation: Statement) -> str:
-    """A step with its number, and in the margin what it rests on."""
+    """A step with its number, and in the margin what it rests on, and where it holds."""
     rests = [*map(str, step.steps_used), *(f"({number})" for number in step.equations_used)]
-    rests += step.assuming
-    head = f"\\step{{{step.number}}}{{{', '.join(rests)}}}"
+    margin = ", ".join([*rests, *step.assuming]), prose_latex(derivation.where(step))
+    lines = r" \\ ".join(filter(None, margin))
+    head = f"\\step{{{step.number}}}{{{lines}}}"
     if {*step.equations} <= {*derivation.printed} and step.relation == derivation.domain.relation:
         # not the same display twice
         return f"{head}{prose_latex(step.reason.rstrip('.:'))}: Eq.~({derivation.number}).\n"
     shown = (
         f"\\[ {step_latex(step, _ROOM)} \\]\n"
-        if len(step.cases) > 1
+        if _is_in_cases(step)
         else display([*dict.fromkeys(step.equations)], step.relation)
     )
     return f"{head}{prose_latex(step.reason)}\n{shown}"
@@ -128,7 +136,7 @@ def section_latex(outcome: ProofOutcome, frame: str = "", explained: Sequence[st
     parts += [f"\\par {remark}\n" for remark in errata]
     parts.append(_aside("Also proved", (prose_latex(claim.reason) for claim in proof.claims)))
     parts += [f"\\aside{{{remark}}}\n" for remark in remarks if remark not in errata]
-    if derivation.exact_forms and not any(step.cases for step in proof):
+    if derivation.exact_forms and not any(map(_is_in_cases, proof)):
         parts.append(
             "\\par Exact at every site below the load, in several braces where one is too long:\n"
         )

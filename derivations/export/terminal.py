@@ -9,7 +9,7 @@ from typing import Any
 from force_diffusion.symbolic.kernel.decisions import Verdict, in_words
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH, text_lines
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.words import in_words as where_in_words
+from force_diffusion.symbolic.words import in_their_words
 
 from ..coq.record import Certificate
 from ..coq.statements import recorded
@@ -98,30 +98,32 @@ def _equations(numbers: Iterable[Number]) -> str:
     return f"Eq{'s' * (len(listed) > 1)}. {', '.join(listed)}" * bool(listed)
 
 
-def follows_text(step: Step) -> str:
-    """The verdict on a step, and what it follows from."""
+def follows_text(step: Step, derivation: Statement) -> str:
+    """The verdict on a step, where it holds, and what it follows from."""
     verdict = in_words(Verdict.ASSUMING if step.assuming else Verdict.PROVED, step.assuming)
+    if where := derivation.where(step):
+        verdict += f", {where}" if step.assuming else f" {where}"
     return f"{verdict}, from {both(step.uses)}" if step.uses else verdict
 
 
 def step_lines(step: Step, room: int = TEXT_WIDTH) -> list[str]:
     """What a step shows; of several cases, each below where it holds."""
-    if not any(step.cases):
+    if not step.cases:
         return text_lines(step.formula, step.relation, room)
-    return [
-        line
-        for case, equation in zip(step.cases, step.equations, strict=True)
-        for line in (f"for {where_in_words(case)}:", *text_lines(equation, step.relation, room))
-    ]
+    lines = []
+    for case, equation in zip(step.cases, step.equations, strict=True):
+        lines += [f"for {in_their_words(case)}:"] if case else []
+        lines += text_lines(equation, step.relation, room)
+    return lines
 
 
-def steps_text(steps: Iterable[Step]) -> str:
+def steps_text(derivation: Statement) -> str:
     """The steps: the reason, the formula that it gives, the verdict, and what it follows from."""
     parts = []
-    for step in steps:
+    for step in derivation.proof:
         parts.append(_paragraph(step.reason, f"{step.number:3}. ", "     "))
         parts += ["       " + line for line in step_lines(step, TEXT_WIDTH - 7)]
-        parts.append(_paragraph(follows_text(step), "     "))
+        parts.append(_paragraph(follows_text(step, derivation), "     "))
     return "\n".join(parts)
 
 
@@ -137,7 +139,7 @@ def outcome_text(outcome: ProofOutcome) -> str:
     if not outcome.verdict.is_proved:
         return "\n".join([statement_text(derivation), "", *map(check_text, outcome.checks)])
     parts = [statement_text(derivation), *refuted_text(derivation), "", rests_text(derivation)]
-    parts += ["", "Steps", steps_text(derivation.proof), "", "Claims"]
+    parts += ["", "Steps", steps_text(derivation), "", "Claims"]
     parts += [check_text(check) for check in outcome.checks if check.kind != "step"]
     verdict = f"Eq. {derivation.number} is {verdict_text(outcome)}"
     parts += ["", f"{verdict} ({outcome.seconds:.2f} s)"]

@@ -23,6 +23,7 @@ from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
     all_of,
+    decide,
     not_a_statement,
     undecided,
 )
@@ -45,7 +46,7 @@ from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .catalogue import Number as EquationNumber
-from .deciding import alternatives_of, cases_of, decided, ruling_on, strange_symbol
+from .deciding import alternatives_of, cases_of, decided, strange_symbol
 from .display import alternatives_in_latex, over_common, room_of, with_commas
 from .evaluation import Number, evaluate, in_order, indices_at, with_values
 from .proof import equations_of
@@ -537,7 +538,7 @@ class ClosedForm:
         for value, here in parts:
             formula = in_place(candidate, {cases: value}) if cases else candidate
             for part in function.relations(here):
-                ruling = ruling_on(self._in_moments(formula), domain.also(*part), [by])
+                ruling = decide(self._in_moments(formula), domain.also(*part), [by])
                 yield ruling
                 if ruling.verdict is Verdict.REFUTED:
                     return

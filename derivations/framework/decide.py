@@ -7,7 +7,7 @@ from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError, NotProvedError
 from force_diffusion.symbolic.kernel import axioms, rules
-from force_diffusion.symbolic.kernel.decisions import Ruling, not_a_statement, undecided
+from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement, undecided
 from force_diffusion.symbolic.kernel.domain import Domain, Limit
 from force_diffusion.symbolic.kernel.limits import large
 from force_diffusion.symbolic.kernel.rules import Rule
@@ -17,7 +17,7 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.trees import in_place
 
-from .deciding import alternatives_of, cases_of, ruling_on, strange_symbol
+from .deciding import alternatives_of, cases_of, strange_symbol
 from .record import Derivation, load
 
 OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
@@ -57,7 +57,7 @@ def candidate_for(
             return undecided(str(reason))
     if domain.limit and (own := by_name(formula.free_symbols - OURS - {sy.H_M})):
         return undecided(f"a limit is read in the equation's symbols, and {text(own[0])} is none")
-    return ruling_on(formula, domain, [step.rules[place], *_further(statement, formula, domain)])
+    return decide(formula, domain, [step.rules[place], *_further(statement, formula, domain)])
 
 
 def _in_limit(formula: sympy.Eq, domain: Domain, limit: Limit) -> sympy.Eq:

@@ -6,24 +6,19 @@ from numbers import Rational
 from typing import Any
 
 import sympy
-from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError
 from force_diffusion.symbolic.forms import SUMMATION
 from force_diffusion.symbolic.kernel.decisions import (
     Ruling,
     Verdict,
     all_of,
-    decide,
     not_a_statement,
     refuted,
     undecided,
 )
-from force_diffusion.symbolic.kernel.domain import Domain
-from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import Relations
 from force_diffusion.symbolic.printing.text import text
-from force_diffusion.symbolic.signs import sign
 from force_diffusion.symbolic.sizes import too_large
 from force_diffusion.symbolic.trees import equation, nodes
 from sympy.core.relational import Relational
@@ -162,60 +157,3 @@ def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relatio
     for value, condition in folded.args:
         for part in sympy.Or.make_args(sympy.to_dnf(condition)):
             yield value, tuple(each for each in sympy.And.make_args(part) if each != sympy.true)
-
-
-# roots
-
-
-def ruling_on(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Ruling:
-    """Rule on a statement, or, if it is not proved, on the squares of two roots."""
-    ruling = decide(formula, domain, attempts)
-    if ruling.verdict.is_proved or (squares := _squares(formula, domain)) is None:
-        return ruling
-    squared = decide(squares, domain, attempts)
-    if squared.verdict.is_proved:
-        return squared
-    return replace(squared, note=f"both sides squared: {squared.note}")
-
-
-def _squares(formula: sympy.Eq, domain: Domain) -> sympy.Eq | None:
-    """Both sides squared, where both are roots that are not negative; None for other equations.
-
-    Of one root it need not be known that it is one of what is not negative: if the squares are
-    equal, it is.
-    """
-    sides, of_unknown_sign = [], 0
-    for side in formula.args:
-        factors = list(_factors(side))
-        is_root = [(2 * exponent).is_odd for _, exponent in factors]
-        if not any(is_root) or not all((2 * exponent).is_Integer for _, exponent in factors):
-            return None
-        for (base, _), has_root in zip(factors, is_root, strict=True):
-            if not _is_nonnegative(base, domain):
-                of_unknown_sign += 1 if has_root else 2
-        squares = (sympy.Pow(base, 2 * exponent, evaluate=False) for base, exponent in factors)
-        sides.append(sympy.Mul(*squares, evaluate=False))
-    return equation(*sides) if of_unknown_sign <= 1 else None
-
-
-def _factors(side: sympy.Expr) -> Iterator[tuple[sympy.Expr, sympy.Expr]]:
-    """Bases and exponents; an absolute value is the root of a square."""
-    for factor in sympy.Mul.make_args(side):
-        base, exponent = factor.as_base_exp()
-        if base.is_Mul:
-            yield from ((inner, power * exponent) for inner, power in _factors(base))
-        elif isinstance(base, sympy.Abs):
-            yield base.args[0] ** 2, exponent / 2
-        else:
-            yield base, exponent
-
-
-def _is_nonnegative(base: sympy.Expr, domain: Domain) -> bool:
-    """Whether it is shown to be nowhere negative on a domain."""
-    if base.is_nonnegative or isinstance(base, sy.Variance):
-        return True
-    value = base.xreplace({sy.z: sy.j / sy.M}) if sy.j in domain.indices else base
-    try:
-        return sign(domain.reader().scalar(value), domain.points) == 1
-    except NotExactError:
-        return False

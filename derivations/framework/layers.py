@@ -36,7 +36,6 @@ def show_closed_form(
         [same(theorem) for theorem in exact],
         [theorem.domain for theorem in exact],
         definitions,
-        [theorem.domain.relations[len(layers.relations) :] for theorem in exact],
     )
     return exact
 

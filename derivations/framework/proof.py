@@ -17,6 +17,7 @@ from force_diffusion.symbolic.kernel.rules import Rule, proved_by
 from force_diffusion.symbolic.kernel.theorem import FalseStatementError, Theorem
 from force_diffusion.symbolic.piecewise import Relations
 from force_diffusion.symbolic.trees import in_place
+from force_diffusion.symbolic.words import in_their_words
 from sympy.core.function import UndefinedFunction
 
 from .catalogue import Number, in_order
@@ -43,7 +44,6 @@ class Step:
         definitions: what symbols of each stand for.
         theorems: what the kernel made of them.
         number: its place among the steps, from 1; 0 of a claim.
-        cases: where each holds, if they are the cases of one quantity.
     """
 
     equation: Number
@@ -54,7 +54,6 @@ class Step:
     definitions: tuple[Definitions, ...]
     theorems: tuple[Theorem, ...]
     number: int = 0
-    cases: tuple[Relations, ...] = ()
 
     def __repr__(self) -> str:
         return f"<step {self.number} of Eq. {self.equation}: {self.reason}>"
@@ -69,6 +68,29 @@ class Step:
         """The theorem of a step with one equation."""
         (theorem,) = self.theorems
         return theorem
+
+    @cached_property
+    def relations(self) -> Relations:
+        """The relations between indices that hold for all of its equations."""
+        first, *others = self.domains
+        return tuple(each for each in first.relations if all(each in of.relations for of in others))
+
+    @cached_property
+    def cases(self) -> tuple[Relations, ...]:
+        """Further ones, for each equation; () if there are none."""
+        further = tuple(
+            tuple(relation for relation in domain.relations if relation not in self.relations)
+            for domain in self.domains
+        )
+        return further if any(further) else ()
+
+    @property
+    def where(self) -> str:
+        """Where all of its equations hold, in words; "" for everywhere."""
+        limit = self.domains[0].limit
+        if limit:
+            return f"as {limit.words}"
+        return f"for {in_their_words(self.relations)}" * bool(self.relations)
 
     @property
     def relation(self) -> str:
@@ -181,7 +203,6 @@ class Steps(list[Step]):
         rule: Rule | Sequence[Rule],
         domain: Domain | Sequence[Domain] | None = None,
         definitions: Definitions | Sequence[Definitions] = (),
-        cases: Sequence[Relations] = (),
         *,
         is_claim: bool = False,
     ) -> Step:
@@ -211,7 +232,7 @@ class Steps(list[Step]):
         if any(theorem.supposed for theorem in theorems):
             raise NotProvedError(f"it rests on what is only supposed: {reason}")
         proof = rules, domains, defined, theorems
-        step = Step(self._equation, reason, formula, *proof, number, tuple(cases))
+        step = Step(self._equation, reason, formula, *proof, number)
         for theorem in shown(self._equation, *theorems):
             if _PLACE_OF[theorem] == (self._equation, 0):
                 _PLACE_OF[theorem] = self._equation, number

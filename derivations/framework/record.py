@@ -116,6 +116,11 @@ class Statement:
                 return step, shown.index(wanted)
         raise LookupError(f"no step of Eq. {self.number} shows what is printed, on its domain")
 
+    def where(self, step: Step) -> str:
+        """Where a step holds; "" if its reason says it, or the printed equation holds there."""
+        home = step if self.call else self.step_of(0)[0]
+        return step.where if step.where != home.where else ""
+
     def latex(self, columns: int = 1) -> str:
         """What is printed, for one display in text of one column or of two."""
         return latex_body(self.printed, RELATIONS[self.domain.relation], room_of(columns))

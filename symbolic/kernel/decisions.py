@@ -5,15 +5,18 @@ not. What neither settles is undecided; what has no value, or no single meaning,
 domain is not a statement.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import sympy
 
-from ..algebra.exact import NotAStatementError, NotProvedError
+from .. import symbols as sy
+from ..algebra.exact import NotAStatementError, NotExactError, NotProvedError
 from ..printing.text import text
+from ..signs import sign
+from ..trees import equation
 from .domain import Domain
 from .rules import Rule, proved_by
 from .theorem import FalseStatementError, Theorem, names_for
@@ -113,11 +116,23 @@ def all_of(*rulings: Ruling) -> Ruling:
 def decide(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Ruling:
     """Rule on a statement: the first rule that proves it, or shows that it is false, decides.
 
+    If none proves an equation of two roots that are not negative, their squares decide.
+
     Args:
         formula: the statement.
         domain: where it is to hold.
         attempts: rules; none of them is trusted to fit the statement.
     """
+    ruling = _first(formula, domain, attempts)
+    if ruling.verdict.is_proved or (squares := _squares(formula, domain)) is None:
+        return ruling
+    squared = _first(squares, domain, attempts)
+    if squared.verdict.is_proved:
+        return squared
+    return replace(squared, note=f"both sides squared: {squared.note}")
+
+
+def _first(formula: sympy.Eq, domain: Domain, attempts: Sequence[Rule]) -> Ruling:
     reasons = []
     for rule in attempts:
         try:
@@ -142,3 +157,46 @@ def _for_users(reason: Exception, formula: sympy.Eq) -> str:
         for symbol, stand_in in names_for(formula).items():
             words = words.replace(text(stand_in), text(symbol))
     return words
+
+
+def _squares(formula: sympy.Eq, domain: Domain) -> sympy.Eq | None:
+    """Both sides squared, where both are roots that are not negative; None for other equations.
+
+    Of one root it need not be known that it is one of what is not negative: if the squares are
+    equal, it is.
+    """
+    sides, of_unknown_sign = [], 0
+    for side in formula.args:
+        factors = list(_factors(side))
+        is_root = [(2 * exponent).is_odd for _, exponent in factors]
+        if not any(is_root) or not all((2 * exponent).is_Integer for _, exponent in factors):
+            return None
+        for (base, _), has_root in zip(factors, is_root, strict=True):
+            if not _is_nonnegative(base, domain):
+                of_unknown_sign += 1 if has_root else 2
+        squares = (sympy.Pow(base, 2 * exponent, evaluate=False) for base, exponent in factors)
+        sides.append(sympy.Mul(*squares, evaluate=False))
+    return equation(*sides) if of_unknown_sign <= 1 else None
+
+
+def _factors(side: sympy.Expr) -> Iterator[tuple[sympy.Expr, sympy.Expr]]:
+    """Bases and exponents; an absolute value is the root of a square."""
+    for factor in sympy.Mul.make_args(side):
+        base, exponent = factor.as_base_exp()
+        if base.is_Mul:
+            yield from ((inner, power * exponent) for inner, power in _factors(base))
+        elif isinstance(base, sympy.Abs):
+            yield base.args[0] ** 2, exponent / 2
+        else:
+            yield base, exponent
+
+
+def _is_nonnegative(base: sympy.Expr, domain: Domain) -> bool:
+    """Whether it is shown to be nowhere negative on a domain."""
+    if base.is_nonnegative or isinstance(base, sy.Variance):
+        return True
+    value = base.xreplace({sy.z: sy.j / sy.M}) if sy.j in domain.indices else base
+    try:
+        return sign(domain.reader().scalar(value), domain.points) == 1
+    except NotExactError:
+        return False

@@ -454,7 +454,7 @@ beside("induction", induction(0),
 
 
 def decided(rule: Rule, theorem: Theorem) -> str:
-    ruling = decide.ruling_on(theorem.formula, theorem.domain, [rule])
+    ruling = decide.decide(theorem.formula, theorem.domain, [rule])
     if not ruling.verdict.is_proved:
         raise ValueError(ruling.note)
     return str(ruling)

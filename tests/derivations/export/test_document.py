@@ -53,7 +53,14 @@ def test_a_step_that_gives_the_printed_equation_refers_to_it():
 def test_the_margin_names_what_a_step_rests_on():
     text = section_latex(run(load(13)))
     assert r"\step{4}{1, 3, (12)}" in text
-    assert r"\step{1}{}" in text
+    assert r"\step{7}{}" in text
+
+
+def test_the_margin_says_where_a_step_holds_if_the_equation_does_elsewhere():
+    text = section_latex(run(load(13)))
+    assert r"\step{1}{for $1 \leq  j < M$}" in text
+    assert r"\step{5}{(4), (5), (11) \\ for $0 \leq  j < M$}" in text
+    assert "Exact at every site" in section_latex(run(load(16)))
 
 
 def test_cases_of_a_quantity_are_in_one_display():

@@ -27,11 +27,11 @@ def compare(path: Path, text: str, update: bool) -> None:
     assert path.read_text(encoding="utf-8") == text, "run pytest --update-golden and review"
 
 
-def step_shown(step: Step) -> str:
+def step_shown(step: Step, where: str) -> str:
     """A step as text and below it as LaTeX: the reason, and the formula that it gives."""
     uses = f", from {both(step.uses)}" if step.uses else ""
     shown = (
-        f"Step {step.number}{uses}",
+        f"Step {step.number} {where}".rstrip() + uses,
         step.reason,
         indent("\n".join(step_lines(step)), "    "),
         prose_latex(step.reason),
@@ -63,7 +63,7 @@ def test_statement(number, update_golden):
 @pytest.mark.parametrize("number", range(1, 17))
 def test_steps(number, update_golden):
     derivation = load(number)
-    steps = [step_shown(step) for step in derivation.proof]
+    steps = [step_shown(step, derivation.where(step)) for step in derivation.proof]
     refuted = [refuted_shown(refutation) for refutation in derivation.proof.refuted]
     text = "\n\n".join([f"{heading(derivation)}\n", *steps, *refuted])
     path = GOLDEN / "steps" / fragment_name(derivation.number).replace(".tex", ".txt")
