@@ -20,6 +20,7 @@ from . import sets
 from . import symbols as sy
 from .algebra.bases import LINE_SUM
 from .algebra.exact import FIELD, SITE, SOURCE, NotAStatementError, NotExactError, RationalFunction
+from .notation import by_name
 from .printing.text import text
 from .sets import Set
 from .signs import never_zero
@@ -230,6 +231,7 @@ class Reader:
         kind: of the forms that are read.
         linear: whether a product of two quantities that depend on the radii is refused.
         summed: the indices of the sums around what is read.
+        fixed: indices over which no mean is taken, as what is known or unknown is so for one value.
     """
 
     points: Set
@@ -238,6 +240,7 @@ class Reader:
     kind: type[Form] = Form
     linear: bool = False
     summed: frozenset[sympy.Symbol] = frozenset()
+    fixed: frozenset[sympy.Symbol] = frozenset()
 
     def read(self, expression: sympy.Expr) -> Value:
         """A number as one form, a vector as two.
@@ -491,9 +494,10 @@ class Reader:
             raise NotExactError(
                 f"a mean over neighbours can't be combined with the index {text(step)}"
             )
-        if not {*indices} <= {*sy.INDICES} or not self.points.is_subset(
-            sets.where(sympy.Ge(count, 1, evaluate=False))
-        ):
+        if both := by_name({*indices} & self.fixed):
+            raise NotExactError(f"a mean over {text(both[0])}, which stands for one value")
+        at_least_one = self.straight.relation(sympy.Ge(count, 1, evaluate=False))
+        if not {*indices} <= {*sy.INDICES} or not self.points.is_subset(sets.where(at_least_one)):
             raise NotAStatementError(f"a mean over {text(count)} neighbours has no value")
         inner = self.within(step >= 0, sympy.Le(step, count - 1, evaluate=False))
         there, back = (self._shifted(indices, sign * 2 * step) for sign in (1, -1))
@@ -507,12 +511,10 @@ class Reader:
 
     def _shifted(self, indices: Iterable[sympy.Symbol], by: sympy.Expr) -> Image:
         """Straightened indices, all of which go on by as many columns."""
-        old = self.straight
-        further = {
-            index: old.back.get(index, index).xreplace({index: index + by}) for index in indices
-        }
+        old, further = self.straight, {index: index + by for index in indices}
         return {
-            index: sympy.expand(form.xreplace(dict(old.image))) for index, form in further.items()
+            index: sympy.expand(old.back.get(index, index).xreplace(further).xreplace(old.image))
+            for index in {*old.back, *further}
         }
 
     def _series(self, series: sympy.Sum) -> Value:
@@ -534,8 +536,11 @@ class Reader:
         return value.on(inner.points).summed(index)
 
     def _is_free(self, index: sympy.Symbol) -> bool:
-        """Whether an index does not matter to the domain."""
-        return bool(sets.without(self.points, index).is_subset(self.points))
+        """Whether an index does not matter to the domain, nor to where its beads are."""
+        at_beads = (form.free_symbols for form in self.straight.back.values())
+        return index not in set().union(*at_beads) and bool(
+            sets.without(self.points, index).is_subset(self.points)
+        )
 
 
 def is_whole(form: sympy.Expr) -> bool:

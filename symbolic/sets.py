@@ -168,7 +168,7 @@ def rows(part: Set) -> tuple[Sequence[Row], Sequence[Row]]:
     bounds: list[Row] = []
     for relation, form in _forms(basic):
         if form is None:
-            raise OpenSumError(f"{part} holds a remainder")
+            raise OpenSumError("it depends on a remainder, such as whether a number is even")
         (equations if relation.is_equality() else bounds).append(form)
     return tuple(equations), tuple(bounds)
 

@@ -279,7 +279,8 @@ class Domain:
 
     def reader(self) -> Reader:
         """Reads expressions on it."""
-        return Reader(self.points, self.straight)
+        fixed = self.loading.fixed if self.loading else ()
+        return Reader(self.points, self.straight, fixed=frozenset(fixed))
 
     def implies(self, *relations: sympy.Basic) -> bool:
         """Whether relations between whole numbers hold on all of it."""

@@ -28,6 +28,7 @@ from .theorem import (
     Group,
     Groups,
     Theorem,
+    bound_in,
     check_domain,
     flat,
     made,
@@ -149,13 +150,15 @@ def _check_leading_order(
 ) -> None:
     """That a quantity goes as a value, by what theorems say of all its moments at finite size.
 
-    The domain has to hold all but the first of what grows where these theorems, and those
-    ``beside``, hold.
+    These theorems, and those ``beside``, have to hold on all but the first of what grows.
 
     Raises:
         NotProvedError: it is not shown to do so.
     """
-    relations = domain.relations
+    for theorem in (*exact, *beside):
+        captured = bound_in(quantity) & {*theorem.domain.indices}
+        if captured or not _late(domain).lies_in(theorem.domain):
+            raise NotProvedError(f"{text(theorem.formula.lhs)} is not known there")
     for theorem in exact:
         known = theorem.domain.loading is None or (
             domain.loading is not None and domain.loading.implies(theorem.domain.loading)
@@ -163,14 +166,9 @@ def _check_leading_order(
         if theorem.domain.limit or not known or theorem.domain.dimension != domain.dimension:
             raise NotProvedError("what is exact is so in a limit, or of other packings")
         quantity = quantity.xreplace({theorem.formula.lhs: theorem.formula.rhs})
-    for theorem in (*exact, *beside):
-        relations = (*relations, *theorem.domain.relations)
     if quantity.has(sy.Moment):
         raise NotProvedError("it holds a moment that is not known")
-    finite = Domain.of(
-        *relations, indices=domain.indices, dimension=domain.dimension, limit=domain.limit
-    )
-    asymptotic()(sympy.Eq(quantity, value, evaluate=False), finite)
+    asymptotic()(sympy.Eq(quantity, value, evaluate=False), domain)
 
 
 def bounded(*groups: Group) -> Rule:

@@ -200,6 +200,8 @@ def mirror(theorem: Theorem) -> Theorem:
     """
     if any(map(_across_by_itself, theorem.formula.args)):
         raise NotProvedError("it has a horizontal index outside the places of its quantities")
+    if theorem.fixed & _ACROSS:
+        raise NotProvedError("what is supposed of one column has no mirror image")
     formula = lattice.mirror(theorem.formula)
     return made(formula, theorem.domain.mirrored(), "taking the mirror image", (theorem,))
 
@@ -261,7 +263,8 @@ def inducted(
     supposed = []
     for claim, domain in members:
         ends = (over, first) if down else (first, over)
-        if over not in domain.indices or not domain.implies(sympy.Le(*ends, evaluate=False)):
+        known = {*domain.indices} - first.free_symbols
+        if over not in known or not domain.implies(sympy.Le(*ends, evaluate=False)):
             raise NotProvedError(f"the domain goes beyond {text(over)} = {text(first)}")
         supposed.append(suppose(claim, domain, supposition))
     if mirrored:

@@ -227,7 +227,7 @@ def known_quantities(
     later = known_quantities(groups[1:], loading)
     first: dict[type, tuple[Known, ...]] = {}
     for theorem in flat(groups[:1]):
-        about, what = _what_it_says(_under(theorem, loading), later)
+        about, what = _what_it_says(_under(theorem, loading), later, _named(groups, loading))
         first[about] = (*first.get(about, ()), what)
     return {key: first.get(key, ()) + later.get(key, ()) for key in {**first, **later}}
 
@@ -283,25 +283,34 @@ def with_indices(formula: sympy.Eq, image: Image) -> sympy.Eq:
     Raises:
         NotProvedError: an index would have two meanings.
     """
-    summed = _summed(formula)
     if sy.M in image and formula.has(sy.H_M):
         raise NotProvedError(f"{text(sy.H_M)} is that of the height {text(sy.M)} alone")
     if image and formula.has(sy.z):
         raise NotProvedError(f"{text(sy.z)} is the height of one layer alone")
     put_in = {*image}.union(*(value.free_symbols for value in image.values()))
-    if both := by_name(summed & put_in):
+    if both := by_name(bound_in(formula) & put_in):
         raise NotProvedError(f"{text(both[0])} would have two meanings")
     return equation(*(side.xreplace(dict(image)) for side in formula.args))
 
 
+def bound_in(formula: sympy.Basic) -> set[sympy.Symbol]:
+    """The indices over which a formula sums, and those over which it averages."""
+    return _summed(formula).union(*(mean.args[2:] for mean in formula.atoms(sy.MeanOver)))
+
+
 def _summed(formula: sympy.Basic) -> set[sympy.Symbol]:
-    """The indices over which an equation sums."""
+    """The indices over which a formula sums."""
     summed = {limit[0] for atom in formula.atoms(sympy.Sum) for limit in atom.limits}
-    return summed | ({sy.n} if formula.has(sy.MeanOver) else set())
+    return summed | ({sy.m, sy.n} if formula.has(sy.MeanOver) else set())
 
 
-def _what_it_says(theorem: Theorem, later: Mapping[type, tuple[Known, ...]]) -> tuple[type, Known]:
-    """What a theorem says of a quantity, by the coordinates of the quantity's bead."""
+def _what_it_says(
+    theorem: Theorem, later: Mapping[type, tuple[Known, ...]], named: set[sympy.Symbol]
+) -> tuple[type, Known]:
+    """What a theorem says of a quantity, by the coordinates of the quantity's bead.
+
+    It holds for every value of its indices, but of those ``named``, which stand for one value.
+    """
     domain = theorem.domain
     if domain.limit is not None or domain.dimension != 2:
         raise NotProvedError(f"{text(theorem.formula.lhs)} is known in a limit, or elsewhere")
@@ -322,8 +331,11 @@ def _what_it_says(theorem: Theorem, later: Mapping[type, tuple[Known, ...]]) -> 
     site = reader.site(*quantity.args)
     here = zip(SOURCE, site, strict=False)
     points = reader.points & sets.where(*(sympy.Eq(a, b, evaluate=False) for a, b in here))
-    bound = tuple(symbol for symbol in domain.indices if symbol not in _named(theorem))
+    bound = tuple(symbol for symbol in domain.indices if symbol not in named)
     given = sets.fixed(points, bound)
+    for symbol in bound:
+        if symbol not in given and sets.depends_on(points, symbol):
+            raise NotProvedError(f"{text(theorem.formula.lhs)} does not say what {text(symbol)} is")
     by_bead = {symbol: given[symbol].to_sympy() for symbol in bound if symbol in given}
     forms = tuple(form.on(points).renamed(by_bead).without(*bound).merged() for form in forms)
     for form in forms:
@@ -353,19 +365,20 @@ def read(formula: sympy.Eq, domain: Domain, groups: Groups = ()) -> Sides:
 def knowing(reader: Reader, domain: Domain, groups: Groups, kind: type[Form] = Form) -> Reader:
     """A reader on a domain that puts theorems in, one group after the other."""
     facts = known_quantities(tuple(groups), domain.loading, kind)  # type: ignore[arg-type]
-    for theorem in flat(groups):
-        here = _under(theorem, domain.loading)
-        for symbol in _named(here) & {*domain.indices}:
-            images = (place.straight.image.get(symbol) for place in (here.domain, domain))
-            if len({*images}) > 1:
-                raise NotProvedError(f"{text(symbol)} is the place of a bead in one domain alone")
-    return replace(reader, known=facts, kind=kind)
+    theorems = [_under(theorem, domain.loading) for theorem in flat(groups)]
+    places = (domain, *(theorem.domain for theorem in theorems))
+    for symbol in by_name(_named(groups, domain.loading)):
+        images = (each.straight.image.get(symbol) for each in places if symbol in each.indices)
+        if len({*images}) > 1:
+            raise NotProvedError(f"{text(symbol)} is the place of a bead in one domain alone")
+    fixed = reader.fixed.union(*(theorem.fixed for theorem in theorems))
+    return replace(reader, known=facts, kind=kind, fixed=fixed)
 
 
-def _named(theorem: Theorem) -> set[sympy.Symbol]:
-    """Indices that stand for the same wherever a theorem is put in."""
-    loading = theorem.domain.loading
-    return theorem.fixed | (loading.fixed if loading else set())
+def _named(groups: Groups, loading: Loading | None) -> set[sympy.Symbol]:
+    """Indices that stand for the same wherever theorems are put in under a load."""
+    place = loading.fixed if loading else ()
+    return {*place}.union(*(theorem.fixed for theorem in flat(groups)))
 
 
 def in_kernel_symbols(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]:

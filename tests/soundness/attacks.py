@@ -18,6 +18,7 @@ from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
 from force_diffusion.derivations import eq15_general_form as eq15
+from force_diffusion.derivations import eq16_response as eq16
 from force_diffusion.derivations.framework import decide
 from force_diffusion.derivations.framework.proof import Steps
 from force_diffusion.derivations.framework.record import load
@@ -104,7 +105,8 @@ POSITIONS, DISPLACED, BASE = load(1).theorem, load(3).theorem, axioms.base()
 MOVED = DISPLACED.formula.args
 DIRECTIONS = load(4).theorem, load(5).theorem
 FORCES = eq11.in_radii()
-NOTHING = equation(r, Integer(0))
+ZERO = Integer(0)
+NOTHING = equation(r, ZERO)
 V = Symbol("v")
 
 
@@ -244,6 +246,26 @@ table(
     ("two radii that may be one", (HERE, THERE), "differs by", (HERE - THERE, HERE - THERE)),
 )
 table(
+    REWRITE, Domain.of(indices=(k, N)),
+    ("a sum over the layer of a bead", (Sum(k, (l, 1, 2)), 3 - 2 * l + 2 * k),
+     "has another meaning", (Sum(k, (n, 1, 2)), 2 * k)),
+    ("a mean over layers, read as one over columns", (sy.MeanOver(k, N, l), k + N - 1),
+     "differ by", (sy.MeanOver(k, N, l), k)),
+    ("a mean along a diagonal, read as a steeper one", (sy.MeanOver(k, N, k, l), k + 2 * N - 2),
+     "differ by", (sy.MeanOver(k, N, k, l), k + N - 1)),
+)
+SLANTED = sy.DeltaR(i - sy.p, j), sy.DeltaR(i - sy.p - 2, j)
+table(
+    REWRITE, Domain.of(j >= 0, beads=[(i - sy.p, j)]),
+    ("a mean over what is taken off", (sy.MeanOver(SLANTED[0], 2, sy.p), SLANTED[0]), "differs by",
+     (sy.MeanOver(SLANTED[0], 2, sy.p), sympy.Add(*SLANTED) / 2)),
+)
+table(
+    REWRITE, Domain.of(i <= -1, j >= 1, l >= 0),
+    ("a mean over −1 neighbours or fewer", (sy.MeanOver(1, i, k), 0), "neighbours has no value",
+     (sy.MeanOver(1, -i, k), 1)),
+)
+table(
     REWRITE, HEIGHTS,
     ("a sum without a closed form", (Sum(over(m**2), (m, 1, M)), H_M), "more than one divisor",
      (Sum(over(m), (m, 1, M)), H_M)),
@@ -338,6 +360,7 @@ CIRCLE = prove(REWRITE, 1 - phi**2, 4 * n_x**2 * n_y**2, BEADS)
 HEIGHT = prove(REWRITE, Sum(1, (m, 1, M)), M, HEIGHTS)
 HARMONIC = prove(REWRITE, Sum(over(n), (n, 1, M)), H_M, HEIGHTS)
 LAYER = Domain.of(indices=(l,), beads=())
+PAIR = prove(REWRITE, sy.MeanOver(HERE, 2, i), (HERE + sy.DeltaR(i + 2, j)) / 2, BEADS)
 for name, theorem, refused, (image, domain), (right_image, right) in (
     ("for φ", CIRCLE, "not a whole number", ({phi: Rational(1, 3)}, BEADS),
      ({j: j + 1, i: i + 1}, BEADS)),
@@ -345,6 +368,8 @@ for name, theorem, refused, (image, domain), (right_image, right) in (
     ("half an index", HEIGHT, "not a whole number", ({M: M / 2}, HEIGHTS), ({M: 2 * M}, HEIGHTS)),
     ("an index that is summed over", PLACES, "two meanings", ({i: n}, replace(ANY, indices=(n,))),
      ({i: i + 2}, ANY)),
+    ("an index over which a mean is taken", PAIR, "two meanings", ({i: j}, BEADS),
+     ({j: j + 2}, BEADS)),
     ("beyond its domain", DISPLACED, "not known there", ({j: j - 2}, ABOVE), ({j: j + 2}, ABOVE)),
     ("off the lattice", DISPLACED, "not known there", ({i: i + 1}, ABOVE), ({i: i + 2}, ABOVE)),
     ("a height that may be negative", HEIGHT, "not known there", ({M: l}, LAYER),
@@ -483,6 +508,159 @@ beside("reach", reach(UP, REACHED),
        ("another place", reach(UP, (sy.Position(i + 2, j), REACHED[1])), "not a quantity of bead"),
        ("in three dimensions", reach(UP, REACHED, IN_SPACE), "not that of beads"),
        ("below the base", reach(UP, REACHED, Domain.of(j >= -1)), "not that of beads"))
+
+# what is known for one value of an index
+
+p = sy.p
+ONE_OR_ONE = sy.Braces(Integer(1), Integer(1), p, Integer(3))
+NAMED = prove(rules.rewrite(POSITIONS), PLACE, ONE_OR_ONE * REACHED[1], BEADS.also(p >= 3, p <= 4))
+attack("a theorem for each of two values",
+       proof(rules.rewrite(NAMED), (PLACE, 2 * REACHED[1]), BEADS), "does not say what p is",
+       proof(rules.rewrite(POSITIONS), REACHED, BEADS))
+
+SLOPE = Domain.of(i + j >= 0, beads=())
+ALONG = sy.Position(i - j, i + j), 2 * r * (i * sy.n_plus + j * sy.n_minus)
+ASIDE = prove(rules.rewrite(POSITIONS), ALONG[0],
+              sy.Position(i - j - 2, i + j) + 2 * r * (sy.n_plus - sy.n_minus), SLOPE)
+
+
+def from_the_left(start: Any, shift: Any) -> Attempt:
+    """By the bead to the left of it, which is supposed to be shifted as far."""
+    def step(supposed: tuple[Theorem, ...]) -> Rule:
+        return lambda formula, domain: rules.rewrite(
+            rules.instance(ASIDE, {}, domain), supposed[0]
+        )(formula, domain)
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        base = rules.rewrite(POSITIONS)
+        return rules.inducted(i, start, base, step, [(formula, domain)])[0]
+
+    return proof(rule, (ALONG[0], ALONG[1] + shift), SLOPE.also(i >= 0))
+
+
+attack("an induction that starts nowhere", from_the_left(i - 1, r * sy.n_plus),
+       "goes beyond", from_the_left(0, 0))
+
+
+def diagonal(steps: Any) -> sympy.Expr:
+    return sy.Position(steps, steps)
+
+
+STEEP, STEP = Domain.of(q >= 1, beads=()), 2 * r * sy.n_plus
+UPWARDS = prove(rules.rewrite(POSITIONS), diagonal(q), diagonal(q - 1) + STEP, STEEP.also(q >= 2))
+DOWNWARDS = prove(rules.rewrite(POSITIONS), diagonal(q), diagonal(q + 1) - STEP,
+                  STEEP.also(Eq(q, 1)))
+
+
+def from_below(start: int, shift: Any) -> Attempt:
+    """By the bead below it, and at the first bead by the one above, if that is known."""
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        return rules.inducted(
+            q, start, rules.rewrite(POSITIONS),
+            lambda supposed: rules.rewrite(DOWNWARDS, UPWARDS, supposed[0]), [(formula, domain)],
+        )[0]
+
+    return proof(rule, (diagonal(q), q * STEP + shift), STEEP)
+
+
+attack("what is supposed of one layer, put in for all", from_below(0, r * sy.n_minus),
+       "differ", from_below(1, 0))
+WEDGE = Domain.of(q >= 0, i >= 0, i <= 2 * q - 2, beads=[(i, ZERO)])
+AT_BASE = prove(rules.rewrite(POSITIONS), diagonal(ZERO), 0, Domain())
+
+
+def by_means(formula: sympy.Eq, domain: Domain) -> Theorem:
+    """A bead's place by the mean of it and of the one below it."""
+    def place(axis: sympy.Expr, steps: sympy.Expr) -> sympy.Expr:
+        return sy.Dot(axis, diagonal(steps))
+
+    def step(supposed: tuple[Theorem, ...]) -> Rule:
+        def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+            upper = q - i / 2
+            rows = [
+                prove(REWRITE, 2 * sy.MeanOver(place(axis, upper - 1), 2, q, i),
+                      place(axis, upper - 1) + place(axis, upper), domain)
+                for axis in (sy.n_plus, sy.n_minus)
+            ]
+            known = supposed[0], AT_BASE
+            return rules.solve(rows, [diagonal(upper)], known)(formula, domain)
+
+        return rule
+
+    return rules.inducted(q, 0, REWRITE, step, [(formula, domain)])[0]
+
+
+attack("a mean over what is supposed for one value",
+       proof(by_means, (diagonal(q - i / 2), 3 * (q - i / 2) * r * sy.n_plus), WEDGE),
+       "stands for one value",
+       proof(rules.rewrite(POSITIONS), (diagonal(q - i / 2), (q - i / 2) * STEP), WEDGE))
+AT_THE_LOAD = Domain.of(
+    Eq(i, 0), Eq(j, 0), Eq(k, 4), Eq(l, 4), q >= 0,
+    beads=[(i, j), (k, l), (p, q)], loading=axioms.POINT,
+)
+RADIUS = sy.DeltaR(p, q)
+
+
+def of_another_load(mean: sympy.Expr, zero: sympy.Expr) -> Theorem:
+    """That a radius is as it should be, by a force less its mean over loads."""
+    row = prove(REWRITE, (mean - FORCE) * RADIUS, 0, AT_THE_LOAD)
+    return prove(rules.solve([row], [RADIUS], *eq16.in_radii()), RADIUS, zero, AT_THE_LOAD)
+
+
+attack("a force that is the same under another load",
+       partial(of_another_load, sy.MeanOver(FORCE, 2, k), 0), "stands for one value",
+       proof(REWRITE, ((sy.MeanOver(r, 2, i) - r) * RADIUS, 0), AT_THE_LOAD))
+FLOOR, FLAT = Domain.of(i >= -M, i <= M - 1, beads=()), sy.n_plus - sy.n_minus
+
+
+def bulges(steps: sympy.Expr, height: int) -> Sides:
+    """The base, so many columns from the middle, without an index outside of a bead's place."""
+    here, end, before = (
+        sy.Dot(sy.e_x, sy.Position(2 * place, Integer(2))) for place in (steps, M, M - 1)
+    )
+    bulge = height * (here * here - end * end) * (here * here - before * before) / r**3
+    return sy.Position(2 * steps, ZERO), here / (2 * n_x) * FLAT + bulge * sy.e_y
+
+
+def from_both_sides(height: int, mirrored: bool) -> tuple[Theorem, ...]:
+    """A row by its mirror image, which goes on where the row has not come to."""
+    sides = [equation(*bulges(i + ahead, height)) for ahead in (0, 1)]
+    base = rules.rewrite(POSITIONS)
+
+    def step(supposed: tuple[Theorem, ...]) -> Rule:
+        def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+            known = supposed[1 if formula == sides[0] else 2] if mirrored else POSITIONS
+            return rules.rewrite(known, POSITIONS)(formula, domain)
+
+        return rule
+
+    return rules.inducted(i, -M, base, step, [(side, FLOOR) for side in sides], mirrored=mirrored)
+
+
+attack("the mirror image of what is supposed of one column", partial(from_both_sides, 1, True),
+       "no mirror image", partial(from_both_sides, 0, False))
+
+
+def carried(across: Any, layer: Any, *more: sympy.Expr) -> Sides:
+    """That a bead's load is what its supports carry, less what comes from above."""
+    left, right = (across - 1, layer - 1), (across + 1, layer - 1)
+    below = (sy.n_plus + sy.DeltaNPlus(*left)) * sy.ForcePlus(*left), (
+        (sy.n_minus + sy.DeltaNMinus(*right)) * sy.ForceMinus(*right)
+    )
+    return sy.LoadForce(across, layer), sympy.Add(*more) - sympy.Add(*below)
+
+
+FROM_ABOVE = (
+    (sy.n_plus + sy.DeltaNPlus(i, M)) * sy.ForcePlus(i, M),
+    (sy.n_minus + sy.DeltaNMinus(i, M)) * sy.ForceMinus(i, M),
+)
+TOP_LAYER = Domain.of(indices=(i, M), beads=[(i, M)])
+BALANCED = rules.instance(axioms.balance(), {sy.site_r: i, sy.site_s: M}, TOP_LAYER)
+AT_TOP = prove(rules.follows(BALANCED), *carried(i, M, *FROM_ABOVE), TOP_LAYER)
+ON_SURFACE = rules.rewrite(AT_TOP, axioms.loads(axioms.SURFACE))
+attack("what a load says of the surface, put in for all layers",
+       proof(ON_SURFACE, carried(i, j), SURFACE.also(j >= 1)), "differ",
+       proof(ON_SURFACE, carried(i, M), TOP_LAYER.loaded(axioms.SURFACE)))
 
 # derivatives
 
@@ -627,6 +805,19 @@ table(
     ("the variance of another quantity", (Variance(2 * LEFT), OF_FORCE),
      "something was dropped from", (Variance(LEFT + 1), OF_FORCE)),
 )
+HERE_ALONE = prove(moment(), Mean(1 + i), 1, Domain.of(Eq(i, 0), beads=()))
+
+
+def grows_as(quantity: sympy.Expr, *relations: sympy.Basic) -> Attempt:
+    domain = Domain.of(*relations, indices=(i, M), beads=())
+    grown = domain.in_the_limit(at_large_height("∼"))
+    return proof(limits.leading_order_of(HERE_ALONE), (M * quantity, M), grown)
+
+
+beside("a mean that is known in one column", grows_as(Mean(1 + i), Eq(i, 0)),
+       ("put in for all", grows_as(Mean(1 + i)), "is not known there"),
+       ("put in for its neighbours", grows_as(sy.MeanOver(Mean(1 + i), 3, i), Eq(i, 0)),
+        "is not known there"))
 SHARE = sy.LargestShare
 table(
     limits.bounded(*FORCES), INNER.in_the_limit(at_fixed_height("O")),
@@ -681,6 +872,9 @@ FRACTION = (
     in_place(eq15.tensile_fraction("surface"), {eq15.HEIGHT: sy.UnitHeight(SQUARE)}),
 )
 ONES = prove(moment(*FORCES), Mean(eq15.FORCE["surface"]), 1, eq11.LAYERS.loaded(axioms.SURFACE))
+SCALED = 1 + sy.p
+OF_ONE_SCALE = prove(moment(*FORCES), Mean(eq15.FORCE["surface"] * SCALED), 1,
+                     ONES.domain.also(Eq(sy.p, 0)))
 ONE_LAYER = rules.moved(ONES, {}, ONES.domain.also(Eq(j, 3)))
 OF_LAYER = eq13.DERIVATION.theorem
 
@@ -691,7 +885,21 @@ def fraction(means: Theorem = ONES, left: Any = 1, right: Any = 1) -> Attempt:
     return proof(rule, sides, eq15.heights("surface").in_the_limit(AT_FIXED_RATIO))
 
 
+VARIES = prove(limits.asymptotic(*FORCES), Variance(eq15.FORCE["surface"] * SCALED),
+               OF_LAYER.formula.rhs, OF_LAYER.domain.also(Eq(sy.p, 0)))
+
+
+def of_all_scales() -> Theorem:
+    """The tensile fraction of forces times 1 + p, from their moments for p = 0."""
+    (force,) = OF_ONE_SCALE.formula.lhs.args
+    each = sy.Tensile(force.xreplace({i: m, j: m}))
+    heights = eq15.heights("surface").also(indices=(sy.p,)).in_the_limit(AT_FIXED_RATIO)
+    sides = Sum(each, (m, 0, M - 1)) / M, FRACTION[1]
+    return prove(tensile(VARIES, OF_ONE_SCALE, *IN_RADII), *sides, heights)
+
+
 beside("the tensile fraction", fraction(),
+       ("of forces of all sizes", of_all_scales, "more than its layer"),
        ("with the mean of one layer", fraction(ONE_LAYER), "does not hold all of"),
        ("with another mean", fraction(OF_LAYER), "mean of one force"),
        ("of half the layers", fraction(left=Rational(1, 2)), "mean over all layers"),
@@ -706,7 +914,7 @@ def shown(definitions: dict[Any, Any], left: Any, right: Any) -> object:
 
 
 OWN = "has a meaning of its own"
-ZERO, STRANGE_R = Integer(0), Symbol("r")
+STRANGE_R = Symbol("r")
 beside("a definition", lambda: shown({V: 2 * r}, V, 2 * r),
        ("of a radius", lambda: shown({sy.DeltaR: lambda *_: ZERO}, HERE, ZERO), OWN),
        ("of a radius of one bead", lambda: shown({HERE: ZERO}, HERE, ZERO), OWN),

@@ -182,9 +182,10 @@ def mean(terms: Terms, packing: Packing, bead: Bead, count: int) -> Value:
 
 @pytest.mark.long
 @FEW
-@given(_terms(1), loads)
-def test_any_number_of_neighbours(terms, drawn):
-    form = fd.variance(fd.mean_over(observable(terms, i, j), N), load=drawn.load)
+@given(_terms(1), loads, st.sampled_from([(i, i), (i - p, p)]))
+def test_any_number_of_neighbours(terms, drawn, places):
+    column, over = places
+    form = fd.variance(fd.mean_over(observable(terms, column, j), N, over), load=drawn.load)
 
     def true(packing: Packing, at: dict[str, int]) -> fmpq:
         if at["N"] < 1:

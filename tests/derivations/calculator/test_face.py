@@ -13,7 +13,7 @@ import force_diffusion as fd
 from force_diffusion import symbols
 from force_diffusion.symbols import (
     M, N, delta_n_plus, delta_r, delta_x, dot, e_x, e_y, f_load, f_minus, f_plus, i, j, k, l,
-    m_g, n_minus, n_y, p_plus, phi, r, sigma,
+    m_g, n_minus, n_y, p, p_plus, phi, r, sigma,
 )  # fmt: skip
 
 _CALLS = """
@@ -211,3 +211,6 @@ def test_neighbours():
     first, second = (f_plus(i + 2 * n, j) for n in (0, 1))
     assert form.at(N=2, **HERE) == fd.variance((first + second) / 2).at(**HERE)
     assert form.at(N=1, **HERE) == fd.variance(fd.mean_over(f_plus(i, j), 1)).at(**HERE)
+    leftwards, at_rest = (fd.mean_over(f_plus(i - p, j), 2, *over) for over in ((p,), (i, p)))
+    assert form.at(N=2, **HERE) == fd.variance(leftwards).at(**HERE)
+    assert form.at(N=1, **HERE) == fd.variance(at_rest).at(**HERE)
