@@ -514,7 +514,7 @@ class Reader:
         old, further = self.straight, {index: index + by for index in indices}
         return {
             index: sympy.expand(old.back.get(index, index).xreplace(further).xreplace(old.image))
-            for index in {*old.back, *further}
+            for index in dict.fromkeys((*old.back, *further))
         }
 
     def _series(self, series: sympy.Sum) -> Value:

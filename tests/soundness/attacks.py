@@ -235,7 +235,8 @@ table(
     ("one index for two sums", (Sum(n, (n, 1, 2), (n, 1, j)), 3 * j), "has another meaning",
      (TRIPLE, j * (j + 1) * (j + 2) / 6)),
     ("a square of a displacement and a first order", (HERE, 0), "differs by 1", (HERE**2, 0)),
-    ("s of another packing", (sy.spacing, 4 * r * n_y), "differ by", (sy.spacing, 4 * r * n_x)),
+    ("s of another packing", (sy.spacing, 4 * r * n_y), "left minus right is",
+     (sy.spacing, 4 * r * n_x)),
     ("a mean of unknown forces", (sy.MeanOver(FORCE, 2, i), FORCE), "not known",
      (sy.MeanOver(HERE, 1, i), HERE)),
 )
@@ -250,9 +251,9 @@ table(
     ("a sum over the layer of a bead", (Sum(k, (l, 1, 2)), 3 - 2 * l + 2 * k),
      "has another meaning", (Sum(k, (n, 1, 2)), 2 * k)),
     ("a mean over layers, read as one over columns", (sy.MeanOver(k, N, l), k + N - 1),
-     "differ by", (sy.MeanOver(k, N, l), k)),
+     "left minus right", (sy.MeanOver(k, N, l), k)),
     ("a mean along a diagonal, read as a steeper one", (sy.MeanOver(k, N, k, l), k + 2 * N - 2),
-     "differ by", (sy.MeanOver(k, N, k, l), k + N - 1)),
+     "left minus right", (sy.MeanOver(k, N, k, l), k + N - 1)),
 )
 SLANTED = sy.DeltaR(i - sy.p, j), sy.DeltaR(i - sy.p - 2, j)
 table(
@@ -269,10 +270,10 @@ table(
     REWRITE, HEIGHTS,
     ("a sum without a closed form", (Sum(over(m**2), (m, 1, M)), H_M), "more than one divisor",
      (Sum(over(m), (m, 1, M)), H_M)),
-    ("a leading order at finite size", (M + 1, M), "differ by", (M + 1, 1 + M)),
+    ("a leading order at finite size", (M + 1, M), "left minus right is", (M + 1, 1 + M)),
 )
 table(REWRITE, Domain.of(j >= 1, j <= M - 1),
-      ("the other height z", (z * M, j + 1), "differ by", (z * M, j)))
+      ("the other height z", (z * M, j + 1), "left minus right is", (z * M, j)))
 table(moment(), BEADS,
       ("a quantity with a name of the paper's", (sy.Variance(Alias(i, j)), sigma**2),
        "not a quantity of a packing", (sy.Variance(HERE), sigma**2)))
@@ -461,8 +462,8 @@ def induction(
 
 ITSELF = by_instance({})
 beside("induction", induction(0),
-       ("no step", induction(q), "differ"),
-       ("no base", induction(q + 1, step=ITSELF), "differ"),
+       ("no step", induction(q), "left minus right is"),
+       ("no base", induction(q + 1, step=ITSELF), "left minus right is"),
        ("what is supposed, of the next value",
         induction(Sum(1, (n, 1, q)), step=by_instance({q: q + 1})), "not known there"),
        ("what is supposed, by itself", induction(q, step=ITSELF), "not a multiple"),
@@ -501,8 +502,8 @@ def reach(up: list[Theorem], sides: Sides, domain: Domain = BEADS) -> Attempt:
 
 
 beside("reach", reach(UP, REACHED),
-       ("r = 0", reach(UP, (PLACE, PLACE * 0)), "differ by"),
-       ("twice as far", reach(UP, (PLACE, 2 * REACHED[1])), "differ by"),
+       ("r = 0", reach(UP, (PLACE, PLACE * 0)), "left minus right is"),
+       ("twice as far", reach(UP, (PLACE, 2 * REACHED[1])), "left minus right is"),
        ("steps that say nothing", reach(CIRCULAR, (PLACE, 0)), "other beads"),
        ("one step for both", reach([UP[0], UP[0]], REACHED), "every bead"),
        ("another place", reach(UP, (sy.Position(i + 2, j), REACHED[1])), "not a quantity of bead"),
@@ -675,7 +676,8 @@ table(
     ("the second derivative of v n_x", (Derivative(V * n_x, V, phi), 0), DEPENDS, OF_Z),
     ("the derivative of v z", (Derivative(V * z, z), V), DEPENDS, OF_Z),
     ("the derivative of z j", (Derivative(z * j, j), z), DEPENDS, OF_Z),
-    ("another derivative", (Derivative(V**2, V), V), "differ by", (Derivative(V**2, V), 2 * V)),
+    ("another derivative", (Derivative(V**2, V), V), "left minus right is",
+     (Derivative(V**2, V), 2 * V)),
     ("a derivative of 0/0", (Derivative(Mul(over_itself(phi), z, evaluate=False), z), 1),
      "may be zero", (Derivative(z, z), 1)),
 )
@@ -689,12 +691,12 @@ table(
     moment(*FORCES), SURFACE,
     ("⟨f²⟩ = ⟨f⟩²", (Mean(FORCE**2), Mean(FORCE) ** 2), "is not linear",
      (Mean(FORCE) ** 2, (sy.f_load / (2 * n_y)) ** 2)),
-    ("no variance", (Variance(FORCE), 0), "differ by",
+    ("no variance", (Variance(FORCE), 0), "left minus right is",
      (sy.Covariance(FORCE, FORCE), Variance(FORCE))),
 )
 table(
     moment(), TWO,
-    ("no covariance anywhere", (sy.Covariance(HERE, THERE), 0), "differ by",
+    ("no covariance anywhere", (sy.Covariance(HERE, THERE), 0), "left minus right is",
      (sy.Covariance(HERE, sy.DeltaR(i + 2, j)), 0)),
 )
 table(
