@@ -58,7 +58,6 @@ def show_steps(steps: Steps) -> None:
         rewrite(printed.theorem),
         definitions={spacing: Dot(e_x, Position(i + 2, j) - Position(i, j))},
     )
-    in_spacing = {spacing: 4 * r * n_x}
     steps.show(
         "Two beads that are (p, q) apart, p + q even, have the squared distance",
         equation(D(p, q), 4 * r**2 * (p**2 * n_x**2 + q**2 * n_y**2)),
@@ -78,7 +77,6 @@ def show_steps(steps: Steps) -> None:
             equation(D(0, 2) - 4 * r**2, 12 * r**2 - spacing**2),
         ),
         rewrite(printed.theorem),
-        definitions=in_spacing,
     )
     steps.show(
         "All other pairs are at least as far apart: none of the terms is negative for |p| ≥ 2 "
@@ -99,7 +97,6 @@ def show_steps(steps: Steps) -> None:
             equation(1 - phi**2, 4 * n_x**2 * n_y**2),
         ),
         rewrite(),
-        definitions=in_spacing,
     )
 
 

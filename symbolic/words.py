@@ -128,6 +128,8 @@ _TURNED = {sympy.Ge: sympy.Le, sympy.Gt: sympy.Lt}
 
 def chains(relations: Sequence[sympy.Basic]) -> tuple[str, ...]:
     """Relations in their order, as "0 ≤ j < M" where one begins with what the last ends with."""
+    if sympy.false in relations:
+        return ("nowhere",)
     return tuple(
         " ".join(_SIGNS[link] if isinstance(link, type) else text(link) for link in chain)
         for chain in _chains(relations)

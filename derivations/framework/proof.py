@@ -25,10 +25,12 @@ from .catalogue import Number, in_order
 Definitions = Mapping[Any, Any]
 """What stands for a symbol of a step's own, or for a function of its arguments."""
 
-_DEFINED = {sy.spacing, sy.L_minus}
-"""Symbols of the paper that steps define."""
-_OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, sy.H_M} - _DEFINED
-_NAMES = {symbol.name for symbol in _OURS}
+_MEANINGS = {
+    sy.spacing: sy.Dot(sy.e_x, sy.Position(sy.i + 2, sy.j) - sy.Position(sy.i, sy.j)),
+    sy.L_minus: sy.t * sy.L_plus,
+}
+"""Symbols of the paper that steps define, as this alone."""
+_NAMES = {symbol.name for symbol in (*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS, sy.H_M)}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -218,8 +220,8 @@ class Steps(list[Step]):
         domains: tuple[Domain, ...] = _for_each(self._domain if domain is None else domain, count)
         own: tuple[Definitions, ...] = _for_each(definitions, count)
         defined = tuple({**self._definitions, **further} for further in own)
-        for symbol in (symbol for each in defined for symbol in each):
-            if not _may_be_defined(symbol):
+        for symbol, meaning in (item for each in defined for item in each.items()):
+            if not _may_be_defined(symbol, meaning):
                 raise NotProvedError(f"{symbol} has a meaning of its own")
         try:
             theorems = tuple(
@@ -256,14 +258,15 @@ class Steps(list[Step]):
         raise NotProvedError(f"this is proved, and was to be refuted: {reading}")
 
 
-def _may_be_defined(what: Any) -> bool:
+def _may_be_defined(what: Any, meaning: Any) -> bool:
     """Whether a step may say what something stands for: it is, or holds, a new symbol."""
+    if what in _MEANINGS:
+        return bool(meaning == _MEANINGS[what])
     if isinstance(what, UndefinedFunction):
         return True
     if isinstance(what, type) or what.has(sympy.Function):
         return False
-    symbols = what.free_symbols
-    return any(symbol in _DEFINED or symbol.name not in _NAMES for symbol in symbols)
+    return any(symbol.name not in _NAMES for symbol in what.free_symbols)
 
 
 def _for_each(given: Any, count: int) -> tuple[Any, ...]:

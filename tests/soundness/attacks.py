@@ -184,6 +184,8 @@ attack("a domain of sites", lambda: Domain.of(j >= 0, i >= 0, Eq(SITE[0], -9, ev
        "paper's indices", lambda: Domain.of(j >= 0, i >= 0, Eq(i, j)))
 attack("relations of what a domain does not name", lambda: Domain((i,), (j >= 0,)),
        "all of which it names", lambda: Domain((i, j), (j >= 0,), beads=((i, j),)))
+attack("a relation that is false", proof(REWRITE, (1, 0), BEADS.also(sympy.false)),
+       "its domain is empty: nowhere", proof(REWRITE, (1, 1), BEADS.also(sympy.true)))
 attack("a place where no bead is", proof(REWRITE, (HERE, 0), BEADS.also(Eq(i + j, 1))),
        "its domain is empty", proof(REWRITE, (HERE, HERE), BEADS.also(Eq(i + j, 2))))
 attack("beads at two places that can't be",
@@ -923,5 +925,7 @@ beside("a definition", lambda: shown({V: 2 * r}, V, 2 * r),
        ("of a mean", lambda: shown({Mean: lambda _: ZERO}, Mean(HERE + 1), ZERO), OWN),
        ("of a number", lambda: shown({Integer(2): Integer(3)}, Integer(2), Integer(3)), OWN),
        ("of r", lambda: shown({r: ZERO}, r, ZERO), OWN),
+       ("of s", lambda: shown({sy.spacing: ZERO}, sy.spacing, ZERO), OWN),
+       ("of L⁻", lambda: shown({sy.L_minus: ZERO}, sy.L_minus, ZERO), OWN),
        ("of another r", lambda: shown({STRANGE_R: r - r}, STRANGE_R, ZERO), OWN),
        ("of H_M", lambda: shown({H_M: ZERO}, H_M, ZERO), OWN))
