@@ -18,13 +18,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_284,
+    "symbolic": 4_286,
     "derivations": 7_113,
     "numeric": 8_829,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 13_192,
+    "tests": 13_196,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
