@@ -88,7 +88,7 @@ class CoqStatement:
         return (Companion("statement", self.proposition, f"{self.tactic}."), *self.companions)
 
     @property
-    def stated(self) -> str:
+    def statement(self) -> str:
         """The file that says it."""
         definitions = (f"Definition {p.name} : Prop :=\n{p.proposition}.\n" for p in self.parts)
         return "\n".join((WORDS, *definitions))
@@ -143,7 +143,7 @@ class CoqStatement:
     def files(self) -> dict[str, str]:
         """Names and sources of the three."""
         return {
-            f"{self.statement_in}.v": self.stated,
+            f"{self.statement_in}.v": self.statement,
             f"{self.module}.v": self.proof,
             f"{self.accepted_in}.v": self.acceptance,
         }

@@ -19,10 +19,10 @@ i, j, m = sy.i, sy.j, sy.m
 @pytest.mark.parametrize("number", paper())
 def test_a_statement_is_read_with_the_words_of_the_model_alone(number):
     for made in coq.statements(load(number)):
-        loaded = re.findall(r"^From ForceDiffusion Require.*$", made.stated, re.MULTILINE)
+        loaded = re.findall(r"^From ForceDiffusion Require.*$", made.statement, re.MULTILINE)
         assert loaded == ["From ForceDiffusion Require Import Roots Model."]
         assert "Import" not in made.acceptance
-        assert made.proposition in made.stated
+        assert made.proposition in made.statement
         assert made.proposition not in made.proof
 
 
