@@ -79,7 +79,7 @@ def show_steps(steps: Steps) -> None:
     steps.show(
         "For an incoming force along n⁻, which the paper leaves to symmetry, the same system gives",
         sympy.Tuple(*map(lattice.mirror, PRINTED)),
-        tuple(follows(mirror(each)) for each in printed.theorems),
+        tuple(follows(mirror(theorem)) for theorem in printed.theorems),
         PASSED.mirrored(),
     )
 

@@ -66,8 +66,8 @@ def averaged_force() -> sympy.Expr:
     A load on layer l feels the geometry up to layer l alone, so it acts as the surface load of
     a packing of height l; loads add up because force balance is linear.
     """
-    each = eq11.PRINTED.rhs.xreplace({M: l})
-    return times(1 / (M - j), sympy.Sum(each, (l, j + 1, M)))
+    of_height_l = eq11.PRINTED.rhs.xreplace({M: l})
+    return times(1 / (M - j), sympy.Sum(of_height_l, (l, j + 1, M)))
 
 
 FORCE = equation(RATIO, averaged_force())

@@ -39,3 +39,11 @@ def test_every_trusted_file_is_named_with_its_lines_and_their_sum():
     assert named == {name: in_tens(lines) for name, lines in files.items()}
     (total,) = re.findall(r"these are (\d+) lines", PAGE)
     assert int(total) == in_tens(sum(files.values()))
+
+
+def test_nothing_but_the_kernel_imports_what_makes_theorems():
+    for path in (
+        path for top in ("symbolic", "derivations") for path in (ROOT / top).rglob("*.py")
+    ):
+        if path.parent != ROOT / "symbolic/kernel":
+            assert not {"made", "_MADE_HERE"} & {name.split(".")[-1] for name in imported(path)}
