@@ -94,31 +94,38 @@ def alternatives(several: Iterable[Iterable[sympy.Basic]]) -> str:
 
 @dataclass(frozen=True)
 class Style:
-    """How expressions and the signs between them are written."""
+    """How expressions and the signs between them are written, without fractions for a program."""
 
     shown: Callable[[sympy.Expr], str]
     equal: str
     at_most: str
     at_least: str
+    is_code: bool = False
+
+    def chain(self, sign: str, *forms: sympy.Expr) -> str:
+        """Forms with a sign between them."""
+        numbers = [n for form in forms for n in form.as_coefficients_dict().values()]
+        scale = sympy.ilcm(1, *(n.q for n in numbers)) if self.is_code else 1
+        return sign.join(self.shown(sympy.expand(scale * form)) for form in forms)
 
 
 TEXT = Style(lambda expr: text(expr).replace("-", "−"), " = ", " ≤ ", " ≥ ")
 LATEX = Style(latex, " = ", r" \leq ", r" \geq ")
-PYTHON = Style(python_expression, " == ", " <= ", " >= ")
+PYTHON = Style(python_expression, " == ", " <= ", " >= ", is_code=True)
 
 
 def parts(relations: Iterable[sympy.Basic], style: Style = TEXT) -> list[str]:
     """The same, one by one."""
-    relations, shown = tuple(relations), style.shown
+    relations = tuple(relations)
     solved = equations(relations)
-    phrases = [f"{shown(index.lhs)}{style.equal}{shown(index.rhs)}" for index in solved]
+    phrases = [style.chain(style.equal, *index.args) for index in solved]
     for low, symbol, high in bounds(relations, solved):
         if len(low) == 1 and high:
-            phrases.append(style.at_most.join(map(shown, (low[0], symbol, high[0]))))
+            phrases.append(style.chain(style.at_most, low[0], symbol, high[0]))
         else:
-            phrases += [f"{shown(symbol)}{style.at_least}{shown(bound)}" for bound in low]
+            phrases += [style.chain(style.at_least, symbol, bound) for bound in low]
         rest = high[1:] if len(low) == 1 else high
-        phrases += [f"{shown(symbol)}{style.at_most}{shown(bound)}" for bound in rest]
+        phrases += [style.chain(style.at_most, symbol, bound) for bound in rest]
     return phrases
 
 

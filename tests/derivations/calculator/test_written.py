@@ -13,7 +13,8 @@ from force_diffusion.numeric.arithmetic.errors import ArgumentError
 
 import force_diffusion as fd
 from force_diffusion.symbols import (
-    M, N, delta_x, dot, e_y, f_along, f_minus, f_plus, i, j, k, l, p, p_plus, t,
+    M, N, delta_r, delta_x, dot, e_y, f_along, f_minus, f_plus, i, j, k, l, n_plus, p, p_plus,
+    q, t,
 )  # fmt: skip
 
 a = sympy.Symbol("a")
@@ -30,6 +31,9 @@ CALLS: dict[str, Callable[[], fd.ClosedForm]] = {
     "second order": lambda: fd.mean(p_plus(i, j) * f_plus(i + 1, j + 1), order=2),
     "heights": lambda: fd.variance(dot(e_y, delta_x(i, j) - delta_x(k, l))),
     "spheres": lambda: fd.variance(f_along(1, 0, k, j), load="surface leaning", dimension=3),
+    "steps of three": lambda: fd.covariance(
+        delta_r(i + 3 * p, j), dot(n_plus, delta_x(i, j + 2 * q + 1))
+    ),
     "no layers": lambda: fd.variance(f_plus(0, 2), where=M <= 9),
 }  # fmt: skip
 NUMBERS = {"phi": Fraction(-2, 7), "sigma": Fraction(3, 2), "r": 5, "t": Fraction(4, 3), "a": 7,
@@ -52,7 +56,7 @@ def points(form: fd.ClosedForm) -> Iterator[dict[str, int]]:
     """All indices of a box around the origin, more of them where there are fewer indices."""
     names = [name for name, symbol in form.symbols.items() if symbol.is_integer]
     far = {1: 12, 2: 9, 3: 6, 4: 4}[len(names)]
-    ranges = (range(-far if name in "ikp" else -1, far + 1) for name in names)
+    ranges = (range(-far if name in "ikpq" else -1, far + 1) for name in names)
     return (dict(zip(names, values, strict=True)) for values in product(*ranges))
 
 
@@ -102,6 +106,16 @@ def test_python_gives_the_same_and_refuses_the_same(form):
             assert value == pytest.approx(float(expected), rel=1e-13)
         else:
             assert value == expected
+
+
+@pytest.mark.parametrize("steps", [(2048, 1463), (-2048, -1463), (7 * 10**17, 5 * 10**17)])
+def test_python_compares_whole_numbers_as_such(steps):
+    names: dict[str, Any] = {}
+    exec(fd.covariance(delta_r(i + 10 * p, j), delta_r(i + 14 * q, j)).python("function"), names)
+    for further in (0, 1):
+        at = {"p": steps[0] + further, "q": steps[1]}
+        expected = int(5 * at["p"] == 7 * at["q"])
+        assert names["function"](**at, j=0, sigma=1, r=1) == expected
 
 
 def _fractions(given: dict[str, Any]) -> dict[str, Fraction]:
