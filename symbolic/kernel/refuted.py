@@ -8,6 +8,7 @@ import sympy
 
 from .. import sets
 from .. import symbols as sy
+from ..algebra.bases import LINE_SUM
 from ..algebra.exact import FIELD, SITE, NotProvedError, RationalFunction
 from ..forms import NUMBER, RADII, Form, Image, Key
 from ..printing.text import text
@@ -27,16 +28,18 @@ def refuse(
     """Why two sides of a formula that differ are not equal: that they do somewhere, or may.
 
     Radii are independent: what holds nothing else is false where a weight differs. If the formula
-    is ``implied`` by another one, which is false then, its own words name it.
+    is ``implied`` by another one, which is false then, its own words name it. Of a vector it says
+    along which base vector its sides differ.
     """
     keys = {key for form in apart for key in form.parts}
     if keys <= {NUMBER, RADII} and not any(group.supposed for group in flat(groups)):
-        for form in apart:
+        along = ("",) if len(apart) == 1 else (f"along {text(n)}, " for n in LINE_SUM.normals)
+        for form, direction in zip(apart, along, strict=True):
             for key, weights in form.parts.items():
                 for points, value in weights.pieces:
                     if where := _witness(points, value, domain):
                         own = {there: symbol for symbol, there in names_for(formula).items()}
-                        return FalseStatementError(implied + _at_odds(key, where, own))
+                        return FalseStatementError(implied + _at_odds(key, where, own, direction))
     return NotProvedError("the normal forms of both sides differ")
 
 
@@ -114,7 +117,7 @@ def _witness(
     return None
 
 
-def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> str:
+def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image, direction: str) -> str:
     """How two sides differ at a point, in words, with a user's own symbols."""
     indices, site, value = where[0], where[1], where[2].xreplace(dict(own))
     at = ", ".join(f"{text(symbol)} = {text(number)}" for symbol, number in indices.items())
@@ -124,7 +127,7 @@ def _at_odds(key: Key, where: tuple[Image, Image, sympy.Expr], own: Image) -> st
         what = f"the weight of δr_{bead} differs by {_short(value)}"
     else:
         what = f"left minus right is {_short(value)}"
-    return f"at {at}: {what}" if at else what
+    return f"at {at}: {direction}{what}" if at else direction + what
 
 
 def _samples(
