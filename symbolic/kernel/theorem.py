@@ -8,7 +8,7 @@ when both of its sides are the same dual number, as weights on sites: the one no
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import InitVar, dataclass, replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, partial
 from typing import NoReturn
 
 import sympy
@@ -31,6 +31,7 @@ from ..printing.text import text
 from ..second_order import Means
 from ..signs import never_zero
 from ..trees import equation, in_place
+from ..weights import Weights
 from .domain import Domain, Loading
 
 _MADE_HERE = object()
@@ -427,5 +428,14 @@ def names_for(*expressions: sympy.Basic) -> dict[sympy.Symbol, sympy.Symbol]:
 
 def difference(sides: Sides, domain: Domain) -> tuple[Form, ...]:
     """Left less right side, in few pieces; nothing is left of it where they agree."""
-    left, right = sides
-    return tuple((a - b).on(domain.points).merged() for a, b in zip(left, right, strict=True))
+    apart = [(a - b).on(domain.points) for a, b in zip(*sides, strict=True)]
+    height = sets.fixed(domain.points).get(sy.M, FIELD.zero).to_sympy()
+    if sy.M not in domain.straight.image and 0 < height <= _HIGHEST:
+        harmonic = {sy.H_M: FIELD.from_sympy(sympy.harmonic(height))}
+        numbers = partial(Weights.mapped, change=lambda value: value.substitute(harmonic))
+        apart = [form.mapped(numbers) for form in apart]
+    return tuple(form.merged() for form in apart)
+
+
+_HIGHEST = 10_000
+"""Up to this height H_M is a number where M is."""

@@ -274,6 +274,8 @@ table(
      (Sum(over(m), (m, 1, M)), H_M)),
     ("a leading order at finite size", (M + 1, M), "left minus right is", (M + 1, 1 + M)),
 )
+table(REWRITE, Domain.of(Eq(M, 3)),
+      ("H_M of another height", (H_M, Rational(3, 2)), "left minus right", (H_M, Rational(11, 6))))
 table(REWRITE, Domain.of(j >= 1, j <= M - 1),
       ("the other height z", (z * M, j + 1), "left minus right is", (z * M, j)))
 table(moment(), BEADS,

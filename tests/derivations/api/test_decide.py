@@ -234,6 +234,13 @@ def test_roots_of_an_exact_form_are_decided_by_their_squares():
     assert form.decide(equal(left, two), M=12, j=4).verdict is not Verdict.REFUTED
 
 
+def test_at_one_height_its_harmonic_number_is_a_number():
+    form = fd.equation(15).exact("bulk")
+    value = form.on(sy.M >= 3).subs({sy.M: 7, sy.H_M: Rational(363, 140)})
+    assert form.decide(value, M=7).verdict is Verdict.PROVED
+    assert form.decide(value, M=8).verdict is Verdict.REFUTED
+
+
 def test_t_is_also_the_ratio_of_both_components_of_a_load():
     form = fd.equation("B2").exact()
     ratio = sy.L_minus / sy.L_plus
