@@ -29,8 +29,8 @@ INDICES = (sy.i, sy.j, sy.k, sy.l, sy.p, sy.q, sy.M, sy.N)
 ACROSS = (sy.i, sy.k, sy.p, sy.q)
 """Those that may lie across the packing."""
 
-NAMED = {each.name: each for each in vars(symbols).values() if isinstance(each, sympy.Symbol)}
-"""The symbols of ``force_diffusion.symbols``."""
+NAMED = {name: getattr(symbols, name) for name in symbols.__all__}
+"""The symbols and quantities of ``force_diffusion.symbols``."""
 
 FARTHEST = 10**9
 """The largest number in a place: isl takes machine integers, and sums of places are formed."""

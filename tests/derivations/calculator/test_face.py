@@ -40,9 +40,12 @@ def test_every_symbol_is_documented():
 
 
 def test_symbols_that_others_may_be_taken_for_are_those_of_the_module():
-    given = {name: getattr(symbols, name) for name in symbols.__all__}
-    assert {n: symbol for n, symbol in given.items() if isinstance(symbol, sympy.Symbol)} == NAMED
+    assert {*NAMED} == {*symbols.__all__}
+    assert all(name == each.name for name, each in NAMED.items() if isinstance(each, sympy.Symbol))
     assert {*INDICES} <= {*NAMED.values()}
+    for name in ("f_plus", "delta_r", "M"):  # else f_plus would be a constant, without variance
+        with pytest.raises(fd.ForceDiffusionError, match=f"{name} is not the {name} of"):
+            fd.variance(sympy.Symbol(name))
 
 
 # constants
