@@ -232,6 +232,7 @@ class Reader:
         linear: whether a product of two quantities that depend on the radii is refused.
         summed: the indices of the sums around what is read.
         fixed: indices over which no mean is taken, as what is known or unknown is so for one value.
+        acting: contact forces that are not zero.
     """
 
     points: Set
@@ -241,6 +242,7 @@ class Reader:
     linear: bool = False
     summed: frozenset[sympy.Symbol] = frozenset()
     fixed: frozenset[sympy.Symbol] = frozenset()
+    acting: tuple[sympy.Expr, ...] = ()
 
     def read(self, expression: sympy.Expr) -> Value:
         """A number as one form, a vector as two.
@@ -383,6 +385,9 @@ class Reader:
         if type(quantity) not in self.known or axis not in (1, 2, 3):
             raise NotExactError(f"{text(quantity)} is not known")
         site = tuple(sympy.expand(coordinate.xreplace(self.straight.image)) for coordinate in place)
+        above = sets.where(sympy.Ge(sympy.Add(*site), 0, evaluate=False))
+        if not self.points.is_subset(above):
+            raise NotAStatementError(f"the bead of {text(quantity)} may lie below the base")
         form: Form = _at(self.known[type(quantity)](int(axis) - 1), site)[1][0]
         return form
 
@@ -476,15 +481,17 @@ class Reader:
         return power
 
     def _acts(self, force: Form) -> bool:
-        """Whether a force is at order 0 a number that is not zero, times another one or itself."""
+        """Whether a force is at order 0 a number that is not zero, or times one that acts."""
+        acting = (self._unknown(other, self.site(*other.args))[0] for other in self.acting)
+        known = {NUMBER}.union(*(other.parts for other in acting))
         ordered = [
-            weights.on(self.points).formulas()
+            (key, weights.on(self.points).formulas())
             for key, weights in force.parts.items()
             if not any(isinstance(factor, str) for factor, _ in key)
         ]
-        if len(ordered) != 1 or len(ordered[0]) != 1:
+        if len(ordered) != 1 or ordered[0][0] not in known or len(ordered[0][1]) != 1:
             return False
-        ((where, value),) = ordered[0]
+        ((where, value),) = ordered[0][1]
         return bool(self.points.is_subset(where)) and never_zero(value, self.points)
 
     def _average(self, expression: sympy.Expr, count: sympy.Expr, *indices: sympy.Symbol) -> Form:

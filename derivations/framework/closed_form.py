@@ -236,7 +236,7 @@ class ClosedForm:
         named = {name_of(symbol): symbol for symbol in self._needed}
         return {name: named[name] for name in in_order(named)}
 
-    def at(self, *unnamed: Any, **values: Any) -> Any:
+    def at(self, /, *unnamed: Any, **values: Any) -> Any:
         """The value for given numbers.
 
         Exact if all are int, Fraction, Decimal, SymPy's Rational or ``flint.fmpq``, of any size. If
@@ -286,7 +286,7 @@ class ClosedForm:
                 return _number(piece.value, {**values, **harmonic})
         raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
 
-    def profile(self, **values: Number) -> Any:
+    def profile(self, /, **values: Number) -> Any:
         """The values in all layers j of a packing, from the base up; give the other symbols.
 
         >>> import force_diffusion as fd

@@ -135,6 +135,7 @@ PASSING = Loading(
     "bead (r, s) carries no load of its own, and f⁺_rs alone enters it",
     _BEAD,
     (_zero(sy.LoadForce(*_BEAD)), _zero(_MINUS(*_BEAD))),
+    acting=(_PLUS(*_BEAD),),
 )
 """A bead that one contact force passes."""
 
@@ -149,6 +150,7 @@ ENTERING = Loading(
         (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l - 1), sy.site_r <= sy.k - 2)),
         (_zero(_PLUS(*_BEAD)), (sympy.Eq(sy.site_s, sy.l - 1), sy.site_r >= sy.k)),
     ),
+    (_PLUS(sy.k - 1, sy.l - 1),),
 )
 """What one contact force contributes below itself."""
 

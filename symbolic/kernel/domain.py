@@ -31,6 +31,7 @@ class Loading:
         place: the indices that it names, which stand for the same wherever it is used.
         given: equations that hold at that place.
         everywhere: equations about any bead (r, s), each with relations of r and s.
+        acting: contact forces that are not zero.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Loading:
     place: tuple[sympy.Expr, ...] = ()
     given: tuple[sympy.Eq, ...] = ()
     everywhere: tuple[tuple[sympy.Eq, tuple[sympy.Basic, ...]], ...] = ()
+    acting: tuple[sympy.Expr, ...] = ()
 
     @property
     def fixed(self) -> set[sympy.Symbol]:
@@ -56,6 +58,7 @@ class Loading:
             and other.fixed <= self.fixed
             and {*other.given} <= {*self.given}
             and {*other.everywhere} <= {*self.everywhere}
+            and {*other.acting} <= {*self.acting}
         )
 
     def is_like(self, other: "Loading") -> bool:
@@ -80,6 +83,7 @@ class Loading:
                 (_at(law, image), tuple(_at(relation, image) for relation in when))
                 for law, when in self.everywhere
             ),
+            acting=tuple(force.xreplace(image) for force in self.acting),
         )
 
     def mirrored(self) -> "Loading":
@@ -89,7 +93,9 @@ class Loading:
             (lattice.mirror(law), tuple(map(lattice.mirrored_relation, when)))
             for law, when in self.everywhere
         )
-        if set(given) == set(self.given) and set(everywhere) == set(self.everywhere):
+        acting = tuple(map(lattice.mirror, self.acting))
+        same = set(given) == set(self.given) and set(everywhere) == set(self.everywhere)
+        if same and acting == self.acting:
             return self
         end, before = ", mirrored", "the mirror image of: "
         if self.name.endswith(end):
@@ -99,7 +105,7 @@ class Loading:
         place = self.place
         if len(place) == 2:  # that of a bead; a height is its own mirror image
             place = lattice.mirrored_place(*place)
-        return Loading(name, words, place, given, everywhere)
+        return Loading(name, words, place, given, everywhere, acting)
 
 
 @dataclass(frozen=True)
@@ -279,8 +285,10 @@ class Domain:
 
     def reader(self) -> Reader:
         """Reads expressions on it."""
-        fixed = self.loading.fixed if self.loading else ()
-        return Reader(self.points, self.straight, fixed=frozenset(fixed))
+        if self.loading is None:
+            return Reader(self.points, self.straight)
+        fixed, acting = frozenset(self.loading.fixed), self.loading.acting
+        return Reader(self.points, self.straight, fixed=fixed, acting=acting)
 
     def implies(self, *relations: sympy.Basic) -> bool:
         """Whether relations between whole numbers hold on all of it."""

@@ -35,7 +35,7 @@ from force_diffusion.symbolic.kernel.domain import (
     at_large_height,
 )
 from force_diffusion.symbolic.kernel.rules import Rule
-from force_diffusion.symbolic.kernel.statistics import moment
+from force_diffusion.symbolic.kernel.statistics import SPHERES, moment
 from force_diffusion.symbolic.kernel.theorem import Theorem, made
 from force_diffusion.symbolic.symbols import H_M, M, N, i, j, k, l, m, n, n_x, n_y, phi, r, sigma, z
 from force_diffusion.symbolic.trees import equation, in_place
@@ -288,6 +288,23 @@ table(rules.rewrite(ON_LOADED), LOADED,
       ("a force over itself, which is zero", (over_itself(TOP), 0), "may be zero", (TOP, 0)))
 
 
+ORIGIN, *UP = axioms.ordered()
+ALONG_IT = sy.Dot(sy.n_plus, sy.Position(0, 0))
+
+
+def over_no_force() -> Theorem:
+    """That r = 0, by what vanishes as r times a force that is zero, over that force."""
+    product = prove(rules.rewrite(ON_LOADED, ORIGIN), ALONG_IT, TOP * r, LOADED)
+    ratio = prove(rules.rewrite(product), ALONG_IT / TOP, r, LOADED)
+    return prove(rules.follows(ratio, ORIGIN), r, 0, LOADED)
+
+
+ENTERING = sy.ForcePlus(sy.site_r, sy.site_s)
+attack("a force that is zero, divided by where that is not put in", over_no_force, "may be zero",
+       proof(REWRITE, (over_itself(ENTERING), 1),
+             Domain.of(sy.site_s >= 0, loading=axioms.PASSING)))
+
+
 def from_product(premises: Any, factor: Any, zero: Any, domain: Domain) -> Theorem:
     """That what vanishes times a factor vanishes."""
     product = prove(rules.rewrite(*premises), factor * zero, 0, domain)
@@ -492,7 +509,6 @@ def decided(rule: Rule, theorem: Theorem) -> str:
 
 attack("what is only supposed is no proof", lambda: decided(lambda *_: SUPPOSED[0], SUPPOSED[0]),
        "only supposed", lambda: decided(rules.same(BASE), BASE))
-ORIGIN, *UP = axioms.ordered()
 REACHED = POSITIONS.formula.args
 CIRCULAR = [
     prove(rules.rewrite(POSITIONS), sy.Position(i + s, j + 1) - PLACE,
@@ -728,6 +744,11 @@ attack("a mean that captures n",
        proof(moment(), (Variance(sy.MeanOver(l * HERE, N, i)), l**2 * sigma**2 / N),
              Domain.of(j >= 0, l >= 1, N >= 2)))
 OF_RADIUS = Variance(HERE), sigma**2
+table(
+    moment(), Domain.of(M >= 5, beads=(), loading=SPHERES["surface"], dimension=3),
+    ("a force between spheres below the base", (Mean(sy.ForceAlong(1, 0, 0, -2)), 0),
+     "below the base", (Mean(sy.ForceAlong(1, 0, 0, 2)), 1)),
+)
 beside("a larger domain", proof(moment(on=BEADS), OF_RADIUS, ABOVE),
        ("of another dimension", proof(moment(on=IN_SPACE), OF_RADIUS, BEADS), "is another one"),
        ("that is smaller", proof(moment(on=ABOVE), OF_RADIUS, BEADS),

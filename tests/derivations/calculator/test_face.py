@@ -60,6 +60,7 @@ def test_a_constant_stands_in_the_answer_and_is_asked_for():
     assert form.at(a=[3, 3], b=Fraction(-1, 2), **HERE).tolist() == [three, three]
     with pytest.raises(fd.ForceDiffusionError, match=r"a must be given: .* takes M, j"):
         form.at(b=1, **HERE)
+    assert fd.mean(sympy.Symbol("self") * f_plus(i, j)).at(self=3, M=2, j=1) == 3
 
 
 def test_a_constant_in_source_leading_orders_and_candidates():
