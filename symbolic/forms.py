@@ -231,7 +231,7 @@ class Reader:
         kind: of the forms that are read.
         linear: whether a product of two quantities that depend on the radii is refused.
         summed: the indices of the sums around what is read.
-        fixed: indices over which no mean is taken, as what is known or unknown is so for one value.
+        fixed: indices that stand for one value: no sum or mean is over them.
         acting: contact forces that are not zero.
     """
 
@@ -501,7 +501,7 @@ class Reader:
             raise NotExactError(
                 f"a mean over neighbours can't be combined with the index {text(step)}"
             )
-        if both := by_name({*indices} & self.fixed):
+        if both := by_name({*indices, step} & self.fixed):
             raise NotExactError(f"a mean over {text(both[0])}, which stands for one value")
         at_least_one = self.straight.relation(sympy.Ge(count, 1, evaluate=False))
         if not {*indices} <= {*sy.INDICES} or not self.points.is_subset(sets.where(at_least_one)):
@@ -526,7 +526,8 @@ class Reader:
 
     def _series(self, series: sympy.Sum) -> Value:
         *others, (index, low, high) = series.limits
-        if index not in SUMMATION or index in self.summed or not self._is_free(index):
+        taken = self.summed | self.fixed
+        if index not in SUMMATION or index in taken or not self._is_free(index):
             raise NotAStatementError(f"a sum over {text(index)}, which has another meaning")
         if not self.within(sympy.Lt(high, low - 1, evaluate=False)).points.is_empty():
             raise NotAStatementError(

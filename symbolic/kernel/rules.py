@@ -317,8 +317,10 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
             or {theorem.formula.lhs for theorem in up} != gained
         ):
             raise NotProvedError("the steps do not reach every bead")
-        if any(theorem.formula.rhs.has(about.func) for theorem in (origin, *up)):
-            raise NotProvedError("the change is given in terms of other beads")
+        if any(
+            theorem.formula.rhs.has(about.func) or theorem.supposed for theorem in (origin, *up)
+        ):
+            raise NotProvedError("the change is supposed, or given in terms of other beads")
         for fact, where in ((origin, Domain()), *((theorem, beads) for theorem in up)):
             here = moved(fact, {}, where)
             apart = difference(read(with_value(here.formula), where), where)

@@ -615,6 +615,46 @@ attack("a mean over what is supposed for one value",
        proof(by_means, (diagonal(q - i / 2), 3 * (q - i / 2) * r * sy.n_plus), WEDGE),
        "stands for one value",
        proof(rules.rewrite(POSITIONS), (diagonal(q - i / 2), (q - i / 2) * STEP), WEDGE))
+LIFT = sy.Braces(ZERO, Integer(1), j, ZERO) * r * sy.n_plus
+
+
+def reached_from(lift: sympy.Expr, *known: Theorem) -> Attempt:
+    """Layer 1, from what is supposed of it and makes the step from layer 0."""
+    above = in_place(lift, {j: j + 1})
+
+    def step(supposed: tuple[Theorem, ...]) -> Rule:
+        return rules.reach(ORIGIN, [
+            prove(rules.rewrite(*(known or supposed[:1]), POSITIONS),
+                  sy.Position(i + side, j + 1) - PLACE, 2 * r * n_side + above - lift, BEADS)
+            for side, n_side in ((1, sy.n_plus), (-1, sy.n_minus))
+        ])
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        return rules.inducted(j, 5, REWRITE, step, [(formula, domain)], down=True)[0]
+
+    return proof(rule, (PLACE, REACHED[1] + lift), BEADS.also(Eq(j, 1)))
+
+
+attack("steps that are supposed", reached_from(LIFT), "is supposed, or given",
+       reached_from(0 * LIFT, POSITIONS))
+LATER = Domain.of(n >= 1, beads=())
+
+
+ASTRAY = n * STEP + (n - 1) * r * sy.n_minus
+
+
+def in_a_sum(supposed: tuple[Theorem, ...]) -> Rule:
+    """By the sum of what is supposed of the one before, over all of them."""
+    total = Sum(diagonal(n - 1), (n, 1, q)), Sum(ASTRAY.xreplace({n: n - 1}), (n, 1, q))
+    return rules.rewrite(POSITIONS, prove(rules.rewrite(supposed[0]), *total, STEEP))
+
+
+attack("a sum over the index of an induction",
+       lambda: rules.inducted(n, 1, rules.rewrite(POSITIONS), in_a_sum,
+                              [(equation(diagonal(n), ASTRAY), LATER)]),
+       "another meaning",
+       proof(rules.rewrite(POSITIONS),
+             (Sum(diagonal(n), (n, 1, q)), q * (q + 1) * STEP / 2), STEEP))
 AT_THE_LOAD = Domain.of(
     Eq(i, 0), Eq(j, 0), Eq(k, 4), Eq(l, 4), q >= 0,
     beads=[(i, j), (k, l), (p, q)], loading=axioms.POINT,
