@@ -18,13 +18,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_315,
+    "symbolic": 4_318,
     "derivations": 7_113,
     "numeric": 8_829,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 13_239,
+    "tests": 13_264,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
