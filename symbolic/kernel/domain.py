@@ -1,6 +1,6 @@
 """Where a statement holds: whole indices and relations between them, a load, and a limit."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -9,11 +9,9 @@ import sympy
 from .. import sets
 from .. import symbols as sy
 from ..algebra.exact import NotExactError
-from ..forms import Reader, Straightening
+from ..forms import Image, Reader, Straightening
 from ..mechanics import lattice
 
-Image = Mapping[sympy.Basic, sympy.Expr]
-"""What is put in for symbols."""
 Site = tuple[sympy.Expr, sympy.Expr]
 """Across and up."""
 
