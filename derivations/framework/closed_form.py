@@ -130,7 +130,7 @@ class ClosedForm:
             group
             for group in self.groups()
             if self.statistic.has(sy.DeltaX)
-            or not any(theorem.formula.lhs.has(sy.DeltaX) for theorem in flat([group]))
+            or not any(theorem.formula.lhs.has(sy.DeltaX) for theorem in flat((group,)))
         )
 
     def on(self, *relations: sympy.Basic) -> sympy.Expr:

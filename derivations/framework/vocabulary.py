@@ -16,7 +16,7 @@ from force_diffusion.symbolic.kernel.rules import (
     Rule, along, differentiate, follows, inducted, instance, mirror, order, reach, rewrite, same,
     solve)
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import Group, Theorem, isolated
+from force_diffusion.symbolic.kernel.theorem import Groups, Theorem, isolated
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
 
@@ -26,6 +26,3 @@ from .proof import Step, Steps, shown
 from .glossary import usual
 from .record import FIRST_ORDER, Derivation
 # fmt: on
-
-Groups = tuple[Group, ...]
-"""Theorems to be put in one after the other; those of a group at once."""

@@ -6,7 +6,7 @@ deviations of the radii; products of two changes are dropped. So an equation hol
 when both of its sides are the same dual number, as weights on sites: the one normal form.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import InitVar, dataclass, replace
 from functools import cached_property, lru_cache, partial
 from typing import NoReturn
@@ -137,7 +137,7 @@ def made(
 
 
 Group = Theorem | tuple[Theorem, ...]
-Groups = Sequence[Group]
+Groups = tuple[Group, ...]
 """Theorems to be put in one after the other; those of a tuple at once."""
 
 
