@@ -6,7 +6,6 @@ quantities in the radii, put in one after the other. They are polynomials on set
 indices, so a moment is a polynomial on each of a few sets of indices: its closed form.
 """
 
-from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 
@@ -24,6 +23,7 @@ from .refuted import refuse
 from .rules import Rule
 from .theorem import (
     Group,
+    Groups,
     Theorem,
     check_domain,
     difference,
@@ -68,9 +68,10 @@ class MomentReader(Reader):
     groups: tuple[Group, ...] = ()
 
     @classmethod
-    def on(cls, domain: Domain, groups: Iterable[Group] = ()) -> "MomentReader":
+    def on(cls, domain: Domain, groups: Groups = ()) -> "MomentReader":
         """Those on a domain."""
-        return cls(domain.points, domain.straight, domain=domain, groups=tuple(groups))
+        fixed = frozenset[sympy.Symbol]().union(*(theorem.fixed for theorem in flat(groups)))
+        return cls(domain.points, domain.straight, fixed=fixed, domain=domain, groups=tuple(groups))
 
     def read(self, expression: sympy.Expr) -> Value:
         """A number; moments are worked out."""

@@ -643,18 +643,22 @@ LATER = Domain.of(n >= 1, beads=())
 ASTRAY = n * STEP + (n - 1) * r * sy.n_minus
 
 
-def in_a_sum(supposed: tuple[Theorem, ...]) -> Rule:
+def in_a_sum(of: Any, rule: Callable[[Theorem], Rule]) -> Attempt:
     """By the sum of what is supposed of the one before, over all of them."""
-    total = Sum(diagonal(n - 1), (n, 1, q)), Sum(ASTRAY.xreplace({n: n - 1}), (n, 1, q))
-    return rules.rewrite(POSITIONS, prove(rules.rewrite(supposed[0]), *total, STEEP))
+    def step(supposed: tuple[Theorem, ...]) -> Rule:
+        right = sy.Dot(sy.n_plus, ASTRAY.xreplace({n: n - 1}))
+        sides = (Sum(each, (n, 2, q)) for each in (of(sy.Dot(sy.n_plus, diagonal(n - 1))), right))
+        return rules.rewrite(POSITIONS, prove(rule(supposed[0]), *sides, STEEP))
+
+    line = equation(diagonal(n), ASTRAY)
+    return lambda: rules.inducted(n, 1, rules.rewrite(POSITIONS), step, [(line, LATER)])
 
 
-attack("a sum over the index of an induction",
-       lambda: rules.inducted(n, 1, rules.rewrite(POSITIONS), in_a_sum,
-                              [(equation(diagonal(n), ASTRAY), LATER)]),
-       "another meaning",
-       proof(rules.rewrite(POSITIONS),
-             (Sum(diagonal(n), (n, 1, q)), q * (q + 1) * STEP / 2), STEEP))
+for of, rule in ((sympy.Add, rules.rewrite), (sy.Mean, moment)):
+    attack(f"a sum over the index of an induction, by {rule.__name__}", in_a_sum(of, rule),
+           "another meaning",
+           proof(rule(POSITIONS), (Sum(of(sy.Dot(sy.n_plus, diagonal(n))), (n, 1, q)),
+                                   q * (q + 1) * r), STEEP))
 AT_THE_LOAD = Domain.of(
     Eq(i, 0), Eq(j, 0), Eq(k, 4), Eq(l, 4), q >= 0,
     beads=[(i, j), (k, l), (p, q)], loading=axioms.POINT,
