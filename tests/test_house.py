@@ -18,13 +18,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_317,
+    "symbolic": 4_318,
     "derivations": 7_112,
     "numeric": 8_829,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 13_264,
+    "tests": 13_267,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
