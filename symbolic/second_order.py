@@ -101,7 +101,7 @@ class Means:
         for known in self.known.get(kind, ()):
             total = total + known.value[component].on(known.points - counted)
             counted, left = counted | known.points, left - known.points
-        if not left.is_empty():
+        if not left.is_empty() or not {*total.parts} <= {NUMBER, RADII}:
             raise NotExactError(f"{kind.__name__} is not determined by the radii for every bead")
         return total
 

@@ -14,6 +14,8 @@ from typing import Any
 
 import sympy
 from force_diffusion.derivations import eq07_load_split as eq07
+from force_diffusion.derivations import eq09_straight_path as eq09
+from force_diffusion.derivations import eq10_branched_path as eq10
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations import eq13_surface_diffusion as eq13
@@ -810,6 +812,19 @@ SHIFTED = sy.Shift(FORCE), (
     sy.f_load * sigma**2 * (4 * j - 4 * M * phi + phi**2 + phi)
     / (4 * n_y * r**2 * (1 - phi**2) * (1 + phi))
 )
+ENTERS = axioms.loads(axioms.ENTERING)
+BELOW_IT = eq07.carried_down(
+    l - 1, ENTERS,
+    [(eq10.PRINTED, eq10.BRANCHED), (eq09.PRINTED, eq09.STRAIGHT), *eq10.NOTHING_BESIDE],
+    rules.rewrite(ENTERS),
+)
+OFF_THE_PATH = Domain.of(
+    j >= 0, j <= l - 4, Eq(k - i, l - j - 2), indices=(k,), loading=axioms.ENTERING
+)
+attack("the second order of forces that are known by another force",
+       proof(moment(tuple(BELOW_IT), *FORCES[1:]), (sy.Shift(FORCE), 0), OFF_THE_PATH),
+       "not determined by the radii",
+       proof(moment(tuple(BELOW_IT), *FORCES[1:]), (Mean(FORCE), 0), OFF_THE_PATH))
 INNER = SURFACE.also(j >= 2, j <= M - 2)
 attack("the second order of a packing that ends early",
        lambda: prove(moment(part_of(FORCES[0], j <= M - 3), *FORCES[1:]), *SHIFTED,
