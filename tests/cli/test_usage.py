@@ -44,6 +44,7 @@ WRONG = [
     ("figures chains --relative-std 0", "between 1e-09 and 0.5"),
     ("figures pf --relative-std nan", "not a finite decimal"),
     ("figures 3 --heights 10000", "memory"),
+    ("run scene.toml --tolerance 1", "--tolerance"),
     ("run scene.toml --tolerance 12", '--tolerance = "12": must lie between 0 and 1: 1e-12'),
     ("run scene.toml --format npz", "--out"),
     ("run scene.toml --set height", "sets nothing"),
