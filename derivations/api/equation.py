@@ -238,12 +238,12 @@ class Equation:
 
         >>> import force_diffusion as fd
         >>> print(fd.equation(15).python_code())
-        def general_form_1(M, r, sigma):
+        def general_form_1(M, sigma, r):
             \"""Eq. 15: σ_f/⟨f⟩.\"""
             return M**(3/2)*sigma/r
         <BLANKLINE>
         <BLANKLINE>
-        def general_form_2(r, sigma):
+        def general_form_2(sigma, r):
             \"""Eq. 15: M*.\"""
             return r**(2/3)/sigma**(2/3)
         """

@@ -7,7 +7,8 @@ from .. import symbols as sy
 from .structure import rebuilt
 
 _FUNCTIONS = (*sy.SiteFunction.__subclasses__(), sy.Dot, sy.MatrixTimes)
-_VALUES = (sy.M, sy.z, *sy.INDICES, *sy.PARAMETERS, *sy.VECTORS)
+# Arguments of functions, σ before r as those of closed forms.
+_VALUES = (sy.M, sy.z, *sy.INDICES, sy.phi, sy.sigma, *sy.PARAMETERS, *sy.VECTORS)
 
 
 def name_of(symbol: Symbol) -> str:

@@ -215,3 +215,13 @@ def test_a_function_takes_shapes_that_go_together_and_all_that_is_needed():
         function(10)
     with pytest.raises(ArgumentError, match="single beads"):
         fd.equation(3).function()
+
+
+@pytest.mark.parametrize("number", [13, 14, 15])
+def test_source_takes_arguments_in_the_order_of_the_function(number):
+    equation = fd.equation(number)
+    scope: dict[str, Any] = {}
+    exec(equation.python_code(), scope)
+    first = next(function for name, function in scope.items() if name.startswith(equation.name))
+    of_source, of_function = map(inspect.signature, (first, equation.function()))
+    assert [*of_source.parameters] == [*of_function.parameters]
