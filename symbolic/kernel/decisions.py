@@ -167,15 +167,14 @@ def _squares(formula: sympy.Eq, domain: Domain) -> sympy.Eq | None:
     """
     sides, of_unknown_sign = [], 0
     for side in formula.args:
-        factors = list(_factors(side))
-        is_root = [(2 * exponent).is_odd for _, exponent in factors]
-        if not any(is_root) or not all((2 * exponent).is_Integer for _, exponent in factors):
+        squares = [(base, 2 * exponent) for base, exponent in _factors(side)]
+        roots = [base for base, power in squares if power.is_odd]
+        if not roots or not all(power.is_Integer for _, power in squares):
             return None
-        for (base, _), has_root in zip(factors, is_root, strict=True):
-            if not _is_nonnegative(base, domain):
-                of_unknown_sign += 1 if has_root else 2
-        squares = (sympy.Pow(base, 2 * exponent, evaluate=False) for base, exponent in factors)
-        sides.append(sympy.Mul(*squares, evaluate=False))
+        signless = [base for base, _ in squares if not _is_nonnegative(base, domain)]
+        of_unknown_sign += sum(1 if base in roots else 2 for base in signless)
+        powers = (sympy.Pow(*square, evaluate=False) for square in squares)
+        sides.append(sympy.Mul(*powers, evaluate=False))
     return equation(*sides) if of_unknown_sign <= 1 else None
 
 

@@ -59,12 +59,10 @@ def other_order(
 
 def other_ratio(ratio: RationalFunction, power: int, limit: Limit) -> FalseStatementError:
     """How left over right, to a power that frees it of roots, goes otherwise than the sign says."""
-    subject = "left over right" if power == 1 else f"left over right, to the power {power},"
-    if limit.relation == "∝":
-        words = f"varies as {shown(ratio)}, and not with φ alone"
-    else:
-        words = f"goes to {shown(ratio)}, not to 1"
-    return FalseStatementError(f"as {limit.words}, {subject} {words}")
+    which = f", to the power {power}," if power > 1 else ""
+    goes = "goes to {}, not to 1" if limit.relation == "=" else "varies as {}, and not with φ alone"
+    words = f"as {limit.words}, left over right{which} {goes.format(shown(ratio))}"
+    return FalseStatementError(words)
 
 
 def too_large(dropped: int, kept: int, limit: Limit) -> FalseStatementError:
