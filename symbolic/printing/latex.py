@@ -1,10 +1,9 @@
 """LaTeX in the paper's notation."""
 
 import re
-from functools import lru_cache
 from typing import Any
 
-from sympy import Basic, Expr, Sum
+from sympy import Expr, Sum
 from sympy.printing.latex import LatexPrinter
 
 from .structure import StructuredPrinter
@@ -18,14 +17,6 @@ _SUBSCRIPT = re.compile(r"_\{[^{}]*\}")
 
 class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
     """Sets expressions as the paper does; anything that it does not know as SymPy does."""
-
-    def __init__(self) -> None:
-        LatexPrinter.__init__(self, {"order": "none"})
-        self._remembered = lru_cache(maxsize=16_384)(super()._print)
-
-    def _print(self, expr: Any, **kwargs: Any) -> str:
-        hashable = isinstance(expr, Basic) and not kwargs
-        return str(self._remembered(expr) if hashable else super()._print(expr, **kwargs))
 
     def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
         """A fraction."""
@@ -73,7 +64,6 @@ class PaperLatex(StructuredPrinter, LatexPrinter):  # type: ignore[misc]
 
 
 LATEX = PaperLatex()
-"""The printer; it remembers what it has written, since lines are broken by trying."""
 
 
 def latex(expr: Expr) -> str:

@@ -14,7 +14,7 @@ from sympy import Add, Basic, Eq, Expr, Mul, Sum, Symbol, Tuple
 
 from .latex import LATEX, PaperLatex
 from .structure import in_order, is_negative, without_sign
-from .text import PaperText
+from .text import TEXT, PaperText
 
 COLUMNS = {1: 322.0, 2: 222.0}
 """Points for a line of a displayed equation, by columns of text: the narrowest of usual classes."""
@@ -459,11 +459,10 @@ def text_lines(equation: Basic, relation: str = "=", room: int = TEXT_WIDTH) -> 
         return [
             line for formula in _single([equation]) for line in text_lines(formula, relation, room)
         ]
-    printer = PaperText()
-    pieces = _Pieces(printer, "{", "}")
+    pieces = _Pieces(TEXT, "{", "}")
     if not isinstance(equation, Eq):
         return _text_packed(pieces.of(equation, room), room)
-    whole = f"{printer.doprint(equation.lhs)} {relation} {printer.doprint(equation.rhs)}"
+    whole = f"{TEXT.doprint(equation.lhs)} {relation} {TEXT.doprint(equation.rhs)}"
     if len(whole) <= room:
         return [whole]
     left = pieces.of(equation.lhs, room)

@@ -8,7 +8,7 @@ which says nothing, is put into a readable order.
 
 from abc import abstractmethod
 from collections.abc import Mapping, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from typing import Any
 
 import sympy
@@ -190,10 +190,21 @@ def _index_key(term: Expr) -> int:
 
 
 class StructuredPrinter(Printer):  # type: ignore[misc]
-    """Reads the structure of an expression; subclasses say how each piece is set."""
+    """Reads the structure of an expression; subclasses say how each piece is set.
+
+    It remembers what it has written: lines are broken by trying.
+    """
 
     minus = "-"
     juxtaposition = " "
+
+    def __init__(self) -> None:
+        super().__init__({"order": "none"})
+        self._remembered = lru_cache(maxsize=16_384)(super()._print)
+
+    def _print(self, expr: Any, **kwargs: Any) -> str:
+        hashable = isinstance(expr, Basic) and not kwargs
+        return str(self._remembered(expr) if hashable else super()._print(expr, **kwargs))
 
     @abstractmethod
     def set_fraction(self, over: str, under: str, *, alone: bool) -> str:

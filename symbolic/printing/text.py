@@ -29,9 +29,6 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
     printmethod = "_text"
     minus = "−"
 
-    def __init__(self) -> None:
-        StrPrinter.__init__(self, {"order": "none"})
-
     def set_fraction(self, over: str, under: str, *, alone: bool) -> str:
         """A fraction."""
         over = self.set_brackets(over) if _is_sum(over) else over
@@ -91,6 +88,9 @@ class PaperText(StructuredPrinter, StrPrinter):  # type: ignore[misc]
         return f"d{power}/d{self._print(variable)}{power} {inner}"
 
 
+TEXT = PaperText()
+
+
 def text(expr: Any) -> str:
     """One expression as a line of text.
 
@@ -98,4 +98,4 @@ def text(expr: Any) -> str:
     >>> text(DeltaR(i, j) / (1 - phi**2) - DeltaR(i - 1, j))
     'δr_ij/(1 − φ²) − δr_(i−1,j)'
     """
-    return str(PaperText().doprint(expr))
+    return str(TEXT.doprint(expr))
