@@ -18,7 +18,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_315,
+    "symbolic": 4_312,
     "derivations": 7_112,
     "numeric": 8_829,
     "force_diffusion": 78,
