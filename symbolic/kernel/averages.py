@@ -104,8 +104,8 @@ def tensile(variance: Theorem, mean: Theorem, *groups: Group) -> Rule:
             raise NotProvedError("the limits are others than that of M at fixed M/M*")
         if not domain.loading == variance.domain.loading == mean.domain.loading:
             raise NotProvedError("the packings differ")
-        indices = {*variance.domain.indices, *mean.domain.indices}
-        if not indices <= {sy.i, sy.j, sy.M}:
+        relations = (*variance.domain.relations, *mean.domain.relations)
+        if not set().union(*(each.free_symbols for each in relations)) <= {sy.j, sy.M}:
             raise NotProvedError("the force depends on more than its layer")
         force = variance.formula.lhs.args[0]
         if variance.formula.lhs != sy.Variance(force) or mean.formula.args != (sy.Mean(force), 1):

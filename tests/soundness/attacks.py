@@ -958,9 +958,6 @@ FRACTION = (
     in_place(eq15.tensile_fraction("surface"), {eq15.HEIGHT: sy.UnitHeight(SQUARE)}),
 )
 ONES = prove(moment(*FORCES), Mean(eq15.FORCE["surface"]), 1, eq11.LAYERS.loaded(axioms.SURFACE))
-SCALED = 1 + sy.p
-OF_ONE_SCALE = prove(moment(*FORCES), Mean(eq15.FORCE["surface"] * SCALED), 1,
-                     ONES.domain.also(Eq(sy.p, 0)))
 ONE_LAYER = rules.moved(ONES, {}, ONES.domain.also(Eq(j, 3)))
 OF_LAYER = eq13.DERIVATION.theorem
 
@@ -971,21 +968,25 @@ def fraction(means: Theorem = ONES, left: Any = 1, right: Any = 1) -> Attempt:
     return proof(rule, sides, eq15.heights("surface").in_the_limit(AT_FIXED_RATIO))
 
 
-VARIES = prove(limits.asymptotic(*FORCES), Variance(eq15.FORCE["surface"] * SCALED),
-               OF_LAYER.formula.rhs, OF_LAYER.domain.also(Eq(sy.p, 0)))
-
-
-def of_all_scales() -> Theorem:
-    """The tensile fraction of forces times 1 + p, from their moments for p = 0."""
-    (force,) = OF_ONE_SCALE.formula.lhs.args
+def of_all_beads(factor: sympy.Expr, where: sympy.Eq) -> Attempt:
+    """The tensile fraction of forces times a factor, from their moments where that is 1."""
+    force = eq15.FORCE["surface"] * factor
     each = sy.Tensile(force.xreplace({i: m, j: m}))
-    heights = eq15.heights("surface").also(indices=(sy.p,)).in_the_limit(AT_FIXED_RATIO)
-    sides = Sum(each, (m, 0, M - 1)) / M, FRACTION[1]
-    return prove(tensile(VARIES, OF_ONE_SCALE, *IN_RADII), *sides, heights)
+    heights = eq15.heights("surface").also(indices=factor.free_symbols & {sy.p})
+
+    def proved() -> Theorem:
+        ones = prove(moment(*FORCES), Mean(force), 1, ONES.domain.also(where))
+        varies = prove(limits.asymptotic(*FORCES), Variance(force), OF_LAYER.formula.rhs,
+                       OF_LAYER.domain.also(where))
+        return prove(tensile(varies, ones, *IN_RADII), Sum(each, (m, 0, M - 1)) / M, FRACTION[1],
+                     heights.in_the_limit(AT_FIXED_RATIO))
+
+    return proved
 
 
 beside("the tensile fraction", fraction(),
-       ("of forces of all sizes", of_all_scales, "more than its layer"),
+       ("of forces of all sizes", of_all_beads(1 + sy.p, Eq(sy.p, 0)), "more than its layer"),
+       ("of forces of other columns", of_all_beads(1 - i - j, Eq(i, -j)), "more than its layer"),
        ("with the mean of one layer", fraction(ONE_LAYER), "does not hold all of"),
        ("with another mean", fraction(OF_LAYER), "mean of one force"),
        ("of half the layers", fraction(left=Rational(1, 2)), "mean over all layers"),

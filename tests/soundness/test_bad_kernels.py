@@ -74,7 +74,7 @@ FAULTS = {
     "second orders of any forces": ("second_order", "Means._first_order", "not {*total.parts} <= {NUMBER, RADII}", "False"),
     "orders of one column": ("kernel.limits", "_check_leading_order", "not _late(domain).lies_in(theorem.domain)", "False"),
     "orders are captured": ("kernel.limits", "_check_leading_order", "if captured or", "if"),
-    "forces of any size are tensile": ("kernel.averages", "tensile", "not indices <= {sy.i, sy.j, sy.M}", "False"),
+    "forces of any size are tensile": ("kernel.averages", "tensile", "not set().union(*(each.free_symbols for each in relations)) <= {sy.j, sy.M}", "False"),
     "an order too many": ("kernel.limits", "asymptotic", "high - limit.orders", "high"),
     "leading orders that vanish": ("kernel.limits", "_vanishes_nowhere", "value.holds(sy.H_M) or value.is_zero()", "True: return True\n    if value.is_zero()"),
     "orders that are not uniform": ("kernel.limits", "_uniform", "grows and sum(", "False and sum("),
