@@ -9,15 +9,7 @@ import pytest
 import sympy
 from force_diffusion.symbolic.printing.text import text
 
-from tests.properties import (
-    test_contacts,
-    test_one_load,
-    test_paths,
-    test_positions,
-    test_surface_load,
-    test_variances,
-    test_weights,
-)
+from tests.properties import test_first_order, test_variances, test_weights
 from tests.properties.mutants import EQUIVALENT, mutants
 from tests.properties.orders import printed
 from tests.properties.reading import AbsentError, NonsenseError
@@ -25,11 +17,7 @@ from tests.properties.reading import AbsentError, NonsenseError
 Check = Callable[[sympy.Eq, object], None]
 
 CHECKS: dict[int | str, tuple[Check, list[object]]] = {
-    **test_positions.CHECKS,
-    **test_contacts.CHECKS,
-    **test_one_load.CHECKS,
-    **test_paths.CHECKS,
-    **test_surface_load.CHECKS,
+    **test_first_order.CHECKS,
     **test_weights.CHECKS,
     **test_variances.CHECKS,
 }
