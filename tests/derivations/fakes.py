@@ -53,6 +53,8 @@ PREMISE = Derivation(
     remarks=("A remark about n⁺·δn⁺ = 0.",),
 )
 
+ASSUMED = replace(PREMISE, show_steps=lambda steps: steps.show("A guess:", PRINTED, guessed))
+
 CONCLUSION = replace(PREMISE, number=2, name="conclusion", title="B", show_steps=conclusion)
 
 

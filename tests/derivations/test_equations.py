@@ -1,19 +1,19 @@
 """Every printed equation is proved, and a wrong one is not."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 import pytest
 import sympy
 from force_diffusion.derivations.export.terminal import rests_text
 from force_diffusion.derivations.framework.catalogue import Number, modules, paper
 from force_diffusion.derivations.framework.decide import candidate_for
-from force_diffusion.derivations.framework.proof import Step
-from force_diffusion.derivations.framework.record import Derivation, load
+from force_diffusion.derivations.framework.record import load
 from force_diffusion.derivations.framework.runner import run
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.kernel.axioms import GAUSSIAN_FORCES
 from force_diffusion.symbolic.kernel.decisions import Verdict
+from force_diffusion.symbolic.kernel.theorem import Theorem
 
 from tests.derivations.rows import each
 
@@ -65,46 +65,32 @@ def _named(words: str) -> Iterator[Number]:
         yield from (int(number) for number in match.groups() if number)
 
 
-def _rests_on(step: Step) -> set[Number]:
-    """The equations whose theorems are among the premises of a step's, near and far."""
+def _rests_on(theorems: Iterable[Theorem], but: Number | None = None) -> set[Number]:
+    """The equations in whose steps and claims the premises of theorems stand, near and far.
+
+    Without those of one equation, if one is given: then only the nearest others.
+    """
     shown = {
-        id(theorem): derivation.number
-        for derivation in map(load, paper())
-        for of in (*derivation.proof, *derivation.proof.claims)
-        for theorem in of.theorems
+        id(theorem): number
+        for number in paper()
+        if number != but
+        for step in (*load(number).proof, *load(number).proof.claims)
+        for theorem in step.theorems
     }
-    queue, seen = list(step.theorems), set()
+    queue, seen = list(theorems), set()
     while queue:
         theorem = queue.pop()
         if id(theorem) not in seen:
             seen.add(id(theorem))
-            queue += theorem.premises
+            if but is None or id(theorem) not in shown:
+                queue += theorem.premises
     return {shown[key] for key in seen & {*shown}}
-
-
-def _nearest(derivation: Derivation) -> set[Number]:
-    """The other equations in whose steps and claims a theorem stands that the printed ones need."""
-    others = {
-        id(theorem): number
-        for number in paper()
-        if number != derivation.number
-        for step in (*load(number).proof, *load(number).proof.claims)
-        for theorem in step.theorems
-    }
-    queue, found = list(derivation.theorems), set()
-    while queue:
-        theorem = queue.pop()
-        if id(theorem) in others:
-            found.add(others[id(theorem)])
-        else:
-            queue += theorem.premises
-    return found
 
 
 @pytest.mark.parametrize("number", paper())
 def test_an_equation_rests_on_what_its_own_theorems_need(number):
     derivation = load(number)
-    assert {*derivation.premises} == _nearest(derivation)
+    assert {*derivation.premises} == _rests_on(derivation.theorems, but=number)
     assert {*derivation.premises} <= {*derivation.used}
 
 
@@ -123,7 +109,7 @@ def test_a_row_rests_on_displacements_only_where_it_holds_one(number, premises):
 @pytest.mark.parametrize("number", paper())
 def test_what_a_step_follows_from_is_among_its_premises(number):
     for step in load(number).proof:
-        premises = _rests_on(step)
+        premises = _rests_on(step.theorems)
         assert {*step.equations_used} <= premises
         assert all(place < step.number for place in step.steps_used)
         assert {*_named(step.reason)} <= premises

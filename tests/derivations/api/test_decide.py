@@ -2,7 +2,6 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -10,18 +9,11 @@ import pytest
 import sympy
 from force_diffusion.derivations.api.equation import Equation
 from force_diffusion.derivations.framework.catalogue import modules, paper
-from force_diffusion.derivations.framework.proof import Steps
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.as_printed import times
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    Verdict,
-    all_of,
-    proved,
-    refuted,
-    undecided,
-)  # fmt: skip
-from sympy import Eq, Rational, Tuple
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, proved, refuted
+from force_diffusion.symbolic.trees import equation as equal
+from sympy import Rational, Tuple
 
 import force_diffusion as fd
 from tests.derivations import fakes
@@ -32,12 +24,8 @@ OF_VECTORS = (1, 2, 3, 4, 5, 6)
 MILLIONTH = Rational(1, 10**6)
 
 
-def equal(left: sympy.Expr, right: sympy.Expr) -> Eq:
-    return Eq(left, right, evaluate=False)
-
-
 @pytest.mark.parametrize("number", [7, *late([8, 15])])
-def test_all_lines_at_once(number):
+def test_all_lines_at_once_and_none_is_left_out(number):
     eq = fd.equation(number)
     lines = list(eq.expr)
     for whole in (eq.expr, eq.rhs, tuple(lines), list(eq.rhs), Tuple(*reversed(lines))):
@@ -47,6 +35,11 @@ def test_all_lines_at_once(number):
         assert eq.decide((*lines[:-1], wrong)).verdict is Verdict.REFUTED
     for line in lines:
         assert eq.decide(line.rhs).verdict is Verdict.PROVED
+    for some in (lines[:1], [*lines, lines[0]], ()):
+        ruling = eq.decide(some)
+        assert ruling.verdict is Verdict.NOT_A_STATEMENT
+        assert f"{len(lines)} lines" in ruling.note
+    assert not eq.decide([lines[0]] * len(lines)).verdict.is_proved
 
 
 IN_CASES = {
@@ -76,17 +69,6 @@ def test_a_sum_runs_over_any_index(index):
     assert fd.equation(13).decide(unit * weights).verdict is Verdict.PROVED
     assert fd.equation(13).decide(unit * weights / 2).verdict is Verdict.REFUTED
     assert not fd.equation(13).decide(unit * weights * index).verdict.is_proved
-
-
-@pytest.mark.parametrize("number", [7, *late([8, 15])])
-def test_lines_that_are_left_out_are_not_proved(number):
-    eq = fd.equation(number)
-    lines = list(eq.expr)
-    for some in (lines[:1], [*lines, lines[0]], ()):
-        ruling = eq.decide(some)
-        assert ruling.verdict is Verdict.NOT_A_STATEMENT
-        assert f"{len(lines)} lines" in ruling.note
-    assert not eq.decide([lines[0]] * len(lines)).verdict.is_proved
 
 
 def test_a_tuple_of_one_is_the_one_line():
@@ -395,23 +377,20 @@ def test_cases_within_a_sum_are_read_unless_they_depend_on_its_index():
 
 
 def test_an_assumption_is_named_wherever_it_is_used():
-    eq = Equation(replace(fakes.PREMISE, show_steps=_guess))
+    eq = Equation(fakes.ASSUMED)
     ruling = eq.decide(eq.expr)
     assert ruling.verdict is Verdict.ASSUMING
     assert ruling.assuming == (fakes.GUESS,)
     assert str(ruling).startswith(f"proved, assuming {fakes.GUESS}: by a guess")
 
 
-def _guess(steps: Steps) -> None:
-    steps.show("A guess:", fakes.PRINTED, fakes.guessed)
-
-
 def test_assumptions_add_up():
     both = all_of(proved("a", ("one",)), proved("b", ("two", "one")), proved("c"))
     assert both.words == "proved, assuming one and two"
     assert all_of(proved("a"), proved("b"), proved("a")) == proved("a; b")
-    assert all_of(proved("a"), undecided("b")) == undecided("b")
-    assert all_of(proved("a"), undecided("b"), refuted("c")) == refuted("c")
+    undecided = Ruling(Verdict.UNDECIDED, "b")
+    assert all_of(proved("a"), undecided) == undecided
+    assert all_of(proved("a"), undecided, refuted("c")) == refuted("c")
     for verdict, assuming in ((Verdict.PROVED, ("x",)), (Verdict.ASSUMING, ())):
         with pytest.raises(ValueError, match="assumptions"):
             Ruling(verdict, "", assuming)

@@ -16,19 +16,13 @@ every_equation = pytest.mark.parametrize("number", each(modules()))
 
 
 @every_equation
-def test_expr_and_rhs(number):
+def test_expr_rhs_and_source_which_reads_back_with_its_own_symbols(number):
     eq = fd.equation(number)
     lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     sides = list(eq.rhs) if isinstance(eq.rhs, sympy.Tuple) else [eq.rhs]
     assert [line.rhs for line in lines] == sides
     printed = {7: 2, 8: 2, 15: 2, "B1": 2}.get(eq.number, 1)
     assert len(lines) == (len(eq.forms) if number not in paper() and eq.forms else printed)
-
-
-@every_equation
-def test_source_reads_back_with_its_own_symbols(number):
-    eq = fd.equation(number)
-    lines = [eq.expr] if isinstance(eq.expr, sympy.Eq) else list(eq.expr)
     names = {**vars(sympy), **eq.symbols}
     for source, line in zip(eq.sympy_code().splitlines(), lines, strict=True):
         side = line.lhs if line.rhs == 0 and isinstance(eq.number, int) else line.rhs

@@ -5,12 +5,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from force_diffusion.derivations.export.document import (
-    document,
-    fragment_name,
-    section_latex,
-    statement_latex,
-)
+from force_diffusion.derivations.export.document import document, section_latex, statement_latex
 from force_diffusion.derivations.export.prose import prose_latex
 from force_diffusion.derivations.framework.catalogue import Number, modules
 from force_diffusion.derivations.framework.lists import both
@@ -50,23 +45,18 @@ def test_a_step_that_gives_the_printed_equation_refers_to_it():
     assert text.count(r"\Delta_{ij} = ") == 1
 
 
-def test_the_margin_names_what_a_step_rests_on():
+def test_the_margin_names_what_a_step_rests_on_and_where_it_holds_if_the_equation_does_elsewhere():
     text = section_latex(run(load(13)))
-    assert r"\step{4}{1, 3, (12)}" in text
-    assert r"\step{7}{}" in text
-
-
-def test_the_margin_says_where_a_step_holds_if_the_equation_does_elsewhere():
-    text = section_latex(run(load(13)))
-    assert r"\step{1}{for $1 \leq  j < M$}" in text
-    assert r"\step{5}{(4), (5), (11) \\ for $0 \leq  j < M$}" in text
+    for words in (
+        r"\step{4}{1, 3, (12)}",
+        r"\step{7}{}",
+        r"\step{1}{for $1 \leq  j < M$}",
+        r"\step{5}{(4), (5), (11) \\ for $0 \leq  j < M$}",
+        r"j = M - 1,\; M \geq 3",
+    ):
+        assert words in text
+    assert text.count(r"\begin{cases}") == 1  # one display of all cases
     assert "Exact at every site" in section_latex(run(load(16)))
-
-
-def test_cases_of_a_quantity_are_in_one_display():
-    text = section_latex(run(load(13)))
-    assert text.count(r"\begin{cases}") == 1
-    assert r"j = M - 1,\; M \geq 3" in text
 
 
 def test_a_symbol_is_explained_again_where_it_means_something_else():
@@ -80,32 +70,26 @@ def test_errata_stand_with_their_equation():
     assert "Erratum: the printed formula is for $j" in section_latex(run(load(3)))
 
 
-def test_names_and_labels_have_two_digits():
-    assert [*map(fragment_name, (3, "B5", "B13"))] == ["eq03.tex", "eqB05.tex", "eqB13.tex"]
-    assert r"\label{eq:fd03}" in statement_latex(load(3))
+PROSE = [
+    ("50 % of {a} & b_1, #2, \\x ~", r"50 \% of \{a\} \& $b_{1}$, $\#2$, \textbackslash{}x \~{}"),
+    ("a sum of the (i, j)", "a sum of the $(i, j)$"),
+    ("as (1 − φ)²(i − k)/l (W > M)", r"as $(1 - \phi )^{2}(i - k)/l$ ($W > M$)"),
+    ("n⁺·δn⁺_ij = 0.", r"$\hat{\mathbf{n}}^{+}\cdot \delta \hat{\mathbf{n}}^{+}_{ij} = 0$."),
+    ("2√3 r", r"$2\sqrt{3} r$"),
+    ("at M* ∝ (σ/r)^(−2/3),", r"at $M^{*} \propto  (\sigma /r)^{-2/3}$,"),
+    ("r = 2^-498", "$r = 2^{-498}$"),
+    ("f_load", r"$f^{\mathrm{load}}$"),
+    ("(as min(t, 1/t)^(2/3)).", r"(as $\operatorname{min}(t,1/t)^{2/3}$)."),
+    ("[a₁/((2b + c)κ²)]^(1/3), if a", r"$[a_{1}/((2b + c)\kappa ^{2})]^{1/3}$, if a"),
+    ("if a + b is even", "if $a + b$ is even"),
+    ("N = ½[l − (k − i)], a √(l + j)/M", r"$N = \frac{1}{2}[l - (k - i)]$, a $\sqrt{l+j}/M$"),
+    ("unknown ☃", r"unknown $\text{[snowman]}$"),
+]
 
 
 def test_prose_is_escaped_and_set_as_mathematics():
-    assert prose_latex("50 % of {a} & b_1, #2, \\x ~") == (
-        r"50 \% of \{a\} \& $b_{1}$, $\#2$, \textbackslash{}x \~{}"
-    )
-    assert prose_latex("a sum of the (i, j)") == "a sum of the $(i, j)$"
-    assert prose_latex("as (1 − φ)²(i − k)/l (W > M)") == r"as $(1 - \phi )^{2}(i - k)/l$ ($W > M$)"
-    assert prose_latex("n⁺·δn⁺_ij = 0.") == (
-        r"$\hat{\mathbf{n}}^{+}\cdot \delta \hat{\mathbf{n}}^{+}_{ij} = 0$."
-    )
-    assert prose_latex("2√3 r") == r"$2\sqrt{3} r$"
-    assert prose_latex("at M* ∝ (σ/r)^(−2/3),") == r"at $M^{*} \propto  (\sigma /r)^{-2/3}$,"
-    assert prose_latex("r = 2^-498") == "$r = 2^{-498}$"
-    assert prose_latex("f_load") == r"$f^{\mathrm{load}}$"
-    assert prose_latex("(as min(t, 1/t)^(2/3)).") == r"(as $\operatorname{min}(t,1/t)^{2/3}$)."
-    assert prose_latex("[a₁/((2b + c)κ²)]^(1/3), if a + b is even") == (
-        r"$[a_{1}/((2b + c)\kappa ^{2})]^{1/3}$, if $a + b$ is even"
-    )
-    assert prose_latex("N = ½[l − (k − i)], a √(l + j)/M") == (
-        r"$N = \frac{1}{2}[l - (k - i)]$, a $\sqrt{l+j}/M$"
-    )
-    assert prose_latex("unknown ☃").endswith(r"\text{[snowman]}$")
+    for words, source in PROSE:
+        assert prose_latex(words) == source
 
 
 def sentences(number: Number) -> Iterator[str]:

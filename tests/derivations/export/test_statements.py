@@ -1,5 +1,6 @@
 """Printed equations and the steps to them, compared with files that a person has looked at."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from textwrap import indent
 
@@ -27,37 +28,36 @@ def compare(path: Path, text: str, update: bool) -> None:
     assert path.read_text(encoding="utf-8") == text, "run pytest --update-golden and review"
 
 
+def shown(head: str, lines: Sequence[str], words: str, latex: str) -> str:
+    """A formula as text, and below it words and the formula as LaTeX."""
+    parts = (head, indent("\n".join(lines), "    "), prose_latex(words), indent(latex, "    "))
+    return "\n\n".join(parts) + "\n"
+
+
 def step_shown(step: Step, where: str) -> str:
     """A step as text and below it as LaTeX: the reason, and the formula that it gives."""
     uses = f", from {both(step.uses)}" if step.uses else ""
-    shown = (
-        f"Step {step.number} {where}".rstrip() + uses,
-        step.reason,
-        indent("\n".join(step_lines(step)), "    "),
-        prose_latex(step.reason),
-        indent(step_latex(step), "    "),
-    )
-    return "\n\n".join(shown) + "\n"
+    head = f"Step {step.number} {where}".rstrip() + f"{uses}\n\n{step.reason}"
+    return shown(head, step_lines(step), step.reason, step_latex(step))
 
 
 def refuted_shown(refutation: Refuted) -> str:
     """A printed statement that does not hold, as text and below it as LaTeX."""
-    shown = (
-        f"Printed as well: {refutation.reading}",
-        indent(
-            "\n".join(text_lines(refutation.formula, refutation.domain.relation, TEXT_WIDTH)),
-            "    ",
-        ),
-        prose_latex(refutation.reading),
-        indent(latex_body([refutation.formula], RELATIONS[refutation.domain.relation]), "    "),
-    )
-    return "\n\n".join(shown) + "\n"
+    relation = refutation.domain.relation
+    lines = text_lines(refutation.formula, relation, TEXT_WIDTH)
+    latex = latex_body([refutation.formula], RELATIONS[relation])
+    return shown(f"Printed as well: {refutation.reading}", lines, refutation.reading, latex)
 
 
 @pytest.mark.parametrize("number", each(modules()))
 def test_statement(number, update_golden):
     derivation = load(number)
     compare(GOLDEN / fragment_name(derivation.number), statement_latex(derivation), update_golden)
+
+
+def test_names_and_labels_have_two_digits():
+    assert [*map(fragment_name, (3, "B5", "B13"))] == ["eq03.tex", "eqB05.tex", "eqB13.tex"]
+    assert r"\label{eq:fd03}" in statement_latex(load(3))
 
 
 @pytest.mark.parametrize("number", range(1, 17))

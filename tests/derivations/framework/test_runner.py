@@ -69,13 +69,9 @@ def test_an_assumption_is_named_in_every_report(make):
 
 
 def test_what_rests_on_an_assumption_assumes_it():
-    def premise(steps: Steps) -> None:
-        steps.show("A guess:", fakes.PRINTED, fakes.guessed)
-
     def conclusion(steps: Steps) -> None:
-        steps.show("Twice that:", twice, rewrite(guess.theorem))
+        steps.show("Twice that:", twice, rewrite(fakes.ASSUMED.theorem))
 
-    guess = replace(fakes.PREMISE, show_steps=premise)
     left, right = fakes.PRINTED.args
     twice = equation(2 * left, 2 * right)
     outcome = run(replace(fakes.CONCLUSION, printed=(twice,), show_steps=conclusion))

@@ -146,14 +146,11 @@ def test_python_source_takes_any_number_type():
 
 
 def test_no_fraction_has_three_storeys():
-    unit = power(sy.sigma / sy.r, 2)
-    assert latex(times(1 + sy.j, unit, power(sy.M, -1))) == (
-        r"\frac{j + 1}{M} \left( \frac{\sigma_{\delta r}}{r} \right)^{2}"
-    )
-    assert latex(times(terms(sy.j, sy.z / sy.r), power(sy.M, -1))) == (
-        r"\frac{1}{M} \left( j + \frac{z}{r} \right)"
-    )
-    assert text(times(1 + sy.j, unit, power(sy.M, -1))).count("/") == 2
+    product = times(1 + j, power(sigma / r, 2), power(M, -1))
+    assert latex(product) == r"\frac{j + 1}{M} \left( \frac{\sigma_{\delta r}}{r} \right)^{2}"
+    assert text(product).count("/") == 2
+    other = times(terms(j, z / r), power(M, -1))
+    assert latex(other) == r"\frac{1}{M} \left( j + \frac{z}{r} \right)"
 
 
 def test_no_line_is_a_lone_factor():
