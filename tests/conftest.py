@@ -131,5 +131,35 @@ def call(capsys: pytest.CaptureFixture[str]) -> Call:
 
 
 @pytest.fixture
+def printed(call: Call) -> Callable[..., str]:
+    """Call a command that has to succeed without a word of warning: what it prints."""
+
+    def succeeded(*words: object) -> str:
+        status, stdout, stderr = call(*words)
+        assert (status, stderr) == (0, "")
+        return stdout
+
+    return succeeded
+
+
+@pytest.fixture
+def refused(call: Call) -> Callable[..., str]:
+    """Call a command that has to end with a status other than 0 and no answer: what it says."""
+
+    def failed(*words: object, status: int = 2) -> str:
+        ended, stdout, stderr = call(*words)
+        assert (ended, stdout) == (status, ""), stderr
+        return stderr
+
+    return failed
+
+
+@pytest.fixture
+def timed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """In a study of costs each way is timed once."""
+    monkeypatch.setattr("force_diffusion.numeric.run.cost.SHORT", 0)
+
+
+@pytest.fixture
 def update_golden(request: pytest.FixtureRequest) -> bool:
     return bool(request.config.getoption("--update-golden"))

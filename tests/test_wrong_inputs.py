@@ -16,9 +16,7 @@ from force_diffusion.symbols import f_plus, i, j
 
 R = 1 + 0.01 * np.random.default_rng(7).standard_normal((5, 8))
 LONG, DIGITS = 10**5000, "9" * 5000
-SCENES = Path(fd.__file__).parents[1] / "scenes"
-if not SCENES.is_dir():
-    SCENES = Path(__file__).parents[1] / "scenes"
+SCENES = Path(__file__).parents[1] / "scenes"
 SCENE = fd.read_scene(SCENES / "measured.toml")
 
 WRONG: dict[str, tuple[Callable[[], object], str]] = {

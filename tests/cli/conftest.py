@@ -1,8 +1,23 @@
 """What tests of commands share."""
 
 import sys
+from pathlib import Path
 
 import pytest
+
+SCENE = """
+packing = {height = 3, width = 5}
+disorder = {kind = "uniform", relative_std = 1e-4, seed = 1}
+ask = {quantity = "profile", realisations = 40}
+"""
+
+
+@pytest.fixture
+def scene(tmp_path: Path) -> Path:
+    """A file with a small scene."""
+    path = tmp_path / "scene.toml"
+    path.write_text(SCENE)
+    return path
 
 
 @pytest.fixture

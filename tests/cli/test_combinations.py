@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from force_diffusion.numeric.run import cost
 from force_diffusion.numeric.scene.combinations import (
     COMMANDS,
     KINDS,
@@ -127,14 +126,13 @@ CELLS += [
 
 
 @pytest.mark.long(sample=9, share=4)
-@pytest.mark.usefixtures("only_svg")
+@pytest.mark.usefixtures("only_svg", "timed_once")
 @pytest.mark.parametrize(("command", "quantity", "kind", "load", "setting"), CELLS)
 def test_a_cell_is_answered_or_refused_as_the_table_says(
     command, quantity, kind, load, setting,
     tmp_path, monkeypatch, call
 ):  # fmt: skip
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr(cost, "SHORT", 0)  # each way is timed once
     Path("scene.toml").write_text(scene(quantity, kind, load, setting))
     tables(tmp_path, kind)
     status, stdout, stderr = call(command, "scene.toml", *options(command, quantity))

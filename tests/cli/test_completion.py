@@ -11,18 +11,17 @@ import pytest
 PROGRAM = Path(sys.executable).parent / "force-diffusion"
 
 
-def environment(home: Path) -> dict[str, str]:
-    path = f"{PROGRAM.parent}{os.pathsep}{os.environ['PATH']}"
-    return {"PATH": path, "HOME": str(home), "TERM": "xterm", "LANG": "C.UTF-8", "COLUMNS": "200"}
-
-
-def called(shell: str, line: str, folder: Path) -> subprocess.CompletedProcess[str]:
+def called(
+    shell: str, line: str, folder: Path, **variables: str
+) -> subprocess.CompletedProcess[str]:
     """Run a line in a shell that has the name of another one, by which the program knows it."""
     program = folder / shell
     program.symlink_to(shutil.which("bash") or "/bin/bash")
+    path = f"{PROGRAM.parent}{os.pathsep}{os.environ['PATH']}"
+    usual = {"HOME": str(folder), "TERM": "xterm", "LANG": "C.UTF-8", "COLUMNS": "200"}
     return subprocess.run(
-        [program, "-c", line],
-        env=environment(folder), capture_output=True, text=True, check=False, timeout=600,
+        [program, "-c", line], env={"PATH": path, **usual, **variables},
+        capture_output=True, text=True, check=False, timeout=600,
     )  # fmt: skip
 
 
@@ -46,12 +45,9 @@ def test_bash_completes_the_names_of_commands_with_what_it_is_given(tmp_path):
 def test_what_is_offered(line, offered, tmp_path):
     words = ["force-diffusion", *line.split()]
     variables = {"COMP_WORDS": "\n".join(words), "COMP_CWORD": str(len(words) - 1)}
-    done = subprocess.run(
-        [PROGRAM],
-        env={**environment(tmp_path), **variables, "_FORCE_DIFFUSION_COMPLETE": "complete_bash"},
-        capture_output=True, text=True, check=True, timeout=600,
-    )  # fmt: skip
-    assert (done.stdout.split(), done.stderr) == (offered.split(), "")
+    asked = {**variables, "_FORCE_DIFFUSION_COMPLETE": "complete_bash"}
+    done = called("bash", "exec force-diffusion", tmp_path, **asked)
+    assert (done.returncode, done.stdout.split(), done.stderr) == (0, offered.split(), "")
 
 
 @pytest.mark.parametrize(

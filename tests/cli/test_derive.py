@@ -27,20 +27,18 @@ def made_up(monkeypatch: pytest.MonkeyPatch) -> dict[int, object]:
     return table
 
 
-def test_premises_are_proved_first(made_up, call):
-    status, stdout, _ = call("derive", 2, 1)
-    *lines, last = stdout.splitlines()
+def test_premises_are_proved_first(made_up, printed):
+    *lines, last = printed("derive", 2, 1).splitlines()
     assert [line.split()[:2] for line in lines] == [["1", "proved"], ["2", "proved"]]
     assert all(re.search(r" \(\d+\.\d\d s\)$", line) for line in lines)
-    assert (status, last) == (0, "2 proved.")
+    assert last == "2 proved."
 
 
-def test_of_a_single_equation_all_steps_and_claims_are_printed(made_up, call):
+def test_of_a_single_equation_all_steps_and_claims_are_printed(made_up, printed):
     made_up[2] = fakes.with_claim(fakes.guessed)
-    status, stdout, _ = call("derive", 2)
-    premise, blank, *lines = stdout.splitlines()
+    premise, blank, *lines = printed("derive", 2).splitlines()
     assert premise.startswith("  1  proved     A premise")
-    assert (status, blank, lines[0]) == (0, "", "Eq. 2: B")
+    assert (blank, lines[0]) == ("", "Eq. 2: B")
     steps, claims = lines.index("Steps"), lines.index("Claims")
     assert lines[steps + 1] == "  1. Again:"
     assert "     proved, from Eq. 1" in lines[steps:claims]
@@ -112,33 +110,31 @@ def drawn(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.mark.long
-def test_the_article_says_what_was_derived(made_up, drawn, tmp_path, monkeypatch, call):
+def test_the_article_says_what_was_derived(made_up, drawn, tmp_path, monkeypatch, printed):
     out, paper = tmp_path / "out", tmp_path / "paper"
     monkeypatch.setattr("force_diffusion.derivations.export.supplement.modules", lambda: ["B2"])
     command = ["derive", 2, "--out", out, "--article", paper]
-    status, stdout, _ = call(*command)
-    assert status == 0
-    assert f"2 proved. Written to {out} and {paper}." in stdout
+    assert f"2 proved. Written to {out} and {paper}." in printed(*command)
     first = {path.name: path.read_bytes() for path in paper.iterdir()}
     assert {"article.tex", "supplement.tex", "figureB2.pdf"} < set(first)
     assert "x.csv" not in first
     supplement = " ".join(first["supplement.tex"].decode().split())
     assert "The verdicts of the run that wrote this text: 2 proved." in supplement
     assert "equations.tex" in {path.name for path in out.iterdir()}
-    assert call(*command, "--overwrite")[0] == 0
+    printed(*command, "--overwrite")
     assert {path.name: path.read_bytes() for path in paper.iterdir()} == first
 
 
-def test_an_article_that_can_not_be_written_costs_no_proof(made_up, drawn, tmp_path, call):
+def test_an_article_that_can_not_be_written_costs_no_proof(made_up, drawn, tmp_path, refused):
     """That a folder is there already is refused by every command: ``test_output``."""
     out = tmp_path / "out"
-    status, stdout, stderr = call("derive", 2, "--article", out, "--out", out)
-    assert (status, stdout, "is also the folder of --out" in stderr) == (2, "", True)
+    assert "is also the folder of --out" in refused("derive", 2, "--article", out, "--out", out)
 
 
-def test_an_article_without_what_draws_costs_no_proof(made_up, without_matplotlib, tmp_path, call):
-    status, stdout, stderr = call("derive", 2, "--article", tmp_path / "new")
-    assert (status, stdout, "force-diffusion[plots]" in stderr) == (3, "", True)
+@pytest.mark.usefixtures("made_up", "without_matplotlib")
+def test_an_article_without_what_draws_costs_no_proof(tmp_path, refused):
+    says = refused("derive", 2, "--article", tmp_path / "new", status=3)
+    assert "force-diffusion[plots]" in says
     assert not (tmp_path / "new").exists()
 
 

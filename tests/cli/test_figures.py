@@ -30,15 +30,14 @@ def check_images(folder: Path, name: str, command: str) -> None:
 
 
 @pytest.mark.long
-def test_figures_name_the_command_that_makes_them_again_byte_for_byte(tmp_path, call, monkeypatch):
+def test_figures_name_the_command_that_makes_them_again_to_the_byte(tmp_path, printed, monkeypatch):
     words = ["1", "2", "3", "--heights", "2,4", "--realisations", "16", "--out", "out"]
     contents = []
     for folder in ("a", "b"):
         out = tmp_path / folder / "out"
         out.parent.mkdir()
         monkeypatch.chdir(out.parent)
-        status, stdout, stderr = call("figures", *words)
-        assert (status, stderr) == (0, "")
+        stdout = printed("figures", *words)
         contents.append({path.name: path.read_bytes() for path in out.iterdir()})
         words = shlex.split(json.loads((out / "figure1.json").read_text())["command"])[2:]
     assert contents[0] == contents[1]  # the second time by the command that the first one noted
@@ -56,46 +55,41 @@ def test_figures_name_the_command_that_makes_them_again_byte_for_byte(tmp_path, 
     assert [row["of"].partition(":")[0] for row in record["comparisons"]] == ["M = 2", "M = 4"]
 
 
-def test_heights_that_cannot_be_built(tmp_path, call):
+def test_heights_that_cannot_be_built(tmp_path, refused):
     """Far above M* beads no longer find a rest."""
-    out, few = tmp_path / "out", ("--realisations", 16)
-    rough = "--heights", "40", "--relative-std", "0.3"
-    status, stdout, stderr = call("figures", 3, *rough, *few, "--out", out)
-    assert (status, stdout) == (2, "")
-    assert "figure 3: bead" in stderr
-    assert "less disorder, fewer layers or a smaller spacing" in stderr
-    assert not out.exists()
+    rough = ["--heights", "40", "--relative-std", "0.3", "--realisations", 16]
+    message = refused("figures", 3, *rough, "--out", tmp_path / "out")
+    assert "figure 3: bead" in message
+    assert "less disorder, fewer layers or a smaller spacing" in message
+    assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.usefixtures("without_matplotlib")
-def test_without_matplotlib(tmp_path, call):
-    status, stdout, stderr = call("figures", "1", "--out", tmp_path / "out")
-    assert (status, stdout) == (3, "")
-    assert "need matplotlib" in stderr
-    assert "force-diffusion[plots]" in stderr
+def test_without_matplotlib(tmp_path, refused):
+    message = refused("figures", "1", "--out", tmp_path / "out", status=3)
+    assert "need matplotlib" in message
+    assert "force-diffusion[plots]" in message
     assert not (tmp_path / "out").exists()
 
 
 @pytest.mark.long
 @pytest.mark.usefixtures("only_svg")
-def test_simpler_models_are_drawn_and_overwritten_with_their_figures(tmp_path, call):
+def test_simpler_models_are_drawn_and_overwritten_with_their_figures(tmp_path, printed):
     out, models = tmp_path / "out", ["--with", "q-model", "--with", "double-y"]
-    words = [3, 4, "--heights", "3", "--realisations", 32, *models, "--out", out]
-    assert call("figures", *words)[0] == 0
+    printed("figures", 3, 4, "--heights", "3", "--realisations", 32, *models, "--out", out)
     assert {"figure3_q_model.csv", "figure4_double_y.csv"} <= {path.name for path in out.iterdir()}
-    assert call("figures", 1, "--out", out, "--overwrite")[0] == 0
+    printed("figures", 1, "--out", out, "--overwrite")
     assert {path.stem for path in out.iterdir()} == {"figure1"}
 
 
-def test_a_scene_is_answered_and_drawn(tmp_path, call):
+def test_a_scene_is_answered_and_drawn(tmp_path, printed, refused):
     scene, out = tmp_path / "my $cene.toml", tmp_path / "out"
     scene.write_text(
         "packing = {height = 4, width = 9, spacing = 2.6}\n"
         'disorder = {kind = "two-point", relative_std = 1e-3, seed = 4}\n'
         'ask = {quantity = "profile"}\n'
     )
-    status, _, stderr = call("figures", scene, "--out", out)
-    assert (status, stderr) == (0, "")
+    printed("figures", scene, "--out", out)
     result = json.loads((out / "my $cene.json").read_text())
     check_images(out, "my $cene", result["command"])
     hashed = hashlib.sha256(scene.read_bytes()).hexdigest()
@@ -106,5 +100,4 @@ def test_a_scene_is_answered_and_drawn(tmp_path, call):
     assert len(list(csv.DictReader(rows))) == 8
     again = tmp_path / "other" / scene.name
     for words, says in (([scene, again], "the same files"), ([scene, "--seed", 5], "--seed")):
-        status, _, stderr = call("figures", *words, "--out", out)
-        assert (status, says in stderr) == (2, True)
+        assert says in refused("figures", *words, "--out", out)

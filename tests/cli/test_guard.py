@@ -59,10 +59,17 @@ def test_an_interrupt_while_modules_load(tmp_path):
     ) as process:  # fmt: skip
         assert process.stderr is not None
         assert process.stderr.readline() == "loading\n"
-        process.send_signal(signal.SIGINT)
-        _, errors = process.communicate(timeout=600)
-    assert process.returncode == 130
-    assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
+        assert ended(process, signal.SIGINT) == (130, INTERRUPTED)
+
+
+INTERRUPTED = "force-diffusion: interrupted; no half-written file is left.\n"
+
+
+def ended(process: subprocess.Popen[str], how: signal.Signals) -> tuple[int, str]:
+    """Send a signal: the status with which a program ends, and what it says of errors."""
+    process.send_signal(how)
+    _, errors = process.communicate(timeout=600)
+    return process.returncode, errors
 
 
 WAITING = """
@@ -81,30 +88,18 @@ sys.exit(guarded(program))
 """
 
 
-def waiting(seconds: float, *before: str) -> subprocess.Popen[str]:
-    process = subprocess.Popen(
-        [*before, sys.executable, "-c", WAITING, str(seconds)],
-        env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-    )  # fmt: skip
-    assert process.stdout is not None
-    assert process.stdout.readline() == "waiting\n"
-    return process
-
-
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
-def test_every_signal_ends_a_program_in_the_same_way(how):
-    with waiting(60) as process:
-        process.send_signal(how)
-        _, errors = process.communicate(timeout=600)
-    assert process.returncode == 130
-    assert errors == "force-diffusion: interrupted; no half-written file is left.\n"
-
-
-def test_a_hangup_is_ignored_under_nohup():
-    with waiting(0.5, "nohup") as process:
-        process.send_signal(signal.SIGHUP)
-        process.communicate(timeout=600)
-    assert process.returncode == 0
+@pytest.mark.parametrize("before", [[], ["nohup"]])
+def test_every_signal_ends_a_program_in_the_same_way(how, before):
+    """But for a hangup under nohup, which is ignored."""
+    ignored = bool(before) and how == signal.SIGHUP
+    with subprocess.Popen(
+        [*before, sys.executable, "-c", WAITING, "0.5" if ignored else "60"],
+        env=ENVIRONMENT, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+    ) as process:  # fmt: skip
+        assert process.stdout is not None
+        assert process.stdout.readline() == "waiting\n"
+        assert ended(process, how) == ((0, "") if ignored else (130, INTERRUPTED))
 
 
 class UnreachableError(ForceDiffusionError):

@@ -15,11 +15,6 @@ import force_diffusion as fd
 
 NAMES = ["a", "b"]
 OLD, NEW = {"a": "old", "b": "old"}, {"a": "new"}
-SCENE = """
-packing = {height = 3, width = 5}
-disorder = {kind = "uniform", relative_std = 1e-4}
-ask = {quantity = "contact_forces"}
-"""
 
 
 @pytest.fixture(autouse=True)
@@ -192,18 +187,16 @@ def test_the_second_of_two_writers_puts_its_results_beside_the_folder():
         "certify 1",
     ],
 )
-def test_every_command_refuses_an_existing_folder_before_it_solves(command, monkeypatch, call):
+@pytest.mark.usefixtures("scene")
+def test_every_command_refuses_an_existing_folder_before_it_solves(command, monkeypatch, refused):
     for name in ("framework.runner.run", "commands.scenes._answer", "commands.figures._own"):
         monkeypatch.setattr(f"force_diffusion.derivations.{name}", None)
     for name in ("derive", "figure", "ensemble", "cost", "certify"):
         monkeypatch.setattr(fd, name, None)
-    Path("scene.toml").write_text(SCENE)
-    Path("mine").mkdir()
-    Path("mine/load.kind=bulk").mkdir()
+    Path("mine/load.kind=bulk").mkdir(parents=True)
     Path("paper").mkdir()
     before = everything()
     out = ["--out", "mine"] if "article" not in command else []
-    status, stdout, stderr = call(*command.split(), *out)
-    assert (status, stdout) == (2, "")
-    assert "' exists already. Give another folder, or --overwrite." in stderr
+    says = "' exists already. Give another folder, or --overwrite."
+    assert says in refused(*command.split(), *out)
     assert everything() == before

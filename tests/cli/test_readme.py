@@ -17,11 +17,9 @@ COMMANDS = re.findall(r"^```sh\n(.*?)\n```$", README, re.MULTILINE | re.DOTALL)
 USES = re.findall(r"^\| `((?!force-)[a-z][^`]*)` \|", README, re.MULTILINE)
 
 
-def test_it_is_short():
+def test_it_is_short_with_exactly_two_commands_of_one_line_and_five_uses():
     assert README.count("\n") <= 90
-
-
-def test_exactly_two_commands_of_one_line():
+    assert len(USES) == 5
     assert README.count("```sh") == 2
     assert [command.count("\n") for command in COMMANDS] == [0, 0]
     assert "force-diffusion derive" in COMMANDS[0]
@@ -43,24 +41,18 @@ def test_its_python_prints_what_it_says():
 @pytest.mark.long
 @pytest.mark.usefixtures("only_svg")
 @pytest.mark.parametrize("use", USES)
-def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, call):
+def test_the_uses_that_it_lists_are_understood(use, tmp_path, monkeypatch, printed):
     shutil.copytree(ROOT / "scenes", tmp_path / "scenes")
     monkeypatch.chdir(tmp_path)
     few = ["--heights", 4, "--realisations", 16] if use.startswith("figures") else []
-    status, stdout, _ = call(*use.split(), *few)
-    assert (status, stdout != "") == (0, True)
+    assert printed(*use.split(), *few)
 
 
-def test_there_are_five_uses():
-    assert len(USES) == 5
-
-
-def test_the_equations_that_the_reference_shows_are_shown(call):
+def test_the_equations_that_the_reference_shows_are_shown(printed):
     rows = re.findall(r"^\| `(show[^`]*|list)` \|", REFERENCE, re.MULTILINE)
     assert len(rows) >= 4
     for row in rows:
-        status, stdout, _ = call(*row.split())
-        assert (status, stdout != "") == (0, True)
+        assert printed(*row.split())
 
 
 def test_it_leads_to_a_guide_for_each_of_the_tasks():

@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import partial
 
 import pytest
 import sympy
@@ -12,22 +13,15 @@ from force_diffusion.derivations.framework.record import load
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.printing.text import text
 
-from tests.conftest import Call
 from tests.derivations.rows import each
 
 NUMBERS = list(modules())
 BEYOND = [number for number in NUMBERS if number not in {*paper(), "B1"}]
-Show = Callable[..., str]
 
 
 @pytest.fixture
-def show(call: Call) -> Show:
-    def shown(*words: object) -> str:
-        status, stdout, stderr = call("show", *words)
-        assert (status, stderr) == (0, "")
-        return stdout
-
-    return shown
+def show(printed: Callable[..., str]) -> Callable[..., str]:
+    return partial(printed, "show")
 
 
 def test_several_are_printed_one_below_the_other(show):

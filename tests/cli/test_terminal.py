@@ -4,6 +4,7 @@ import os
 import pty
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -22,14 +23,9 @@ def on_a_terminal(*arguments: str, term: str = "xterm-256color") -> tuple[int, s
     ) as process:  # fmt: skip
         os.close(theirs)
         shown = b""
-        while True:
-            try:
-                piece = os.read(ours, 4096)
-            except OSError:  # the other end is closed
-                break
-            if not piece:
-                break
-            shown += piece
+        with suppress(OSError):  # the other end is closed
+            while piece := os.read(ours, 4096):
+                shown += piece
     os.close(ours)
     return process.returncode, shown.decode()
 

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 from force_diffusion.derivations.commands.application import COMMANDS
 
+from tests.cli.conftest import SCENE
+
 MANY = "9" * 5000
 SEEDS = ",".join(map(str, range(1001)))
 USAGE = [
@@ -66,29 +68,22 @@ WRONG = [
     ("ensemble scene.toml --store scene.toml", "not the store of an ensemble"),
     ("ensemble scene.toml --out scene.toml", "is a file"),
 ]
-SCENE = """
-packing = {height = 3, width = 5}
-disorder = {kind = "uniform", relative_std = 1e-4, seed = 1}
-ask = {quantity = "profile", realisations = 40}
-"""
 
 
 @pytest.mark.parametrize(
     ("words", "says", "hint"),
     [*((*row, "--help|requires an argument") for row in USAGE), *((*row, "") for row in WRONG)],
 )
-def test_wrong_words(words, says, hint, call, tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
+def test_wrong_words(words, says, hint, scene, refused, monkeypatch):
+    monkeypatch.chdir(scene.parent)
     monkeypatch.setattr("force_diffusion.numeric.planning.planner.memory_limit", lambda: 10**9)
-    Path("scene.toml").write_text(SCENE)
     more = ["--out", "out"] if re.match("(derive|run)((?!--out|--format).)*$", words) else []
-    status, stdout, stderr = call(*shlex.split(words), *more)
-    assert (status, stdout) == (2, "")
-    assert says in " ".join(stderr.split())
-    assert re.search(hint, stderr)  # what to do
-    assert "Traceback" not in stderr
+    message = refused(*shlex.split(words), *more)
+    assert says in " ".join(message.split())
+    assert re.search(hint, message)  # what to do
+    assert "Traceback" not in message
     assert [path.name for path in Path().iterdir()] == ["scene.toml"]
-    assert Path("scene.toml").read_text() == SCENE
+    assert scene.read_text() == SCENE
 
 
 def test_help_and_no_arguments(call):

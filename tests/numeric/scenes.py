@@ -1,7 +1,7 @@
 """Small scenes for the tests, and strategies that draw them."""
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -74,6 +74,16 @@ def basic(height: int = 6, width: int | None = 14, **ask: Any) -> dict[str, dict
         "disorder": {"kind": "uniform", "relative_std": "=1e-4", "seed": 3},
         "ask": {"quantity": "contact_forces", **ask},
     }
+
+
+def listed_loads(
+    folder: Path, loads: Iterable[Sequence[object]], columns: str = "i,j,fx,fy"
+) -> fd.Load:
+    """Write a file of loads, and give the load that it is."""
+    rows = [",".join(map(str, load)) for load in loads]
+    path = folder / "loads.csv"
+    path.write_text("\n".join([columns, *rows, ""]))
+    return fd.Load(kind="file", file=str(path))
 
 
 def question(

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import force_diffusion as fd
-from tests.numeric.scenes import question
+from tests.numeric.scenes import listed_loads, question
 
 ROUNDING = 1e-14  # a few roundings of numbers of about 1
 
@@ -64,26 +64,25 @@ def borne(solution: fd.Solution, packing: tuple[int, ...] = ()) -> Any:
 
 
 LEANING = -np.sin(np.radians(20)), 0, np.cos(np.radians(20))
-STEEP = np.sin(np.radians(70)), 0, np.cos(np.radians(70))
+STEEP = np.sin(np.radians(89)), 0, np.cos(np.radians(89))
 
 
 @pytest.mark.parametrize(
     ("load", "forces"),
     [
         (fd.BulkLoad(angle_deg=20), dict.fromkeys(np.ndindex(6, 6, 3), LEANING)),
-        (fd.PointLoad(at=(1, 2, 2), angle_deg=-70), {(1, 2, 1): STEEP}),
+        (fd.PointLoad(at=(1, 2, 2), angle_deg=-89), {(1, 2, 1): STEEP}),
         (None, {(0, 1, 1): (-0.5, 0.25, 1), (2, 2, 0): (1, -2, -0.125)}),
     ],
 )
 def test_spheres_bear_any_load(load, forces, tmp_path):
     """Against the load, by column and by layer above the base; without one, they are in a file."""
-    lines, expected = ["p,q,j,fx,fy,fz"], np.zeros((3, 6, 6, 3))
+    rows, expected = [], np.zeros((3, 6, 6, 3))
     for (p, q, j), (x, y, z) in forces.items():
         expected[j, p, q] = x, y, z
-        lines.append(f"{p},{q},{j + 1},{-x},{-y},{-z}")
-    (tmp_path / "loads.csv").write_text("\n".join(lines))
-    listed = fd.Load(kind="file", file=str(tmp_path / "loads.csv"))
-    result = borne(fd.solve(radii_of(4, 6, 6), dimension=3, load=load or listed))[36:]
+        rows.append((p, q, j + 1, -x, -y, -z))
+    load = load or listed_loads(tmp_path, rows, "p,q,j,fx,fy,fz")
+    result = borne(fd.solve(radii_of(4, 6, 6), dimension=3, load=load))[36:]
     assert result == pytest.approx(expected.reshape(-1, 3), abs=100 * ROUNDING)
 
 

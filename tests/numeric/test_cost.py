@@ -17,9 +17,7 @@ from tests.numeric.scenes import basic, scene
 EVERY = [("float64", 16), ("balls", 15), ("balls", 30), ("balls", 100), ("mpmath", 30)]
 
 
-@pytest.fixture(autouse=True)
-def _one_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "SHORT", 0)
+pytestmark = pytest.mark.usefixtures("timed_once")
 
 
 def names(study: CostStudy) -> list[tuple[str, int]]:
@@ -67,16 +65,14 @@ def test_what_takes_too_long_is_extrapolated_by_its_beads(monkeypatch):
 
     def timed(planned: Any, name: str, digits: int) -> module._Timed:
         layers.append(planned.problem.height)
-        beads = planned.problem.region.beads
         numbers = module.np.array([flint.arb(1)])
-        return module._Timed(1e-3 * beads, numbers, 0.0)
+        return module._Timed(1e-3 * planned.problem.region.beads, numbers, 0.0)
 
     monkeypatch.setattr(module, "_run", timed)
     study = fd.cost(asked, seconds=0.4)
     assert names(study) == EVERY
     for way in study.ways:
-        assert way.extrapolated
-        assert way.error_is == "estimated"
+        assert (way.extrapolated, way.error_is) == (True, "estimated")
         assert way.error == float(f"1e-{way.digits}")
         assert "estimated" in str(way)
     assert [way.seconds for way in study.ways] == pytest.approx([0.001 * 12 * 41] * 5)
@@ -94,7 +90,7 @@ def test_where_balls_take_too_long_the_error_of_float64_is_stated(monkeypatch):
         return taken(study, name, digits, 100 if name == "float64" else 0)
 
     monkeypatch.setattr(module._Study, "_timed", slow_balls)
-    asked = scene(basic(6, 14))
+    asked = scene(basic())
     study = fd.cost(asked)
     assert [way.error_is for way in study.ways] == ["stated", *["estimated"] * 4]
     assert float(study.ways[0].error) == asked.run().accuracy.error_bound

@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.numeric.scenes import question
+from tests.numeric.scenes import listed_loads, question
 
 Bead = tuple[int, ...]
 
@@ -28,12 +28,10 @@ def below(loads: set[Bead], width: int | None) -> set[tuple[Any, ...]]:
 def asked(
     folder: Path, loads: set[Bead], width: int | None, height: int, quantity: str, **ask: Any
 ) -> fd.Scene:
-    lines = [f"{i},{j},0.01,-1" for i, j in loads]
+    rows: list[tuple[float, ...]] = [(*bead, 0.01, -1) for bead in loads]
     if width is None:
-        lines.append(f"{80 + height % 2},{height},0,0")  # no load
-    (folder / "loads.csv").write_text("\n".join(["i,j,fx,fy", *lines]) + "\n")
-    load = fd.Load(kind="file", file="loads.csv")
-    return question(quantity, height, width, load=load, folder=folder, **ask)
+        rows.append((80 + height % 2, height, 0, 0))  # no load
+    return question(quantity, height, width, load=listed_loads(folder, rows), **ask)
 
 
 def count(asked: fd.Scene) -> int:

@@ -129,13 +129,6 @@ def test_the_error_says_why_supports_do_not_hold_a_bead(dimension, how):
             fd.solve(odd, dimension=dimension, radius=1, spacing=3, **how)
 
 
-@pytest.mark.parametrize("angle", [90.5, -180])
-def test_a_load_that_pulls_upwards_is_refused(angle):
-    assert fd.SurfaceLoad(angle_deg=89).angle_deg == 89
-    with pytest.raises(fd.SceneError, match=r"angle_deg = .*must be from -90 to 90"):
-        fd.solve(np.ones((3, 4)), load=fd.SurfaceLoad(angle_deg=angle))
-
-
 @pytest.mark.parametrize("how", [{}, {"tolerance": "1e-20"}])
 @pytest.mark.parametrize("power", [-330, -130, 130, 330])
 @pytest.mark.parametrize("name", ["radii", "delta_r"])

@@ -11,7 +11,7 @@ from force_diffusion.numeric.lattice.layers import whole
 from force_diffusion.numeric.mechanics.sweep import deposit, sweep_down
 
 import force_diffusion as fd
-from tests.numeric.scenes import question
+from tests.numeric.scenes import listed_loads, question
 from tests.numeric.spheres import scene
 
 
@@ -160,21 +160,17 @@ def test_radii_of_ones_own_have_many_forms(tmp_path):
 )
 def test_what_is_wrong_in_a_list_of_radii_is_named(text, says, tmp_path):
     (tmp_path / "radii.csv").write_text(text)
-    asked = scene("profile", height=1, width=2).model_copy(
-        update={"disorder": fd.Disorder(kind="file", file="radii.csv"), "folder": tmp_path}
-    )
+    radii = fd.Disorder(kind="file", file="radii.csv")
     with pytest.raises(fd.ForceDiffusionError, match=says):
-        asked.run()
+        scene("profile", height=1, width=2, radii=radii, folder=tmp_path).run()
 
 
 @pytest.mark.parametrize("quantity", ["contact_forces", "profile", "histogram", "contact"])
 def test_a_file_without_loads_is_known_to_load_nothing(quantity, tmp_path):
     """As in two dimensions: certified zeros, and why."""
-    (tmp_path / "loads.csv").write_text("p,q,j,fx,fy,fz\n")
-    load = fd.Load(kind="file", file="loads.csv")
+    load = listed_loads(tmp_path, [], "p,q,j,fx,fy,fz")
     at = (1, 1, 1, "1") if quantity == "contact" else None
-    asked = scene(quantity, height=3, width=4, load=load, at=at)
-    outcome = asked.model_copy(update={"folder": tmp_path}).run()
+    outcome = scene(quantity, height=3, width=4, load=load, at=at).run()
     reasons = [*outcome.plan.skipped.values()]
     assert "no load reaches what is asked for: the forces are exactly zero" in reasons
     assert outcome.accuracy.certified
@@ -190,7 +186,5 @@ def test_no_theory_is_said_of_loads_at_an_angle():
 
 @pytest.mark.parametrize("magnitude", ["1e-250", "1e300"])
 def test_a_load_beyond_float64_is_answered_in_balls(magnitude, tmp_path):
-    (tmp_path / "loads.csv").write_text(f"p,q,j,fx,fy,fz\n1,2,2,0,{magnitude},0")
-    asked = scene("profile", load=fd.Load(kind="file", file="loads.csv"), height=2, width=3,
-                  std=1e-60)  # fmt: skip
-    assert asked.model_copy(update={"folder": tmp_path}).run().accuracy.certified
+    load = listed_loads(tmp_path, [(1, 2, 2, 0, magnitude, 0)], "p,q,j,fx,fy,fz")
+    assert scene("profile", load=load, std=1e-60).run().accuracy.certified

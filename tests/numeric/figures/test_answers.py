@@ -9,7 +9,7 @@ import pytest
 from force_diffusion.numeric import closed_forms
 
 import force_diffusion as fd
-from tests.numeric.scenes import question
+from tests.numeric.scenes import listed_loads, question
 
 pytest.importorskip("matplotlib")
 from force_diffusion.numeric.figures import beads as looks
@@ -42,9 +42,7 @@ def points(figure: Figure) -> list[tuple[np.ndarray[Any, Any], np.ndarray[Any, A
 
 def of_one_load(size: str, folder: Path) -> fd.Outcome:
     """An ordered packing, or to a tolerance: balls, which have no limits."""
-    table = folder / "loads.csv"
-    table.write_text(f"i,j,fx,fy\n0,6,0,-{size}\n4,6,0,-{size}\n", encoding="utf-8")
-    load = fd.Load(kind="file", file=str(table))
+    load = listed_loads(folder, [(i, M, 0, f"-{size}") for i in (0, 4)])
     return scene("contact_forces", std=0, load=load).run()
 
 

@@ -35,10 +35,6 @@ def few(module: Any) -> Made:
     return made
 
 
-def columns(made: Made, name: str) -> dict[str, list[Any]]:
-    return {key: list(column) for key, column in made.tables[name].items()}
-
-
 def test_figure_1_shows_beads_that_touch():
     table = notation.figure(Options(seed=4)).tables["figure1"]
     i, j, radius = (np.array(table[name]) for name in ("i", "j", "radius"))
@@ -71,27 +67,23 @@ def drawn(axes: Axes, label: str) -> tuple[Any, Any]:
 def test_what_figure_3_says_draws_and_writes_is_the_same():
     made = comparison.figure(Options((2, 3), 16, models=frozenset({"q-model"})))
     assert json.loads(json.dumps(made.facts)) == made.facts
-    assert [row["inside"] for row in made.facts["comparisons"]] == [
-        "inside" in s for s in made.lines
-    ]
+    inside = [row["inside"] for row in made.facts["comparisons"]]
+    assert inside == ["inside" in line for line in made.lines]
     assert set(made.tables) == {"figure3", "figure3_q_model"}
-    table = columns(made, "figure3")
+    table = {key: list(column) for key, column in made.tables["figure3"].items()}
     lines = csv_file(made.tables["figure3"], "a title", "a command").splitlines()
     assert lines[:2] == ["# a title", "# a command"]
     for name, column in table.items():
         assert [float(row[name]) for row in csv.DictReader(lines[2:])] == column
     assert table["z"][2:] == [0, 1 / 3, 2 / 3]
-    for low, middle, high in zip(
-        table["band_low"], table["simulated"], table["band_high"], strict=True
-    ):
-        assert low < middle < high
+    low, simulated, high = (np.array(table[n]) for n in ("band_low", "simulated", "band_high"))
+    assert ((low < simulated) & (simulated < high)).all()
     panels = {axes.get_title(loc="left"): axes for axes in made.figure.axes}
     z, y = drawn(panels["(a)"], "simulated, $M=3$")
     assert z == pytest.approx(table["z"][2:])
-    assert y == pytest.approx(1e4 * np.array(table["simulated"][2:]) / 3**1.5)
+    assert y == pytest.approx(1e4 * simulated[2:] / 3**1.5)
     ratio = panels["(b)"].containers[1].lines[0].get_ydata()
-    simulated, exact = (np.array(table[name][2:]) for name in ("simulated", "exact"))
-    assert ratio == pytest.approx(100 * (simulated / exact - 1))
+    assert ratio == pytest.approx(100 * (simulated[2:] / table["exact"][2:] - 1))
 
 
 @pytest.mark.parametrize("heights", [[], 5, "8", iter(()), [8, 8]])
@@ -193,19 +185,16 @@ def test_figures_of_another_spacing_and_disorder_are_those_of_its_theory():
 S = mean_forces.SPACINGS[0]
 
 
-def several(realisations: int) -> Options:
-    return Options(realisations=realisations)
-
-
-SIMULATED: dict[str, Callable[[], Comparison]] = {
-    "3": lambda: comparison.simulated(6, several(300)),
-    "B2": lambda: directions.simulated(several(60)),
-    "B5": lambda: mean_forces.simulated(several(400), "surface", S),
-    "B6": lambda: mean_forces.simulated(several(400), "bulk", S),
-    "B7": lambda: neighbours.simulated(several(200)),
-    "B9": lambda: mean_response.simulated(several(6000), mean_response.SPACINGS[0]),
-    "B13": lambda: spheres.simulated(several(40), 0),
+SIMULATED: dict[str, tuple[int, Callable[[Options], Comparison]]] = {
+    "3": (300, lambda few: comparison.simulated(6, few)),
+    "B2": (60, directions.simulated),
+    "B5": (400, lambda few: mean_forces.simulated(few, "surface", S)),
+    "B6": (400, lambda few: mean_forces.simulated(few, "bulk", S)),
+    "B7": (200, neighbours.simulated),
+    "B9": (6000, lambda few: mean_response.simulated(few, mean_response.SPACINGS[0])),
+    "B13": (40, lambda few: spheres.simulated(few, 0)),
 }
+"""How many packings, and the simulation."""
 WRONG: dict[str, Callable[[Any], Any]] = {
     "3": lambda _: comparison.curves(6)[1],  # as printed: at this height far off
     "B2": lambda theory: np.roll(theory, len(directions.ANGLES)),  # the branches exchanged
@@ -219,7 +208,8 @@ WRONG: dict[str, Callable[[Any], Any]] = {
 
 @pytest.mark.parametrize("name", SIMULATED)
 def test_theory_is_within_the_band_and_a_wrong_one_outside(name):
-    compared = SIMULATED[name]()
+    packings, simulated = SIMULATED[name]
+    compared = simulated(Options(realisations=packings))
     wrong = WRONG[name](compared.theory)
     assert compared.deviation <= 1
     assert compared.band.deviation(wrong) > 1
@@ -238,7 +228,7 @@ def test_theory_is_within_the_band_and_a_wrong_one_outside(name):
 )
 def test_points_with_bars_are_the_rows_of_the_table(module, name, rows):
     made = few(module)
-    table = {key: np.array(column) for key, column in columns(made, name).items()}
+    table = {key: np.array(column) for key, column in made.tables[name].items()}
     assert {len(column) for column in table.values()} == {rows}
     written = np.array([table[key] for key in ("band_low", "simulated", "band_high")])
     start = 0
@@ -258,11 +248,9 @@ def test_figure_b13_has_the_leading_orders_of_the_exact_forms():
         ("surface", closed_forms.surface_variance_of_spheres),
         ("bulk", closed_forms.bulk_variance_of_spheres),
     ):
-        at_large = [
-            math.sqrt(form(M, int(at * M), M - int(at * M), float(spheres.PHI)) / M**3) * PAPER_STD
-            for at in z
-        ]
-        assert spheres.leading(load, z) == pytest.approx(at_large, rel=1e-5)
+        layers = [int(at * M) for at in z]
+        exact = np.array([form(M, j, M - j, float(spheres.PHI)) for j in layers]) / M**3
+        assert spheres.leading(load, z) == pytest.approx(PAPER_STD * np.sqrt(exact), rel=1e-5)
 
 
 def laid_out(made: Made) -> list[Axes]:

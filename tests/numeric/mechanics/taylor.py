@@ -45,18 +45,11 @@ class Series(NumberSystem):
 
     order: int
 
-    @property
-    def name(self) -> str:  # type: ignore[override]
-        """Such as ``rational series to order 2``."""
-        return f"rational series to order {self.order}"
+    name = "rational series"
 
     def number(self, value: Fraction) -> Any:
         """Give a plain rational: NumPy would take a series for a sequence of numbers."""
         return exact(value)
-
-    def from_float(self, value: float) -> Any:
-        """Give the constant series."""
-        return self.number(Fraction(value))
 
     def zeros(self, *shape: int) -> Any:
         """Give constant series."""
@@ -68,7 +61,11 @@ class Series(NumberSystem):
 
     def root(self, value: Fraction) -> Any:
         """Give the rational root; ``ValueError`` where there is none."""
-        return _rational_root(exact(value))
+        square = exact(value)
+        root = flint.fmpq(math.isqrt(int(square.p)), math.isqrt(int(square.q)))
+        if root * root != square:
+            raise ValueError(f"the square root of {value} is no rational number")
+        return root
 
     def signs(self, values: Array) -> tuple[Array, Array]:
         """Look at the constant term: the sign for small enough ε."""
@@ -83,13 +80,6 @@ class Series(NumberSystem):
             yield
         finally:
             flint.ctx.cap = before
-
-
-def _rational_root(value: Any) -> Any:
-    root = flint.fmpq(math.isqrt(int(value.p)), math.isqrt(int(value.q)))
-    if root * root != value:
-        raise ValueError(f"the square root of {value} is no rational number")
-    return root
 
 
 @dataclass(frozen=True)

@@ -19,14 +19,10 @@ from tests.numeric.scenes import answer, basic
 @pytest.mark.parametrize("wrong", [math.nan, math.inf, -math.inf, -1.0, -1.5])
 @pytest.mark.parametrize("layer", [0, 1, 2])
 def test_a_radius_that_is_none_names_the_bead(wrong, layer):
-    region = whole(4, 2)
-    rho = np.zeros((1, 12))
+    rho, bead = np.zeros((1, 12)), rf"\({4 + layer % 2}, {layer}\)"
     rho[0, 4 * layer + 2] = wrong
-    with (
-        FLOAT64.active(),
-        pytest.raises(sweep.UnbuildableError, match=rf"\({4 + layer % 2}, {layer}\)"),
-    ):
-        sweep.deposit(Fraction(-1, 8), region, rho, FLOAT64)
+    with FLOAT64.active(), pytest.raises(sweep.UnbuildableError, match=bead):
+        sweep.deposit(Fraction(-1, 8), whole(4, 2), rho, FLOAT64)
 
 
 # Radii
@@ -79,8 +75,7 @@ def test_critical_height_far_outside_of_floats():
 
 
 def test_tolerances_below_the_smallest_float():
-    sections = basic(4, None, quantity="contact", at=[0, 0, "+"], tolerance="=1e-400")
-    outcome = answer(sections)
+    outcome = answer(basic(4, None, quantity="contact", at=[0, 0, "+"], tolerance="=1e-400"))
     assert outcome.accuracy.arithmetic.startswith("arb balls, 13")
     bound = outcome.data()["accuracy"]["error_bound"]
     assert isinstance(bound, str)

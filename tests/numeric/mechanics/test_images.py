@@ -16,7 +16,7 @@ from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import force_diffusion as fd
-from tests.numeric.scenes import basic, planned, question, radii_read
+from tests.numeric.scenes import basic, listed_loads, planned, question, radii_read
 
 
 @dataclass(frozen=True)
@@ -30,13 +30,10 @@ class SiteRadii:
     def relative_std(self) -> Fraction:
         return Fraction(1, 1000)
 
-    def at(self, sites: Sequence[tuple[int, int]], realisation: int, system: NumberSystem) -> Array:
-        values = [self.special.get(s, _rule(s[0] % self.period, s[1])) for s in sites]
-        return system.array(values)
-
     def of(self, rows: Rows, realisations: Sequence[int], system: NumberSystem) -> Array:
-        i, j = (column.tolist() for column in rows.sites)
-        return self.at(list(zip(i, j, strict=True)), 0, system)[None]
+        sites = zip(*(column.tolist() for column in rows.sites), strict=True)
+        values = [self.special.get((i, j), _rule(i % self.period, j)) for i, j in sites]
+        return system.array(values)[None]
 
 
 def _rule(i: int, j: int) -> Fraction:
@@ -47,23 +44,20 @@ def slab_differs(sections: dict[str, dict[str, Any]], width: int, folder: Path =
     """Solve in the slab with other radii wherever a bead is an image of another that is read."""
     packing = {k: v for k, v in sections["packing"].items() if k not in {"width", "allow_images"}}
     slab = planned({**sections, "packing": packing}, folder)
-    strip = planned(sections, folder)
     special, met = {}, set()
     for i, j in radii_read(slab)[1]:
         home = (i % (2 * width), j)
         if home in met and (i, j) not in special:
             special[i, j] = _rule(*home) + Fraction(i - home[0] + 1, 7_000_000)
         met.add(home)
-    return _changes(strip, SiteRadii({}, 2 * width)) != _changes(
-        slab, SiteRadii(special, 2 * width)
-    )
+    usual = _changes(planned(sections, folder), SiteRadii({}, 2 * width))
+    return usual != _changes(slab, SiteRadii(special, 2 * width))
 
 
 def _changes(plan: Plan, radii: SiteRadii) -> list[str]:
     if isinstance(plan.problem.radii, DrawnRadii):
         plan = replace(plan, problem=replace(plan.problem, radii=radii))
-    drop = {"i"}
-    return [str({k: v for k, v in row.items() if k not in drop}) for row in run(plan).decimals()]
+    return [str({k: v for k, v in row.items() if k != "i"}) for row in run(plan).decimals()]
 
 
 def strip(height: int, width: int, geometry: str, at: list[Any]) -> dict[str, dict[str, Any]]:
@@ -135,18 +129,12 @@ def test_many_contacts_see_images_where_any_one_does(
 
 def test_what_is_seen_does_not_depend_on_how_a_load_is_written(tmp_path):
     for width, geometry in product((3, 5, 6, 7, 10), ("exact", "first-order")):
-        at = [6 % (2 * width), 6]
-        (tmp_path / "loads.csv").write_text(f"i,j,fx,fy\n{at[0]},6,0,-1\n")
-        for load in (fd.Load(kind="file", file="loads.csv"), fd.PointLoad(at=at)):
-            effects = {"geometry": geometry}
-            asked = question(
-                "contact_forces", 6, width, load=load, effects=effects, folder=tmp_path
-            )
+        at, effects = (6 % (2 * width), 6), {"geometry": geometry}
+        for load in (listed_loads(tmp_path, [(*at, 0, -1)]), fd.PointLoad(at=at)):
+            asked = question("contact_forces", 6, width, load=load, effects=effects)
             assert asked.explain().sees_images == (width <= 6)
 
 
 def test_loads_far_apart_do_not_see_the_beads_between_them(tmp_path):
-    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n0,2,0,-1\n10,2,0,-1\n")
-    sections = basic(2, 8, quantity="contact_forces")
-    sections["load"] = {"kind": "file", "file": "loads.csv"}
-    assert not planned(sections, tmp_path).sees_images
+    load = listed_loads(tmp_path, [(0, 2, 0, -1), (10, 2, 0, -1)])
+    assert not question("contact_forces", 2, 8, load=load).explain().sees_images

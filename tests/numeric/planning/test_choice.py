@@ -55,9 +55,8 @@ def assert_kept(outcome: Outcome, true: Outcome, tolerance: Fraction) -> None:
     assert outcome.accuracy.error_bound <= tolerance
     assert true.accuracy.certified
     if outcome.plan.scene.ask.quantity == "histogram":
-        assert recounted(outcome.decimals(), true.plan) == [
-            row["count"] for row in outcome.decimals()
-        ]
+        bins = outcome.decimals()
+        assert recounted(bins, true.plan) == [row["count"] for row in bins]
         return
     largest = max((abs(Fraction(v)) for _, v in numbers(true, True)), default=0)
     rows = zip(numbers(outcome, True), numbers(true, True), strict=True)

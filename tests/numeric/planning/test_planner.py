@@ -1,7 +1,6 @@
 """Only what is called for: tests on the work that was executed, and on what it depends on."""
 
 import sys
-from typing import Any
 
 import pytest
 from force_diffusion.numeric.planning.memory import float_bead
@@ -9,7 +8,7 @@ from force_diffusion.numeric.run.running import run
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.numeric.scenes import basic, planned, radii_read
+from tests.numeric.scenes import basic, listed_loads, planned, question, radii_read
 
 contacts = st.integers(1, 12).flatmap(
     lambda M: st.tuples(
@@ -58,9 +57,8 @@ def test_without_disorder_nothing_is_swept():
 
 
 def test_without_a_load_nothing_is_swept(tmp_path):
-    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n4,4,0,0\n")
-    sections = basic() | {"load": {"kind": "file", "file": "loads.csv"}}
-    plan = planned(sections, tmp_path)
+    load = listed_loads(tmp_path, [(4, 4, 0, 0)])
+    plan = question("contact_forces", 6, 14, load=load).explain()
     assert [*plan.skipped] == ["disorder"]
     assert plan.beads == 0
     assert all(force == 0 for force in run(plan).arrays["force"])
@@ -76,19 +74,13 @@ def test_a_point_load_stays_in_its_cone():
     assert solved.block.shape[-1] == 8 * 9 // 2
 
 
-def scene_of(geometry: str, quantity: str, realisations: int) -> dict[str, dict[str, Any]]:
-    sections = basic(quantity=quantity, realisations=realisations)
-    sections["effects"] = {"geometry": geometry}
-    if quantity == "contact":
-        sections["ask"]["at"] = [2, 2, "+"]
-    return sections
-
-
 @pytest.mark.parametrize("realisations", [1, 3, 7])
 @pytest.mark.parametrize("quantity", ["contact", "contact_forces", "positions", "profile"])
 @pytest.mark.parametrize("geometry", ["exact", "first-order"])
 def test_the_plan_is_what_runs(geometry, quantity, realisations):
-    plan = planned(scene_of(geometry, quantity, realisations))
+    at = {"at": [2, 2, "+"]} if quantity == "contact" else {}
+    sections = basic(quantity=quantity, realisations=realisations, **at)
+    plan = planned(sections | {"effects": {"geometry": geometry}})
     seen: list[int] = []
     kinds = {"deposited", "summed"}
     outcome = run(plan, progress=lambda kind, beads: seen.append(beads * (kind in kinds)))

@@ -12,7 +12,7 @@ from force_diffusion.numeric.scene.files import TableError
 from force_diffusion.numeric.scene.sections import SceneError
 
 import force_diffusion as fd
-from tests.numeric.scenes import answer, basic, parse_scene, planned, scene
+from tests.numeric.scenes import answer, basic, listed_loads, parse_scene, planned, question, scene
 
 CONTACT, HISTOGRAM = {"quantity": "contact"}, {"quantity": "histogram"}
 SPHERES: dict[str, Any] = {"dimension": 3}
@@ -33,7 +33,8 @@ WRONG: list[tuple[Sections, str]] = [
     ({"disorder": {"seed": 2**64}}, "less than"),
     ({"disorder": {"file": "radii.csv"}}, 'needs kind = "file"'),
     ({"load": {"magnitude": 0}}, "greater than 0"),
-    ({"load": {"angle_deg": 181}}, "from -90 to 90"),
+    ({"load": {"angle_deg": "=90.5"}}, "from -90 to 90"),
+    ({"load": {"angle_deg": -180}}, "from -90 to 90"),
     ({"load": {"at": "+"}}, "a bead, [i, j]"),
     ({"effects": {"most_programs": 0}}, "at least 1"),
     ({"effects": {"most_seconds": "=1.50"}}, 'contacts = "unilateral"'),
@@ -83,10 +84,7 @@ def test_missing_sections_and_keys():
         ("[packing]\nheight = 3\n", r"section \[ask\] is required"),
         ("[packing]\n[ask]\nquantity = 'contact'\n", "packing.height is required"),
         ("[packing]\nheight = 3\n[disorder]\n[ask]\nquantity = 'contact'\n", "required: uniform, "),
-        (
-            "[packing]\nheight = 3\n[ask]\nquantity = ['contact', 'positions']",
-            "ask.at: is required",
-        ),
+        ("[packing]\nheight = 3\n[ask]\nquantity = ['contact', 'profile']", "ask.at: is required"),
         ("[packing]\nhieght = 3\n[ask]\nquantity = 'profile'", 'hieght: .* mean "height"'),
         ("packing = 3\n", "must be a section"),
         ("[packing\n", "is not a scene, which is a TOML file"),
@@ -147,9 +145,8 @@ def test_what_float64_cannot_hold_is_answered_in_balls(tmp_path):
         json.dumps(outcome.data(), allow_nan=False)
         if quantity == "profile":
             assert all("e-" in row["first_order_std"] for row in outcome.decimals())
-    (tmp_path / "loads.csv").write_text("i,j,fx,fy\n1,3,0,-1e-400\n")
-    sections = basic(3, 8) | {"load": {"kind": "file", "file": "loads.csv"}}
-    assert answer(sections, tmp_path).accuracy.certified
+    load = listed_loads(tmp_path, [(1, 3, 0, "-1e-400")])
+    assert question("contact_forces", 3, 8, load=load).run().accuracy.certified
 
 
 def test_bins_far_below_the_smallest_float():
@@ -158,13 +155,6 @@ def test_bins_far_below_the_smallest_float():
     rows = answer(sections).decimals()
     assert all(Fraction(row["low"]) < Fraction(row["high"]) for row in rows)
     assert sum(row["count"] for row in rows) == 2 * 3 * 8
-
-
-def radii_file(folder: Path, text: str) -> dict[str, dict[str, Any]]:
-    (folder / "radii.csv").write_bytes(text.encode("utf-8", "surrogateescape"))
-    sections = basic(1, 2)
-    sections["disorder"] = {"kind": "file", "file": "radii.csv"}
-    return sections
 
 
 GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
@@ -185,7 +175,8 @@ GOOD = ["0,0,0.01", "2,0,-0.02", "1,1,1e-3", "3,1,0"]
     ],
 )
 def test_radii_files_name_the_line_and_the_bead(tmp_path, lines, says):
-    sections = radii_file(tmp_path, "\n".join(["i,j,delta_r", *lines, ""]))
+    (tmp_path / "radii.csv").write_text("\n".join(["i,j,delta_r", *lines, ""]))
+    sections = basic(1, 2) | {"disorder": {"kind": "file", "file": "radii.csv"}}
     with pytest.raises(TableError, match=says):
         planned(sections, tmp_path)
 
@@ -201,10 +192,8 @@ def test_endless_files_are_refused_at_once(tmp_path):
             with pytest.raises(TableError, match=rf"{section}\.file.*regular file"):
                 planned(sections)
     large = tmp_path / "large"
-    for content, says in (
-        (b"#" * 16_001, "at most 16000 bytes"),
-        (b"a.b = '" + 300 * b".", "is not a scene"),
-    ):
-        large.write_bytes(content)
+    long, deep = "#" * 16_001, "a.b = '" + 300 * "."
+    for content, says in ((long, "at most 16000 bytes"), (deep, "is not a scene")):
+        large.write_text(content)
         with pytest.raises(SceneError, match=says):
             read_scene(large)

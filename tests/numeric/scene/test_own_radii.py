@@ -92,8 +92,9 @@ def image(
     folder: Path,
     rotation: float = 4.0,
     delimiter: str = ",",
-    without: int | None = None,
-    shift: float = 0.0,
+    *,
+    without: int = -1,
+    shift: float = 0,
 ) -> Path:
     """Write the beads in any order, as an image has them: y points down."""
     beads = fd.solve(RADII, spacing=SPACING).beads
@@ -169,10 +170,8 @@ def test_what_is_no_packing_is_refused(tmp_path):
 @pytest.mark.parametrize("header", ["r;j;note;i", "radius\tj\tnote\ti"])
 def test_columns_of_radii_files_may_have_any_order(header, tmp_path):
     delimiter = ";" if ";" in header else "\t"
-    lines = [header]
-    for j in range(4):
-        for q in range(6):
-            lines.append(delimiter.join((str(RADII[j, q]), str(j), "fine", str(2 * q + j % 2))))
+    rows = [(r, j, "fine", 2 * q + j % 2) for (j, q), r in np.ndenumerate(RADII[:4, :6])]
+    lines = [header, *(delimiter.join(map(str, row)) for row in rows)]
     (tmp_path / "radii.csv").write_text("\n".join(lines) + "\n")
     radii = fd.Disorder(kind="file", file="radii.csv")
     scene = question("contact_forces", 3, 6, radius=2.5, spacing=7.5, radii=radii, folder=tmp_path)

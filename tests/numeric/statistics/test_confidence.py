@@ -20,11 +20,12 @@ from tests.numeric.scenes import question
     ("wrong", "freedom", "quantile"),
     [
         # P(|T| > t) in closed form: 1 − 2 atan(t)/π for one degree of freedom,
-        # 1 − t/√(2 + t²) for two
+        # 1 − t/√(2 + t²) for two; of many it becomes normal
         (0.5, 1, 1.0),
         (0.1, 1, math.tan(0.45 * math.pi)),
         (0.01, 2, 0.99 * math.sqrt(2 / (1 - 0.99**2))),
         (1e-9, 2, (1 - 1e-9) * math.sqrt(2 / (1 - (1 - 1e-9) ** 2))),
+        (0.31731050786291404, 10**8 - 1, 1.0),
     ],
 )
 def test_student(wrong, freedom, quantile):
@@ -32,9 +33,7 @@ def test_student(wrong, freedom, quantile):
     assert math.log1p(width) == pytest.approx(1e-6 * quantile, rel=1e-6)
 
 
-def test_student_becomes_normal_and_needs_two():
-    width = half_width([1.0], 10**8, 1 - 0.31731050786291404, 0)
-    assert width == pytest.approx(math.e - 1, rel=1e-6)
+def test_one_packing_tells_nothing_and_of_no_group_all_is_known():
     assert half_width([1.0], 1, 0.95, 0) == math.inf
     assert half_width([], 1, 0.95, 0) == 0
 

@@ -13,6 +13,7 @@ from force_diffusion.numeric.unilateral.grains import Grains
 from force_diffusion.numeric.unilateral.network import Network, UnfinishedError
 
 import force_diffusion as fd
+from tests.numeric.scenes import listed_loads
 from tests.numeric.unilateral.packings import must_hold, network_of, packing_of, strip
 
 
@@ -33,10 +34,8 @@ def at_rest(outcome: fd.Outcome, *, moved: bool = True) -> Network:
 
 def pressed(folder: Path, pressure: float, first: float) -> fd.Scene:
     """Give a strip whose surface bears a pressure, but its first bead this instead."""
-    rows = [f"{i},8,0,{-pressure if i else -first}" for i in range(0, 32, 2)]
-    (folder / "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows, ""]))
-    load = fd.Load(kind="file", file="loads.csv")
-    return strip(load=load).model_copy(update={"folder": folder})
+    rows = [(i, 8, 0, -pressure if i else -first) for i in range(0, 32, 2)]
+    return strip(load=listed_loads(folder, rows))
 
 
 def own(deviations: dict[tuple[int, int], float], width: int = 5, spacing: float = 3) -> fd.Scene:
@@ -71,16 +70,14 @@ def test_positions_are_those_of_the_network(relaxed):
 
 @pytest.mark.parametrize("seed", [0, 2])
 def test_without_tension_forces_are_as_deposited(seed):
-    unilateral = strip(seed=seed, tolerance=Fraction(1, 10**20)).run()
-    bilateral = strip(
-        seed=seed, contacts="bilateral", tolerance=Fraction(1, 10**20), certified=True
-    ).run()
+    usual: dict[str, Any] = {"seed": seed, "tolerance": Fraction(1, 10**20)}
+    unilateral = strip(**usual).run()
+    bilateral = strip(contacts="bilateral", certified=True, **usual).run()
     assert network_of(unilateral).programs == 0
     rows = {(row["i"], row["j"], row["branch"]): row for row in bilateral.decimals()}
     for row in unilateral.decimals():
         other = rows[row["i"], row["j"], row["branch"]]
-        apart = abs(Fraction(row["force"]) - Fraction(other["force"]))
-        assert apart < Fraction(1, 10**19)
+        assert abs(Fraction(row["force"]) - Fraction(other["force"])) < Fraction(1, 10**19)
 
 
 @pytest.mark.parametrize(
@@ -223,12 +220,8 @@ def test_a_radius_that_is_not_positive_is_named_before_beads_that_find_no_rest()
 
 
 def test_a_load_that_lifts_beads_off_is_never_an_answer(tmp_path):
-    scene = strip(load=fd.Load(kind="file", file="loads.csv"))
-    M, W = scene.packing.height, scene.packing.width or 0
-    rows = [f"{i},{M},0,1" for i in range(M % 2, 2 * W, 2)]
-    (tmp_path / "loads.csv").write_text("\n".join(["i,j,fx,fy", *rows]))
     with pytest.raises((UnfinishedError, ToleranceError)):
-        scene.model_copy(update={"folder": tmp_path}).run()
+        pressed(tmp_path, -1, -1).run()
 
 
 def test_what_is_not_proved_is_no_answer(monkeypatch):
@@ -246,9 +239,8 @@ def test_what_is_not_proved_is_no_answer(monkeypatch):
 
 def test_a_solver_that_is_not_installed_is_asked_for(monkeypatch):
     monkeypatch.setitem(sys.modules, "highspy", None)
-    with pytest.raises(
-        fd.ForceDiffusionError, match=r"highspy: pip install .force-diffusion\[unilateral\]"
-    ):
+    says = r"highspy: pip install .force-diffusion\[unilateral\]"
+    with pytest.raises(fd.ForceDiffusionError, match=says):
         strip().run()
 
 
