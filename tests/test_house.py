@@ -24,7 +24,7 @@ LIMITS = {
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 13_184,
+    "tests": 12_985,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
