@@ -11,16 +11,14 @@ import pytest
 PROGRAM = Path(sys.executable).parent / "force-diffusion"
 
 
-def called(
-    shell: str, line: str, folder: Path, **variables: str
-) -> subprocess.CompletedProcess[str]:
+def called(shell: str, line: str, folder: Path, **more: str) -> subprocess.CompletedProcess[str]:
     """Run a line in a shell that has the name of another one, by which the program knows it."""
     program = folder / shell
     program.symlink_to(shutil.which("bash") or "/bin/bash")
     path = f"{PROGRAM.parent}{os.pathsep}{os.environ['PATH']}"
     usual = {"HOME": str(folder), "TERM": "xterm", "LANG": "C.UTF-8", "COLUMNS": "200"}
     return subprocess.run(
-        [program, "-c", line], env={"PATH": path, **usual, **variables},
+        [program, "-c", line], env={"PATH": path, **usual, **more},
         capture_output=True, text=True, check=False, timeout=600,
     )  # fmt: skip
 

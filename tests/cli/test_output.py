@@ -166,9 +166,7 @@ def test_a_killed_write_loses_nothing_and_the_next_one_says_where_it_is():
 def test_the_second_of_two_writers_puts_its_results_beside_the_folder():
     first, second = (Output(Path("out"), NAMES, False) for _ in range(2))
     first.write(OLD)
-    with pytest.raises(
-        OutputError, match=r"exists already\. .* The results are in '(.*)'"
-    ) as raised:
+    with pytest.raises(OutputError, match=r"exists already\. .* The results are in '.*'") as raised:
         second.write(NEW)
     assert contents("out") == OLD
     assert contents(str(raised.value).split("'")[-2]) == NEW

@@ -76,13 +76,10 @@ def basic(height: int = 6, width: int | None = 14, **ask: Any) -> dict[str, dict
     }
 
 
-def listed_loads(
-    folder: Path, loads: Iterable[Sequence[object]], columns: str = "i,j,fx,fy"
-) -> fd.Load:
+def listed_loads(folder: Path, rows: Iterable[Sequence[Any]], names: str = "i,j,fx,fy") -> fd.Load:
     """Write a file of loads, and give the load that it is."""
-    rows = [",".join(map(str, load)) for load in loads]
     path = folder / "loads.csv"
-    path.write_text("\n".join([columns, *rows, ""]))
+    path.write_text("\n".join([names, *(",".join(map(str, row)) for row in rows), ""]))
     return fd.Load(kind="file", file=str(path))
 
 

@@ -35,9 +35,7 @@ def test_rows_are_those_of_the_libraries(rows):
     written = {
         "i": tables.text_of(np.array(columns["i"], dtype=np.int64)),
         "branch": columns["branch"],
-        "force": tables.significant(
-            np.array(columns["force"], dtype=float), np.full(len(rows), 17)
-        ),
+        "force": tables.significant(np.array(columns["force"], float), np.full(len(rows), 17)),
     }
     file = csv.DictReader(io.StringIO(tables.csv_bytes(written).decode()))
     read = list(file)

@@ -82,7 +82,7 @@ def test_the_command_gives_the_same(local, forty, call):
     assert call(*forty, "--scheduler", local.scheduler_address)[:2] == call(*forty)[:2]
 
 
-def test_a_scheduler_that_is_missing_or_has_no_workers(forty, monkeypatch, call):
+def test_a_scheduler_that_is_missing_or_has_no_workers(forty, monkeypatch, refused):
     import distributed
 
     monkeypatch.setattr(command, "PATIENCE", 1)
@@ -92,5 +92,4 @@ def test_a_scheduler_that_is_missing_or_has_no_workers(forty, monkeypatch, call)
             ("nonsense://x", "no Dask scheduler answers"),
             (empty.scheduler_address, "give the cluster workers"),
         ):
-            status, _, stderr = call(*forty, "--scheduler", address)
-            assert (status, says in stderr) == (3, True)
+            assert says in refused(*forty, "--scheduler", address, status=3)

@@ -111,9 +111,7 @@ def test_the_widest_strip_is_looked_at_where_its_load_is():
     st.sampled_from(["exact", "first-order", "ordered"]),
     st.sampled_from(["contact_forces", "profile"]), st.sampled_from(["surface", "bulk", "point"]),
 )  # fmt: skip
-def test_many_contacts_see_images_where_any_one_does(
-    width, height, layer, geometry, quantity, load
-):
+def test_many_contacts_see_images_where_one_does(width, height, layer, geometry, quantity, load):
     layer = min(layer, height)
     sections = basic(height, width, quantity=quantity)
     sections["packing"]["allow_images"] = True

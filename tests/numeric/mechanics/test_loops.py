@@ -139,9 +139,7 @@ def test_what_was_compiled_is_taken_from_disk(tmp_path, monkeypatch):
     st.lists(st.tuples(st.integers(-40, 40), st.integers(0, 40)), min_size=1, max_size=4),
     st.none() | st.integers(40, 50),
 )
-def test_every_bit_of_a_drawn_radius_is_that_of_the_numpy_draw(
-    kind, seed, realisations, rows, width
-):
+def test_every_bit_of_a_drawn_radius_is_that_of_numpys(kind, seed, realisations, rows, width):
     source = DrawnRadii(kind, Fraction(1, 10**6), seed, width)
     layers = Rows([2 * i + j % 2 for j, (i, _) in enumerate(rows)], [n for _, n in rows])
     values = source.of(layers, realisations, FLOAT64)

@@ -89,12 +89,7 @@ RADII = 2.5 + 0.01 * np.random.default_rng(3).standard_normal((9, 14))
 
 
 def image(
-    folder: Path,
-    rotation: float = 4.0,
-    delimiter: str = ",",
-    *,
-    without: int = -1,
-    shift: float = 0,
+    folder: Path, rotation: float = 4.0, delimiter: str = ",", without: int = -1, shift: float = 0.0
 ) -> Path:
     """Write the beads in any order, as an image has them: y points down."""
     beads = fd.solve(RADII, spacing=SPACING).beads

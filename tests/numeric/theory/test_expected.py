@@ -59,10 +59,8 @@ def test_the_number_is_the_fraction_times_the_contacts(load, height):
 def test_the_height_of_one_is_where_the_number_passes_one(load):
     height = expected_tension(4, W, PHI, 0.0055, load).height_of_one
     assert height is not None
-    below, there = (
-        expected_tension(h, W, PHI, 0.0055, load).contacts for h in (height - 1, height)
-    )
-    assert below < 1 <= there
+    below, here = (expected_tension(h, W, PHI, 0.0055, load).contacts for h in (height - 1, height))
+    assert below < 1 <= here
     assert expected_tension(4, W, PHI, 1e-30, load).height_of_one is None
 
 
