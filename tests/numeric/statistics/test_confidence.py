@@ -29,8 +29,8 @@ from tests.numeric.scenes import question
     ],
 )
 def test_student(wrong, freedom, quantile):
-    width = half_width([1e-6], freedom + 1, 1 - wrong, 0)
-    assert math.log1p(width) == pytest.approx(1e-6 * quantile, rel=1e-6)
+    width = half_width([0.01], freedom + 1, 1 - wrong, 0)
+    assert math.log1p(width) == pytest.approx(0.01 * quantile, rel=1e-6)
 
 
 def test_one_packing_tells_nothing_and_of_no_group_all_is_known():
