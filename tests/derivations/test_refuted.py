@@ -25,11 +25,9 @@ def test_the_printed_statement_for_one_contact_is_refuted_and_no_failure():
 
 def test_what_holds_for_one_contact_is_not_refuted():
     proof = Steps(16, eq16.CONE, eq16.MEANING)
-    (of_contact,) = (
-        claim.formula.rhs
-        for claim in load(16).proof.claims
-        if claim.reason.startswith("to leading order")
-    )
+    claims = {claim.reason: claim.formula for claim in load(16).proof.claims}
+    (words,) = (reason for reason in claims if reason.startswith("to leading order"))
+    of_contact = claims[words].rhs
     rule = asymptotic(*eq16.in_radii())
     for rhs in (of_contact, of_contact * (1 + 1 / sy.l)):
         with pytest.raises(NotProvedError, match="was to be refuted"):

@@ -140,14 +140,7 @@ def packings(
     width = draw(st.integers(l if cone else 1, height + 1))
     k = 2 * draw(st.integers(-width, width)) + l % 2
     beads = width * (height + 1)
-    return Drawn(
-        draw(cosines),
-        width,
-        height,
-        draw(lengths),
-        tuple(draw(st.lists(st.integers(-9, 9), min_size=beads, max_size=beads))),
-        load,
-        draw(lengths),
-        (k, l),
-        draw(lengths) if load == "leaning" else Fraction(1),
-    )
+    cosine, r = draw(geometries)
+    rho = tuple(draw(st.lists(st.integers(-9, 9), min_size=beads, max_size=beads)))
+    weight, t = draw(lengths), draw(lengths) if load == "leaning" else Fraction(1)
+    return Drawn(cosine, width, height, r, rho, load, weight, (k, l), t)

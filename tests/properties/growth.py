@@ -40,9 +40,8 @@ class Newton:
         }
 
     def __call__(self, u: int, v: int) -> Number:
-        return sum(
-            comb(u, p) * comb(v, q) * difference for (p, q), difference in self.differences.items()
-        )
+        terms = self.differences.items()
+        return sum(comb(u, p) * comb(v, q) * difference for (p, q), difference in terms)
 
 
 def variance(geometry: Geometry, load: str, height: int, layer: int) -> Number:
@@ -53,13 +52,8 @@ def variance(geometry: Geometry, load: str, height: int, layer: int) -> Number:
 
 @lru_cache(maxsize=64)
 def _small(geometry: Geometry, load: str) -> Newton:
-    return Newton(
-        {
-            (u, v): (u + 2) * variance(geometry, load, 4 + u + v, 2 + v)
-            for u in range(5)
-            for v in range(5 - u)
-        }
-    )
+    places = [(u, v) for u in range(5) for v in range(5 - u)]
+    return Newton({(u, v): (u + 2) * variance(geometry, load, 4 + u + v, 2 + v) for u, v in places})
 
 
 def tall_variance(geometry: Geometry, load: str, height: int, layer: int) -> Number:
@@ -83,9 +77,8 @@ def _rounded(geometry: Geometry, load: str) -> Newton:
 def mean_variance(geometry: Geometry, load: str, height: int) -> float:
     """The mean over the layers 2 ≤ j ≤ M − 2, in floats; the three others are a share 3/M of it."""
     small, inner = _rounded(geometry, load), range(2, height - 1)
-    return sum(small(height - layer - 2, layer - 2) / (height - layer) for layer in inner) / len(
-        inner
-    )
+    total = sum(small(height - layer - 2, layer - 2) / (height - layer) for layer in inner)
+    return total / len(inner)
 
 
 def response(geometry: Geometry, level: int, layer: int, across: int) -> Number:

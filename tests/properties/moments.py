@@ -65,12 +65,8 @@ class Slab:
         symbols = (sy.t,) if len(others) == 1 else (sy.t_2, sy.t_3)
         ratios = (other / first for other in others)
         vertical = 2 * rise * first
-        return {
-            sy.f_load: vertical,
-            sy.m_g: vertical,
-            sy.L_plus: first,
-            **dict(zip(symbols, ratios, strict=True)),
-        }
+        given = {sy.f_load: vertical, sy.m_g: vertical, sy.L_plus: first}
+        return given | dict(zip(symbols, ratios, strict=True))
 
 
 @lru_cache(maxsize=512)  # all loads see the same packings
@@ -124,10 +120,8 @@ def moment(slab: Slab, statistic: sympy.Expr, at: At) -> Number:
     for layer, origin in product(range(slab.height + 1), slab.origins):
         if not carries(slab, at, layer, origin):
             continue
-        larger, smaller = (
-            [read(slab, arg, at, layer, by, origin) for arg in statistic.args]
-            for by in (step, -step)
-        )
+        larger = [read(slab, arg, at, layer, step, origin) for arg in statistic.args]
+        smaller = [read(slab, arg, at, layer, -step, origin) for arg in statistic.args]
         if isinstance(statistic, sy.Shift):
             total += (larger[0] + smaller[0] - 2 * ordered[0]) / step**2 / 2
         else:

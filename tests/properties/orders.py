@@ -39,18 +39,13 @@ def left_beside(equation: sympy.Eq, drawn: Drawn, at: At) -> list[Number]:
     return [size(solved(drawn, epsilon).rest(equation, at)) for epsilon in STRENGTHS]
 
 
-def falls(
-    sizes: Iterable[Number],
-    order: int,
-    small: tuple[Number, Number] = STRENGTHS,
-    rounding: Number = ROUNDING,
-) -> bool:
+def falls(sizes: Iterable[Number], order: int, small: tuple[Number, Number] = STRENGTHS) -> bool:
     """Whether sizes at two small numbers fall at least with this power of them.
 
     The factor 2 is for what is of higher order: one power too few would be a factor of 100.
     """
     larger, smaller = sizes
-    return bool(smaller <= 2 * larger * (small[1] / small[0]) ** order + rounding)
+    return bool(smaller <= 2 * larger * (small[1] / small[0]) ** order + ROUNDING)
 
 
 def holds_to_first_order(equation: sympy.Eq, drawn: Drawn, places: Iterable[At]) -> None:

@@ -71,27 +71,16 @@ class Plane:
     def symbols(self) -> dict[sympy.Symbol, Value]:
         """Numbers of the symbols that say which packing this is."""
         base = self.packing.base
-        general = {
-            **self.given,
-            sy.phi: dot(base[0], base[1]),
-            sy.r: self.packing.r,
-            sy.M: self.packing.height,
-        }
+        general = {sy.phi: dot(base[0], base[1]), sy.r: self.packing.r, sy.M: self.packing.height}
         if len(base) > 2:
-            return general
+            return {**self.given, **general}
         n_plus, n_minus = base
         n_x, n_y = n_plus
-        return {
-            **general,
-            sy.n_x: n_x,
-            sy.n_y: n_y,
-            sy.spacing: 4 * self.packing.r * n_x,
-            sy.n_plus: n_plus,
-            sy.n_minus: n_minus,
-            sy.e_y: (mp.mpf(0), mp.mpf(1)),
-            sy.b_plus: (1 / (2 * n_x), 1 / (2 * n_y)),
-            sy.b_minus: (-1 / (2 * n_x), 1 / (2 * n_y)),
-        }
+        lengths = {sy.n_x: n_x, sy.n_y: n_y, sy.spacing: 4 * self.packing.r * n_x}
+        units = {sy.n_plus: n_plus, sy.n_minus: n_minus, sy.e_y: (mp.mpf(0), mp.mpf(1))}
+        right, rise = 1 / (2 * n_x), 1 / (2 * n_y)
+        reciprocal = {sy.b_plus: (right, rise), sy.b_minus: (-right, rise)}
+        return {**self.given, **general, **lengths, **units, **reciprocal}
 
     def quantity(self, name: str, i: int, j: int, origin: Site = (0, 0)) -> Value:
         """The value of δr_ij, f⁺_ij and so on, by the name of its function."""

@@ -22,10 +22,9 @@ HEIGHTS = 10**8, 10**10
 
 Deep = tuple[Geometry, Fraction, Fraction]
 """φ and r, σ, and z = j/M."""
-deep = st.tuples(
-    geometries, lengths, st.fractions(Fraction(1, 10), Fraction(9, 10), max_denominator=10)
-)
-"""So many tenths that whole layers lie there."""
+tenths = st.fractions(Fraction(1, 10), Fraction(9, 10), max_denominator=10)
+"""So many that whole layers lie there."""
+deep = st.tuples(geometries, lengths, tenths)
 
 
 def numbers(geometry: Geometry) -> Plane:
@@ -95,12 +94,9 @@ def is_the_general_form(equation: sympy.Eq, systems: tuple[System, System]) -> N
     for load in LOADS.values():
         quotients = []
         for top, geometry, sd in systems:
-            at = {
-                M: top,
-                sigma: exactly(sd),
-                deviation: exactly(sd) * mp.sqrt(growth.mean_variance(geometry, load, top)),
-                height: unit_height(geometry, load, exactly(sd)),
-            }
+            of_radii = exactly(sd)
+            at = {M: top, sigma: of_radii, height: unit_height(geometry, load, of_radii)}
+            at[deviation] = of_radii * mp.sqrt(growth.mean_variance(geometry, load, top))
             left, right = (numbers(geometry).read(side, at) for side in equation.args)
             quotients.append(left / right)
         first, second = quotients

@@ -77,10 +77,8 @@ def variations(number: int, printed: sympy.Eq) -> Iterator[Variation]:
             for weight in (MILLIONTH, -MILLIONTH * sy.phi) if number != 1 else ():
                 radius = weight * sy.DeltaR(*site.args)
                 for vector in (1, sy.b_plus, sy.n_minus):
-                    yield (
-                        "a radius more",
-                        equation(left, Add(right, radius * vector, evaluate=False)),
-                    )
+                    more = Add(right, radius * vector, evaluate=False)
+                    yield "a radius more", equation(left, more)
     for series in sorted(printed.atoms(Sum), key=str):
         yield from with_other_sum(printed, series)
 
@@ -164,11 +162,8 @@ def judged(number: int | str) -> Iterator[tuple[str, bool | None, Ruling]]:
             if candidate in seen:
                 continue
             seen.add(candidate)
-            true = (
-                holds(number, candidate)
-                if number in ON_PACKINGS
-                else goes_to_one(candidate, printed)
-            )
+            exact = number in ON_PACKINGS
+            true = holds(number, candidate) if exact else goes_to_one(candidate, printed)
             yield name, true, candidate_for(derivation, part, candidate)
 
 

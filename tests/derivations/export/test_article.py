@@ -177,11 +177,8 @@ def test_both_loads_turn_the_axes_alike():
 def test_the_force_under_a_leaning_load_is_the_printed_one():
     (body,) = re.findall(r"^\$\$\n((?:(?!\$\$).*\n)*?)\\tag\{B1\}", TEXT, re.M)
     body = re.sub(r"\\(begin|end)\{aligned\}|\\quad|\\\\|[&\s]", "", body)
-    turn, own, of_other = (
-        r"\delta\hat{\mathbf{n}}",
-        r"\hat{\mathbf{n}}^-\cdot",
-        r"\hat{\mathbf{n}}^+\cdot",
-    )
+    turn = r"\delta\hat{\mathbf{n}}"
+    own, of_other = (rf"\hat{{\mathbf{{n}}}}^{sign}\cdot" for sign in "-+")
     first, summed = body.split("(")
     first = first.replace(r"\nu^+", rf"{own}{turn}^+").replace(r"\nu^-", rf"{of_other}{turn}^-")
     body = f"{first}{of_other}({summed.replace(chr(92) + 'nu', turn)}"
@@ -189,22 +186,13 @@ def test_the_force_under_a_leaning_load_is_the_printed_one():
     assert body == re.sub(r"\^\{(.)\}", r"^\1", printed)
 
 
-@pytest.mark.parametrize(
-    ("words", "label", "name", "where", "at"),
-    [
-        (r"\tfrac{1}{2}\phi^2(4j+\phi^2)\,u", "B2", "plus", (j >= 1,), {t: sympy.S.Zero}),
-        (r"\tfrac{1}{2}(1-\phi)^4\,u/N", "B7", "mean", (j + 2 <= N, j >= 2, j + 2 <= M), N),
-    ],
-)
-def test_formulas_within_sentences(words, label, name, where, at):
-    assert TEXT.count(f"${words}$") == 1
-    form, value = load(label).exact_forms[name], read(words)
-    ruling = (
-        equals(form, value, *where, at=at)
-        if isinstance(at, dict)
-        else goes_as(form, value, *where, growing=at)
-    )
-    assert ruling.verdict.is_proved
+def test_formulas_within_sentences():
+    upright, averaged = r"\tfrac{1}{2}\phi^2(4j+\phi^2)\,u", r"\tfrac{1}{2}(1-\phi)^4\,u/N"
+    assert TEXT.count(f"${upright}$") == TEXT.count(f"${averaged}$") == 1
+    form, many = load("B2").exact_forms["plus"], load("B7").exact_forms["mean"]
+    assert equals(form, read(upright), j >= 1, at={t: sympy.S.Zero}).verdict.is_proved
+    where = (j + 2 <= N, j >= 2, j + 2 <= M)
+    assert goes_as(many, read(averaged), *where, growing=N).verdict.is_proved
 
 
 @pytest.mark.long

@@ -244,9 +244,8 @@ class Packing:
             value = below_one(self.height, self.n, self.order).get((name, (i - across, j)), Value())
             return value.at(across, 0)
         load = "surface" if self.load == "point" else self.load
-        return below_many(self.height, self.n, load, self.ratio, self.order)[name + axis, j].at(
-            i, 0
-        )
+        values = below_many(self.height, self.n, load, self.ratio, self.order)
+        return values[name + axis, j].at(i, 0)
 
 
 def exactly(symbols: Numbers) -> Numbers:
@@ -264,9 +263,8 @@ class _Reading(Reading):
             case sy.Shift():
                 return self._number(expression.args[0]).shift
             case sy.Variance() | sy.Covariance():
-                return covariance(
-                    self._number(expression.args[0]), self._number(expression.args[-1])
-                )
+                numbers = [*map(self._number, expression.args)]
+                return covariance(numbers[0], numbers[-1])
             case sympy.Add():
                 return sum(map(self.moment, expression.args), ZERO)
             case sympy.Mul():
@@ -328,11 +326,8 @@ def spheres(
                     there = (0, 0, source)
                     bead = tuple(a - b for a, b in zip(there, lower, strict=True))
                     steps = tuple((step + height + 1) % width - height - 1 for step in bead[:2])
-                    sums.add(
-                        (axis + 1, upper - 1),
-                        (*steps, source - (upper - 1) - sum(steps)),
-                        [force[0], force[1]],
-                    )
+                    enlarged = (*steps, source - (upper - 1) - sum(steps))
+                    sums.add((axis + 1, upper - 1), enlarged, [force[0], force[1]])
     return sums.values
 
 

@@ -34,9 +34,8 @@ def test_arithmetic_agrees_with_sympy(left, right):
 @given(st.lists(small, min_size=1, max_size=5), st.integers(-4, 4), st.integers(0, 6))
 def test_sums_of_polynomials(powers, low, length):
     term = sum((c * m**k for k, c in enumerate(powers)), sympy.Integer(0))
-    total = exact.sum_polynomial(
-        FIELD.from_sympy(term), m, FIELD.constant(low), FIELD.constant(low + length - 1)
-    )
+    ends = map(FIELD.constant, (low, low + length - 1))
+    total = exact.sum_polynomial(FIELD.from_sympy(term), m, *ends)
     by_hand = sum(term.subs(m, value) for value in range(low, low + length))
     assert total.to_sympy() == by_hand
 
