@@ -24,7 +24,7 @@ LIMITS = {
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_958,
+    "tests": 12_880,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
