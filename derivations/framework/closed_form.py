@@ -1,7 +1,7 @@
 """A closed form as a Python user holds it: formulas with domains, numbers, LaTeX, decisions."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from functools import cached_property, lru_cache
+from functools import cached_property
 from keyword import iskeyword
 from numbers import Integral
 from typing import Any
@@ -389,7 +389,7 @@ class ClosedForm:
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same as displays that fit a page, several if needed."""
-        return [*_displays(self, columns)]
+        return self._in_halves(self._in_latex, columns)
 
     def _in_halves(self, pieces: Sequence[Piece], columns: int) -> list[str]:
         whole, half = self._shown(pieces, columns), len(pieces) // 2
@@ -555,23 +555,14 @@ class ClosedForm:
         return in_place(formula, {symbol: sympy.Add(quotient, symbol - self.quantity)})
 
 
-@lru_cache(maxsize=64)
-def _displays(form: ClosedForm, columns: int) -> list[str]:
-    """Displays that an equation's file and the supplement share: they take seconds."""
-    return form._in_halves(form._in_latex, columns)
-
-
 def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
     return form[1] + sum(factor * whole[symbol] for symbol, factor in form[0].items())
-
-
-_condition = lru_cache(maxsize=4096)(sets.condition)
 
 
 def _hold(relations: Iterable[sympy.Basic], whole: Mapping[sympy.Symbol, int]) -> bool:
     """Whether relations hold of whole numbers."""
     totals = (
-        (_total(form, whole), is_equation) for form, is_equation in map(_condition, relations)
+        (_total(form, whole), is_equation) for form, is_equation in map(sets.condition, relations)
     )
     return all(total == 0 if is_equation else total >= 0 for total, is_equation in totals)
 

@@ -224,7 +224,8 @@ def evaluate(
     arrays = {name: np.broadcast_to(array, shape) for name, array in arrays.items()}
     results = np.empty((len(sides), *shape), dtype=object if exact else float)
     for place in np.ndindex(shape):
-        numbers = {name: _plain(array[place]) for name, array in arrays.items()}
+        numbers = {name: array[place] for name, array in arrays.items()}
+        numbers |= {name: n.item() for name, n in numbers.items() if isinstance(n, np.generic)}
         try:
             values = _values(symbols, numbers, dimension, in_packing)
             for n, side in enumerate(sides):
@@ -250,11 +251,6 @@ def _array(name: str, value: Any) -> Any:
     if hasattr(value, "__len__") and not isinstance(value, str | bytes | Mapping | Set):
         return np.array([*value], dtype=object)
     return np.array([value], dtype=object).reshape(())
-
-
-def _plain(number: Any) -> Any:
-    """A number of NumPy's as one of Python's."""
-    return number.item() if isinstance(number, np.generic) else number
 
 
 def _is_exact(array: Any) -> bool:
