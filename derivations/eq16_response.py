@@ -149,8 +149,7 @@ def show_steps(steps: Steps) -> None:
 
 def claims(steps: Steps) -> None:
     """What else follows."""
-    groups = in_radii()
-    by, leading = moment(*groups), asymptotic(*groups)
+    by, leading = moment(*in_radii()), asymptotic(*in_radii())
     steps.claim(
         "to leading order the variance at one contact is 3m/2 in units of (σ/r)²/(1−φ²)², where "
         "m = ½(l+j+k−i) is the layer in which its path branches",

@@ -67,12 +67,8 @@ def bounds(relations: Iterable[sympy.Basic], given: Iterable[sympy.Eq] = ()) -> 
 def _without_divisor(form: sympy.Expr) -> sympy.Expr:
     """A form of whole numbers that is at least 0 where another one is: x − 1 for 2 x − 1."""
     constant, rest = sympy.expand(form).as_coeff_Add()
-    factors = rest.as_coefficients_dict().values()
-    divisor = sympy.Rational(
-        sympy.igcd(0, *(factor.p for factor in factors)) or 1,
-        sympy.ilcm(1, *(factor.q for factor in factors)),
-    )
-    return rest / divisor + sympy.floor(constant / divisor)
+    divisor, rest = rest.primitive()
+    return rest + sympy.floor(constant / divisor)
 
 
 def in_words(relations: Iterable[sympy.Basic]) -> str:

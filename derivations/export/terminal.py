@@ -70,8 +70,7 @@ def heading(derivation: Statement) -> str:
 def statement_text(derivation: Statement) -> str:
     """What the equation says, in what symbols, under which assumptions."""
     lines = (f"  {line}" for line in derivation.lines(TEXT_WIDTH - 2))
-    parts = [heading(derivation), "", *lines]
-    parts += ["", "Symbols"]
+    parts = [heading(derivation), "", *lines, "", "Symbols"]
     for symbol, meaning in derivation.symbols:
         parts.append(_paragraph(f"{text(symbol)}: {meaning}", later="      "))
     parts += ["", "Assumptions"]

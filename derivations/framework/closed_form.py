@@ -561,10 +561,8 @@ def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
 
 def _hold(relations: Iterable[sympy.Basic], whole: Mapping[sympy.Symbol, int]) -> bool:
     """Whether relations hold of whole numbers."""
-    totals = (
-        (_total(form, whole), is_equation) for form, is_equation in map(sets.condition, relations)
-    )
-    return all(total == 0 if is_equation else total >= 0 for total, is_equation in totals)
+    totals = ((_total(form, whole), equal) for form, equal in map(sets.condition, relations))
+    return all(total == 0 if equal else total >= 0 for total, equal in totals)
 
 
 def _harmonic(

@@ -89,8 +89,7 @@ class Step:
     @property
     def where(self) -> str:
         """Where all of its equations hold, in words; "" for everywhere."""
-        limit = self.domains[0].limit
-        if limit:
+        if limit := self.domains[0].limit:
             return f"as {limit.words}"
         return f"for {in_their_words(self.relations)}" * bool(self.relations)
 
@@ -192,8 +191,7 @@ class Steps(list[Step]):
 
     def __init__(self, equation: Number, domain: Domain, definitions: Definitions) -> None:
         super().__init__()
-        self._equation, self._domain = equation, domain
-        self._definitions = definitions
+        self._equation, self._domain, self._definitions = equation, domain, definitions
         self.claims: list[Step] = []
         self.refuted: list[Refuted] = []
         self.seconds = 0.0

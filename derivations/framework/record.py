@@ -1,6 +1,7 @@
 """The shape of a derivation: the fields that every ``eqNN_…`` module fills, and its verdicts."""
 
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
 from importlib import import_module
@@ -72,19 +73,17 @@ class Statement:
     @property
     def premises(self) -> tuple[Number, ...]:
         """The equations that what is printed rests on, as its theorems say; none if not proved."""
-        try:
+        with suppress(NotProvedError, LookupError):
             return equations_of(self.theorems, self.number)
-        except (NotProvedError, LookupError):
-            return ()
+        return ()
 
     @property
     def used(self) -> tuple[Number, ...]:
         """The equations that some step or claim rests on; none where it is not proved."""
-        try:
+        with suppress(NotProvedError):
             shown = (*self.proof, *self.proof.claims)
-        except NotProvedError:
-            return ()
-        return in_order(number for step in shown for number in step.equations_used)
+            return in_order(number for step in shown for number in step.equations_used)
+        return ()
 
     @cached_property
     def exact_forms(self) -> Mapping[str, ClosedForm]:

@@ -222,9 +222,8 @@ def known_quantities(
     if not groups:
         return {}
     if kind is not Form:
-        return Means(
-            known_quantities(groups, loading), loading.place[-1] if loading else None
-        ).jets()
+        top = loading.place[-1] if loading else None
+        return Means(known_quantities(groups, loading), top).jets()
     later = known_quantities(groups[1:], loading)
     first: dict[type, tuple[Known, ...]] = {}
     for theorem in flat(groups[:1]):
@@ -242,9 +241,7 @@ def _under(theorem: Theorem, loading: Loading | None) -> Theorem:
     own = theorem.domain.loading
     if own is None or (loading is not None and loading.implies(own)):
         return theorem
-    if loading is None or own.name != loading.name or len(own.place) != len(loading.place):
-        raise NotProvedError(f"{text(theorem.formula.lhs)} is known under another load")
-    pairs = zip(own.place, loading.place, strict=True)
+    pairs = zip(own.place, loading.place if loading else (), strict=False)
     image = {symbol: at for symbol, at in pairs if symbol != at}
     if not all(symbol.is_Symbol for symbol in image) or own.put_in(image) != loading:
         raise NotProvedError(f"{text(theorem.formula.lhs)} is known under another load")
@@ -266,12 +263,8 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
     known_here = there.loading is None or (domain.loading and domain.loading.implies(there.loading))
     same = known_here and (there.dimension, there.limit) == (domain.dimension, domain.limit)
     symbols = set().union(*(value.free_symbols for value in image.values())) & {*sy.INDICES}
-    if (
-        not same
-        or theorem.fixed & {*image}
-        or not symbols <= {*domain.indices}
-        or not domain.lies_in(there)
-    ):
+    is_free = symbols <= {*domain.indices} and not theorem.fixed & {*image}
+    if not (same and is_free and domain.lies_in(there)):
         raise NotProvedError(f"{text(theorem.formula.lhs)} is not known there")
     formula = with_indices(theorem.formula, image)
     check_domain(formula, domain)

@@ -261,8 +261,7 @@ class _Pieces:
     """The places where one printer's expressions may be broken."""
 
     def __init__(self, printer: PaperLatex | PaperText, opening: str, closing: str) -> None:
-        self.printer = printer
-        self.opening, self.closing = opening, closing
+        self.printer, self.opening, self.closing = printer, opening, closing
         self.size = width if isinstance(printer, PaperLatex) else len
 
     def of(self, expr: Basic, room: float) -> list[tuple[str, float]]:
