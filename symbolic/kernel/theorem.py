@@ -129,11 +129,9 @@ def made(
     premises = tuple(dict.fromkeys(premises))
     if not all(type(premise) is Theorem for premise in premises):
         raise TypeError("a theorem rests on theorems only")
-    supposed = frozenset(supposed).union(*(premise.supposed for premise in premises)) - frozenset(
-        ended
-    )
+    supposed = {*supposed}.union(*(premise.supposed for premise in premises)) - {*ended}
     assumed = frozenset(assuming).union(*(premise.assuming for premise in premises))
-    return Theorem(formula, domain, rule, premises, supposed, assumed, _MADE_HERE)
+    return Theorem(formula, domain, rule, premises, frozenset(supposed), assumed, _MADE_HERE)
 
 
 Group = Theorem | tuple[Theorem, ...]
@@ -166,6 +164,8 @@ def check_domain(formula: sympy.Eq, domain: Domain, *, in_a_limit: bool = False)
     free = set().union(*(side.free_symbols for side in formula.args))
     for symbol in by_name(free & {*sy.INDICES} - {*domain.indices}):
         raise NotAStatementError(f"its domain does not say what {text(symbol)} is")
+    if domain.dimension > 2 and free & {sy.n_x, sy.n_y}:
+        raise NotAStatementError(f"{text(sy.n_x)} and {text(sy.n_y)} belong to discs")
     if free & _RESERVED:
         raise NotAStatementError("it uses a name that the kernel reserves")
     if domain.loading and (both := by_name(_summed(formula) & domain.loading.fixed)):

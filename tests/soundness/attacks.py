@@ -794,6 +794,8 @@ table(
     moment(), Domain.of(M >= 5, beads=(), loading=SPHERES["surface"], dimension=3),
     ("a force between spheres below the base", (Mean(sy.ForceAlong(1, 0, 0, -2)), 0),
      "below the base", (Mean(sy.ForceAlong(1, 0, 0, 2)), 1)),
+    ("n_y between spheres", (2 * Mean(sy.ForceAlong(1, 0, 0, 2)) * n_y**2, phi + 1),
+     "belong to discs", (Mean(sy.ForceAlong(1, 0, 0, 2)) * phi, phi)),
 )
 beside("a larger domain", proof(moment(on=BEADS), OF_RADIUS, ABOVE),
        ("of another dimension", proof(moment(on=IN_SPACE), OF_RADIUS, BEADS), "is another one"),
