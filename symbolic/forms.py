@@ -215,7 +215,7 @@ class Known:
 
 @lru_cache(maxsize=4096)
 def _at(known: Known, site: tuple[sympy.Expr, ...]) -> tuple[Set, tuple[Form, ...]]:
-    """The same of a bead with other coordinates."""
+    """What is known of the quantity at a bead with other coordinates."""
     image = dict(zip(SOURCE, site, strict=False))
     return sets.at(known.points, image), tuple(form.at(image) for form in known.value)
 

@@ -37,7 +37,7 @@ _FIXED_FIRST = {
 """Which symbol an equation gives, the first that it holds: M and N also stand in denominators."""
 LARGEST = 2**62  # isl takes machine integers
 
-_remembered = lru_cache(maxsize=2048)  # proofs ask the same of the same sets many times
+_remembered = lru_cache(maxsize=2048)  # one proof looks at the same sets many times
 
 
 class OpenSumError(NotExactError):

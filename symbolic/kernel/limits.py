@@ -233,7 +233,7 @@ def in_the_limit(side: sympy.Expr, domain: Domain, groups: Groups = ()) -> Ratio
     Raises:
         NotProvedError: it is not one, or holds what neither grows nor is fixed.
     """
-    number = worked_out(written_out(side, domain), _late(domain), tuple(groups))
+    number = worked_out(written_out(side, domain), _late(domain), groups)
     if {*number.parts} - {NUMBER}:
         raise NotProvedError(f"{text(side)} belongs to single beads")
     return _formula_in_the_limit(number.parts.get(NUMBER, Weights()), domain)

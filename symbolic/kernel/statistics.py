@@ -65,13 +65,13 @@ class MomentReader(Reader):
     """
 
     domain: Domain = field(default_factory=Domain)
-    groups: tuple[Group, ...] = ()
+    groups: Groups = ()
 
     @classmethod
     def on(cls, domain: Domain, groups: Groups = ()) -> "MomentReader":
         """Those on a domain."""
         fixed = frozenset[sympy.Symbol]().union(*(theorem.fixed for theorem in flat(groups)))
-        return cls(domain.points, domain.straight, fixed=fixed, domain=domain, groups=tuple(groups))
+        return cls(domain.points, domain.straight, fixed=fixed, domain=domain, groups=groups)
 
     def read(self, expression: sympy.Expr) -> Value:
         """A number; moments are worked out."""
@@ -117,7 +117,7 @@ class MomentReader(Reader):
 
 
 @lru_cache(maxsize=256)
-def worked_out(expression: sympy.Expr, domain: Domain, groups: tuple[Group, ...]) -> Form:
+def worked_out(expression: sympy.Expr, domain: Domain, groups: Groups) -> Form:
     """An expression in moments as a form, on a domain at finite size."""
     reader = MomentReader.on(domain, groups)
     return reader.number(expression).on(reader.points).merged()

@@ -212,7 +212,7 @@ def _is_quantity(node: sympy.Basic) -> bool:
 
 @lru_cache(maxsize=4096)
 def known_quantities(
-    groups: tuple[Group, ...], loading: Loading | None, kind: type[Form] = Form
+    groups: Groups, loading: Loading | None, kind: type[Form] = Form
 ) -> Mapping[type, tuple[Known, ...]]:
     """What theorems say of quantities, in terms of what those of later groups say.
 
@@ -358,7 +358,7 @@ def read(formula: sympy.Eq, domain: Domain, groups: Groups = ()) -> Sides:
 
 def knowing(reader: Reader, domain: Domain, groups: Groups, kind: type[Form] = Form) -> Reader:
     """A reader on a domain that puts theorems in, one group after the other."""
-    facts = known_quantities(tuple(groups), domain.loading, kind)  # type: ignore[arg-type]
+    facts = known_quantities(groups, domain.loading, kind)  # type: ignore[arg-type]
     theorems = [_under(theorem, domain.loading) for theorem in flat(groups)]
     places = (domain, *(theorem.domain for theorem in theorems))
     for symbol in by_name(_named(groups, domain.loading)):

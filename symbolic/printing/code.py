@@ -7,7 +7,7 @@ from .. import symbols as sy
 from .structure import rebuilt
 
 _FUNCTIONS = (*sy.SiteFunction.__subclasses__(), sy.Dot, sy.MatrixTimes)
-# Arguments of functions, σ before r as those of closed forms.
+# the order of arguments: σ before r, as in closed forms
 _VALUES = (sy.M, sy.z, *sy.INDICES, sy.phi, sy.sigma, *sy.PARAMETERS, *sy.VECTORS)
 
 

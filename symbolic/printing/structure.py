@@ -192,7 +192,7 @@ def _index_key(term: Expr) -> int:
 class StructuredPrinter(Printer):  # type: ignore[misc]
     """Reads the structure of an expression; subclasses say how each piece is set.
 
-    It remembers what it has written: lines are broken by trying.
+    What it has written is remembered, since breaking lines writes the same parts many times.
     """
 
     minus = "-"
