@@ -1,13 +1,15 @@
 """Eq. 13: variance of the contact forces under a surface load; exact, and to leading order."""
 
 # fmt: off
+from functools import cache
+
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height,
-    certificate, differentiate, drop_terms, equation, layers, minus, moment, power, rewrite, terms,
-    times, usual)
+    FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, Theorem, asymptotic,
+    at_fixed_height, certificate, differentiate, drop_terms, equation, layers, minus, moment, power,
+    rewrite, shown, terms, theorems, times, usual)
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
 # fmt: on
 
@@ -24,6 +26,7 @@ PRINTED = equation(
 
 KEPT_VARIANCE = Symbol("kept_variance", r"\sigma^2_{\mathrm{kept}}", "σ²_kept")
 """The variance of what Eq. 12 keeps."""
+KEPT = {KEPT_VARIANCE: Variance(eq12.PRINTED.rhs)}
 
 WEIGHTS = times(
     6, terms(sympy.Sum((M - j) ** 2, (m, 1, j)), sympy.Sum((M - m) ** 2, (m, j + 1, M)))
@@ -34,6 +37,12 @@ TOTAL = terms(2 * (M - j) ** 2 * (M + 2 * j), -3 * (M - j) ** 2, M - j)
 NEXT_ORDER = -3 * M**2 * (1 - z) * (1 + 3 * z) / 2
 """The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
 PROFILE = times((1 - z) ** 2, 2 * z + 1)
+
+
+@cache
+def exact() -> tuple[Theorem, ...]:
+    """What the exact variance is, on each part of a packing."""
+    return shown(13, *theorems(MEANING[RELATIVE_VARIANCE], eq11.LOADED, *eq11.in_radii()))
 
 
 def _squares_to(last: sympy.Expr) -> sympy.Expr:
@@ -50,7 +59,7 @@ def show_steps(steps: Steps) -> None:
         "prefactor, the variance of its right-hand side is",
         equation(KEPT_VARIANCE, times(layers.UNIT, WEIGHTS)),
         moment(),
-        definitions={KEPT_VARIANCE: Variance(eq12.PRINTED.rhs)},
+        definitions=KEPT,
     )
     below, above = sympy.Sum((M - j) ** 2, (m, 1, n)), sympy.Sum((M - m) ** 2, (m, j + 1, n))
     steps.show(
@@ -63,17 +72,22 @@ def show_steps(steps: Steps) -> None:
         rewrite(),
         eq12.INSIDE.also(n >= j),
     )
-    added = steps.show("Added up:", equation(WEIGHTS, TOTAL), rewrite())
+    added = steps.show(
+        "Added up:",
+        equation(KEPT_VARIANCE, times(layers.UNIT, TOTAL)),
+        moment(variance.theorem),
+        definitions=KEPT,
+    )
     steps.show(
         "The variance of what Eq. 12 drops is lower by an order in M, and the first term has the "
         "highest order. With z = j/M it is the printed form.",
         PRINTED,
-        drop_terms(eq12.DERIVATION.theorem, variance.theorem, added.theorem),
+        drop_terms(eq12.DERIVATION.theorem, added.theorem),
         IN_THE_LIMIT,
     )
     how = "put into Eq. 11, Eqs. 4 and 5 give every radius a weight; their squares add up"
-    exact = layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, eq11.LOADED, groups)
-    layers.show_next(steps, PRINTED, NEXT_ORDER, eq11.LOADED, exact)
+    layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, exact())
+    layers.show_next(steps, PRINTED, NEXT_ORDER, eq11.LOADED, exact())
     steps.show(
         "At the base the profile no longer broadens, as its slope vanishes:",
         equation(sympy.Derivative(PROFILE, z), -6 * z * (1 - z)),
@@ -83,10 +97,10 @@ def show_steps(steps: Steps) -> None:
     steps.claim(
         "the printed form is the leading order of the exact variance",
         PRINTED,
-        layers.leading_order(exact),
+        asymptotic(*exact()),
         IN_THE_LIMIT,
     )
-    layers.claim_edges(steps, PRINTED, eq11.LOADED, exact)
+    layers.claim_edges(steps, PRINTED, eq11.LOADED, exact())
     layers.claim_shares(steps, eq11.PRINTED.lhs, eq11.LOADED, groups)
     layers.claim_exponent(
         steps,

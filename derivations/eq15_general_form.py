@@ -1,13 +1,16 @@
 """Eq. 15: σ_f/⟨f⟩ averaged over the system, and the height M* of packings with tensile forces."""
 
 # fmt: off
+from functools import cache, partial
+
 import sympy
 from force_diffusion.derivations import (
     eq03_extrapolation as eq03, eq11_total_force as eq11, eq13_surface_diffusion as eq13,
     eq14_bulk_diffusion as eq14)
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, asymptotic, axioms, equation,
-    layers, moment, power, power_law, rewrite, tensile, terms, times, usual)
+    FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Steps, Symbol, asymptotic, axioms,
+    equation, instance, layers, moment, power, power_law, rewrite, tensile, terms, theorems, times,
+    usual)
 from force_diffusion.symbolic.kernel.domain import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, H_M, M, Mean, Tensile, UnitHeight, Variance, i, j, m, n_minus, n_plus, phi, r,
@@ -30,7 +33,7 @@ FORCE = {"surface": eq11.PRINTED.lhs, "bulk": eq14.RATIO}
 """The force of contact (i, j) over its mean."""
 IN_RADII = {"surface": eq11.in_radii, "bulk": eq14.in_radii}
 LOADING = {"surface": axioms.SURFACE, "bulk": axioms.BULK}
-OF_LAYER = {"surface": eq13.DERIVATION, "bulk": eq14.DERIVATION}
+OF_LAYER = {"surface": eq13, "bulk": eq14}
 
 LEADING = {"surface": sympy.Integer(1), "bulk": Rational(1, 5)}
 """Mean of σ_f²/⟨f⟩² over the layers, in units of M³ (σ/r)²/(1−φ²)²."""
@@ -57,6 +60,13 @@ def mean(load: str, kind: type) -> sympy.Expr:
     The contacts are those that start at the beads (j, j), one in each layer.
     """
     return sympy.Sum(kind(FORCE[load].xreplace({i: m, j: m})), (m, 0, M - 1)) / M
+
+
+@cache
+def of_layers(load: str) -> Groups:
+    """What Eq. 13 or 14 says exactly of the contact that starts at bead (m, m)."""
+    at, exact = {i: m, j: m}, OF_LAYER[load].exact()
+    return tuple(instance(theorem, at, theorem.domain.put_in(at)) for theorem in exact)
 
 
 def heights(load: str) -> Domain:
@@ -111,9 +121,9 @@ def show_steps(steps: Steps) -> None:
         ("surface", "layers hold equally many contacts, so their mean is that over the layers"),
         ("bulk", "the same under a bulk load"),
     ):
-        layers.show_closed_form(
-            steps, how, MEAN_SQUARE, meaning(load), heights(load), IN_RADII[load]()
-        )
+        definitions = meaning(load)
+        exact = theorems(definitions[MEAN_SQUARE], heights(load), *of_layers(load))
+        layers.show_closed_form(steps, how, MEAN_SQUARE, definitions, tuple(exact))
     in_proportion = at_large_height("∝")
     for reason, formula, rule, limit in (
         (
@@ -135,7 +145,7 @@ def show_steps(steps: Steps) -> None:
         steps.show(
             reason,
             sympy.Tuple(*map(formula, LOADS)),
-            [rule(*IN_RADII[load]()) for load in LOADS],
+            [rule(*of_layers(load)) for load in LOADS],
             [heights(load).in_the_limit(limit) for load in LOADS],
             [meaning(load) for load in LOADS],
         )
@@ -149,7 +159,7 @@ def show_steps(steps: Steps) -> None:
         steps.show(
             NEGATIVE if load == "surface" else "In the same way, under a bulk load:",
             equation(FRACTION, tensile_fraction(load)),
-            tensile(OF_LAYER[load].theorem, of_one, *IN_RADII[load]()),
+            tensile(OF_LAYER[load].DERIVATION.theorem, of_one, *of_layers(load)),
             heights(load).in_the_limit(AT_FIXED_RATIO),
             meaning(load),
         )
@@ -164,7 +174,7 @@ def claims(steps: Steps) -> None:
         steps.claim(
             f"as M* → ∞ the exact mean is 1 at M* {sign} {abs(shift)} under a {load} load",
             equation(MEAN_SQUARE, times(LEADING[load], shifted, layers.UNIT)),
-            asymptotic(*IN_RADII[load]()),
+            asymptotic(*of_layers(load)),
             heights(load).in_the_limit(at_large_height("∼", 2)),
             meaning(load),
         )
@@ -210,7 +220,7 @@ DERIVATION = Derivation(
     show_steps=show_steps,
     step_domain=Domain(),
     exact=lambda: {
-        load: ClosedForm(MEAN_SQUARE, mean(load, Variance), heights(load), IN_RADII[load])
+        load: ClosedForm(MEAN_SQUARE, mean(load, Variance), heights(load), partial(of_layers, load))
         for load in LOADS
     },
     remarks=(

@@ -8,7 +8,7 @@ from force_diffusion.derivations import (
     eq10_branched_path as eq10)
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Limit, Steps, Symbol, Theorem, asymptotic,
-    axioms, equation, layers, leading_order_of, minus, mirror, moment, power, rewrite, same, shown,
+    axioms, equation, layers, minus, mirror, moment, power, rewrite, same, shown,
     terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     DeltaNMinus, DeltaNPlus, Dot, ForceMinus, ForcePlus, Mean, Variance, VerticalMinus,
@@ -129,7 +129,7 @@ def show_steps(steps: Steps) -> None:
         by,
         DEEP,
     )
-    steps.show("To leading order:", PRINTED, leading_order_of(exact.theorem), CONE)
+    steps.show("To leading order:", PRINTED, asymptotic(exact.theorem), CONE)
     steps.show(
         "On the left leg the contact itself is tilted, too, so that p⁺_ij over f_load is",
         equation(

@@ -1,18 +1,15 @@
 """Claims about a variance in every layer of a packing, besides its printed leading order."""
 
-from collections.abc import Iterable, Sequence
-from contextlib import suppress
+from collections.abc import Sequence
 
 import sympy
-from force_diffusion.symbolic.algebra.exact import NotProvedError
 from force_diffusion.symbolic.as_printed import minus, terms, times
 from force_diffusion.symbolic.kernel.domain import Domain, at_fixed_height, in_a_layer
-from force_diffusion.symbolic.kernel.limits import bounded, leading_order_of
-from force_diffusion.symbolic.kernel.rules import Rule, differentiate, rewrite, same
+from force_diffusion.symbolic.kernel.limits import asymptotic, bounded
+from force_diffusion.symbolic.kernel.rules import differentiate, rewrite, same
 from force_diffusion.symbolic.kernel.theorem import Group, Theorem
-from force_diffusion.symbolic.piecewise import theorems
 from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma, z
-from force_diffusion.symbolic.trees import equation, in_place
+from force_diffusion.symbolic.trees import equation
 
 from .proof import Definitions, Steps
 
@@ -25,11 +22,9 @@ def show_closed_form(
     how: str,
     symbol: sympy.Symbol,
     definitions: Definitions,
-    layers: Domain,
-    groups: Sequence[Group],
-) -> tuple[Theorem, ...]:
+    exact: Sequence[Theorem],
+) -> None:
     """Show the formula of each part of a packing; ``how`` they come about."""
-    exact = tuple(theorems(in_place(symbol, definitions), layers, *groups))
     steps.show(
         f"Exact at every size: {how}.",
         sympy.Tuple(*(equation(symbol, theorem.formula.rhs) for theorem in exact)),
@@ -37,19 +32,6 @@ def show_closed_form(
         [theorem.domain for theorem in exact],
         definitions,
     )
-    return exact
-
-
-def leading_order(exact: Iterable[Theorem]) -> Rule:
-    """That of the closed form which holds where a limit is taken."""
-
-    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
-        for theorem in exact:
-            with suppress(NotProvedError):
-                return leading_order_of(theorem)(formula, domain)
-        raise NotProvedError("it is the leading order of no closed form")
-
-    return rule
 
 
 def show_next(
@@ -59,7 +41,7 @@ def show_next(
     steps.show(
         "The next order in M at fixed z:",
         equation(terms(printed.lhs, minus(printed.rhs)), times(UNIT, following)),
-        leading_order(exact),
+        asymptotic(*exact),
         layers.in_the_limit(at_fixed_height("∼")),
     )
 
@@ -79,7 +61,7 @@ def claim_edges(steps: Steps, printed: sympy.Eq, layers: Domain, exact: Sequence
     steps.claim(
         "leading orders of the exact forms at the base and below the surface",
         sympy.Tuple(*(equation(printed.lhs, value) for value in edges.values())),
-        leading_order(exact),
+        asymptotic(*exact),
         [at_layer(layers, layer, "∼") for layer in edges],
     )
 

@@ -11,14 +11,15 @@ from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_height
 from force_diffusion.symbolic.kernel.limits import (
-    asymptotic, drop_terms, leading_order_of, negligible)
+    asymptotic, drop_terms, negligible)
 from force_diffusion.symbolic.kernel.rules import (
-    Rule, along, differentiate, follows, inducted, instance, mirror, order, reach, rewrite, same,
+    Rule, along, differentiate, follows, inducted, mirror, order, reach, rewrite, same,
     solve)
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import Groups, Theorem, isolated
+from force_diffusion.symbolic.kernel.theorem import Groups, Theorem, instance, isolated
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
+from force_diffusion.symbolic.piecewise import theorems
 
 from . import layers
 from .closed_form import ClosedForm

@@ -299,6 +299,14 @@ class Domain:
             self.points.is_subset(sets.even(form)) for form in even
         )
 
+    def shares_packings_of(self, other: "Domain") -> bool:
+        """Whether all that is known of another domain's packings is known of its own.
+
+        The loads are at the same place, and what grows is the same.
+        """
+        known = other.loading is None or (self.loading and self.loading.implies(other.loading))
+        return bool(known) and (self.dimension, self.limit) == (other.dimension, other.limit)
+
     # in words
 
     def in_words(self) -> tuple[str, ...]:

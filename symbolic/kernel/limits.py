@@ -19,6 +19,7 @@ from ..printing.text import text
 from ..second_order import covariance
 from ..sets import EVERYTHING
 from ..signs import sign
+from ..trees import equation
 from ..weights import Weights
 from .domain import Domain, Limit
 from .refuted import other_order, too_large
@@ -28,7 +29,6 @@ from .theorem import (
     Group,
     Groups,
     Theorem,
-    bound_in,
     check_domain,
     flat,
     made,
@@ -124,51 +124,12 @@ def drop_terms(dropping: Theorem, *exact: Theorem) -> Rule:
         beside = (whole - left, left - left.coeff(force) * force)
         if not all(sympy.expand(expression).is_number for expression in beside):
             raise NotProvedError("it is not the variance of what something was dropped from")
-        _check_leading_order(sy.Variance(right), formula.rhs, domain, exact, dropping)
+        if not _late(domain).lies_in(dropping.domain):
+            raise NotProvedError("what is dropped is so elsewhere")
+        asymptotic(*exact)(equation(sy.Variance(right), formula.rhs), domain)
         return made(formula, domain, "dropping terms", (dropping, *exact))
 
     return rule
-
-
-def leading_order_of(*exact: Theorem) -> Rule:
-    """The leading order of what theorems say at finite size."""
-
-    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
-        limit_of(formula, domain, "∼")
-        _check_leading_order(formula.lhs, formula.rhs, domain, exact)
-        return made(formula, domain, "comparing leading orders", exact)
-
-    return rule
-
-
-def _check_leading_order(
-    quantity: sympy.Expr,
-    value: sympy.Expr,
-    domain: Domain,
-    exact: Iterable[Theorem],
-    *beside: Theorem,
-) -> None:
-    """That a quantity goes as a value, by what theorems say of all its moments at finite size.
-
-    These theorems, and those ``beside``, have to hold on all but the first of what grows.
-
-    Raises:
-        NotProvedError: it is not shown to do so.
-    """
-    for theorem in (*exact, *beside):
-        captured = bound_in(quantity) & {*theorem.domain.indices}
-        if captured or not _late(domain).lies_in(theorem.domain):
-            raise NotProvedError(f"{text(theorem.formula.lhs)} is not known there")
-    for theorem in exact:
-        known = theorem.domain.loading is None or (
-            domain.loading is not None and domain.loading.implies(theorem.domain.loading)
-        )
-        if theorem.domain.limit or not known or theorem.domain.dimension != domain.dimension:
-            raise NotProvedError("what is exact is so in a limit, or of other packings")
-        quantity = quantity.xreplace({theorem.formula.lhs: theorem.formula.rhs})
-    if quantity.has(sy.Moment):
-        raise NotProvedError("it holds a moment that is not known")
-    asymptotic()(sympy.Eq(quantity, value, evaluate=False), domain)
 
 
 def bounded(*groups: Group) -> Rule:

@@ -12,7 +12,7 @@ import sympy
 from .. import symbols as sy
 from ..algebra.exact import FIELD, NotProvedError, RationalFunction
 from ..elimination import eliminated
-from ..forms import NUMBER, Form, Image
+from ..forms import NUMBER, Form
 from ..mechanics import lattice
 from ..printing.text import text
 from ..signs import never_zero
@@ -28,10 +28,10 @@ from .theorem import (
     check_domain,
     difference,
     flat,
+    instance,
     isolated,
     knowing,
     made,
-    moved,
     read,
     with_indices,
 )
@@ -83,7 +83,7 @@ def follows(theorem: Theorem, *groups: Group) -> Rule:
     """It says what a theorem says, times a factor that vanishes nowhere."""
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
-        here = moved(theorem, {}, domain)
+        here = instance(theorem, {}, domain)
         new = difference(read(formula, domain, groups), domain)
         old = difference(read(here.formula, domain, groups), domain)
         if len(new) != len(old):
@@ -157,7 +157,7 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
         def forms(line: sympy.Eq) -> tuple[Form, ...]:
             return difference(both_sides(line, domain, reader), domain)
 
-        moved_rows = [moved(row, {}, domain).formula for row in rows]
+        moved_rows = [instance(row, {}, domain).formula for row in rows]
         determinant, factors = eliminated(moved_rows, about, unknowns, forms)
         for key, weights in determinant.parts.items():
             located = any(isinstance(factor, str) for factor, _ in key)
@@ -179,17 +179,6 @@ def solve(rows: Sequence[Theorem], unknowns: Sequence[sympy.Expr], *groups: Grou
         return made(formula, domain, "solving linear equations", (*rows, *flat(groups)))
 
     return rule
-
-
-def instance(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
-    """A theorem at another place, where it is checked to be a statement.
-
-    Raises:
-        NotProvedError: it does not hold on all of the domain there.
-    """
-    instance = moved(theorem, image, domain)
-    read(instance.formula, domain)
-    return instance
 
 
 def mirror(theorem: Theorem) -> Theorem:
@@ -322,7 +311,7 @@ def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
         ):
             raise NotProvedError("the change is supposed, or given in terms of other beads")
         for fact, where in ((origin, Domain()), *((theorem, beads) for theorem in up)):
-            here = moved(fact, {}, where)
+            here = instance(fact, {}, where)
             apart = difference(read(with_value(here.formula), where), where)
             if any(form.parts for form in apart):
                 left, right = map(text, here.formula.args)

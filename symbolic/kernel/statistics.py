@@ -31,6 +31,7 @@ from .theorem import (
     in_kernel_symbols,
     knowing,
     made,
+    written_out,
 )
 
 _SQUARE = FIELD.generator(sy.sigma) ** 2
@@ -62,26 +63,51 @@ class MomentReader(Reader):
     Attributes:
         domain: as a whole.
         groups: the theorems that give quantities in the radii, to be put in one after the other.
+        moments: theorems that say what moments are; others are worked out.
     """
 
     domain: Domain = field(default_factory=Domain)
     groups: Groups = ()
+    moments: Groups = ()
 
     @classmethod
     def on(cls, domain: Domain, groups: Groups = ()) -> "MomentReader":
-        """Those on a domain."""
+        """Those on a domain, by theorems about quantities and about moments.
+
+        Raises:
+            NotProvedError: a theorem about a moment is one of other packings.
+        """
+        moments = tuple(filter(_is_of_a_moment, groups))
+        for own in (theorem.domain for theorem in flat(moments)):
+            if not (domain.shares_packings_of(own) and _has_same_indices(domain, own)):
+                raise NotProvedError("a moment is known of other packings, or of other beads")
+        # the place of the load is not fixed: what the radii determine is known for every place
         fixed = frozenset[sympy.Symbol]().union(*(theorem.fixed for theorem in flat(groups)))
-        return cls(domain.points, domain.straight, fixed=fixed, domain=domain, groups=groups)
+        others = tuple(group for group in groups if group not in moments)
+        points, straight = domain.points, domain.straight
+        return cls(points, straight, fixed=fixed, domain=domain, groups=others, moments=moments)
 
     def read(self, expression: sympy.Expr) -> Value:
-        """A number; moments are worked out."""
+        """A number; moments are put in, or worked out."""
         if isinstance(expression, sy.Moment):
-            value = self.moment(expression)
-            return Form({NUMBER: value.merged() if self.summed else value})
+            return self._moment(expression)
         return super().read(expression)
 
-    def moment(self, moment: sy.Moment) -> Weights:
-        """A moment, as a function of the indices.
+    def _moment(self, moment: sy.Moment) -> Form:
+        """What theorems say that a moment is, and elsewhere what it comes to."""
+        total, left = self.kind(), self.points
+        for theorem in flat(self.moments):
+            about, value = (written_out(side, theorem.domain) for side in theorem.formula.args)
+            inside = left & theorem.domain.points
+            if about == moment and not inside.is_empty():
+                total = total + replace(self, points=inside).number(value).on(inside)
+                left = left - inside
+        if not left.is_empty():
+            total = total + Form({NUMBER: replace(self, points=left)._worked_out(moment).on(left)})
+        return total.merged() if self.summed else total
+
+    def _worked_out(self, moment: sy.Moment) -> Weights:
+        """A moment worked out, as a function of the indices.
 
         Raises:
             NotExactError: an observable is not linear in the radii, or not determined by them.
@@ -102,8 +128,8 @@ class MomentReader(Reader):
         Raises:
             NotExactError: it is not linear in them, or holds what is not given by them.
         """
-        linear = kind is Form
-        plain, loading = Reader(self.points, self.straight, linear=linear), self.domain.loading
+        linear, loading = kind is Form, self.domain.loading
+        plain = Reader(self.points, self.straight, linear=linear, summed=self.summed)
         if self.domain.dimension == 2:
             reader = knowing(plain, self.domain, self.groups, kind)
         elif linear and loading and loading in SPHERES.values():
@@ -114,6 +140,20 @@ class MomentReader(Reader):
         if {*form.parts} - {NUMBER, RADII, SHIFT}:
             raise NotExactError(f"{text(expression)} is not determined by the radii")
         return form
+
+
+def _is_of_a_moment(group: Group) -> bool:
+    """Whether it is a theorem that says what a moment is, and not by other moments."""
+    if isinstance(group, tuple):
+        return False
+    left, right = group.formula.args
+    return isinstance(left, sy.Moment) and not right.has(sy.Moment)
+
+
+def _has_same_indices(domain: Domain, other: Domain) -> bool:
+    """Whether the indices of another domain are straightened in the same way in one."""
+    first, second = domain.straight.image, other.straight.image
+    return all(first.get(symbol) == second.get(symbol) for symbol in other.indices)
 
 
 @lru_cache(maxsize=256)

@@ -245,10 +245,10 @@ def _under(theorem: Theorem, loading: Loading | None) -> Theorem:
     image = {symbol: at for symbol, at in pairs if symbol != at}
     if not all(symbol.is_Symbol for symbol in image) or own.put_in(image) != loading:
         raise NotProvedError(f"{text(theorem.formula.lhs)} is known under another load")
-    return moved(theorem, image, theorem.domain.put_in(image))
+    return instance(theorem, image, theorem.domain.put_in(image))
 
 
-def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
+def instance(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
     """A theorem with other indices, on a domain that lies in its own at these.
 
     Raises:
@@ -260,11 +260,9 @@ def moved(theorem: Theorem, image: Image, domain: Domain) -> Theorem:
                 f"{text(symbol)} = {text(at)} is not a whole number, as an index must be"
             )
     there = theorem.domain.put_in(image)
-    known_here = there.loading is None or (domain.loading and domain.loading.implies(there.loading))
-    same = known_here and (there.dimension, there.limit) == (domain.dimension, domain.limit)
     symbols = set().union(*(value.free_symbols for value in image.values())) & {*sy.INDICES}
     is_free = symbols <= {*domain.indices} and not theorem.fixed & {*image}
-    if not (same and is_free and domain.lies_in(there)):
+    if not (domain.shares_packings_of(there) and is_free and domain.lies_in(there)):
         raise NotProvedError(f"{text(theorem.formula.lhs)} is not known there")
     formula = with_indices(theorem.formula, image)
     check_domain(formula, domain)

@@ -60,7 +60,6 @@ SAME = {
         NOTHING_THERE, *on_the_left(UP_TO_ONE_MORE, CASE_LATER), UP_TO_ONE_LESS, CASE_EARLIER
     ),
     ("13", 1): (NOTHING_THERE, UP_TO_ONE_LESS),
-    ("13", 3): (NOTHING_THERE, *on_the_left(UP_TO_ONE_LESS)),
     ("2", 4): (SAME_HEIGHT, "left: b⁺ replaced by b⁻", "left: b⁻ replaced by b⁺"),
     ("6", 1): (DERIVATIVE, *OF_ACROSS, *OF_UP),
     ("6", 2): (
@@ -79,7 +78,6 @@ SAME = {
     ),
     ("14", 5): (NOTHING_THERE, UP_TO_ONE_MORE, UP_TO_ONE_LESS),
     ("14", 6): (NOTHING_THERE, "left: lower bound m = 1 shifted to 0"),
-    ("14", 7): (NOTHING_THERE, *on_the_left(UP_TO_ONE_MORE, UP_TO_ONE_LESS)),
 }  # fmt: skip
 """Mutants of a step that say the same: why, and which."""
 

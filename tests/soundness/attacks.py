@@ -883,7 +883,7 @@ table(
 )
 KEPT = limits.drop_terms(
     eq12.DERIVATION.theorem,
-    *(step.theorem for step in (eq13.DERIVATION.proof[0], eq13.DERIVATION.proof[2])),
+    eq13.DERIVATION.proof[2].theorem,
 )
 OF_FORCE = eq13.PRINTED.rhs
 table(
@@ -893,19 +893,44 @@ table(
     ("the variance of another quantity", (Variance(2 * LEFT), OF_FORCE),
      "something was dropped from", (Variance(LEFT + 1), OF_FORCE)),
 )
-HERE_ALONE = prove(moment(), Mean(1 + i), 1, Domain.of(Eq(i, 0), beads=()))
+ON_DIAGONAL = eq13.IN_THE_LIMIT.also(Eq(i, j))
+DROPPED_THERE = limits.drop_terms(
+    prove(limits.negligible(*FORCES), LEFT, RIGHT, DROPPING.also(Eq(i, j))),
+    eq13.DERIVATION.proof[2].theorem,
+)
+attack("the variance of what something was dropped from elsewhere",
+       proof(DROPPED_THERE, (Variance(LEFT), OF_FORCE), eq13.IN_THE_LIMIT), "is so elsewhere",
+       proof(DROPPED_THERE, (Variance(LEFT), OF_FORCE), ON_DIAGONAL))
+
+# moments that theorems give
+
+IN_ONE_COLUMN = prove(moment(), Mean(1 + i), 1, Domain.of(Eq(i, 0), beads=()))
 
 
 def grows_as(quantity: sympy.Expr, *relations: sympy.Basic) -> Attempt:
     domain = Domain.of(*relations, indices=(i, M), beads=())
     grown = domain.in_the_limit(at_large_height("∼"))
-    return proof(limits.leading_order_of(HERE_ALONE), (M * quantity, M), grown)
+    return proof(limits.asymptotic(IN_ONE_COLUMN), (M * quantity, M), grown)
 
 
 beside("a mean that is known in one column", grows_as(Mean(1 + i), Eq(i, 0)),
-       ("put in for all", grows_as(Mean(1 + i)), "is not known there"),
+       ("put in for all", grows_as(Mean(1 + i)), "neither grows"),
        ("put in for its neighbours", grows_as(sy.MeanOver(Mean(1 + i), 3, i), Eq(i, 0)),
-        "is not known there"))
+        "on a remainder"))
+AT_LEFT = prove(moment(), Mean(i), 4, Domain.of(Eq(i, 4), Eq(j, 0)))
+attack("a mean that is known of beads, put in for whole numbers",
+       proof(moment(AT_LEFT), (Mean(i), 4), Domain.of(Eq(i, -2), Eq(j, 0), beads=())),
+       "of other beads", proof(moment(AT_LEFT), (Mean(i), 4), AT_LEFT.domain))
+OF_LAYER = eq13.DERIVATION.theorem
+VARIES, *_ = eq13.exact()
+EXACTLY = VARIES.formula.args
+WITHIN = VARIES.domain
+beside("an exact variance", proof(moment(VARIES), EXACTLY, WITHIN),
+       ("put in under another load", proof(moment(VARIES), EXACTLY, WITHIN.loaded(axioms.BULK)),
+        "other packings"),
+       ("put in for more layers", proof(moment(VARIES), EXACTLY, SURFACE), "by the radii"),
+       ("put in for its leading order",
+        proof(moment(OF_LAYER), OF_LAYER.formula.args, WITHIN), "other packings"))
 SHARE = sy.LargestShare
 table(
     limits.bounded(*FORCES), INNER.in_the_limit(at_fixed_height("O")),
@@ -960,8 +985,7 @@ FRACTION = (
     in_place(eq15.tensile_fraction("surface"), {eq15.HEIGHT: sy.UnitHeight(SQUARE)}),
 )
 ONES = prove(moment(*FORCES), Mean(eq15.FORCE["surface"]), 1, eq11.LAYERS.loaded(axioms.SURFACE))
-ONE_LAYER = rules.moved(ONES, {}, ONES.domain.also(Eq(j, 3)))
-OF_LAYER = eq13.DERIVATION.theorem
+ONE_LAYER = rules.instance(ONES, {}, ONES.domain.also(Eq(j, 3)))
 
 
 def fraction(means: Theorem = ONES, left: Any = 1, right: Any = 1) -> Attempt:

@@ -48,7 +48,7 @@ def test_a_step_that_gives_the_printed_equation_refers_to_it():
 def test_the_margin_names_what_a_step_rests_on_and_where_it_holds_if_the_equation_does_elsewhere():
     text = section_latex(run(load(13)))
     for words in (
-        r"\step{4}{1, 3, (12)}",
+        r"\step{4}{3, (12)}",
         r"\step{7}{}",
         r"\step{1}{for $1 \leq  j < M$}",
         r"\step{5}{(4), (5), (11) \\ for $0 \leq  j < M$}",
