@@ -1,6 +1,6 @@
 """An equation for Python users: SymPy objects, values, and its proof."""
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from functools import cache, cached_property, partial
 from typing import Any
 
@@ -15,12 +15,11 @@ from force_diffusion.symbolic.printing.text import text
 
 from ..coq.statements import recorded
 from ..export.terminal import statement_data, statement_text
-from ..framework.catalogue import NoSuchFormError, modules, number_of
-from ..framework.catalogue import Number as EquationNumber
+from ..framework.catalogue import NoSuchFormError, Number, modules, number_of
 from ..framework.closed_form import ClosedForm
 from ..framework.decide import candidate_for
 from ..framework.deciding import decided
-from ..framework.evaluation import evaluate, indices_at
+from ..framework.evaluation import Values, evaluate, indices_at
 from ..framework.lists import either
 from ..framework.record import Derivation, Statement, load
 from ..framework.rows import Row
@@ -57,7 +56,7 @@ class Equation:
         return Equation, (self._derivation,)
 
     @property
-    def number(self) -> EquationNumber:
+    def number(self) -> Number:
         """Its number in the paper, or its label if it is beyond the paper, such as "B1".
 
         >>> import force_diffusion as fd
@@ -449,7 +448,7 @@ class Equation:
         return statement_text(self._derivation)
 
 
-def _put_in(side: sympy.Expr, values: Mapping[sympy.Symbol, sympy.Rational], _: bool) -> sympy.Expr:
+def _put_in(side: sympy.Expr, values: Values, _: bool) -> sympy.Expr:
     return side.xreplace(values)
 
 
@@ -476,7 +475,7 @@ def _names(expressions: Iterable[sympy.Basic]) -> dict[str, Any]:
     return names
 
 
-def numbers_of(given: object, call: str) -> list[EquationNumber]:
+def numbers_of(given: object, call: str) -> list[Number]:
     """The numbers of the equations in a list that a call was given.
 
     Raises:
@@ -490,11 +489,11 @@ def numbers_of(given: object, call: str) -> list[EquationNumber]:
 
 
 @cache
-def _equation(number: EquationNumber) -> Equation:
+def _equation(number: Number) -> Equation:
     return Equation(load(number))
 
 
-def equation(number: EquationNumber) -> Equation:
+def equation(number: Number) -> Equation:
     """The equation of the paper with this number, or the one beyond it with this label.
 
     >>> import force_diffusion as fd

@@ -62,6 +62,11 @@ def _number(text: str) -> Fraction:
         raise typer.BadParameter(f"{error}.") from None
 
 
+def _decimal(metavar: str, words: str) -> Any:
+    """An option that takes a decimal."""
+    return typer.Option(metavar=metavar, parser=_number, help=words)
+
+
 def _figure(word: str) -> str:
     """Read the name of a figure, or of a scene's file."""
     if word not in FIGURES and not word.endswith(".toml"):
@@ -117,19 +122,11 @@ def figures(
     ] = None,
     spacing: Annotated[
         Fraction | None,
-        typer.Option(
-            metavar="S",
-            parser=_number,
-            help=f"s/r of figures {', '.join(OWN_SPACING)}; 3 by default.",
-        ),
+        _decimal("S", f"s/r of figures {', '.join(OWN_SPACING)}; 3 by default."),
     ] = None,
     relative_std: Annotated[
         Fraction | None,
-        typer.Option(
-            metavar="X",
-            parser=_number,
-            help=f"σ/r of figures {', '.join(OWN_STD)}, instead of the defaults.",
-        ),
+        _decimal("X", f"σ/r of figures {', '.join(OWN_STD)}, instead of the defaults."),
     ] = None,
     as_json: Json = False,
     overwrite: Overwrite = False,

@@ -57,9 +57,7 @@ class Output:
         self._check()
         above = next(parent for parent in path.parents if os.path.lexists(parent))
         if not above.is_dir():
-            raise OutputError(
-                f"'{above}' is a file or a link. Give a folder that doesn't exist yet."
-            )
+            raise _no_folder(above)
         self._new = above / f"{path.name}.new-{os.urandom(4).hex()}"
         self._new.mkdir()
         self._new.rmdir()
@@ -75,9 +73,7 @@ class Output:
         if not os.path.lexists(path):
             return
         if path.is_symlink() or not path.is_dir():
-            raise OutputError(
-                f"'{path}' is a file or a link. Give a folder that doesn't exist yet."
-            )
+            raise _no_folder(path)
         if not self.overwrite:
             raise OutputError(f"'{path}' exists already. Give another folder, or --overwrite.")
         try:
@@ -125,6 +121,10 @@ class Output:
                 self._old.rmdir()
             if self._old.is_dir():  # as where something came into it meanwhile
                 tell(f"'{self._old}' can't be deleted. It has the old content of '{self.path}'.")
+
+
+def _no_folder(path: Path) -> OutputError:
+    return OutputError(f"'{path}' is a file or a link. Give a folder that doesn't exist yet.")
 
 
 def _write(path: Path, content: str | bytes, named: Path) -> None:

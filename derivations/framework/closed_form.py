@@ -1,32 +1,21 @@
-"""A closed form as a Python user holds it: formulas with domains, numbers, LaTeX, decisions."""
+"""A closed form as a Python user holds it: formulas on parts of a domain, and decisions on others.
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+Its numbers are in ``values``, its leading orders in ``leading``, its LaTeX in ``display``.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
 from keyword import iskeyword
 from numbers import Integral
 from typing import Any
 
-import mpmath
 import sympy
-from flint import fmpq
 from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
-from force_diffusion.symbolic import sets, words
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import (
-    FIELD,
-    NotAStatementError,
-    NotExactError,
-    NotProvedError,
-    RationalFunction,
-)
-from force_diffusion.symbolic.kernel.decisions import (
-    Ruling,
-    Verdict,
-    all_of,
-    decide,
-    not_a_statement,
-    undecided,
-)
+from force_diffusion.symbolic import words
+from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError, NotProvedError
+from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, decide
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, flat
@@ -34,33 +23,25 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import Piece, PiecewiseFunction
 from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
-from force_diffusion.symbolic.printing.lines import (
-    TEXT_WIDTH,
-    latex_body,
-    latex_cases,
-    pack,
-    text_lines,
-)
+from force_diffusion.symbolic.printing.lines import TEXT_WIDTH
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .catalogue import Number as EquationNumber
-from .deciding import alternatives_of, cases_of, decided, strange_symbol
-from .display import alternatives_in_latex, over_common, room_of, with_commas
-from .evaluation import Number, evaluate, in_order, indices_at, with_values
+from .deciding import decided, parts_of, strange_symbol
+from .display import FormulasInLatex, in_python, in_text
+from .evaluation import Number, Values, evaluate, in_order, indices_at, with_values
+from .leading import leading_orders
 from .proof import equations_of
+from .values import are_even, hold, value_at
 
 _ALWAYS_KNOWN = {sy.phi, sy.r, sy.n_x, sy.n_y, sy.spacing, sy.H_M}
-_DIGITS = 40  # of harmonic numbers, beside floats
-_HIGHEST = 100_000  # M up to which they are exact
 _LAYERS = 10_000_000
-_ORDERS = 100
 _MOST_LINES = 60  # that print shows
-_MANY = 6  # parts of a domain, beyond which LaTeX says "otherwise" of a formula
-_HIGH = {1: 23, 2: 22}  # lines of a display that fits a page of usual classes, by columns
 
 
+@dataclass(eq=False, repr=False)
 class ClosedForm:
     """An exact statistic: a formula on each part of its domain.
 
@@ -81,17 +62,12 @@ class ClosedForm:
         units: what the quantities in it are divided by, in words; "" if by nothing.
     """
 
-    def __init__(
-        self,
-        quantity: sympy.Expr,
-        statistic: sympy.Expr,
-        kernel_domain: Domain,
-        groups: Callable[[], Sequence[Group]],
-        divisor: sympy.Expr = sympy.S.One,
-        units: str = "",
-    ) -> None:
-        self.quantity, self.statistic, self.kernel_domain = quantity, statistic, kernel_domain
-        self.divisor, self.groups, self.units = divisor, groups, units
+    quantity: sympy.Expr
+    statistic: sympy.Expr
+    kernel_domain: Domain
+    groups: Callable[[], Sequence[Group]]
+    divisor: sympy.Expr = sympy.S.One
+    units: str = ""
 
     def __reduce__(self) -> tuple[Any, ...]:
         """No theorem comes out of a pickle: what it says is worked out again."""
@@ -100,8 +76,7 @@ class ClosedForm:
 
     def named(self, quantity: sympy.Expr) -> "ClosedForm":
         """The same form, printed with a symbol for its quantity."""
-        _, (_, *others, _) = self.__reduce__()
-        form = ClosedForm(quantity, *others)
+        form = replace(self, quantity=quantity, units="")
         form.function = self.function
         return form
 
@@ -185,29 +160,22 @@ class ClosedForm:
 
     def conditions(self, style: words.Style = words.TEXT) -> list[str]:
         """The same as a list of conditions."""
-        relations, even = self._conditions_of(self._needed)
         suffix = r" \text{ even}" if style is words.LATEX else " even"
-        return [*words.parts(relations, style), *(style.shown(total) + suffix for total in even)]
-
-    def _conditions_of(
-        self, symbols: Iterable[sympy.Symbol]
-    ) -> tuple[list[sympy.Basic], list[sympy.Expr]]:
-        """The relations of its domain that hold these alone, and what is even there."""
-        indices = {*symbols}
-        relations = [each for each in self.function.domain if each.free_symbols <= indices]
-        return relations, [total for total in self.even if total.free_symbols <= indices]
+        even = (style.shown(total) + suffix for total in self.even)
+        return [*words.parts(self.function.domain, style), *even]
 
     @cached_property
     def even(self) -> list[sympy.Expr]:
-        """Sums of indices that are even at every bead, no two solved for the same symbol."""
+        """Sums of the indices on which it depends that are even at every bead."""
         image = self.kernel_domain.straight.image
-        return [
+        sums = (
             sympy.Add(
                 symbol,
                 *(index for index, n in image[symbol].as_coefficients_dict().items() if n % 2),
             )
             for symbol in sorted(image, key=sy.INDICES.index)
-        ]
+        )
+        return [total for total in sums if total.free_symbols <= self._needed]
 
     @property
     def _for_domain(self) -> str:
@@ -264,9 +232,7 @@ class ClosedForm:
         about = text(self.quantity), self._needed
         return evaluate(about, [self.value], unnamed, values, dimension, in_packing=False)
 
-    def value(
-        self, values: Mapping[sympy.Symbol, sympy.Rational], exact: bool = True
-    ) -> sympy.Expr:
+    def value(self, values: Values, exact: bool = True) -> sympy.Expr:
         """The value for exact numbers by symbol, whose names were checked before.
 
         Unless ``exact``, harmonic numbers have 40 digits.
@@ -275,16 +241,10 @@ class ClosedForm:
             ArgumentError: the point lies outside the domain.
         """
         whole = {symbol: int(value) for symbol, value in values.items() if symbol in sy.INDICES}
-        given = [symbol for symbol in sy.INDICES if symbol in whole]
-        relations, even = self._conditions_of(given)
-        if not _hold(relations, whole) or any(_total(sets.row(total), whole) % 2 for total in even):
-            point = with_values(given, values)
+        if not (hold(self.function.domain, whole) and are_even(self.even, whole)):
+            point = with_values([symbol for symbol in sy.INDICES if symbol in whole], values)
             raise ArgumentError(f"{text(self.quantity)} is for {self.domain}, not for {point}")
-        for piece in self.pieces:
-            if any(_hold(part, whole) for part in piece.where):
-                harmonic = _harmonic(piece.value, values, exact)
-                return _number(piece.value, {**values, **harmonic})
-        raise AssertionError("the pieces do not cover the domain")  # pragma: no cover
+        return value_at(self.pieces, whole, values, exact)
 
     def profile(self, /, **values: Number) -> Any:
         """The values in all layers j of a packing, from the base up; give the other symbols.
@@ -323,27 +283,12 @@ class ClosedForm:
             ArgumentError: it doesn't depend on the height M or the layer j, or the powers differ on
                 several parts, or these are no relations of indices.
         """
-        if not isinstance(orders, Integral) or not 1 <= orders <= _ORDERS:
-            raise ArgumentError(f"orders = {quoted(orders)}: must be whole, from 1 to {_ORDERS}")
         try:
             pieces = self.function.part(*relations).pieces if relations else self.pieces
         except NotExactError as reason:
             raise ArgumentError(f"{text(self.quantity)}: {reason}") from None
-        pieces = tuple(piece for piece in pieces if any(map(_reaches_inside, piece.where)))
-        if not pieces or not {sy.M, sy.j} <= self._needed:
-            raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
-        height, z = FIELD.generator(sy.M), FIELD.generator(sy.z)
-        domains = {
-            tuple(_highest(piece.value.substitute({sy.j: z * height}), orders)): piece.domain
-            for piece in reversed(pieces)
-        }
-        if len(domains) > 1:
-            several = ", and for ".join([*domains.values()][:2])
-            raise ArgumentError(
-                f"its leading orders differ, as for {several}. Say which part is meant, as in "
-                "leading(1, N >= 2)"
-            )
-        return sympy.Add(*next(iter(domains)))
+        has_limit = {sy.M, sy.j} <= self._needed
+        return leading_orders(pieces if has_limit else (), orders)
 
     # how it is written
 
@@ -352,50 +297,15 @@ class ClosedForm:
 
         Lines fit a page of one or of two columns. Raises ``ArgumentError`` for any other number.
         """
-        return self._shown(self._in_latex, columns)
-
-    @cached_property
-    def _in_latex(self) -> list[Piece]:
-        """The formulas, those with many parts last; the last of them has what the others leave."""
-        return sorted(self.pieces, key=lambda piece: max(len(piece.where), _MANY))
-
-    def _where(self, piece: Piece, before: str = "") -> list[str]:
-        if len(piece.where) > _MANY and piece is self._in_latex[-1]:
-            return [r"\text{otherwise}"]
-        return alternatives_in_latex(piece.where, before)
-
-    def _shown(self, pieces: Sequence[Piece], columns: int) -> str:
-        """LaTeX of some of its pieces; where all hold, below the last."""
-        is_last = pieces[-1] is self._in_latex[-1]
-        room, domain = room_of(columns), self.conditions(words.LATEX) if is_last else []
-        units = [rf"\text{{{self.units}}}"] if self.units and is_last else []
-        below = with_commas([*domain, *units], "for" if domain else "")
-        if len(pieces) == 1:
-            (piece,) = pieces
-            if alternatives := self._where(piece, "if"):
-                below = [*alternatives, *with_commas([*domain, *units], " for" if domain else "")]
-            line = equation(self.quantity, piece.expr)
-            return latex_body((line,), room=room, below=below)
-        factor, values = self._over_common
-        rows = [(values[piece], self._where(piece)) for piece in pieces]
-        return latex_cases(self.quantity, factor, rows, below, room)
-
-    @cached_property
-    def _over_common(self) -> tuple[sympy.Expr, dict[Piece, sympy.Expr]]:
-        """What its formulas have in common, and what else each of them holds."""
-        field = self.pieces[0].value.domain  # it has the user's own symbols, too
-        factor, values = over_common([piece.expr for piece in self.pieces], field)
-        return factor, dict(zip(self.pieces, values, strict=True))
+        return self._in_latex.display(columns)
 
     def displays(self, columns: int = 1) -> list[str]:
         """The same as displays that fit a page, several if needed."""
-        return self._in_halves(self._in_latex, columns)
+        return self._in_latex.displays(columns)
 
-    def _in_halves(self, pieces: Sequence[Piece], columns: int) -> list[str]:
-        whole, half = self._shown(pieces, columns), len(pieces) // 2
-        if whole.count(r"\\") <= _HIGH[columns] or not half:
-            return [whole]
-        return [*self._in_halves(pieces[:half], columns), *self._in_halves(pieces[half:], columns)]
+    @cached_property
+    def _in_latex(self) -> FormulasInLatex:
+        return FormulasInLatex(self.quantity, self.pieces, self.conditions(words.LATEX), self.units)
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex()}$"
@@ -421,39 +331,17 @@ class ClosedForm:
         """
         if not isinstance(name, str) or not name.isidentifier() or iskeyword(name):
             raise ArgumentError(f"name={quoted(name)}: must be a valid name of a Python function")
-        lines = [f"def {name}({', '.join(self.symbols)}):"]
-        lines.append(f'    """{self._heading}."""')
-        relations, even = self._conditions_of(self._needed)
-        conditions = words.parts(relations, words.PYTHON)
-        conditions += [f"({python_expression(total)}) % 2 == 0" for total in even]
+        lines = [f"def {name}({', '.join(self.symbols)}):", f'    """{self._heading}."""']
+        conditions = words.parts(self.function.domain, words.PYTHON)
+        conditions += [f"({python_expression(total)}) % 2 == 0" for total in self.even]
         if conditions:
             lines.append(f"    if not ({' and '.join(conditions)}):")
             lines.append(f'        raise ValueError("outside of {self.domain}")')
-        for symbol, source in (
-            (sy.H_M, "sum(1/n for n in range(1, M + 1))"),
-            (sy.n_x, "((1 - phi)/2)**0.5"),
-            (sy.n_y, "((1 + phi)/2)**0.5"),
-        ):
-            if any(piece.expr.has(symbol) for piece in self.pieces):
-                lines.append(f"    {symbol.in_code} = {source}")
-        for piece in self.pieces:
-            parts = [" and ".join(words.parts(part, words.PYTHON)) for part in piece.where]
-            value = f"    return {python_expression(piece.expr)}"
-            lines += [f"    if {' or '.join(parts)}:", f"    {value}"] if all(parts) else [value]
-        return "\n".join(lines) + "\n"
+        return "\n".join([*lines, *in_python(self.pieces), ""])
 
     def lines(self, room: int = TEXT_WIDTH) -> list[str]:
         """The lines that ``print`` shows."""
-        lines = [self._heading]
-        for piece in self.pieces:
-            parts = f"{piece.domain or 'everywhere'}:".replace("; or ", ";\nor ").split("\n")
-            where = pack([(part, len(part) + 1) for part in parts], room - 4, room - 2)
-            formula = text_lines(piece.expr, room=room - 4)
-            if len(where) + len(formula) == 2 and len(where[0] + formula[0]) < room - 3:
-                lines.append(f"  {where[0]} {formula[0]}")
-            else:
-                lines += [f"  {where[0]}", *(f"    {line}" for line in (*where[1:], *formula))]
-        return lines
+        return [self._heading, *(line for piece in self.pieces for line in in_text(piece, room))]
 
     def __str__(self) -> str:
         count = len(self.pieces)
@@ -490,10 +378,15 @@ class ClosedForm:
             ArgumentError: it doesn't depend on an index given, or its value is not whole.
         """
         indices = indices_at(at, self.symbols.values())
-        at_place = [sympy.Eq(symbol, n, evaluate=False) for symbol, n in indices.items()]
-        return decided(candidate, (self.equation,), lambda _, line: self._rule_on(line, at_place))
+        place = [sympy.Eq(symbol, n, evaluate=False) for symbol, n in indices.items()]
+        return decided(candidate, (self.equation,), lambda _, eq: all_of(*self._rulings(eq, place)))
 
-    def _rule_on(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Ruling:
+    def _read(self, candidate: sympy.Eq) -> sympy.Eq:
+        """A candidate with the quantity on its left, in known symbols.
+
+        Raises:
+            NotAStatementError: it holds others.
+        """
         if candidate.rhs in (self.quantity, self.statistic):
             candidate = equation(candidate.rhs, candidate.lhs)
         known = {
@@ -508,36 +401,25 @@ class ClosedForm:
         if sy.t in known:
             candidate = candidate.xreplace({sy.L_minus: sy.t * sy.L_plus})
         for symbol in by_name(candidate.free_symbols - known):
-            return not_a_statement(
+            raise NotAStatementError(
                 strange_symbol(symbol, known)
                 or f"{text(symbol)} is not a symbol of {text(self.quantity)}"
             )
-        try:
-            return all_of(*self._rulings(candidate, at_place))
-        except NotAStatementError as reason:
-            return not_a_statement(str(reason))
-        except NotExactError as reason:
-            return undecided(str(reason))
+        return candidate
 
-    def _rulings(self, candidate: sympy.Eq, at_place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
-        """A ruling on each part of a candidate up to one that is refuted; they cover the domain."""
-        domain, function = self.kernel_domain.also(*at_place), self.function.part(*at_place)
-        rest = function.points
-        if rest.is_empty():
+    def _rulings(self, candidate: sympy.Eq, place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
+        """A ruling on each part of a candidate up to one that is refuted; they cover the domain.
+
+        Raises:
+            NotExactError: the candidate is not read.
+        """
+        candidate = self._read(candidate)
+        domain, function = self.kernel_domain.also(*place), self.function.part(*place)
+        if function.points.is_empty():
             raise NotAStatementError(f"{text(self.quantity)} is for {self.domain}")
-        cases = cases_of(candidate)
-        parts = []
-        for value, relations in alternatives_of(cases):
-            here = rest & sets.where(*map(function.straight.relation, relations))
-            rest = rest - here
-            parts.append((value, here))
-        if not rest.is_empty():
-            left_out = words.alternatives(function.relations(rest))
-            raise NotAStatementError(f"it has no value for {left_out}")
         by = moment(*self.groups(), on=self.kernel_domain)
-        for value, here in parts:
-            formula = in_place(candidate, {cases: value}) if cases else candidate
-            for part in function.relations(here):
+        for formula, points in parts_of(candidate, function):
+            for part in function.relations(points):
                 ruling = decide(self._in_moments(formula), domain.also(*part), [by])
                 yield ruling
                 if ruling.verdict is Verdict.REFUTED:
@@ -553,73 +435,3 @@ class ClosedForm:
             return in_place(formula, {self.quantity: quotient})
         (symbol,) = shown  # the quantity may be this symbol less 1
         return in_place(formula, {symbol: sympy.Add(quotient, symbol - self.quantity)})
-
-
-def _total(form: sets.Row, whole: Mapping[sympy.Symbol, int]) -> int:
-    return form[1] + sum(factor * whole[symbol] for symbol, factor in form[0].items())
-
-
-def _hold(relations: Iterable[sympy.Basic], whole: Mapping[sympy.Symbol, int]) -> bool:
-    """Whether relations hold of whole numbers."""
-    totals = ((_total(form, whole), equal) for form, equal in map(sets.condition, relations))
-    return all(total == 0 if equal else total >= 0 for total, equal in totals)
-
-
-def _harmonic(
-    value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rational], exact: bool
-) -> dict[sympy.Symbol, sympy.Rational]:
-    """H_M, where a function holds it."""
-    if not value.holds(sy.H_M):
-        return {}
-    height = int(values[sy.M])
-    if not exact:
-        with mpmath.workdps(_DIGITS):
-            return {sy.H_M: sympy.Rational(str(mpmath.harmonic(height)))}
-    if height > _HIGHEST:
-        raise ArgumentError(
-            f"M = {height}: the exact sum of 1/k up to it is too long; give a float for one value"
-        )
-    total = fmpq.harmonic(height)
-    return {sy.H_M: sympy.Rational(int(total.p), int(total.q))}
-
-
-def _number(value: RationalFunction, values: Mapping[sympy.Symbol, sympy.Rational]) -> sympy.Expr:
-    """The exact value of a function; a root where n_x or n_y is left."""
-    value = value.reduced()
-    if any(value.holds(component) for component in (sy.n_x, sy.n_y)):
-        cosine = values[sy.phi]
-        sides = {sy.n_x: sympy.sqrt((1 - cosine) / 2), sy.n_y: sympy.sqrt((1 + cosine) / 2)}
-        return factored(value).xreplace({**values, **sides})
-    given = (values.get(symbol, sympy.S.Zero) for symbol in value.domain.generators)
-    numbers = [fmpq(int(number.p), int(number.q)) for number in given]
-    divisor = value.denominator(*numbers)
-    if divisor == 0:
-        raise ArgumentError("it has no value there: it divides by 0")
-    quotient = value.numerator(*numbers) / divisor
-    return sympy.Rational(int(quotient.p), int(quotient.q))
-
-
-def _reaches_inside(part: Iterable[sympy.Basic]) -> bool:
-    """Whether M → ∞ at fixed z = j/M, 0 < z < 1, stays in a part for some other indices."""
-    for relation in part:
-        form, equation = sets.condition(relation)
-        at_base, at_surface = (form[0].get(sy.M, 0) + z * form[0].get(sy.j, 0) for z in (0, 1))
-        is_fixed = at_base == at_surface == 0
-        if not is_fixed and (equation or min(at_base, at_surface) < 0):
-            return False
-    return True
-
-
-def _highest(value: RationalFunction, orders: int) -> Iterator[sympy.Expr]:
-    """The highest powers of M of a function, by division of its numerator."""
-    height = FIELD.generator(sy.M)
-    divisor = value.domain.polynomial(value.denominator)
-    below = divisor.coefficients(sy.M)
-    rest = value.domain.polynomial(value.numerator) * height**orders  # so that no power is negative
-    for _ in range(orders):
-        if rest.is_zero():
-            return
-        above = rest.coefficients(sy.M)
-        term = above[-1] / below[-1] * height ** (len(above) - len(below))
-        yield factored(term / height**orders)
-        rest = rest - term * divisor

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 import sympy
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
-from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError, NotProvedError
+from force_diffusion.symbolic.algebra.exact import NotExactError, NotProvedError
 from force_diffusion.symbolic.kernel import axioms, rules
 from force_diffusion.symbolic.kernel.decisions import Ruling, decide, not_a_statement, undecided
 from force_diffusion.symbolic.kernel.domain import Domain, Limit
@@ -17,7 +17,7 @@ from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.trees import in_place
 
-from .deciding import alternatives_of, cases_of, strange_symbol
+from .deciding import alternatives_of, cases_of, strange_symbol, unread
 from .record import Derivation, load
 
 OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
@@ -51,10 +51,8 @@ def candidate_for(
     if domain.limit and formula.has(sympy.Piecewise):
         try:
             formula = _in_limit(formula, domain, domain.limit)
-        except NotAStatementError as reason:
-            return not_a_statement(str(reason))
-        except NotExactError as reason:
-            return undecided(str(reason))
+        except NotExactError as error:
+            return unread(error)
     if domain.limit and (own := by_name(formula.free_symbols - OURS - {sy.H_M})):
         return undecided(f"a limit is read in the equation's symbols, and {text(own[0])} is none")
     return decide(formula, domain, [step.rules[place], *_further(statement, formula, domain)])

@@ -6,6 +6,7 @@ from numbers import Rational
 from typing import Any
 
 import sympy
+from force_diffusion.symbolic import sets, words
 from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError
 from force_diffusion.symbolic.forms import SUMMATION
 from force_diffusion.symbolic.kernel.decisions import (
@@ -17,10 +18,10 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.piecewise import Relations
+from force_diffusion.symbolic.piecewise import PiecewiseFunction, Relations
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.sizes import too_large
-from force_diffusion.symbolic.trees import equation, nodes
+from force_diffusion.symbolic.trees import equation, in_place, nodes
 from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanAtom
 
@@ -37,12 +38,15 @@ def decided(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
         candidate: a SymPy ``Eq``; an expression, number or closed form for a right-hand side; or as
             many of these as there are lines, in a ``Tuple``, tuple or list.
         lines: what is printed.
-        rule_on: rules on an equation in the place of one of them.
+        rule_on: rules on an equation in the place of one of them; ``NotExactError`` of a candidate
+            that it can't read.
     """
     try:
         if isinstance(candidate, sympy.Tuple | tuple | list):
             return _on_all(tuple(candidate), lines, rule_on)
         return _on_one(candidate, lines, rule_on)
+    except NotExactError as reason:
+        return unread(reason)
     except RecursionError:
         return undecided("it is nested too deeply to be read")
 
@@ -157,3 +161,32 @@ def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relatio
     for value, condition in folded.args:
         for part in sympy.Or.make_args(sympy.to_dnf(condition)):
             yield value, tuple(each for each in sympy.And.make_args(part) if each != sympy.true)
+
+
+def parts_of(candidate: sympy.Eq, function: PiecewiseFunction) -> list[tuple[sympy.Eq, sets.Set]]:
+    """The formulas of a candidate that may be given in pieces, each with its part of a domain.
+
+    Args:
+        candidate: an equation.
+        function: which is meant, on that domain.
+
+    Raises:
+        NotAStatementError: it has no value on some part of the domain.
+        NotExactError: its cases are not read.
+    """
+    cases, rest, parts = cases_of(candidate), function.points, []
+    for value, relations in alternatives_of(cases):
+        here = rest & sets.where(*map(function.straight.relation, relations))
+        rest = rest - here
+        formula = in_place(candidate, {cases: value}) if cases else candidate
+        parts.append((formula, here))
+    if not rest.is_empty():
+        left_out = words.alternatives(function.relations(rest))
+        raise NotAStatementError(f"it has no value for {left_out}")
+    return parts
+
+
+def unread(reason: NotExactError) -> Ruling:
+    """What is ruled on a candidate that can't be read."""
+    is_statement = not isinstance(reason, NotAStatementError)
+    return undecided(str(reason)) if is_statement else not_a_statement(str(reason))

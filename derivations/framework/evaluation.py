@@ -26,6 +26,9 @@ np = lazy_loader.load("numpy")
 Number: TypeAlias = int | float | Fraction | Decimal
 """What is put in: int, Fraction, Decimal and, at run time, SymPy's Rational are exact."""
 
+Values: TypeAlias = Mapping[sympy.Symbol, sympy.Rational]
+"""Exact numbers by symbol."""
+
 _ORDER = "M l j z i k phi sigma r"
 _WHOLE: tuple[str, Callable[[Any], Any]] = ("a whole number", lambda _: True)
 _ALLOWED: dict[sympy.Symbol, tuple[str, Callable[[Any], Any]]] = {
@@ -75,7 +78,7 @@ def _values(
     given: Mapping[str, Number],
     dimension: int,
     in_packing: bool,
-) -> dict[sympy.Symbol, sympy.Rational]:
+) -> Values:
     """Values of symbols by name, exactly; of z, too, where M and j of a packing are given.
 
     Raises:
@@ -103,10 +106,7 @@ def in_order(names: Iterable[str]) -> list[str]:
 
 
 def _exactly(name: str, value: Number) -> sympy.Rational:
-    if isinstance(value, fmpq | fmpz):
-        value = fmpq(value)
-        return sympy.Rational(int(value.p), int(value.q))
-    if isinstance(value, numbers.Rational):
+    if isinstance(value, numbers.Rational | fmpq | fmpz):
         return sympy.Rational(int(value.numerator), int(value.denominator))
     if isinstance(value, Decimal) and value.is_finite():
         if max(abs(value.adjusted()), len(value.as_tuple().digits)) > _LONGEST:
@@ -154,9 +154,7 @@ def indices_at(
     return {by_name[name]: sympy.Integer(int(value)) for name, value in at.items()}
 
 
-def with_values(
-    symbols: Iterable[sympy.Symbol], values: Mapping[sympy.Symbol, sympy.Rational]
-) -> str:
+def with_values(symbols: Iterable[sympy.Symbol], values: Values) -> str:
     """Symbols with their values, in words."""
     return ", ".join(f"{text(symbol)} = {text(values[symbol])}" for symbol in symbols)
 
@@ -182,7 +180,7 @@ def rounded(value: sympy.Expr) -> float:
 
 def evaluate(
     formula: tuple[str, set[sympy.Symbol]],
-    sides: Sequence[Callable[[Mapping[sympy.Symbol, sympy.Rational], bool], sympy.Expr]],
+    sides: Sequence[Callable[[Values, bool], sympy.Expr]],
     unnamed: Sequence[Any],
     given: Mapping[str, Any],
     dimension: int = 2,
