@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_298,
-    "derivations": 7_113,
+    "derivations": 7_112,
     "numeric": 8_829,
     "force_diffusion": 78,
     "benchmarks": 833,
