@@ -1,9 +1,12 @@
 """Eq. 1: positions of the beads in the ordered packing, and the spacings at which none overlap."""
 
 # fmt: off
+from functools import partial
+
 import sympy
 from force_diffusion.derivations.framework.vocabulary import (
-    Derivation, Domain, Steps, axioms, equation, follows, reach, rewrite, terms, times, usual)
+    Derivation, Domain, Rule, Steps, Theorem, axioms, equation, follows, inducted, instance, minus,
+    rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Dot, Position, e_x, i, j, n_minus, n_plus, n_x, n_y, p, phi, q, r, spacing)
 # fmt: on
@@ -16,8 +19,8 @@ PRINTED = equation(
 
 TOUCHING = sympy.Tuple(
     equation(Position(0, 0), 0),
-    equation(Position(i + 1, j + 1) - Position(i, j), 2 * r * n_plus),
-    equation(Position(i - 1, j + 1) - Position(i, j), 2 * r * n_minus),
+    equation(Position(i + 1, j + 1), terms(Position(i, j), 2 * r * n_plus)),
+    equation(Position(i - 1, j + 1), terms(Position(i, j), 2 * r * n_minus)),
 )
 """What the ordered packing is: its origin, and each bead touching the two above it."""
 
@@ -37,6 +40,38 @@ def beyond_the_closest(across: sympy.Expr, up: sympy.Expr, closest: tuple[int, i
     return equation(D(p, q) - 4 * r**2, terms(*more, terms(D(*closest), -4 * r**2)))
 
 
+ON_BASE = equation(Position(2 * p, 0), times(2 * p * r, terms(n_plus, minus(n_minus))))
+
+
+def along_base(origin: Theorem, *up: Theorem) -> Rule:
+    """The rule for beads (2p, 0): by induction, to the right and to the left of bead (0, 0)."""
+    down = [
+        follows(bond)(equation(Position(i, j), bond.formula.lhs - 2 * r * unit), BEADS)
+        for bond, unit in zip(up, (n_plus, n_minus), strict=True)
+    ]
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        at_origin, right, left = rewrite(origin), domain.also(p >= 0), domain.also(p <= 0)
+        to_right, to_left = partial(rewrite, down[1], up[0]), partial(rewrite, down[0], up[1])
+        halves = (
+            *inducted(p, 0, at_origin, to_right, [(formula, right)]),
+            *inducted(p, 0, at_origin, to_left, [(formula, left)], down=True),
+        )
+        return rewrite(halves)(formula, domain)
+
+    return rule
+
+
+def above_base(base: Theorem, up: Theorem) -> Rule:
+    """The rule for beads (i, j): by induction, from layer to layer."""
+    to_here = instance(up, {i: i - 1, j: j - 1}, Domain.of(j >= 1))
+
+    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        return inducted(j, 0, rewrite(base), partial(rewrite, to_here), [(formula, domain)])[0]
+
+    return rule
+
+
 def show_steps(steps: Steps) -> None:
     """From touching along the two lattice directions to the range of the spacing."""
     touching = steps.show(
@@ -47,10 +82,17 @@ def show_steps(steps: Steps) -> None:
         (Domain(), BEADS, BEADS),
     )
     origin, *up = touching.theorems
+    base = steps.show(
+        "In the base, a step up along n⁺ and one down along n⁻ lead to the next bead to the right, "
+        "and the same steps back to the next one to the left:",
+        ON_BASE,
+        along_base(origin, *up),
+        Domain.of(indices=(p,), beads=()),
+    )
     printed = steps.show(
-        "Going (j+i)/2 steps along n⁺ and (j−i)/2 along n⁻ reaches bead (i, j).",
+        "From bead (i − j, 0) of the base, j steps along n⁺ lead to bead (i, j):",
         PRINTED,
-        reach(origin, up),
+        above_base(base.theorem, up[0]),
     )
     steps.show(
         "Neighbours in a layer are two indices apart. Their distance is the spacing s.",

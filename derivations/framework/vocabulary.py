@@ -13,7 +13,7 @@ from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_heigh
 from force_diffusion.symbolic.kernel.limits import (
     asymptotic, drop_terms, negligible)
 from force_diffusion.symbolic.kernel.rules import (
-    Rule, along, differentiate, follows, inducted, mirror, order, reach, rewrite, same,
+    Rule, along, differentiate, follows, inducted, mirror, order, rewrite, same,
     solve)
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Groups, Theorem, instance, isolated

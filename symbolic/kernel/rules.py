@@ -277,50 +277,6 @@ def inducted(
     )
 
 
-def reach(origin: Theorem, up: Sequence[Theorem]) -> Rule:
-    """A quantity of every bead (i, j), known at (0, 0), and what it gains on both steps up.
-
-    Every bead in or above the base is reached by steps to (i ± 1, j + 1) and back.
-    """
-
-    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
-        about, value = isolated(formula, domain)
-        if about.func not in (sy.Position, sy.DeltaX) or about.args != (sy.i, sy.j):
-            raise NotProvedError(f"{text(about)} is not a quantity of bead (i, j)")
-        others = not {*domain.indices} <= {sy.i, sy.j} or domain.dimension != 2
-        if others or not domain.implies(sy.j >= 0):
-            raise NotProvedError("the domain is not that of beads (i, j)")
-        read(formula, domain)
-
-        def with_value(line: sympy.Eq) -> sympy.Eq:
-            def at(across: sympy.Expr, layer: sympy.Expr) -> sympy.Expr:
-                there = with_indices(equation(about, value), {sy.i: across, sy.j: layer})
-                return there.rhs
-
-            return equation(*(side.replace(about.func, at) for side in line.args))
-
-        beads = Domain.of(sy.j >= 0)
-        gained = {about.func(sy.i + side, sy.j + 1) - about for side in (1, -1)}
-        if (
-            origin.formula.lhs != about.func(0, 0)
-            or {theorem.formula.lhs for theorem in up} != gained
-        ):
-            raise NotProvedError("the steps do not reach every bead")
-        if any(
-            theorem.formula.rhs.has(about.func) or theorem.supposed for theorem in (origin, *up)
-        ):
-            raise NotProvedError("the change is supposed, or given in terms of other beads")
-        for fact, where in ((origin, Domain()), *((theorem, beads) for theorem in up)):
-            here = instance(fact, {}, where)
-            apart = difference(read(with_value(here.formula), where), where)
-            if any(form.parts for form in apart):
-                left, right = map(text, here.formula.args)
-                raise refuse(apart, where, implied=f"with it, {left} = {right} fails: ")
-        return made(formula, domain, "adding up steps from bead (0, 0)", (origin, *up))
-
-    return rule
-
-
 # derivatives
 
 

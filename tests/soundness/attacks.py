@@ -290,7 +290,7 @@ table(rules.rewrite(ON_LOADED), LOADED,
       ("a force over itself, which is zero", (over_itself(TOP), 0), "may be zero", (TOP, 0)))
 
 
-ORIGIN, *UP = axioms.ordered()
+ORIGIN, *_ = axioms.ordered()
 ALONG_IT = sy.Dot(sy.n_plus, sy.Position(0, 0))
 
 
@@ -430,7 +430,7 @@ for name, wrong, sides in (
     attack(f"the mirror image of {name}", partial(rules.mirror, prove(REWRITE, *wrong, BEADS)),
            "a horizontal index", partial(rules.mirror, prove(REWRITE, *sides, BEADS)))
 
-# induction and reach
+# induction
 
 q = sy.q
 STAYS, COUNT = rules.rewrite(BASE), Domain.of(q >= 0)
@@ -512,25 +512,6 @@ def decided(rule: Rule, theorem: Theorem) -> str:
 attack("what is only supposed is no proof", lambda: decided(lambda *_: SUPPOSED[0], SUPPOSED[0]),
        "only supposed", lambda: decided(rules.same(BASE), BASE))
 REACHED = POSITIONS.formula.args
-CIRCULAR = [
-    prove(rules.rewrite(POSITIONS), sy.Position(i + s, j + 1) - PLACE,
-          sy.Position(i + s + 2, j + 1) - sy.Position(i + 2, j), BEADS)
-    for s in (1, -1)
-]
-
-
-def reach(up: list[Theorem], sides: Sides, domain: Domain = BEADS) -> Attempt:
-    return proof(rules.reach(ORIGIN, up), sides, domain)
-
-
-beside("reach", reach(UP, REACHED),
-       ("r = 0", reach(UP, (PLACE, PLACE * 0)), "left minus right is"),
-       ("twice as far", reach(UP, (PLACE, 2 * REACHED[1])), "left minus right is"),
-       ("steps that say nothing", reach(CIRCULAR, (PLACE, 0)), "other beads"),
-       ("one step for both", reach([UP[0], UP[0]], REACHED), "every bead"),
-       ("another place", reach(UP, (sy.Position(i + 2, j), REACHED[1])), "not a quantity of bead"),
-       ("in three dimensions", reach(UP, REACHED, IN_SPACE), "not that of beads"),
-       ("below the base", reach(UP, REACHED, Domain.of(j >= -1)), "not that of beads"))
 
 # what is known for one value of an index
 
@@ -617,28 +598,6 @@ attack("a mean over what is supposed for one value",
        proof(by_means, (diagonal(q - i / 2), 3 * (q - i / 2) * r * sy.n_plus), WEDGE),
        "stands for one value",
        proof(rules.rewrite(POSITIONS), (diagonal(q - i / 2), (q - i / 2) * STEP), WEDGE))
-LIFT = sy.Braces(ZERO, Integer(1), j, ZERO) * r * sy.n_plus
-
-
-def reached_from(lift: sympy.Expr, *known: Theorem) -> Attempt:
-    """Layer 1, from what is supposed of it and makes the step from layer 0."""
-    above = in_place(lift, {j: j + 1})
-
-    def step(supposed: tuple[Theorem, ...]) -> Rule:
-        return rules.reach(ORIGIN, [
-            prove(rules.rewrite(*(known or supposed[:1]), POSITIONS),
-                  sy.Position(i + side, j + 1) - PLACE, 2 * r * n_side + above - lift, BEADS)
-            for side, n_side in ((1, sy.n_plus), (-1, sy.n_minus))
-        ])
-
-    def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
-        return rules.inducted(j, 5, REWRITE, step, [(formula, domain)], down=True)[0]
-
-    return proof(rule, (PLACE, REACHED[1] + lift), BEADS.also(Eq(j, 1)))
-
-
-attack("steps that are supposed", reached_from(LIFT), "is supposed, or given",
-       reached_from(0 * LIFT, POSITIONS))
 LATER = Domain.of(n >= 1, beads=())
 
 

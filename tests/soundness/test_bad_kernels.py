@@ -62,9 +62,6 @@ FAULTS = {
     "a base that is supposed": ("kernel.rules", "inducted", "if premises[-1].supposed", "if False"),
     "other suppositions": ("kernel.rules", "suppose", "(formula, domain) not in supposition.members", "False"),
     "suppositions of the same value": ("kernel.rules", "suppose", "supposition.index - supposition.before", "supposition.index"),
-    "no steps to other beads": ("kernel.rules", "reach", "any(form.parts for form in apart)", "False"),
-    "steps that say nothing": ("kernel.rules", "reach", "theorem.formula.rhs.has(about.func)", "False"),
-    "steps that are supposed": ("kernel.rules", "reach", " or theorem.supposed", ""),
     "linked derivatives": ("kernel.rules", "differentiate", "not variables or strange", "not variables"),
     # moments and limits
     "products are dropped in moments": ("forms", "Reader._refuse_squares", "self.linear and", "False and"),
