@@ -90,7 +90,7 @@ def show_steps(steps: Steps) -> None:
         Domain.of(indices=(p,), beads=()),
     )
     printed = steps.show(
-        "From bead (i − j, 0) of the base, j steps along n⁺ lead to bead (i, j):",
+        "From the base, j steps along n⁺ lead up to bead (i, j):",
         PRINTED,
         above_base(base.theorem, up[0]),
     )

@@ -1,15 +1,13 @@
 """Eq. 13: variance of the contact forces under a surface load; exact, and to leading order."""
 
 # fmt: off
-from functools import cache
-
 import sympy
 from force_diffusion.derivations import eq11_total_force as eq11
 from force_diffusion.derivations import eq12_delta_weights as eq12
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, Theorem, asymptotic,
-    at_fixed_height, certificate, differentiate, drop_terms, equation, layers, minus, moment, power,
-    rewrite, shown, terms, theorems, times, usual)
+    FIRST_ORDER, ClosedForm, Derivation, Domain, Steps, Symbol, asymptotic, at_fixed_height,
+    certificate, differentiate, drop_terms, equation, layers, minus, moment, power, rewrite, terms,
+    times, usual)
 from force_diffusion.symbolic.symbols import M, Variance, j, m, n, phi, r, sigma, z
 # fmt: on
 
@@ -37,12 +35,6 @@ TOTAL = terms(2 * (M - j) ** 2 * (M + 2 * j), -3 * (M - j) ** 2, M - j)
 NEXT_ORDER = -3 * M**2 * (1 - z) * (1 + 3 * z) / 2
 """The M² term of the exact variance at fixed z, in units of (σ/r)²/(1−φ²)²."""
 PROFILE = times((1 - z) ** 2, 2 * z + 1)
-
-
-@cache
-def exact() -> tuple[Theorem, ...]:
-    """What the exact variance is, on each part of a packing."""
-    return shown(13, *theorems(MEANING[RELATIVE_VARIANCE], eq11.LOADED, *eq11.in_radii()))
 
 
 def _squares_to(last: sympy.Expr) -> sympy.Expr:
@@ -86,8 +78,9 @@ def show_steps(steps: Steps) -> None:
         IN_THE_LIMIT,
     )
     how = "put into Eq. 11, Eqs. 4 and 5 give every radius a weight; their squares add up"
-    layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, exact())
-    layers.show_next(steps, PRINTED, NEXT_ORDER, eq11.LOADED, exact())
+    layers.show_closed_form(steps, how, DERIVATION.exact_forms["layer"])
+    exact = DERIVATION.exact_theorems
+    layers.show_next(steps, PRINTED, NEXT_ORDER, eq11.LOADED, exact)
     steps.show(
         "At the base the profile no longer broadens, as its slope vanishes:",
         equation(sympy.Derivative(PROFILE, z), -6 * z * (1 - z)),
@@ -97,10 +90,10 @@ def show_steps(steps: Steps) -> None:
     steps.claim(
         "the printed form is the leading order of the exact variance",
         PRINTED,
-        asymptotic(*exact()),
+        asymptotic(*exact),
         IN_THE_LIMIT,
     )
-    layers.claim_edges(steps, PRINTED, eq11.LOADED, exact())
+    layers.claim_edges(steps, PRINTED, eq11.LOADED, exact)
     layers.claim_shares(steps, eq11.PRINTED.lhs, eq11.LOADED, groups)
     layers.claim_exponent(
         steps,

@@ -8,9 +8,9 @@ from force_diffusion.derivations import (
     eq05_contact_minus as eq05, eq11_total_force as eq11, eq12_delta_weights as eq12)
 from force_diffusion.derivations.eq13_surface_diffusion import KEPT_VARIANCE
 from force_diffusion.derivations.framework.vocabulary import (
-    FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Limit, Steps, Symbol, Theorem, asymptotic,
+    FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Limit, Steps, Symbol, asymptotic,
     at_fixed_height, axioms, certificate, differentiate, drop_terms, equation, layers, minus,
-    mirror, moment, negligible, power, rewrite, shown, terms, theorems, times, usual)
+    mirror, moment, negligible, power, rewrite, shown, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Braces, ForcePlus, M, Mean, Variance, i, j, l, m, m_g, n, n_y, phi, r, sigma, z)
 # fmt: on
@@ -79,12 +79,6 @@ def in_radii() -> Groups:
     """The forces and, in the radii, the directions of contacts: both branches."""
     (force,) = shown(14, eq11.from_the_surface_down(FORCE, LOADED))
     return (force, mirror(force)), eq05.directions()
-
-
-@cache
-def exact() -> tuple[Theorem, ...]:
-    """What the exact variance is, on each part of a packing."""
-    return shown(14, *theorems(Variance(RATIO), LOADED, *in_radii()))
 
 
 def next_to_the_maximum(above: int) -> Domain:
@@ -166,8 +160,9 @@ def show_steps(steps: Steps) -> None:
         IN_THE_LIMIT,
     )
     how = "put into step 2, Eqs. 4 and 5 give every radius a weight; their squares add up"
-    layers.show_closed_form(steps, how, RELATIVE_VARIANCE, MEANING, exact())
-    layers.show_next(steps, PRINTED, NEXT_ORDER, LOADED, exact())
+    layers.show_closed_form(steps, how, DERIVATION.exact_forms["layer"])
+    exact = DERIVATION.exact_theorems
+    layers.show_next(steps, PRINTED, NEXT_ORDER, LOADED, exact)
     steps.show(
         "From the base up the profile rises to z = 1/6, and falls above it. Not divided by ⟨f⟩_z² "
         "it would be stationary at the base.",
@@ -186,7 +181,7 @@ def show_steps(steps: Steps) -> None:
         moment(*groups),
         LOADED,
     )
-    layers.claim_edges(steps, PRINTED, LOADED, exact())
+    layers.claim_edges(steps, PRINTED, LOADED, exact)
     layers.claim_shares(steps, RATIO, LOADED, groups)
     layers.claim_exponent(
         steps,

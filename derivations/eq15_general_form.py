@@ -9,8 +9,7 @@ from force_diffusion.derivations import (
     eq14_bulk_diffusion as eq14)
 from force_diffusion.derivations.framework.vocabulary import (
     FIRST_ORDER, ClosedForm, Derivation, Domain, Groups, Steps, Symbol, asymptotic, axioms,
-    equation, instance, layers, moment, power, power_law, rewrite, tensile, terms, theorems, times,
-    usual)
+    equation, instance, layers, moment, power, power_law, rewrite, tensile, terms, times, usual)
 from force_diffusion.symbolic.kernel.domain import AT_FIXED_RATIO, at_large_height
 from force_diffusion.symbolic.symbols import (
     DeltaX, Dot, H_M, M, Mean, Tensile, UnitHeight, Variance, i, j, m, n_minus, n_plus, phi, r,
@@ -33,7 +32,7 @@ FORCE = {"surface": eq11.PRINTED.lhs, "bulk": eq14.RATIO}
 """The force of contact (i, j) over its mean."""
 IN_RADII = {"surface": eq11.in_radii, "bulk": eq14.in_radii}
 LOADING = {"surface": axioms.SURFACE, "bulk": axioms.BULK}
-OF_LAYER = {"surface": eq13, "bulk": eq14}
+OF_LAYER = {"surface": eq13.DERIVATION, "bulk": eq14.DERIVATION}
 
 LEADING = {"surface": sympy.Integer(1), "bulk": Rational(1, 5)}
 """Mean of σ_f²/⟨f⟩² over the layers, in units of M³ (σ/r)²/(1−φ²)²."""
@@ -65,7 +64,7 @@ def mean(load: str, kind: type) -> sympy.Expr:
 @cache
 def of_layers(load: str) -> Groups:
     """What Eq. 13 or 14 says exactly of the contact that starts at bead (m, m)."""
-    at, exact = {i: m, j: m}, OF_LAYER[load].exact()
+    at, exact = {i: m, j: m}, OF_LAYER[load].exact_theorems
     return tuple(instance(theorem, at, theorem.domain.put_in(at)) for theorem in exact)
 
 
@@ -121,9 +120,7 @@ def show_steps(steps: Steps) -> None:
         ("surface", "layers hold equally many contacts, so their mean is that over the layers"),
         ("bulk", "the same under a bulk load"),
     ):
-        definitions = meaning(load)
-        exact = theorems(definitions[MEAN_SQUARE], heights(load), *of_layers(load))
-        layers.show_closed_form(steps, how, MEAN_SQUARE, definitions, tuple(exact))
+        layers.show_closed_form(steps, how, DERIVATION.exact_forms[load])
     in_proportion = at_large_height("∝")
     for reason, formula, rule, limit in (
         (
@@ -159,7 +156,7 @@ def show_steps(steps: Steps) -> None:
         steps.show(
             NEGATIVE if load == "surface" else "In the same way, under a bulk load:",
             equation(FRACTION, tensile_fraction(load)),
-            tensile(OF_LAYER[load].DERIVATION.theorem, of_one, *of_layers(load)),
+            tensile(OF_LAYER[load].theorem, of_one, *of_layers(load)),
             heights(load).in_the_limit(AT_FIXED_RATIO),
             meaning(load),
         )

@@ -1,6 +1,6 @@
 """A number that is a function of indices, as formulas on parts of a domain, in the fewest words."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -12,10 +12,9 @@ from . import symbols as sy
 from .algebra.exact import FIELD, Field, NotExactError, NotProvedError, RationalFunction
 from .forms import NUMBER, Straightening
 from .kernel.domain import Domain
-from .kernel.statistics import moment, worked_out
-from .kernel.theorem import Group, Theorem, names_for
+from .kernel.statistics import worked_out
+from .kernel.theorem import Group, names_for
 from .quotients import factored
-from .trees import equation
 from .weights import Weights
 
 Relations = tuple[sympy.Basic, ...]
@@ -173,11 +172,3 @@ class PiecewiseFunction:
         value = sympy.Add(*(n * s for s, n in form[0].items()), form[1])
         value = sympy.expand(value.xreplace(self.straight.back))
         return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
-
-
-def theorems(quantity: sympy.Expr, domain: Domain, *groups: Group) -> Iterator[Theorem]:
-    """What the closed form of a quantity says: a theorem for each part of its domain."""
-    rule = moment(*groups, on=domain)
-    for piece in PiecewiseFunction.of(quantity, domain, *groups).pieces:
-        for part in piece.where:
-            yield rule(equation(quantity, piece.expr), domain.also(*part))

@@ -18,7 +18,7 @@ from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactE
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, decide
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import Group, flat
+from force_diffusion.symbolic.kernel.theorem import Group, Theorem, flat
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import Piece, PiecewiseFunction
 from force_diffusion.symbolic.printing.code import name_of, python_expression
@@ -89,6 +89,21 @@ class ClosedForm:
         """
         return PiecewiseFunction.of(
             self.statistic, self.kernel_domain, *self.groups(), divisor=self.divisor
+        )
+
+    @cached_property
+    def theorems(self) -> tuple[Theorem, ...]:
+        """What the kernel proves of it: a theorem for each formula and part of its domain.
+
+        Each is about ``statistic``, which is the formula times ``divisor``.
+        """
+        rule = moment(*self.groups_used(), on=self.kernel_domain)
+        return tuple(
+            rule(
+                equation(self.statistic, self.divisor * piece.expr), self.kernel_domain.also(*part)
+            )
+            for piece in self.pieces
+            for part in piece.where
         )
 
     @property

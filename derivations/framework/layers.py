@@ -11,26 +11,21 @@ from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.symbols import LargestShare, M, j, phi, r, sigma, z
 from force_diffusion.symbolic.trees import equation
 
-from .proof import Definitions, Steps
+from .closed_form import ClosedForm
+from .proof import Steps
 
 UNIT = (sigma / r) ** 2 / (1 - phi**2) ** 2
 """What variances of forces over their mean squared are numbers and powers of M times."""
 
 
-def show_closed_form(
-    steps: Steps,
-    how: str,
-    symbol: sympy.Symbol,
-    definitions: Definitions,
-    exact: Sequence[Theorem],
-) -> None:
+def show_closed_form(steps: Steps, how: str, form: ClosedForm) -> None:
     """Show the formula of each part of a packing; ``how`` they come about."""
     steps.show(
         f"Exact at every size: {how}.",
-        sympy.Tuple(*(equation(symbol, theorem.formula.rhs) for theorem in exact)),
-        [same(theorem) for theorem in exact],
-        [theorem.domain for theorem in exact],
-        definitions,
+        sympy.Tuple(*(equation(form.quantity, theorem.formula.rhs) for theorem in form.theorems)),
+        [same(theorem) for theorem in form.theorems],
+        [theorem.domain for theorem in form.theorems],
+        {form.quantity: form.statistic},
     )
 
 

@@ -20,7 +20,7 @@ from force_diffusion.symbolic.printing.lines import latex_body, text_lines
 from .catalogue import Number, in_order, modules
 from .closed_form import ClosedForm
 from .display import room_of
-from .proof import Definitions, Step, Steps, equations_of
+from .proof import Definitions, Step, Steps, equations_of, shown
 
 _SECONDS: list[float] = []
 """How long each proof took, without those that ran within it."""
@@ -89,6 +89,12 @@ class Statement:
     def exact_forms(self) -> Mapping[str, ClosedForm]:
         """Closed forms, exact at finite size, by name; the first is the usual one."""
         return self.exact() if self.exact else {}
+
+    @cached_property
+    def exact_theorems(self) -> tuple[Theorem, ...]:
+        """What the kernel proves of the usual closed form, on each part of its domain."""
+        usual, *_ = self.exact_forms.values()
+        return shown(self.number, *usual.theorems)
 
     @property
     def theorems(self) -> tuple[Theorem, ...]:

@@ -9,7 +9,7 @@ from force_diffusion.symbolic import sets
 from force_diffusion.symbolic.algebra.exact import FIELD
 from force_diffusion.symbolic.kernel.decisions import Ruling, proved, refuted, undecided
 from force_diffusion.symbolic.kernel.domain import Domain
-from force_diffusion.symbolic.kernel.statistics import moment
+from force_diffusion.symbolic.kernel.rules import same
 from force_diffusion.symbolic.kernel.theorem import Theorem
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.piecewise import PiecewiseFunction
@@ -114,17 +114,16 @@ class Row(Statement):
     def show_steps(self, steps: Steps) -> None:
         """A step for each formula and part of its domain."""
         for form in self.exact_forms.values():
-            by = moment(*form.groups_used(), on=form.kernel_domain)
             shown = form.quantity if form.divisor == 1 else form.divisor * form.quantity
-            for piece in form.pieces:
-                for part in piece.where:
-                    steps.show(
-                        f"For {in_words(part) or form.domain}:",
-                        equation(shown, form.divisor * piece.expr),
-                        by,
-                        form.kernel_domain.also(*part),
-                        {shown: form.statistic},
-                    )
+            parts = (part for piece in form.pieces for part in piece.where)
+            for theorem, part in zip(form.theorems, parts, strict=True):
+                steps.show(
+                    f"For {in_words(part) or form.domain}:",
+                    equation(shown, theorem.formula.rhs),
+                    same(theorem),
+                    theorem.domain,
+                    {shown: form.statistic},
+                )
 
 
 def form_of(number: Number, name: str) -> ClosedForm:

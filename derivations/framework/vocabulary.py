@@ -19,7 +19,6 @@ from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Groups, Theorem, instance, isolated
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
-from force_diffusion.symbolic.piecewise import theorems
 
 from . import layers
 from .closed_form import ClosedForm

@@ -22,14 +22,11 @@ def refuse(
     domain: Domain,
     groups: Groups = (),
     formula: sympy.Basic = sympy.S.Zero,
-    *,
-    implied: str = "",
 ) -> NotProvedError:
     """Why two sides of a formula that differ are not equal: that they do somewhere, or may.
 
-    Radii are independent: what holds nothing else is false where a weight differs. If the formula
-    is ``implied`` by another one, which is false then, its own words name it. Of a vector it says
-    along which base vector its sides differ.
+    Radii are independent: what holds nothing else is false where a weight differs. Of a vector it
+    says along which base vector its sides differ.
     """
     keys = {key for form in apart for key in form.parts}
     if keys <= {NUMBER, RADII} and not any(group.supposed for group in flat(groups)):
@@ -39,7 +36,7 @@ def refuse(
                 for points, value in weights.pieces:
                     if where := _witness(points, value, domain):
                         own = {there: symbol for symbol, there in names_for(formula).items()}
-                        return FalseStatementError(implied + _at_odds(key, where, own, direction))
+                        return FalseStatementError(_at_odds(key, where, own, direction))
     return NotProvedError("the normal forms of both sides differ")
 
 

@@ -881,7 +881,7 @@ attack("a mean that is known of beads, put in for whole numbers",
        proof(moment(AT_LEFT), (Mean(i), 4), Domain.of(Eq(i, -2), Eq(j, 0), beads=())),
        "of other beads", proof(moment(AT_LEFT), (Mean(i), 4), AT_LEFT.domain))
 OF_LAYER = eq13.DERIVATION.theorem
-VARIES, *_ = eq13.exact()
+VARIES, *_ = eq13.DERIVATION.exact_theorems
 EXACTLY = VARIES.formula.args
 WITHIN = VARIES.domain
 beside("an exact variance", proof(moment(VARIES), EXACTLY, WITHIN),

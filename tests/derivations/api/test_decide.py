@@ -186,7 +186,7 @@ def test_what_is_no_equation_is_refused_by_its_type(given, says):
 
 SWAPPED = {sy.b_plus: sy.b_minus, sy.b_minus: sy.b_plus}
 REFUTED = [
-    (1, lambda eq: 2 * eq.rhs, "with it, x_(i+1,j+1) − x_ij = 2 r n⁺ fails: at j = 0: "),
+    (1, lambda eq: 2 * eq.rhs, "at i = −2, j = 0: along n⁺, left minus right is 2 r (1 − φ)"),
     (4, lambda eq: eq.rhs.xreplace(SWAPPED), "at i = −1, j = 1: along n⁺, "),
     (12, lambda eq: 2 * eq.rhs, "the variance of left minus right goes as M³, and has to be of l"),
     (13, lambda eq: eq.rhs * (1 + Rational(1, 10**3000)), "to an expression of 6003 characters"),
