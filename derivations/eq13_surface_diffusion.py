@@ -44,7 +44,6 @@ def _squares_to(last: sympy.Expr) -> sympy.Expr:
 
 def show_steps(steps: Steps) -> None:
     """Each Δ has the variance 6σ²; the squares of its weights are added up."""
-    groups = eq11.in_radii()
     variance = steps.show(
         "Each Δ holds one radius with the weight 2 and two with the weight −1: their squares add "
         "up to 6. Those of Eq. 12 lie in different layers and share no radius. With the "
@@ -78,9 +77,9 @@ def show_steps(steps: Steps) -> None:
         IN_THE_LIMIT,
     )
     how = "put into Eq. 11, Eqs. 4 and 5 give every radius a weight; their squares add up"
-    layers.show_closed_form(steps, how, DERIVATION.exact_forms["layer"])
-    exact = DERIVATION.exact_theorems
-    layers.show_next(steps, PRINTED, NEXT_ORDER, eq11.LOADED, exact)
+    form = DERIVATION.exact_forms["layer"]
+    layers.show_closed_form(steps, how, form)
+    layers.show_next(steps, PRINTED, NEXT_ORDER, form)
     steps.show(
         "At the base the profile no longer broadens, as its slope vanishes:",
         equation(sympy.Derivative(PROFILE, z), -6 * z * (1 - z)),
@@ -90,11 +89,10 @@ def show_steps(steps: Steps) -> None:
     steps.claim(
         "the printed form is the leading order of the exact variance",
         PRINTED,
-        asymptotic(*exact),
+        asymptotic(*form.theorems),
         IN_THE_LIMIT,
     )
-    layers.claim_edges(steps, PRINTED, eq11.LOADED, exact)
-    layers.claim_shares(steps, eq11.PRINTED.lhs, eq11.LOADED, groups)
+    layers.claim_edges(steps, PRINTED, form)
     layers.claim_exponent(
         steps,
         "superdiffusive near the surface, subdiffusive nearer the base: the local exponent "

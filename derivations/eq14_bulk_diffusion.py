@@ -160,9 +160,9 @@ def show_steps(steps: Steps) -> None:
         IN_THE_LIMIT,
     )
     how = "put into step 2, Eqs. 4 and 5 give every radius a weight; their squares add up"
-    layers.show_closed_form(steps, how, DERIVATION.exact_forms["layer"])
-    exact = DERIVATION.exact_theorems
-    layers.show_next(steps, PRINTED, NEXT_ORDER, LOADED, exact)
+    form = DERIVATION.exact_forms["layer"]
+    layers.show_closed_form(steps, how, form)
+    layers.show_next(steps, PRINTED, NEXT_ORDER, form)
     steps.show(
         "From the base up the profile rises to z = 1/6, and falls above it. Not divided by ⟨f⟩_z² "
         "it would be stationary at the base.",
@@ -181,8 +181,7 @@ def show_steps(steps: Steps) -> None:
         moment(*groups),
         LOADED,
     )
-    layers.claim_edges(steps, PRINTED, LOADED, exact)
-    layers.claim_shares(steps, RATIO, LOADED, groups)
+    layers.claim_edges(steps, PRINTED, form)
     layers.claim_exponent(
         steps,
         "superdiffusive near the surface, subdiffusive below: the local exponent "
