@@ -1,20 +1,31 @@
-"""A number that is a function of indices, as formulas on parts of a domain, in the fewest words."""
+"""Functions of indices: as formulas on parts of a domain, in the fewest words, and as Piecewise."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import sympy
+from sympy.core.relational import Relational
 
 from . import sets, shortest, words
 from . import symbols as sy
-from .algebra.exact import FIELD, Field, NotExactError, NotProvedError, RationalFunction
+from .algebra.exact import (
+    FIELD,
+    Field,
+    NotAStatementError,
+    NotExactError,
+    NotProvedError,
+    RationalFunction,
+)
 from .forms import NUMBER, Straightening
 from .kernel.domain import Domain
 from .kernel.statistics import worked_out
 from .kernel.theorem import Group, names_for
+from .notation import by_name
+from .printing.text import text
 from .quotients import factored
+from .trees import in_place, nodes
 from .weights import Weights
 
 Relations = tuple[sympy.Basic, ...]
@@ -172,3 +183,59 @@ class PiecewiseFunction:
         value = sympy.Add(*(n * s for s, n in form[0].items()), form[1])
         value = sympy.expand(value.xreplace(self.straight.back))
         return sympy.ilcm(1, *(n.q for n in value.as_coefficients_dict().values())) * value
+
+
+# functions that are given in pieces, by Piecewise
+
+
+def cases_of(candidate: sympy.Basic) -> sympy.Expr:
+    """The function given in pieces that a candidate holds, with all within it; 0 if there is none.
+
+    Raises:
+        NotExactError: its cases depend on an index that is summed over.
+    """
+    given = [node for node in nodes(candidate) if isinstance(node, sympy.Piecewise)]
+    cases: sympy.Expr = given[-1] if given else sympy.S.Zero  # what it is made of comes before it
+    named = set().union(*(each.free_symbols for each in cases.atoms(Relational)))
+    if bound := by_name(named - candidate.free_symbols):
+        raise NotExactError(f"cases depend on {text(bound[0])}, which is summed over")
+    return cases
+
+
+def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
+    """The formulas of a function that is given in pieces, with relations; the first that fits."""
+    if isinstance(candidate, sympy.Piecewise) and not any(
+        c != sympy.false for _, c in candidate.args
+    ):
+        raise NotAStatementError("it has no value anywhere")
+    is_nested = any(each.has(sympy.Piecewise) for each in candidate.args)
+    folded = sympy.piecewise_fold(candidate) if is_nested else candidate
+    if not isinstance(folded, sympy.Piecewise):
+        yield folded, ()
+        return
+    for value, condition in folded.args:
+        for part in sympy.Or.make_args(sympy.to_dnf(condition)):
+            yield value, tuple(each for each in sympy.And.make_args(part) if each != sympy.true)
+
+
+def parts_of(candidate: sympy.Eq, function: PiecewiseFunction) -> list[tuple[sympy.Eq, sets.Set]]:
+    """The formulas of a candidate that may be given in pieces, each with its part of a domain.
+
+    Args:
+        candidate: an equation.
+        function: which is meant, on that domain.
+
+    Raises:
+        NotAStatementError: it has no value on some part of the domain.
+        NotExactError: its cases are not read.
+    """
+    cases, rest, parts = cases_of(candidate), function.points, []
+    for value, relations in alternatives_of(cases):
+        here = rest & sets.where(*map(function.straight.relation, relations))
+        rest = rest - here
+        formula = in_place(candidate, {cases: value}) if cases else candidate
+        parts.append((formula, here))
+    if not rest.is_empty():
+        left_out = words.alternatives(function.relations(rest))
+        raise NotAStatementError(f"it has no value for {left_out}")
+    return parts

@@ -20,7 +20,7 @@ from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, Theorem, flat
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.piecewise import Piece, PiecewiseFunction
+from force_diffusion.symbolic.piecewise import Piece, PiecewiseFunction, parts_of
 from force_diffusion.symbolic.printing.code import name_of, python_expression
 from force_diffusion.symbolic.printing.latex import latex
 from force_diffusion.symbolic.printing.lines import TEXT_WIDTH
@@ -29,7 +29,7 @@ from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .catalogue import Number as EquationNumber
-from .deciding import decided, parts_of, strange_symbol
+from .deciding import decided, strange_symbol
 from .display import FormulasInLatex, in_python, in_text
 from .evaluation import Number, Values, evaluate, in_order, indices_at, with_values
 from .leading import leading_orders

@@ -14,10 +14,11 @@ from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.piecewise import alternatives_of, cases_of
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.trees import in_place
 
-from .deciding import alternatives_of, cases_of, strange_symbol, unread
+from .deciding import strange_symbol, unread
 from .record import Derivation, load
 
 OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}

@@ -1,12 +1,11 @@
 """What a user may hand to ``decide``: a line, the right-hand side of one, or all lines at once."""
 
-from collections.abc import Callable, Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import replace
 from numbers import Rational
 from typing import Any
 
 import sympy
-from force_diffusion.symbolic import sets, words
 from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError
 from force_diffusion.symbolic.forms import SUMMATION
 from force_diffusion.symbolic.kernel.decisions import (
@@ -18,11 +17,9 @@ from force_diffusion.symbolic.kernel.decisions import (
     undecided,
 )
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.piecewise import PiecewiseFunction, Relations
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.sizes import too_large
-from force_diffusion.symbolic.trees import equation, in_place, nodes
-from sympy.core.relational import Relational
+from force_diffusion.symbolic.trees import equation
 from sympy.logic.boolalg import BooleanAtom
 
 from .lists import either
@@ -131,59 +128,6 @@ def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str
         if symbol.name in names:
             return f"this {symbol.name} is not that of the equation: take it from its symbols"
     return ""
-
-
-def cases_of(candidate: sympy.Basic) -> sympy.Expr:
-    """The function given in pieces that a candidate holds, with all within it; 0 if there is none.
-
-    Raises:
-        NotExactError: its cases depend on an index that is summed over.
-    """
-    given = [node for node in nodes(candidate) if isinstance(node, sympy.Piecewise)]
-    cases: sympy.Expr = given[-1] if given else sympy.S.Zero  # what it is made of comes before it
-    named = set().union(*(each.free_symbols for each in cases.atoms(Relational)))
-    if bound := by_name(named - candidate.free_symbols):
-        raise NotExactError(f"cases depend on {text(bound[0])}, which is summed over")
-    return cases
-
-
-def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
-    """The formulas of a function that is given in pieces, with relations; the first that fits."""
-    if isinstance(candidate, sympy.Piecewise) and not any(
-        c != sympy.false for _, c in candidate.args
-    ):
-        raise NotAStatementError("it has no value anywhere")
-    is_nested = any(each.has(sympy.Piecewise) for each in candidate.args)
-    folded = sympy.piecewise_fold(candidate) if is_nested else candidate
-    if not isinstance(folded, sympy.Piecewise):
-        yield folded, ()
-        return
-    for value, condition in folded.args:
-        for part in sympy.Or.make_args(sympy.to_dnf(condition)):
-            yield value, tuple(each for each in sympy.And.make_args(part) if each != sympy.true)
-
-
-def parts_of(candidate: sympy.Eq, function: PiecewiseFunction) -> list[tuple[sympy.Eq, sets.Set]]:
-    """The formulas of a candidate that may be given in pieces, each with its part of a domain.
-
-    Args:
-        candidate: an equation.
-        function: which is meant, on that domain.
-
-    Raises:
-        NotAStatementError: it has no value on some part of the domain.
-        NotExactError: its cases are not read.
-    """
-    cases, rest, parts = cases_of(candidate), function.points, []
-    for value, relations in alternatives_of(cases):
-        here = rest & sets.where(*map(function.straight.relation, relations))
-        rest = rest - here
-        formula = in_place(candidate, {cases: value}) if cases else candidate
-        parts.append((formula, here))
-    if not rest.is_empty():
-        left_out = words.alternatives(function.relations(rest))
-        raise NotAStatementError(f"it has no value for {left_out}")
-    return parts
 
 
 def unread(reason: NotExactError) -> Ruling:
