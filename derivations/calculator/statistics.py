@@ -158,9 +158,8 @@ def mean(
     """
     if order not in (1, 2):
         raise ObservableError(f"order={order!r}: 1 and 2 are allowed")
-    return _closed(
-        sy.Mean if order == 1 else sy.Shift, [observable], load, relative, dimension, where
-    )
+    kind = sy.Mean if order == 1 else sy.Shift
+    return _closed(kind, [observable], load, relative, dimension, where)
 
 
 def _closed(
@@ -175,9 +174,7 @@ def _closed(
     statistic = kind(*(read(each, under.dimension) for each in observables))
     on = domain(statistic, under, *relations_of(where))
     scales, units = _scales(statistic, under) if relative else ({}, "")
-    groups = under.groups
-    if under.dimension == PLANE and not on.loading:
-        groups = without_load
+    groups = without_load if under.dimension == PLANE and not on.loading else under.groups
     multiple, divisor = _without_divisors(statistic.xreplace(scales))
     form = ClosedForm(statistic, multiple, on, groups, divisor, units)
     try:

@@ -9,7 +9,7 @@ its columns are; ``\tag{B5}`` ends a display that has a number.
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from importlib.resources import files
+from pathlib import Path
 
 from force_diffusion.numeric.figures.names import FIGURES
 
@@ -51,8 +51,7 @@ _ESCAPED = re.compile(r"\\([\\`*_$<\[\]])")
 
 def source() -> str:
     """Give the source of the article."""
-    beside = files("force_diffusion.derivations.export")
-    return (beside / "beyond.md").read_text(encoding="utf-8")
+    return Path(__file__).with_name("beyond.md").read_text(encoding="utf-8")
 
 
 def figures_of(markdown: str) -> list[str]:

@@ -4,7 +4,7 @@ The words of the document that belong to no equation are in ``equations.tex``, n
 """
 
 from collections.abc import Iterable, Sequence
-from importlib.resources import files
+from pathlib import Path
 
 from force_diffusion.symbolic import words
 from force_diffusion.symbolic.printing.latex import RELATIONS, latex
@@ -91,12 +91,10 @@ def _step(step: Step, derivation: Statement) -> str:
     if {*step.equations} <= {*derivation.printed} and step.relation == derivation.domain.relation:
         # not the same display twice
         return f"{head}{prose_latex(step.reason.rstrip('.:'))}: Eq.~({derivation.number}).\n"
-    shown = (
-        f"\\[ {step_latex(step, _ROOM)} \\]\n"
-        if _is_in_cases(step)
-        else display([*dict.fromkeys(step.equations)], step.relation)
-    )
-    return f"{head}{prose_latex(step.reason)}\n{shown}"
+    head += f"{prose_latex(step.reason)}\n"
+    if _is_in_cases(step):
+        return f"{head}\\[ {step_latex(step, _ROOM)} \\]\n"
+    return head + display([*dict.fromkeys(step.equations)], step.relation)
 
 
 def _aside(title: str, parts: Iterable[str]) -> str:
@@ -173,9 +171,6 @@ def _verdicts(outcomes: Iterable[ProofOutcome]) -> str:
 
 def document(outcomes: Sequence[ProofOutcome]) -> str:
     """The paper's equations with their steps, and the verdicts on all."""
-    beside = files("force_diffusion.derivations.export")
-    frame = (beside / DOCUMENT).read_text(encoding="utf-8")
-    sections = _sections(outcomes, frame)
-    return frame.replace("% the equations\n", sections).replace(
-        "% the verdicts\n", _verdicts(outcomes)
-    )
+    frame = Path(__file__).with_name(DOCUMENT).read_text(encoding="utf-8")
+    filled = frame.replace("% the equations\n", _sections(outcomes, frame))
+    return filled.replace("% the verdicts\n", _verdicts(outcomes))

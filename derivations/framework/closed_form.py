@@ -206,9 +206,9 @@ class ClosedForm:
     @cached_property
     def _needed(self) -> set[sympy.Symbol]:
         """The symbols on which its value, and whether it has one, depend."""
-        symbols = set().union(*(piece.expr.free_symbols for piece in self.pieces))
-        symbols |= self.function.indices
-        symbols = symbols.union(*(each.free_symbols for each in self.function.domain))
+        formulas = (piece.expr for piece in self.pieces)
+        held = (each.free_symbols for each in (*formulas, *self.function.domain))
+        symbols = self.function.indices.union(*held)
         cosine = {sy.phi} if symbols & {sy.n_x, sy.n_y} else set()
         height = {sy.M} if sy.H_M in symbols else set()
         return symbols - {sy.n_x, sy.n_y, sy.H_M} | cosine | height

@@ -136,11 +136,7 @@ class Statement:
 
     def lines(self, room: int) -> list[str]:
         """What is printed, as lines of plain text."""
-        return [
-            line
-            for equation in self.printed
-            for line in text_lines(equation, self.domain.relation, room)
-        ]
+        return text_lines(sympy.Tuple(*self.printed), self.domain.relation, room)
 
 
 def load(number: Number) -> Statement:
