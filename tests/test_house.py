@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_295,
-    "derivations": 7_097,
+    "derivations": 7_084,
     "numeric": 8_829,
     "force_diffusion": 78,
     "benchmarks": 833,
