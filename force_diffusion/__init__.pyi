@@ -40,7 +40,7 @@ from .numeric.run.outcome import Outcome as Outcome
 from .numeric.run.running import Scene as Scene
 from .numeric.run.running import read_scene as read_scene
 from .numeric.run.running import run as run
-from .numeric.run.solving import Solution as Solution
+from .numeric.run.solution import Solution as Solution
 from .numeric.run.solving import solve as solve
 from .numeric.scene.files import TableError as TableError
 from .numeric.scene.images import ImageRadii as ImageRadii
