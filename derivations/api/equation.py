@@ -389,7 +389,7 @@ class Equation:
         >>> step.reason
         'Added up:'
         >>> step.formula.rhs
-        2*(M - j)**2*(M + 2*j) - 3*(M - j)**2 + (M - j)
+        (sigma**2/(r**2*(1 - phi**2)**2))*(2*(M - j)**2*(M + 2*j) - 3*(M - j)**2 + (M - j))
         """
         return StepList.of(self._derivation)
 

@@ -397,11 +397,7 @@ class ClosedForm:
         return decided(candidate, (self.equation,), lambda _, eq: all_of(*self._rulings(eq, place)))
 
     def _read(self, candidate: sympy.Eq) -> sympy.Eq:
-        """A candidate with the quantity on its left, in known symbols.
-
-        Raises:
-            NotAStatementError: it holds others.
-        """
+        """A candidate with the quantity on its left; no statement if it holds unknown symbols."""
         if candidate.rhs in (self.quantity, self.statistic):
             candidate = equation(candidate.rhs, candidate.lhs)
         known = {
@@ -423,11 +419,7 @@ class ClosedForm:
         return candidate
 
     def _rulings(self, candidate: sympy.Eq, place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
-        """A ruling on each part of a candidate up to one that is refuted; they cover the domain.
-
-        Raises:
-            NotExactError: the candidate is not read.
-        """
+        """A ruling on each part of a candidate up to one that is refuted; they cover the domain."""
         candidate = self._read(candidate)
         domain, function = self.kernel_domain.also(*place), self.function.part(*place)
         if function.points.is_empty():
