@@ -20,7 +20,7 @@ FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_295,
     "derivations": 7_084,
-    "numeric": 8_829,
+    "numeric": 8_844,
     "force_diffusion": 78,
     "benchmarks": 833,
     ".ci": 500,
