@@ -13,11 +13,9 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return its exit status."""
 
     def program() -> int:
-        gc.disable()  # what is loaded now stays: collections need not look at it, now or later
+        gc.set_threshold(50_000)  # libraries and SymPy make many objects that stay, and few cycles
         from force_diffusion.derivations.commands.cli import run
 
-        gc.freeze()
-        gc.enable()
         return run(arguments)
 
     return guarded(program)

@@ -231,31 +231,30 @@ def arrangement(parts: tuple[Set, ...]) -> Sequence[tuple[Set, Sequence[int]]]:
     def halved(
         cell: Set, left: list[tuple[int, list[Condition]]], inside: list[int]
     ) -> Iterator[tuple[Set, list[int]]]:
-        parting: dict[Condition, bool] = {}
-        still_open = []
-        for number, conditions in left:
-            if cell.is_disjoint(parts[number]):
-                continue
-            for condition in conditions:
-                if condition not in parting:
-                    parting[condition] = not cell.is_disjoint(_half(_negated(condition)))
-            if rest := [condition for condition in conditions if parting[condition]]:
-                still_open.append((number, rest))
-            else:
-                inside = [*inside, number]
-        if not inside and len(still_open) == 1:
-            ((number, _),) = still_open
-            yield cell & parts[number], [number]
-        elif still_open:
-            frequency = Counter(condition for _, rest in still_open for condition in rest)
-            cut, _ = frequency.most_common(1)[0]
+        frequency = Counter(condition for _, conditions in left for condition in conditions)
+        parting = [condition for condition, _ in frequency.most_common()]
+        while parting and cell.is_disjoint(_half(_negated(parting[0]))):
+            del parting[0]  # it holds on all of the cell
+        if not parting:
+            yield cell, [*inside, *(number for number, _ in left)]
+        elif len(left) == 1 and not inside:
+            yield cell & parts[left[0][0]], [left[0][0]]
+        else:
+            cut, others = parting[0], {*parting[1:]}
             for side in (cut, _negated(cut)):
-                yield from halved(cell & _half(side), still_open, inside)
-        elif inside:
-            yield cell, inside
+                there, around, still_open = cell & _half(side), inside, []
+                for number, conditions in left:
+                    outside = side != cut if cut in conditions else there.is_disjoint(parts[number])
+                    rest = [condition for condition in conditions if condition in others]
+                    if rest and not outside:
+                        still_open.append((number, rest))
+                    elif not outside:
+                        around = [*around, number]
+                if around or still_open:
+                    yield from halved(there, still_open, around)
 
     conditions = [(n, [*_conditions(part)]) for n, part in enumerate(parts)]
-    return tuple(halved(EVERYTHING, conditions, []))
+    return tuple(halved(EVERYTHING, conditions, [])) if parts else ()
 
 
 def least(symbol: sympy.Symbol, points: Set) -> int | None:

@@ -193,7 +193,6 @@ def wrong_verdicts(number: int) -> Iterator[str]:
 def empty_caches() -> Iterator[None]:
     """Empty all caches before the test and after it, so that no planted fault outlives it."""
     importlib.import_module("tests.soundness.attacks")  # proves equations, by the right kernel
-    gc.unfreeze()  # a command that another test has called hides what was loaded from get_objects
     places = dict(proof._PLACE_OF)
     forget()
     yield
