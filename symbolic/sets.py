@@ -220,41 +220,40 @@ def _half(condition: Condition) -> Set:
     return EVERYTHING.add_constraint(constraint((factors, condition[1]), False))
 
 
+Cell = tuple[Set, Sequence[int]]
+"""A convex set, and the numbers of the sets that it lies in."""
+
+
 @_remembered
-def arrangement(parts: tuple[Set, ...]) -> Sequence[tuple[Set, Sequence[int]]]:
+def arrangement(parts: tuple[Set, ...]) -> Sequence[Cell]:
     """Convex cells, each in all of some sets and outside of the others: it, and which sets.
 
     Space is halved by the conditions of the sets, the most frequent one first, until none is left
     that parts a cell. What is outside of all sets is left out.
     """
 
-    def halved(
-        cell: Set, left: list[tuple[int, list[Condition]]], inside: list[int]
-    ) -> Iterator[tuple[Set, list[int]]]:
+    def halved(cell: Set, left: list[tuple[int, list[Condition]]]) -> Iterator[Cell]:
         frequency = Counter(condition for _, conditions in left for condition in conditions)
         parting = [condition for condition, _ in frequency.most_common()]
         while parting and cell.is_disjoint(_half(_negated(parting[0]))):
             del parting[0]  # it holds on all of the cell
         if not parting:
-            yield cell, [*inside, *(number for number, _ in left)]
-        elif len(left) == 1 and not inside:
+            yield cell, [number for number, _ in left]
+        elif len(left) == 1:
             yield cell & parts[left[0][0]], [left[0][0]]
         else:
             cut, others = parting[0], {*parting[1:]}
             for side in (cut, _negated(cut)):
-                there, around, still_open = cell & _half(side), inside, []
+                there, shared = cell & _half(side), []
                 for number, conditions in left:
-                    outside = side != cut if cut in conditions else there.is_disjoint(parts[number])
-                    rest = [condition for condition in conditions if condition in others]
-                    if rest and not outside:
-                        still_open.append((number, rest))
-                    elif not outside:
-                        around = [*around, number]
-                if around or still_open:
-                    yield from halved(there, still_open, around)
+                    on_side = side == cut if cut in conditions else not conditions
+                    if on_side or (cut not in conditions and not there.is_disjoint(parts[number])):
+                        shared.append((number, [each for each in conditions if each in others]))
+                if shared:
+                    yield from halved(there, shared)
 
     conditions = [(n, [*_conditions(part)]) for n, part in enumerate(parts)]
-    return tuple(halved(EVERYTHING, conditions, [])) if parts else ()
+    return tuple(halved(EVERYTHING, conditions)) if parts else ()
 
 
 def least(symbol: sympy.Symbol, points: Set) -> int | None:

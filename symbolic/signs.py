@@ -4,7 +4,9 @@ A sign is found exactly, by isl or by the number of real roots of a polynomial i
 is not shown to have one sign has none.
 """
 
+from collections.abc import Sequence
 from functools import lru_cache
+from typing import Any
 
 import sympy
 
@@ -40,16 +42,18 @@ def sign(
     """
     product = 1
     for polynomial in (value.numerator, value.denominator):
-        if polynomial == 0:
-            return 0
-        number, factors = polynomial.factor()
-        product *= 1 if number > 0 else -1
+        number, factors = _factors(frozenset(polynomial.to_dict().items()))
+        product *= number
         for factor, power in factors:
-            own = _of_factor(FIELD.expanded(factor), points, positive, dimension)
-            if own == 0:
-                return 0
-            product *= own ** (int(power) % 2)
+            product *= _of_factor(factor, points, positive, dimension) ** power
     return product
+
+
+@lru_cache(maxsize=1024)
+def _factors(terms: frozenset[Any]) -> tuple[int, Sequence[tuple[sympy.Expr, int]]]:
+    """The sign of a polynomial's constant factor, and its other factors with their powers."""
+    number, factors = FIELD.context.from_dict(dict(terms)).factor()
+    return (number > 0) - (number < 0), [(FIELD.expanded(f), int(power)) for f, power in factors]
 
 
 @lru_cache(maxsize=1024)

@@ -164,7 +164,7 @@ class Weights:
                     break
             else:
                 groups.append((value.substitute(fixed), [part]))
-        return [(_joined(parts), value) for value, parts in groups[1:]]
+        return [(_joined(own) if own[1:] else own[0], value) for value, own in groups[1:]]
 
     def is_zero(self) -> bool:
         """Whether it is 0 everywhere."""

@@ -95,15 +95,18 @@ class Field:
         self, polynomial: Polynomial, symbols: Iterable[sympy.Expr]
     ) -> dict[tuple[int, ...], Polynomial]:
         """The coefficients of the powers of some generators."""
-        places = [self.position[symbol] for symbol in symbols]
-        parts: dict[tuple[int, ...], dict[tuple[int, ...], Any]] = {}
-        for exponents, c in polynomial.to_dict().items():
-            rest = list(exponents)
-            for place in places:
-                rest[place] = 0
-            powers = tuple(int(exponents[place]) for place in places)
-            parts.setdefault(powers, {})[tuple(rest)] = c
-        return {powers: self.context.from_dict(part) for powers, part in parts.items()}
+        parts = {(): polynomial}
+        for place in map(self.position.__getitem__, symbols):
+            by_powers = {}
+            for powers, part in parts.items():
+                rest, power = part, 0
+                while rest != 0:
+                    constant = rest.subs({place: 0})
+                    if constant != 0:
+                        by_powers[(*powers, power)] = constant
+                    rest, power = (rest - constant) / self._gens[place], power + 1
+            parts = by_powers
+        return parts
 
     def total(self, values: Iterable["RationalFunction"]) -> "RationalFunction":
         """The sum of elements; what has one denominator is brought to lowest terms once."""
@@ -248,16 +251,16 @@ class RationalFunction:
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
-            unit = self._same(self.denominator, self.denominator)
-            return (unit / self) ** -exponent
+            return (self.domain.one / self) ** -exponent
         return self._same(_power(self.numerator, exponent), _power(self.denominator, exponent))
 
     def is_zero(self) -> bool:
         """Decide whether this is zero, given n_x² + n_y² = 1."""
         if len(self.numerator) <= 1:  # a single term is not zero
             return len(self.numerator) == 0
-        if not (self.holds(n_x) or self.holds(n_y)):
-            return False
+        degrees = self.numerator.degrees()
+        if all(degrees[self.domain.position[component]] < 2 for component in (n_x, n_y)):
+            return False  # 1, n_x, n_y and n_x n_y are independent over the functions of φ
         return bool(self._on_circle(self.numerator) == 0)
 
     def reduced(self) -> "RationalFunction":
@@ -308,14 +311,12 @@ class RationalFunction:
         if not any(self.holds(symbol) for symbol in images):
             return self
         if any(image.denominator != 1 for image in images.values()):
-            numerator, divisor = (
-                self._put_in(part, images) for part in (self.numerator, self.denominator)
-            )
-            return numerator / divisor
+            return self._put_in(self.numerator, images) / self._put_in(self.denominator, images)
         full = list(self.domain._gens)
         for symbol, image in images.items():
             full[self.domain.position[symbol]] = image.numerator
-        denominator = self.denominator.compose(*full)
+        divided = any(self._degrees[1][self.domain.position[symbol]] > 0 for symbol in images)
+        denominator = self.denominator.compose(*full) if divided else self.denominator
         if denominator == 0:
             raise NotExactError("a divisor is zero for one of the values")
         return self._same(self.numerator.compose(*full), denominator)
@@ -340,15 +341,19 @@ class RationalFunction:
 
     def to_sympy(self) -> sympy.Expr:
         """The same element as a SymPy quotient, multiplied out."""
-        return self.domain.expanded(self.numerator) / self.domain.expanded(self.denominator)
+        above = self.domain.expanded(self.numerator)
+        return (
+            above if self.denominator.is_one() else above / self.domain.expanded(self.denominator)
+        )
 
 
 def antidifference(f: RationalFunction, symbol: sympy.Expr) -> RationalFunction:
     """F with F(n) − F(n−1) = f(n) and F(0) = 0, for f polynomial in ``symbol``."""
-    total = f.domain.zero
-    for power, coefficient in enumerate(f.coefficients(symbol)):
-        total = total + coefficient * _antidifference_of_power(f.domain, symbol, power)
-    return total
+    f.degree(symbol)  # it is not in the denominator
+    total = f.domain.zero.numerator
+    for (power,), part in f.domain.coefficients(f.numerator, [symbol]).items():
+        total = total + part * _antidifference_of_power(f.domain, symbol, power).numerator
+    return RationalFunction(f.domain, total, f.denominator)
 
 
 @cache
@@ -374,11 +379,8 @@ def sum_polynomial(
     """Σ f(n) for low ≤ n ≤ high; zero when high = low − 1, Karr's convention below that."""
     if not f.holds(symbol):
         return f * (high - low + f.domain.one)
-    antiderivative = antidifference(f, symbol)
-    before_low = low - f.domain.one
-    return antiderivative.substitute({symbol: high}) - antiderivative.substitute(
-        {symbol: before_low}
-    )
+    total = antidifference(f, symbol)
+    return total.substitute({symbol: high}) - total.substitute({symbol: low - f.domain.one})
 
 
 def sum_over(
