@@ -95,9 +95,9 @@ class Field:
         self, polynomial: Polynomial, symbols: Iterable[sympy.Expr]
     ) -> dict[tuple[int, ...], Polynomial]:
         """The coefficients of the powers of some generators."""
-        parts = {(): polynomial}
+        parts: dict[tuple[int, ...], Polynomial] = {(): polynomial}
         for place in map(self.position.__getitem__, symbols):
-            by_powers = {}
+            by_powers: dict[tuple[int, ...], Polynomial] = {}
             for powers, part in parts.items():
                 rest, power = part, 0
                 while rest != 0:
@@ -251,7 +251,7 @@ class RationalFunction:
 
     def __pow__(self, exponent: int) -> Self:
         if exponent < 0:
-            return (self.domain.one / self) ** -exponent
+            return (self._same(self.denominator, self.denominator) / self) ** -exponent
         return self._same(_power(self.numerator, exponent), _power(self.denominator, exponent))
 
     def is_zero(self) -> bool:
@@ -315,7 +315,8 @@ class RationalFunction:
         full = list(self.domain._gens)
         for symbol, image in images.items():
             full[self.domain.position[symbol]] = image.numerator
-        divided = any(self._degrees[1][self.domain.position[symbol]] > 0 for symbol in images)
+        degrees = self.denominator.degrees()
+        divided = any(degrees[self.domain.position[symbol]] > 0 for symbol in images)
         denominator = self.denominator.compose(*full) if divided else self.denominator
         if denominator == 0:
             raise NotExactError("a divisor is zero for one of the values")
