@@ -18,13 +18,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_295,
+    "symbolic": 4_294,
     "derivations": 7_084,
     "numeric": 8_844,
-    "force_diffusion": 78,
+    "force_diffusion": 76,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_871,
+    "tests": 12_870,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
