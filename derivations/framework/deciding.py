@@ -13,7 +13,6 @@ from force_diffusion.symbolic.kernel.decisions import (
     Verdict,
     all_of,
     not_a_statement,
-    refuted,
     undecided,
 )
 from force_diffusion.symbolic.notation import by_name
@@ -52,11 +51,12 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
     is_number = isinstance(candidate, Rational) and not isinstance(candidate, bool)
     if is_number or hasattr(candidate, "_sympy_"):  # a closed form
         candidate = sympy.sympify(candidate)
-    if isinstance(candidate, sympy.Basic) and (reason := too_large(candidate)):
-        return undecided(reason)
-    if isinstance(candidate, sympy.Basic) and candidate.has(sympy.Lambda, sympy.MatrixExpr):
-        return not_a_statement("it holds a function or a matrix, and numbers and vectors are read")
     if isinstance(candidate, sympy.Basic):
+        if reason := too_large(candidate):
+            return undecided(reason)
+        if candidate.has(sympy.Lambda, sympy.MatrixExpr):
+            words = "it holds a function or a matrix, and numbers and vectors are read"
+            return not_a_statement(words)
         candidate = _over_read_indices(candidate)
     if isinstance(candidate, sympy.Eq):
         parts = [n for n, line in enumerate(lines) if line.lhs == candidate.lhs]
@@ -86,14 +86,13 @@ def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> 
     if len(rulings) == 1:
         return rulings[0]
     rulings = [_about(line, ruling) for line, ruling in zip(lines, rulings, strict=True)]
-    verdicts = {ruling.verdict for ruling in rulings}
     if proofs := [ruling for ruling in rulings if ruling.verdict.is_proved]:
         return proofs[0]
-    if Verdict.UNDECIDED in verdicts:
+    if any(ruling.verdict is Verdict.UNDECIDED for ruling in rulings):
         sides = either([text(line.lhs) for line in lines])
         return undecided(f"which line is meant? Give an Eq whose left-hand side is {sides}")
     notes = "; ".join(ruling.note for ruling in rulings)
-    return refuted(notes) if Verdict.REFUTED in verdicts else not_a_statement(notes)
+    return replace(all_of(*rulings), note=notes)
 
 
 def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
