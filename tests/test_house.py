@@ -19,7 +19,7 @@ ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
     "symbolic": 4_294,
-    "derivations": 7_084,
+    "derivations": 7_083,
     "numeric": 8_844,
     "force_diffusion": 76,
     "benchmarks": 833,
