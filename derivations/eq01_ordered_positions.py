@@ -6,7 +6,7 @@ from functools import partial
 import sympy
 from force_diffusion.derivations.framework.vocabulary import (
     Derivation, Domain, Rule, Steps, Theorem, axioms, equation, follows, inducted, instance, minus,
-    rewrite, terms, times, usual)
+    read, rewrite, terms, times, usual)
 from force_diffusion.symbolic.symbols import (
     Dot, Position, e_x, i, j, n_minus, n_plus, n_x, n_y, p, phi, q, r, spacing)
 # fmt: on
@@ -67,6 +67,7 @@ def above_base(base: Theorem, up: Theorem) -> Rule:
     to_here = instance(up, {i: i - 1, j: j - 1}, Domain.of(j >= 1))
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
+        read(formula, domain)  # all beads that it names exist, in every layer
         return inducted(j, 0, rewrite(base), partial(rewrite, to_here), [(formula, domain)])[0]
 
     return rule

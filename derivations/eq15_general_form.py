@@ -68,6 +68,11 @@ def of_layers(load: str) -> Groups:
     return tuple(instance(theorem, at, theorem.domain.put_in(at)) for theorem in exact)
 
 
+def all_of(load: str) -> Groups:
+    """The same, and what gives moments of other forces."""
+    return *of_layers(load), *IN_RADII[load]()
+
+
 def heights(load: str) -> Domain:
     """Packings of every height under a load."""
     return Domain.of(indices=(M,), loading=LOADING[load])
@@ -216,8 +221,9 @@ DERIVATION = Derivation(
     domain=heights("surface").in_the_limit(at_large_height("∝")),
     show_steps=show_steps,
     step_domain=Domain(),
+    deciders=lambda: [power_law(*all_of("surface"))],
     exact=lambda: {
-        load: ClosedForm(MEAN_SQUARE, mean(load, Variance), heights(load), partial(of_layers, load))
+        load: ClosedForm(MEAN_SQUARE, mean(load, Variance), heights(load), partial(all_of, load))
         for load in LOADS
     },
     remarks=(

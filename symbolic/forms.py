@@ -103,7 +103,8 @@ class Straightening:
         for relation in even:
             factors, constant = sets.row(sympy.expand(relation.xreplace(image)))
             odd = [symbol for symbol, number in factors.items() if number % 2]
-            symbol = next((s for s in (*_ACROSS, *sy.INDICES) if s in odd and s not in image), None)
+            free = (s for s in (*_ACROSS, *sy.INDICES) if s not in image and not s.is_positive)
+            symbol = next((s for s in free if s in odd), None)
             if symbol is None:
                 if odd or constant % 2:
                     raise NotExactError(f"{text(relation)} is not shown to be even")

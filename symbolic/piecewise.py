@@ -21,7 +21,7 @@ from .algebra.exact import (
 from .forms import NUMBER, Straightening
 from .kernel.domain import Domain
 from .kernel.statistics import worked_out
-from .kernel.theorem import Group, names_for
+from .kernel.theorem import Group, bound_in, names_for
 from .notation import by_name
 from .printing.text import text
 from .quotients import factored
@@ -192,13 +192,13 @@ def cases_of(candidate: sympy.Basic) -> sympy.Expr:
     """The function given in pieces that a candidate holds, with all within it; 0 if there is none.
 
     Raises:
-        NotExactError: its cases depend on an index that is summed over.
+        NotExactError: its cases depend on an index over which is summed, or averaged.
     """
     given = [node for node in nodes(candidate) if isinstance(node, sympy.Piecewise)]
     cases: sympy.Expr = given[-1] if given else sympy.S.Zero  # what it is made of comes before it
     named = set().union(*(each.free_symbols for each in cases.atoms(Relational)))
-    if bound := by_name(named - candidate.free_symbols):
-        raise NotExactError(f"cases depend on {text(bound[0])}, which is summed over")
+    if bound := by_name(named & bound_in(candidate)):
+        raise NotExactError(f"cases depend on {text(bound[0])}, which is summed or averaged over")
     return cases
 
 
@@ -214,8 +214,8 @@ def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relatio
         yield folded, ()
         return
     for value, condition in folded.args:
-        for part in sympy.Or.make_args(sympy.to_dnf(condition)):
-            yield value, tuple(each for each in sympy.And.make_args(part) if each != sympy.true)
+        for part in by_name(sympy.Or.make_args(sympy.to_dnf(condition))):
+            yield value, tuple(by_name({*sympy.And.make_args(part)} - {sympy.true}))
 
 
 def parts_of(candidate: sympy.Eq, function: PiecewiseFunction) -> list[tuple[sympy.Eq, sets.Set]]:

@@ -191,6 +191,7 @@ class MeanOver(Written):
     With several indices all of them go on together.
     """
 
+    nargs = tuple(range(3, 12))
     latex_form = r"\overline{%(0)s}^{\,%(1)s}"
     text_form = "mean of %(1)s neighbours (%(0)s)"
 

@@ -176,10 +176,8 @@ def domain(statistic: sympy.Expr, load: LoadCase, *more: sympy.Basic) -> Domain:
     )
     try:
         _ = whole.straight
-    except NotExactError:
-        raise ObservableError(
-            "no packing has these beads: i + j must be even for each bead (i, j)"
-        ) from None
+    except NotExactError as reason:
+        raise ObservableError(f"{reason}: i + j must be even for each bead (i, j)") from None
     return whole
 
 

@@ -114,8 +114,14 @@ class ClosedForm:
     def groups_used(self) -> tuple[Group, ...]:
         """The groups, without what is known of displacements where it holds none.
 
-        Forces and contact directions are given in the radii.
+        Forces and contact directions are given in the radii. Where theorems say what its moments
+        are, these alone.
         """
+        moments = self.statistic.atoms(sy.Moment)
+        given = [group for group in self.groups() if isinstance(group, Theorem)]
+        said = tuple(theorem for theorem in given if theorem.formula.lhs in moments)
+        if {theorem.formula.lhs for theorem in said} == moments:
+            return said
         return tuple(
             group
             for group in self.groups()

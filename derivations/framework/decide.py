@@ -18,10 +18,8 @@ from force_diffusion.symbolic.piecewise import alternatives_of, cases_of
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.trees import in_place
 
-from .deciding import strange_symbol, unread
+from .deciding import OURS, strange_symbol, unread
 from .record import Derivation, load
-
-OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
 
 
 def candidate_for(

@@ -6,6 +6,7 @@ from numbers import Rational
 from typing import Any
 
 import sympy
+from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError
 from force_diffusion.symbolic.forms import SUMMATION
 from force_diffusion.symbolic.kernel.decisions import (
@@ -15,13 +16,15 @@ from force_diffusion.symbolic.kernel.decisions import (
     not_a_statement,
     undecided,
 )
-from force_diffusion.symbolic.notation import by_name
+from force_diffusion.symbolic.notation import OfExpressions, by_name
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.sizes import too_large
 from force_diffusion.symbolic.trees import equation
 from sympy.logic.boolalg import BooleanAtom
 
 from .lists import either
+
+OURS = {*sy.INDICES, *sy.PARAMETERS, *sy.VECTORS}
 
 RuleOn = Callable[[int, sympy.Eq], Ruling]
 """Rules on a candidate for one of the lines, by its place."""
@@ -74,7 +77,11 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
 
 def _over_read_indices(candidate: sympy.Basic) -> sympy.Basic:
     """The same, with sums over indices that are read, whatever the user calls them."""
-    bound = {index for series in candidate.atoms(sympy.Sum) for index, *_ in series.limits}
+    sums = candidate.atoms(sympy.Sum)
+    bound = {index for series in sums for index, *_ in series.limits}
+    # what is summed may depend on symbols that it does not show, as z does on j and M
+    shows_all = not any(each.has(OfExpressions) or each.free_symbols - OURS for each in sums)
+    bound -= OURS - ({*sy.INDICES} - {sy.j, sy.M, sy.N} if shows_all else set())
     unread = by_name(bound - {*SUMMATION} - candidate.free_symbols)
     unused = [index for index in SUMMATION if not candidate.has(index)]
     return candidate.xreplace(dict(zip(unread, unused, strict=False)))

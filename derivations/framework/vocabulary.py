@@ -16,7 +16,7 @@ from force_diffusion.symbolic.kernel.rules import (
     Rule, along, differentiate, follows, inducted, mirror, order, rewrite, same,
     solve)
 from force_diffusion.symbolic.kernel.statistics import moment
-from force_diffusion.symbolic.kernel.theorem import Groups, Theorem, instance, isolated
+from force_diffusion.symbolic.kernel.theorem import Groups, Theorem, instance, isolated, read
 from force_diffusion.symbolic.mechanics import lattice
 from force_diffusion.symbolic.notation import Symbol
 

@@ -19,7 +19,7 @@ from .domain import AT_FIXED_RATIO, Domain, at_fixed_height, at_large_height
 from .limits import in_the_limit, leading, limit_of, order
 from .refuted import other_ratio
 from .rules import Rule
-from .theorem import FalseStatementError, Group, Groups, Theorem, flat, made, with_indices
+from .theorem import FalseStatementError, Group, Groups, Theorem, flat, made, read, with_indices
 
 Power = tuple[RationalFunction, sympy.Rational]
 """A base, and its exponent."""
@@ -105,7 +105,9 @@ def tensile(variance: Theorem, mean: Theorem, *groups: Group) -> Rule:
         if not domain.loading == variance.domain.loading == mean.domain.loading:
             raise NotProvedError("the packings differ")
         relations = (*variance.domain.relations, *mean.domain.relations)
-        if not set().union(*(each.free_symbols for each in relations)) <= {sy.j, sy.M}:
+        named = set().union(*(each.free_symbols for each in relations))
+        beads = {*variance.domain.beads, *mean.domain.beads}
+        if not named <= {sy.j, sy.M} or not beads <= {(sy.i, sy.j)}:
             raise NotProvedError("the force depends on more than its layer")
         force = variance.formula.lhs.args[0]
         if variance.formula.lhs != sy.Variance(force) or mean.formula.args != (sy.Mean(force), 1):
@@ -114,6 +116,8 @@ def tensile(variance: Theorem, mean: Theorem, *groups: Group) -> Rule:
             raise NotProvedError("the mean is known in a limit")
         limit_of(mean.formula, mean.domain.in_the_limit(at_fixed_height("=")), "=")
         there = with_indices(equation(force, sympy.S.Zero), {sy.i: sy.m, sy.j: sy.m})
+        within = sympy.Ge(sy.m, 0), sympy.Le(sy.m, sy.M - 1)
+        read(there, Domain.of(*within, loading=domain.loading))  # it has a value in every layer
         each = sy.Tensile(there.lhs)
         if formula.lhs != sympy.Sum(each, (sy.m, 0, sy.M - 1)) / sy.M:
             raise NotProvedError("it is not about the mean over all layers of P(f < 0)")

@@ -95,7 +95,11 @@ class Loading:
         same = set(given) == set(self.given) and set(everywhere) == set(self.everywhere)
         if same and acting == self.acting:
             return self
-        name, words = f"{self.name}, mirrored", f"the mirror image of: {self.words}"
+        end, before = ", mirrored", "the mirror image of: "
+        if self.name.endswith(end):
+            name, words = self.name.removesuffix(end), self.words.removeprefix(before)
+        else:
+            name, words = self.name + end, before + self.words
         place = self.place
         if len(place) == 2:  # that of a bead; a height is its own mirror image
             place = lattice.mirrored_place(*place)

@@ -72,7 +72,10 @@ def negligible(*groups: Group) -> Rule:
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit = limit_of(formula, domain, "≈")
         force = _only_force(formula)
-        slope = sympy.expand(formula.lhs - formula.rhs).coeff(force)
+        apart = sympy.expand(formula.lhs - formula.rhs)
+        slope = apart.coeff(force)
+        if sympy.expand(apart - slope * force).has(force):
+            raise NotProvedError("the force is not a term of it, or in others as well")
         whole, rest = (
             _in_radii(expression, groups, domain)
             for expression in (slope * force, sympy.Add(formula.lhs, -formula.rhs, evaluate=False))
@@ -122,7 +125,7 @@ def drop_terms(dropping: Theorem, *exact: Theorem) -> Rule:
             raise NotProvedError("it is not the variance of what something was dropped from")
         (whole,) = formula.lhs.args
         beside = (whole - left, left - left.coeff(force) * force)
-        if not all(sympy.expand(expression).is_number for expression in beside):
+        if not all(sympy.expand(expression).is_Rational for expression in beside):
             raise NotProvedError("it is not the variance of what something was dropped from")
         if not _late(domain).lies_in(dropping.domain):
             raise NotProvedError("what is dropped is so elsewhere")
@@ -144,10 +147,8 @@ def bounded(*groups: Group) -> Rule:
         whole = _variance(form, domain) * in_the_limit(bound, domain)
         if not _vanishes_nowhere(leading(whole, limit), limit):
             raise NotProvedError("what is compared with is not shown to vanish nowhere")
-        orders = [
-            _order_at_sites(value, limit) for _, value in form.parts.get(RADII, Weights()).pieces
-        ]
-        if any(2 * height > order(whole, limit) for height in orders):
+        weights = form.parts.get(RADII, Weights()).pieces
+        if any(2 * _order_at_sites(weight, limit) > order(whole, limit) for _, weight in weights):
             raise NotProvedError("a radius has more, or that is not excluded")
         return made(formula, domain, "bounding the largest share", flat(groups))
 
@@ -253,11 +254,8 @@ def limit_of(formula: sympy.Eq, domain: Domain, relation: str) -> Limit:
         raise NotProvedError(f"it is not in a limit, or not with the sign {relation}")
     if sy.z in formula.free_symbols and not {sy.j, sy.M} <= {*domain.indices}:
         raise NotProvedError(f"{text(sy.z)} neither grows nor is fixed")
-    symbols = {
-        s
-        for expression in limit.positive
-        for s in expression.xreplace(domain.straight.image).free_symbols
-    }
+    positive = (total.xreplace(domain.straight.image) for total in limit.positive)
+    symbols = set().union(*(total.free_symbols for total in positive))
     late = large(domain, limit)
     if not late.is_subset(sets.without(domain.points, *_not_in(symbols))):
         raise NotProvedError(f"its domain does not hold all of {limit.words}")

@@ -79,7 +79,7 @@ class MomentReader(Reader):
         """
         moments = tuple(filter(_is_of_a_moment, groups))
         for own in (theorem.domain for theorem in flat(moments)):
-            if not (domain.shares_packings_of(own) and _has_same_indices(domain, own)):
+            if own.limit or not (domain.shares_packings_of(own) and _has_same_indices(domain, own)):
                 raise NotProvedError("a moment is known of other packings, or of other beads")
         # the place of the load is not fixed: what the radii determine is known for every place
         fixed = frozenset[sympy.Symbol]().union(*(theorem.fixed for theorem in flat(groups)))
@@ -102,7 +102,7 @@ class MomentReader(Reader):
             if about == moment and not inside.is_empty():
                 total = total + replace(self, points=inside).number(value).on(inside)
                 left = left - inside
-        if not left.is_empty():
+        if self.points.is_empty() or not left.is_empty():
             total = total + Form({NUMBER: replace(self, points=left)._worked_out(moment).on(left)})
         return total.merged() if self.summed else total
 

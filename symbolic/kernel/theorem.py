@@ -186,11 +186,8 @@ def isolated(formula: sympy.Eq, domain: Domain) -> tuple[sympy.Expr, sympy.Expr]
         raise NotProvedError(f"{text(formula.lhs)} is not a single quantity times a known factor")
     others = [quantity for quantity in factors if quantity != about[0]]
     for factor in others:
-        if (
-            isinstance(factor, sympy.Pow)
-            and isinstance(factor.base, FORCES)
-            and factor.exp.is_negative
-        ):
+        is_power = isinstance(factor, sympy.Pow) and isinstance(factor.base, FORCES)
+        if is_power and factor.exp.is_negative:
             continue
         if factor.has(sy.SiteFunction) or not never_zero(
             domain.reader().scalar(factor), domain.points, domain.dimension

@@ -512,6 +512,11 @@ def decided(rule: Rule, theorem: Theorem) -> str:
 attack("what is only supposed is no proof", lambda: decided(lambda *_: SUPPOSED[0], SUPPOSED[0]),
        "only supposed", lambda: decided(rules.same(BASE), BASE))
 REACHED = POSITIONS.formula.args
+HIGH = Domain.of(Eq(j, 0), indices=(M,), beads=())
+attack("a bead in column 0 of a layer M that may be odd",
+       proof(REWRITE, (sy.Braces(ZERO, Integer(1), M, j), 0),
+             Domain.of(Eq(j, 0), indices=(M,), beads=[(ZERO, M)])),
+       "not shown to be even", proof(REWRITE, (sy.Braces(ZERO, Integer(1), M, j), 1), HIGH))
 
 # what is known for one value of an index
 
@@ -839,6 +844,8 @@ table(
     ("another mean", (LEFT, RIGHT + 1), "means of both sides differ", DROPPED),
     ("two forces", (LEFT, RIGHT + sy.ForcePlus(i + 2, j)), "not about one contact force", DROPPED),
     ("nothing about a force", (LEFT - LEFT + FORCE, FORCE), "not shown to vary", (LEFT, RIGHT)),
+    ("a force that a sum takes off", (LEFT + FORCE * M - Sum(FORCE, (m, 1, M)), 5 * RIGHT),
+     "in others as well", (LEFT, RIGHT)),
 )
 KEPT = limits.drop_terms(
     eq12.DERIVATION.theorem,
@@ -850,6 +857,8 @@ table(
     ("another variance than that of what is kept", (Variance(LEFT), 2 * OF_FORCE),
      "left over right", (Variance(LEFT), OF_FORCE)),
     ("the variance of another quantity", (Variance(2 * LEFT), OF_FORCE),
+     "something was dropped from", (Variance(LEFT + 1), OF_FORCE)),
+    ("the variance of two forces", (Variance(LEFT + sy.ForcePlus(0, 0)), OF_FORCE),
      "something was dropped from", (Variance(LEFT + 1), OF_FORCE)),
 )
 ON_DIAGONAL = eq13.IN_THE_LIMIT.also(Eq(i, j))
@@ -953,16 +962,21 @@ def fraction(means: Theorem = ONES, left: Any = 1, right: Any = 1) -> Attempt:
     return proof(rule, sides, eq15.heights("surface").in_the_limit(AT_FIXED_RATIO))
 
 
-def of_all_beads(factor: sympy.Expr, where: sympy.Eq) -> Attempt:
-    """The tensile fraction of forces times a factor, from their moments where that is 1."""
-    force = eq15.FORCE["surface"] * factor
+RATIO = eq15.FORCE["surface"]
+IN_EVEN_LAYERS = Domain.of(
+    j >= 0, j <= M - 1, indices=(i,), loading=axioms.SURFACE, beads=[(i, j), (j, ZERO)]
+)
+
+
+def of_all_beads(force: sympy.Expr, domain: Domain) -> Attempt:
+    """The tensile fraction of forces, from moments that are those of Eq. 13 on a domain."""
     each = sy.Tensile(force.xreplace({i: m, j: m}))
-    heights = eq15.heights("surface").also(indices=factor.free_symbols & {sy.p})
+    heights = eq15.heights("surface").also(indices=force.free_symbols & {sy.p})
 
     def proved() -> Theorem:
-        ones = prove(moment(*FORCES), Mean(force), 1, ONES.domain.also(where))
+        ones = prove(moment(*FORCES), Mean(force), 1, domain)
         varies = prove(limits.asymptotic(*FORCES), Variance(force), OF_LAYER.formula.rhs,
-                       OF_LAYER.domain.also(where))
+                       domain.in_the_limit(at_fixed_height("∼")))
         return prove(tensile(varies, ones, *IN_RADII), Sum(each, (m, 0, M - 1)) / M, FRACTION[1],
                      heights.in_the_limit(AT_FIXED_RATIO))
 
@@ -970,8 +984,15 @@ def of_all_beads(factor: sympy.Expr, where: sympy.Eq) -> Attempt:
 
 
 beside("the tensile fraction", fraction(),
-       ("of forces of all sizes", of_all_beads(1 + sy.p, Eq(sy.p, 0)), "more than its layer"),
-       ("of forces of other columns", of_all_beads(1 - i - j, Eq(i, -j)), "more than its layer"),
+       ("of forces of all sizes", of_all_beads(RATIO * (1 + sy.p), SURFACE.also(Eq(sy.p, 0))),
+        "more than its layer"),
+       ("of forces of other columns", of_all_beads(RATIO * (1 - i - j), SURFACE.also(Eq(i, -j))),
+        "more than its layer"),
+       ("of forces in even layers", of_all_beads(RATIO, IN_EVEN_LAYERS), "more than its layer"),
+       ("of beads below the base",
+        of_all_beads(RATIO + sy.DeltaR(i - 8, j - 8) / r, SURFACE.also(j >= 9)), "below the base"),
+       ("of forces without a value in layer 5",
+        of_all_beads(RATIO + HERE / (r * (j - 5)), SURFACE.also(j >= 9)), "may be zero"),
        ("with the mean of one layer", fraction(ONE_LAYER), "does not hold all of"),
        ("with another mean", fraction(OF_LAYER), "mean of one force"),
        ("of half the layers", fraction(left=Rational(1, 2)), "mean over all layers"),

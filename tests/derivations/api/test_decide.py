@@ -148,6 +148,19 @@ NEVER_PROVED = [
 ]  # fmt: skip
 
 
+def test_what_depends_on_an_index_unseen_is_not_summed_over_it():
+    """A moment depends on σ, φ, r and M; cases may depend on an index over which is averaged."""
+    form = fd.variance(sy.ForcePlus(sy.i, sy.j))
+    for symbol in (sy.sigma, sy.phi, sy.r, sy.M, sy.k):
+        ruling = form.decide(sympy.Sum(form.statistic / 2, (symbol, 1, 2)))
+        assert ruling.verdict is Verdict.NOT_A_STATEMENT, symbol
+    assert form.decide(sympy.Sum(form.statistic / 2, (sympy.Symbol("a"), 1, 2))).verdict.is_proved
+    cases = sympy.Piecewise((sy.i, sympy.Eq(sy.i, 0)), (1, True))
+    ruling = fd.mean(sy.ForcePlus(sy.i, sy.j)).decide(sy.MeanOver(cases, 2, sy.i))
+    assert ruling.verdict is Verdict.UNDECIDED
+    assert "cases depend on i, which is summed or averaged over" in ruling.note
+
+
 @pytest.mark.parametrize("number", [3, 13, 15, *late([12])])
 def test_unreadable_candidates_are_undecided_with_the_reason(number):
     for candidate in NOT_READ + NEVER_PROVED:

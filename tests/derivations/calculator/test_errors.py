@@ -35,7 +35,7 @@ OBSERVABLES = [
     (f_plus(i + sympy.Rational(1, 2), j), r"is at i \+ 1/2: only whole numbers"),
     (f_plus(i + 2**70, j), "whole numbers"),
     (FORCE + f_plus(i + 1, j), r"i \+ j must be even for each bead \(i, j\)"),
-    (FORCE - f_plus(i + p, j) + f_plus(i + p + 1, j), "no packing has these beads"),
+    (FORCE - f_plus(i + p, j) + f_plus(i + p + 1, j), r"i \+ j \+ p is not shown to be even"),
     (f_plus(1, -1) + FORCE, "no packing has these beads: a layer is too low or too high"),
     (IN_SPACE, "is a force between spheres: give dimension=3"),
     (Position(i, j), "x_ij does not depend on the radii, or is not known"),
