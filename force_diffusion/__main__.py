@@ -13,7 +13,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Run the command line; return its exit status."""
 
     def program() -> int:
-        gc.set_threshold(50_000)  # libraries and SymPy make many objects that stay, and few cycles
+        gc.set_threshold(200_000)  # libraries and SymPy make many objects that stay, and few cycles
         from force_diffusion.derivations.commands.cli import run
 
         return run(arguments)

@@ -30,20 +30,19 @@ from .symbols import ForceAlong, M, VerticalAlong, l, n, phi, r, t_2, t_3
 from .weights import Weights
 
 _UPWARDS = sets.where(n >= 1)
+_HALF = FIELD.from_sympy(1 / (2 * r))
 
 
-def reciprocal(dimension: int) -> tuple[RationalFunction, RationalFunction]:
-    """b^a·b^a and b^a·b^c."""
-    own, cross = 1 + (dimension - 2) * phi, -phi
-    below = (1 - phi) * (1 + (dimension - 1) * phi)
-    return FIELD.from_sympy(own / below), FIELD.from_sympy(cross / below)
+def reciprocal(dimension: int) -> tuple[RationalFunction, ...]:
+    """b^a·b^a and b^a·b^c, times a divisor; and this."""
+    divisor = (1 - phi) * (1 + (dimension - 1) * phi)
+    return tuple(map(FIELD.from_sympy, (1 + (dimension - 2) * phi, -phi, divisor)))
 
 
 @lru_cache(maxsize=8)
 def turns(dimension: int) -> tuple[tuple[Weights, ...], ...]:
-    """n^a·δn^c of the contact from bead ``SOURCE`` along n^c, by a and c."""
+    """2r n^a·δn^c of the contact from bead ``SOURCE`` along n^c, by a and c."""
     beads, sites = SOURCE[:dimension], SITE[:dimension]
-    half = FIELD.from_sympy(1 / (2 * r))
     cosine = FIELD.generator(phi)
 
     def radius(axis: int | None = None) -> Weights:
@@ -62,7 +61,7 @@ def turns(dimension: int) -> tuple[tuple[Weights, ...], ...]:
             return Weights()
         line = line_sum(a)
         rest = (radius() + radius(c)).scaled(cosine)
-        return (line.at({beads[c]: beads[c] + 1}) - line - rest).scaled(half).merged()
+        return (line.at({beads[c]: beads[c] + 1}) - line - rest).merged()
 
     axes = range(dimension)
     return tuple(tuple(turn(a, c) for c in axes) for a in axes)
@@ -71,7 +70,7 @@ def turns(dimension: int) -> tuple[tuple[Weights, ...], ...]:
 def force(ordered: Sequence[Weights], axis: int) -> Known:
     """The force of the contact from a bead along n^axis; ``ordered`` gives F_c by the bead."""
     dimension = len(ordered)
-    own, cross = reciprocal(dimension)
+    own, cross, divisor = reciprocal(dimension)
     beads = SOURCE[:dimension]
     gained = Weights()
     for c, carried in enumerate(ordered):
@@ -81,7 +80,7 @@ def force(ordered: Sequence[Weights], axis: int) -> Known:
             turned = turned + turn.times(carried)
         gained = gained + turned - turned.at({beads[c]: beads[c] - 1})
     upwards = gained.merged().at({beads[axis]: beads[axis] + n}).on(_UPWARDS)
-    weights = upwards.summed(n).merged()
+    weights = upwards.summed(n).merged().scaled(_HALF / divisor)  # polynomials up to here
     return Known(sets.EVERYTHING, (Form({NUMBER: ordered[axis], RADII: weights}),))
 
 
@@ -90,7 +89,7 @@ def vertical(force: Known, dimension: int, axis: int) -> Known:
     tilted = Weights()
     for a in range(dimension):
         tilted = tilted + turns(dimension)[a][axis]
-    scale = FIELD.from_sympy(1 / (1 + (dimension - 1) * phi))
+    scale = _HALF / FIELD.from_sympy(1 + (dimension - 1) * phi)
     unit = Form.number(FIELD.one) + Form({RADII: tilted.scaled(scale)})
     (value,) = force.value
     return Known(force.points, (unit.times(value).merged(),))

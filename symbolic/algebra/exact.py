@@ -85,8 +85,10 @@ class Field:
         """A polynomial as a SymPy sum."""
         return sympy.Add(
             *(
-                sympy.Rational(int(c.p), int(c.q))
-                * sympy.Mul(*(g ** int(e) for g, e in zip(self.generators, x, strict=True) if e))
+                sympy.Mul(
+                    sympy.Rational(int(c.p), int(c.q)),
+                    *(g ** int(e) for g, e in zip(self.generators, x, strict=True) if e),
+                )
                 for x, c in polynomial.to_dict().items()
             )
         )
