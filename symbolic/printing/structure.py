@@ -44,32 +44,32 @@ _MANY = 4  # terms of a polynomial that is put in order
 def _by_degree(expr: Expr) -> tuple[Expr, ...]:
     """The terms of a polynomial in indices: the highest degree first, each part factored."""
     terms = expr.as_ordered_terms()
-    symbols = [symbol for symbol in (*sy.INDICES, sy.H_M) if expr.has(symbol)]
+    held = expr.atoms(Symbol)
+    symbols = [symbol for symbol in (*sy.INDICES, sy.H_M) if symbol in held]
     if len(terms) < _MANY or not symbols or not expr.is_polynomial(*symbols):
         return tuple(terms)
-    parts: dict[int, dict[Expr, list[Expr]]] = {}
+    parts: dict[int, dict[Expr, list[tuple[Expr, Expr]]]] = {}
     for term in terms:
         rest, monomial = term.as_independent(*symbols, as_Add=False)
         degree = sum(n for symbol, n in monomial.as_powers_dict().items() if symbol != sy.H_M)
-        parts.setdefault(int(degree), {}).setdefault(monomial, []).append(rest)
+        parts.setdefault(int(degree), {}).setdefault(monomial, []).append((rest, term))
     return tuple(factor for n in sorted(parts, reverse=True) for factor in _factored(parts[n]))
 
 
-def _factored(part: Mapping[Expr, Sequence[Expr]]) -> list[Expr]:
-    """A sum of monomials, each with the terms of its factor: as a product, or one by one."""
+def _factored(part: Mapping[Expr, Sequence[tuple[Expr, Expr]]]) -> list[Expr]:
+    """A sum of monomials, each with its terms' factors and these: as a product, or one by one."""
     if len(part) > 1:
-        whole = Add(*(term * monomial for monomial, terms in part.items() for term in terms))
-        number, factors = _factors(whole)
+        number, factors = _factors(Add(*(term for pairs in part.values() for _, term in pairs)))
         if sum(power for _, power in factors) > 1:
             return [_product(number, factors)]
     expanded = []
-    for monomial, terms in part.items():
-        if len(terms) == 1 or monomial == 1:
-            expanded += [term * monomial for term in terms]
+    for monomial, pairs in part.items():
+        if len(pairs) == 1 or monomial == 1:
+            expanded += [term for _, term in pairs]
         else:
-            number, factors = _factors(Add(*terms))
+            number, factors = _factors(Add(*(rest for rest, _ in pairs)))
             if len(factors) > 1:  # unlike (1 − φ)²
-                factors = [(Add(*(term / number for term in terms)), 1)]
+                factors = [(Add(*(rest / number for rest, _ in pairs)), 1)]
             expanded.append(_product(number, [*monomial.as_powers_dict().items(), *factors]))
     return expanded
 
@@ -164,6 +164,7 @@ def is_operand(factor: Expr) -> bool:
     return bool(factor.has(Sum, sy.Dot, sy.MatrixTimes)) or is_vector(factor)
 
 
+@cache
 def is_vector(expr: Expr) -> bool:
     """Whether an expression holds a vector outside of a scalar product."""
     if isinstance(expr, sy.SiteFunction):
