@@ -18,7 +18,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_299,
+    "symbolic": 4_301,
     "derivations": 7_094,
     "numeric": 8_844,
     "force_diffusion": 76,
