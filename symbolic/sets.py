@@ -6,7 +6,7 @@ one space here: every index of the paper, the coordinates of a site, and those o
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from functools import lru_cache
+from functools import lru_cache, reduce
 from typing import Any
 
 import islpy as isl
@@ -384,7 +384,4 @@ def sample(points: Set) -> Mapping[sympy.Symbol, int]:
 
 def union(pieces: Iterable[Set]) -> Set:
     """The points of any of several sets."""
-    whole = NOTHING
-    for piece in pieces:
-        whole = whole | piece
-    return whole
+    return reduce(isl.Set.union, pieces, NOTHING)

@@ -45,7 +45,8 @@ def sign(
         number, factors = _factors(frozenset(polynomial.to_dict().items()))
         product *= number
         for factor, power in factors:
-            product *= _of_factor(factor, points, positive, dimension) ** power
+            if product != 0:
+                product *= _of_factor(factor, points, positive, dimension) ** power
     return product
 
 
@@ -114,7 +115,7 @@ def _of_terms(
 ) -> int:
     """All terms of one sign, factors in φ included, and one that is not zero anywhere."""
     symbols = by_name(factor.free_symbols - {phi})
-    if symbols == [z]:
+    if factor.free_symbols == {z}:
         return _on_interval(sympy.Poly(factor, z), sympy.S.Zero, sympy.S.One)
     may_vanish = {symbol for symbol in symbols if least.get(symbol) == 0}
     if not all(

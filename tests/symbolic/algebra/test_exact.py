@@ -6,7 +6,9 @@ import pytest
 import sympy
 from force_diffusion.symbolic.algebra import exact
 from force_diffusion.symbolic.algebra.exact import FIELD, NotExactError
-from force_diffusion.symbolic.symbols import M, m, n_x, n_y, phi, r
+from force_diffusion.symbolic.sets import EVERYTHING
+from force_diffusion.symbolic.signs import sign
+from force_diffusion.symbolic.symbols import M, m, n_x, n_y, phi, r, z
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -74,3 +76,8 @@ def test_nothing_inexact_comes_in(expression):
 def test_division_by_zero_is_refused():
     with pytest.raises(NotExactError, match="zero"):
         FIELD.from_sympy(sympy.Mul(1, sympy.Pow(phi - phi, -1, evaluate=False), evaluate=False))
+
+
+@pytest.mark.parametrize(("factor", "known"), [(1 + z * phi**2, 1), (z - phi, 0), (1 - z * phi, 0)])
+def test_the_sign_of_a_factor_in_z_and_phi_is_that_of_its_terms(factor, known):
+    assert sign(FIELD.from_sympy(factor), EVERYTHING) == known
