@@ -18,13 +18,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_301,
+    "symbolic": 4_299,
     "derivations": 7_094,
     "numeric": 8_844,
     "force_diffusion": 76,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_904,
+    "tests": 12_909,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
