@@ -85,7 +85,7 @@ def show_steps(steps: Steps) -> None:
     origin, *up = touching.theorems
     base = steps.show(
         "In the base, a step up along n⁺ and one down along n⁻ lead to the next bead to the right, "
-        "and the same steps back to the next one to the left:",
+        "and the same steps back to the next one to the left. So, for all whole p:",
         ON_BASE,
         along_base(origin, *up),
         Domain.of(indices=(p,), beads=()),
