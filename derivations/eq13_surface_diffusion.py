@@ -86,12 +86,6 @@ def show_steps(steps: Steps) -> None:
         differentiate,
         Domain(),
     )
-    steps.claim(
-        "the printed form is the leading order of the exact variance",
-        PRINTED,
-        asymptotic(*form.theorems),
-        IN_THE_LIMIT,
-    )
     layers.claim_edges(steps, PRINTED, form)
     layers.claim_exponent(
         steps,

@@ -306,6 +306,8 @@ class Reader:
         Raises:
             NotAStatementError: none is there.
         """
+        for coordinate in (across, layer):
+            sets.check_written(coordinate)
         x, y = (
             sympy.expand(coordinate.xreplace(self.straight.image)) for coordinate in (across, layer)
         )

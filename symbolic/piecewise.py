@@ -188,34 +188,32 @@ class PiecewiseFunction:
 # functions that are given in pieces, by Piecewise
 
 
-def cases_of(candidate: sympy.Basic) -> sympy.Expr:
-    """The function given in pieces that a candidate holds, with all within it; 0 if there is none.
+def alternatives_of(formula: sympy.Basic) -> Iterator[tuple[sympy.Basic, Relations]]:
+    """What a formula is without pieces, with relations; the first that fits counts.
+
+    It holds nan where a function given in pieces has no value.
 
     Raises:
+        NotAStatementError: such a function has no value anywhere.
         NotExactError: its cases depend on an index over which is summed, or averaged.
     """
-    given = [node for node in nodes(candidate) if isinstance(node, sympy.Piecewise)]
-    cases: sympy.Expr = given[-1] if given else sympy.S.Zero  # what it is made of comes before it
-    named = set().union(*(each.free_symbols for each in cases.atoms(Relational)))
-    if bound := by_name(named & bound_in(candidate)):
-        raise NotExactError(f"cases depend on {text(bound[0])}, which is summed or averaged over")
-    return cases
-
-
-def alternatives_of(candidate: sympy.Expr) -> Iterator[tuple[sympy.Expr, Relations]]:
-    """The formulas of a function that is given in pieces, with relations; the first that fits."""
-    if isinstance(candidate, sympy.Piecewise) and not any(
-        c != sympy.false for _, c in candidate.args
-    ):
-        raise NotAStatementError("it has no value anywhere")
-    is_nested = any(each.has(sympy.Piecewise) for each in candidate.args)
-    folded = sympy.piecewise_fold(candidate) if is_nested else candidate
-    if not isinstance(folded, sympy.Piecewise):
-        yield folded, ()
+    given = [node for node in nodes(formula) if isinstance(node, sympy.Piecewise)]
+    if not given:
+        yield formula, ()
         return
-    for value, condition in folded.args:
+    cases = given[-1]  # what it is made of comes before it
+    named = set().union(*(each.free_symbols for each in cases.atoms(Relational)))
+    if bound := by_name(named & bound_in(formula)):
+        raise NotExactError(f"cases depend on {text(bound[0])}, which is summed or averaged over")
+    if all(condition == sympy.false for _, condition in cases.args):
+        raise NotAStatementError("it has no value anywhere")
+    for value, condition in cases.args:
+        inside, nowhere = (in_place(formula, {cases: each}) for each in (value, sympy.nan))
         for part in by_name(sympy.Or.make_args(sympy.to_dnf(condition))):
-            yield value, tuple(by_name({*sympy.And.make_args(part)} - {sympy.true}))
+            relations = tuple(by_name({*sympy.And.make_args(part)} - {sympy.true}))
+            for alternative, further in alternatives_of(inside):
+                yield alternative, (*relations, *further)
+            yield nowhere, relations
 
 
 def parts_of(candidate: sympy.Eq, function: PiecewiseFunction) -> list[tuple[sympy.Eq, sets.Set]]:
@@ -229,12 +227,12 @@ def parts_of(candidate: sympy.Eq, function: PiecewiseFunction) -> list[tuple[sym
         NotAStatementError: it has no value on some part of the domain.
         NotExactError: its cases are not read.
     """
-    cases, rest, parts = cases_of(candidate), function.points, []
-    for value, relations in alternatives_of(cases):
+    rest, parts = function.points, []
+    for formula, relations in alternatives_of(candidate):
         here = rest & sets.where(*map(function.straight.relation, relations))
         rest = rest - here
-        formula = in_place(candidate, {cases: value}) if cases else candidate
-        parts.append((formula, here))
+        if not here.is_empty():
+            parts.append((formula, here))
     if not rest.is_empty():
         left_out = words.alternatives(function.relations(rest))
         raise NotAStatementError(f"it has no value for {left_out}")

@@ -51,6 +51,7 @@ def row(form: sympy.Expr) -> Row:
     Raises:
         NotExactError: it is not affine, holds another symbol, or a number too large for isl.
     """
+    check_written(form)
     factors: dict[sympy.Symbol, int] = {}
     constant = 0
     for term, factor in sympy.expand(form).as_coefficients_dict().items():
@@ -63,6 +64,16 @@ def row(form: sympy.Expr) -> Row:
         else:
             raise NotExactError(f"{form} is not affine in the indices")
     return factors, constant
+
+
+def check_written(form: sympy.Expr) -> None:
+    """Refuse a form that holds a divisor or a function, even if that cancels.
+
+    Raises:
+        NotExactError: it does.
+    """
+    if form.has(sympy.Function) or not form.is_polynomial(*form.free_symbols):
+        raise NotExactError(f"{form} is not affine in the indices")
 
 
 def constraint(form: Row, equation: bool) -> Any:
@@ -81,6 +92,8 @@ def condition(relation: sympy.Basic) -> tuple[Row, bool]:
     Raises:
         NotExactError: it is no affine relation between whole numbers.
     """
+    for side in relation.args:
+        check_written(side)
     if isinstance(relation, sympy.Eq):
         return row(relation.lhs - relation.rhs), True
     if isinstance(relation, sympy.Ge | sympy.Gt):

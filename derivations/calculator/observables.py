@@ -175,9 +175,11 @@ def domain(statistic: sympy.Expr, load: LoadCase, *more: sympy.Basic) -> Domain:
         dimension=load.dimension,
     )
     try:
-        _ = whole.straight
+        exists = not whole.points.is_empty()
     except NotExactError as reason:
         raise ObservableError(f"{reason}: i + j must be even for each bead (i, j)") from None
+    if not exists:
+        raise ObservableError("no packing has these beads: nowhere is i + j even for all of them")
     return whole
 
 

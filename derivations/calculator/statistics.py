@@ -9,6 +9,7 @@ from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import NotExactError, NotProvedError
 from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
+from force_diffusion.symbolic.trees import in_place
 
 from ..framework.closed_form import ClosedForm
 from .loads import PLANE, LoadCase, ObservableError, load_of, without_load
@@ -175,7 +176,7 @@ def _closed(
     on = domain(statistic, under, *relations_of(where))
     scales, units = _scales(statistic, under) if relative else ({}, "")
     groups = without_load if under.dimension == PLANE and not on.loading else under.groups
-    multiple, divisor = _without_divisors(statistic.xreplace(scales))
+    multiple, divisor = _without_divisors(in_place(statistic, scales))
     form = ClosedForm(statistic, multiple, on, groups, divisor, units)
     try:
         _ = form.function

@@ -15,6 +15,7 @@ from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic import words
 from force_diffusion.symbolic.algebra.exact import NotAStatementError, NotExactError, NotProvedError
+from force_diffusion.symbolic.as_printed import times
 from force_diffusion.symbolic.kernel.decisions import Ruling, Verdict, all_of, decide
 from force_diffusion.symbolic.kernel.domain import Domain
 from force_diffusion.symbolic.kernel.statistics import moment
@@ -29,7 +30,7 @@ from force_diffusion.symbolic.quotients import factored
 from force_diffusion.symbolic.trees import equation, in_place
 
 from .catalogue import Number as EquationNumber
-from .deciding import decided, strange_symbol
+from .deciding import decided, over_read_indices, strange_symbol
 from .display import FormulasInLatex, in_python, in_text
 from .evaluation import Number, Values, evaluate, in_order, indices_at, with_values
 from .leading import leading_orders
@@ -305,11 +306,11 @@ class ClosedForm:
                 several parts, or these are no relations of indices.
         """
         try:
-            pieces = self.function.part(*relations).pieces if relations else self.pieces
+            function = self.function.part(*relations) if relations else self.function
+            pieces = function.pieces if {sy.M, sy.j} <= self._needed else ()
         except NotExactError as reason:
             raise ArgumentError(f"{text(self.quantity)}: {reason}") from None
-        has_limit = {sy.M, sy.j} <= self._needed
-        return leading_orders(pieces if has_limit else (), orders)
+        return leading_orders(pieces, function.domain, orders)
 
     # how it is written
 
@@ -416,13 +417,15 @@ class ClosedForm:
         if {sy.j, sy.M} <= known:
             known.add(sy.z)
         if sy.t in known:
-            candidate = candidate.xreplace({sy.L_minus: sy.t * sy.L_plus})
+            candidate = in_place(candidate, {sy.L_minus: sy.t * sy.L_plus})
+        if self.units and candidate.atoms(sy.Moment) - {self.quantity, self.statistic}:
+            raise NotExactError(f"{self.units}: give the closed forms of other moments")
         for symbol in by_name(candidate.free_symbols - known):
             raise NotAStatementError(
                 strange_symbol(symbol, known)
                 or f"{text(symbol)} is not a symbol of {text(self.quantity)}"
             )
-        return candidate
+        return over_read_indices(candidate, self.kernel_domain)
 
     def _rulings(self, candidate: sympy.Eq, place: Sequence[sympy.Basic]) -> Iterator[Ruling]:
         """A ruling on each part of a candidate up to one that is refuted; they cover the domain."""
@@ -440,11 +443,18 @@ class ClosedForm:
 
     def _in_moments(self, formula: sympy.Eq) -> sympy.Eq:
         """An equation about the quantity as one about what that stands for."""
-        shown = by_name(self.quantity.free_symbols - self.statistic.free_symbols)
-        if formula.lhs == self.quantity and not formula.rhs.has(self.quantity, *shown):
-            return equation(self.statistic, self.divisor * formula.rhs)
+        own = self.quantity.free_symbols - self.statistic.free_symbols
+        labels = set() if isinstance(self.quantity, sy.Moment) else own  # units may cancel symbols
+        if formula.lhs == self.quantity and not formula.rhs.has(self.quantity, *labels):
+            nested = sympy.Mul.make_args(formula.rhs)
+            factors = [factor for each in nested for factor in sympy.Mul.make_args(each)]
+            for base in sympy.Mul.make_args(self.divisor):
+                if 1 / base in factors:
+                    factors.remove(1 / base)
+                else:
+                    factors.append(base)
+            return equation(self.statistic, times(*factors))
         quotient = sympy.Mul(self.statistic, 1 / self.divisor, evaluate=False)
-        if not shown:
-            return in_place(formula, {self.quantity: quotient})
-        (symbol,) = shown  # the quantity may be this symbol less 1
-        return in_place(formula, {symbol: sympy.Add(quotient, symbol - self.quantity)})
+        for label in labels:  # the quantity may be this symbol less 1
+            return in_place(formula, {label: sympy.Add(quotient, label - self.quantity)})
+        return in_place(formula, {self.quantity: quotient})

@@ -14,11 +14,11 @@ from force_diffusion.symbolic.kernel.rules import Rule
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Group, Theorem
 from force_diffusion.symbolic.notation import by_name
-from force_diffusion.symbolic.piecewise import alternatives_of, cases_of
+from force_diffusion.symbolic.piecewise import alternatives_of
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.trees import in_place
 
-from .deciding import OURS, strange_symbol, unread
+from .deciding import OURS, over_read_indices, strange_symbol, unread
 from .record import Derivation, load
 
 
@@ -46,7 +46,7 @@ def candidate_for(
             words = f"it holds in a limit ({domain.limit.words}), not in one packing"
             return not_a_statement(words)
         domain = domain.also(*(sympy.Eq(s, n, evaluate=False) for s, n in at.items()))
-    formula = in_place(candidate, step.definitions[place])
+    formula = in_place(over_read_indices(candidate, domain), step.definitions[place])
     if domain.limit and formula.has(sympy.Piecewise):
         try:
             formula = _in_limit(formula, domain, domain.limit)
@@ -63,12 +63,11 @@ def _in_limit(formula: sympy.Eq, domain: Domain, limit: Limit) -> sympy.Eq:
     Raises:
         NotExactError: there is none, or its relations are not read.
     """
-    cases = cases_of(formula)
     late = large(domain, limit) & domain.points
-    for value, relations in alternatives_of(cases):
+    for inside, relations in alternatives_of(formula):
         here = late & sets.where(*map(domain.straight.relation, relations))
         if late.is_subset(here):
-            return in_place(formula, {cases: value})
+            return inside
         if not here.is_empty():
             break
     raise NotExactError(f"no case of it holds in all of {limit.words}")

@@ -16,10 +16,11 @@ from force_diffusion.symbolic.kernel.decisions import (
     not_a_statement,
     undecided,
 )
-from force_diffusion.symbolic.notation import OfExpressions, by_name
+from force_diffusion.symbolic.kernel.domain import Domain
+from force_diffusion.symbolic.notation import by_name
 from force_diffusion.symbolic.printing.text import text
 from force_diffusion.symbolic.sizes import too_large
-from force_diffusion.symbolic.trees import equation
+from force_diffusion.symbolic.trees import equation, in_place
 from sympy.logic.boolalg import BooleanAtom
 
 from .lists import either
@@ -57,10 +58,10 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
     if isinstance(candidate, sympy.Basic):
         if reason := too_large(candidate):
             return undecided(reason)
-        if candidate.has(sympy.Lambda, sympy.MatrixExpr):
+        strange = [each for each in candidate.free_symbols if not each.is_commutative]
+        if strange or candidate.has(sympy.Lambda, sympy.MatrixExpr):
             words = "it holds a function or a matrix, and numbers and vectors are read"
             return not_a_statement(words)
-        candidate = _over_read_indices(candidate)
     if isinstance(candidate, sympy.Eq):
         parts = [n for n, line in enumerate(lines) if line.lhs == candidate.lhs]
         rulings = [rule_on(part, candidate) for part in parts or range(len(lines))]
@@ -73,18 +74,6 @@ def _on_one(candidate: Any, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Rulin
         advice = "If SymPy made it from an Eq, write Eq(left, right, evaluate=False)"
         kind = f"{candidate}. {advice}"
     return not_a_statement(f"a SymPy Eq or expression is needed, not {kind}")
-
-
-def _over_read_indices(candidate: sympy.Basic) -> sympy.Basic:
-    """The same, with sums over indices that are read, whatever the user calls them."""
-    sums = candidate.atoms(sympy.Sum)
-    bound = {index for series in sums for index, *_ in series.limits}
-    # what is summed may depend on symbols that it does not show, as z does on j and M
-    shows_all = not any(each.has(OfExpressions) or each.free_symbols - OURS for each in sums)
-    bound -= OURS - ({*sy.INDICES} - {sy.j, sy.M, sy.N} if shows_all else set())
-    unread = by_name(bound - {*SUMMATION} - candidate.free_symbols)
-    unused = [index for index in SUMMATION if not candidate.has(index)]
-    return candidate.xreplace(dict(zip(unread, unused, strict=False)))
 
 
 def _on_a_side(side: sympy.Expr, lines: Sequence[sympy.Eq], rule_on: RuleOn) -> Ruling:
@@ -125,6 +114,17 @@ def _on_all(candidates: tuple[Any, ...], lines: Sequence[sympy.Eq], rule_on: Rul
 
 def _about(line: sympy.Eq, ruling: Ruling) -> Ruling:
     return replace(ruling, note=f"{text(line.lhs)}: {ruling.note}")
+
+
+def over_read_indices(candidate: sympy.Eq, domain: Domain) -> sympy.Eq:
+    """The same, with sums over indices that are read, whatever the user calls them.
+
+    One that the domain names stays: what is summed may depend on it without showing it.
+    """
+    bound = {index for series in candidate.atoms(sympy.Sum) for index, *_ in series.limits}
+    taken = {*SUMMATION, *sy.PARAMETERS, *sy.VECTORS, *domain.indices, *candidate.free_symbols}
+    unused = [index for index in SUMMATION if not candidate.has(index)]
+    return in_place(candidate, dict(zip(by_name(bound - taken), unused, strict=False)))
 
 
 def strange_symbol(formula: sympy.Basic, known: Collection[sympy.Symbol]) -> str:

@@ -43,15 +43,17 @@ def claim_edges(steps: Steps, printed: sympy.Eq, form: ClosedForm) -> None:
     """
     layers, (ratio,) = form.kernel_domain, form.statistic.args
     base, above, top = (layers.also(sympy.Eq(j, layer, evaluate=False)) for layer in (0, 1, M - 1))
-    edges = {
-        base: printed.rhs.xreplace({z: sympy.S.Zero}),
-        top: 2 * M * (1 + phi**2) * UNIT,
+    orders = {
+        layers.in_the_limit(at_fixed_height("∼")): printed.rhs,
+        base.in_the_limit(in_a_layer("∼")): printed.rhs.xreplace({z: sympy.S.Zero}),
+        top.in_the_limit(in_a_layer("∼")): 2 * M * (1 + phi**2) * UNIT,
     }
     steps.claim(
-        "leading orders of the exact forms at the base and below the surface",
-        sympy.Tuple(*(equation(printed.lhs, value) for value in edges.values())),
+        "leading orders of the exact forms: as printed at fixed z, at the base, and below the "
+        "surface",
+        sympy.Tuple(*(equation(printed.lhs, value) for value in orders.values())),
         asymptotic(*form.theorems),
-        [edge.in_the_limit(in_a_layer("∼")) for edge in edges],
+        [*orders],
     )
     steps.claim(
         "at fixed z, and in the layers next to base and surface, no radius has more than "

@@ -8,17 +8,18 @@ from force_diffusion.numeric.arithmetic.errors import ArgumentError, quoted
 from force_diffusion.symbolic import sets
 from force_diffusion.symbolic import symbols as sy
 from force_diffusion.symbolic.algebra.exact import FIELD, RationalFunction
-from force_diffusion.symbolic.piecewise import Piece
+from force_diffusion.symbolic.piecewise import Piece, Relations
 from force_diffusion.symbolic.quotients import factored
 
 _ORDERS = 100
 
 
-def leading_orders(pieces: Iterable[Piece], orders: int) -> sympy.Expr:
+def leading_orders(pieces: Iterable[Piece], domain: Relations, orders: int) -> sympy.Expr:
     """The highest powers of M at fixed z, as a sum.
 
     Args:
         pieces: formulas in M and j, on parts of a domain.
+        domain: its own relations.
         orders: how many of them.
 
     Raises:
@@ -28,7 +29,7 @@ def leading_orders(pieces: Iterable[Piece], orders: int) -> sympy.Expr:
     if not isinstance(orders, Integral) or not 1 <= orders <= _ORDERS:
         raise ArgumentError(f"orders = {quoted(orders)}: must be whole, from 1 to {_ORDERS}")
     inside = [piece for piece in pieces if any(map(_reaches_inside, piece.where))]
-    if not inside:
+    if not inside or not _reaches_inside(domain):
         raise ArgumentError("leading orders are those of a form in M and j, at fixed z = j/M")
     layer = FIELD.generator(sy.z) * FIELD.generator(sy.M)
     domains = {

@@ -96,10 +96,9 @@ class Loading:
         if same and acting == self.acting:
             return self
         end, before = ", mirrored", "the mirror image of: "
-        if self.name.endswith(end):
-            name, words = self.name.removesuffix(end), self.words.removeprefix(before)
-        else:
-            name, words = self.name + end, before + self.words
+        back = self.name.endswith(end)
+        name = self.name.removesuffix(end) if back else self.name + end
+        words = self.words.removeprefix(before) if back else before + self.words
         place = self.place
         if len(place) == 2:  # that of a bead; a height is its own mirror image
             place = lattice.mirrored_place(*place)
@@ -112,8 +111,8 @@ class Limit:
 
     Attributes:
         relation: "∼": left over right goes to 1; "O": left over right stays bounded; "≈": the
-            variance of left less right is of a lower order than that of the force it is about; "∝":
-            left over right goes to a positive function of φ; "=": both sides go to the same.
+            variance of left less right is of a lower order than that of left, a force; "∝": left
+            over right goes to a positive function of φ; "=": both sides go to the same.
         words: the same in plain words, such as "M → ∞ at fixed z = j/M, 0 < z < 1".
         growing: the indices that grow.
         positive: as many sums of them, which all grow in fixed positive ratios; uniformly so while

@@ -32,6 +32,7 @@ from .theorem import (
     check_domain,
     flat,
     made,
+    read,
     written_out,
 )
 
@@ -64,44 +65,27 @@ def asymptotic(*groups: Group) -> Rule:
 
 
 def negligible(*groups: Group) -> Rule:
-    """What a statement about one force drops varies less, by an order, than that force.
+    """What a statement about one force drops varies less, by an order, than its left-hand side.
 
     Theorems are put in at finite size. Both sides have one mean.
     """
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit = limit_of(formula, domain, "≈")
-        force = _only_force(formula)
-        apart = sympy.expand(formula.lhs - formula.rhs)
-        slope = apart.coeff(force)
-        if sympy.expand(apart - slope * force).has(force):
-            raise NotProvedError("the force is not a term of it, or in others as well")
-        whole, rest = (
-            _in_radii(expression, groups, domain)
-            for expression in (slope * force, sympy.Add(formula.lhs, -formula.rhs, evaluate=False))
-        )
+        if len(set().union(*(side.atoms(*FORCES) for side in formula.args))) != 1:
+            raise NotProvedError("it is not about one contact force")
+        apart = sympy.Add(formula.lhs, -formula.rhs, evaluate=False)
+        whole, rest = (_in_radii(each, groups, domain) for each in (formula.lhs, apart))
         if not rest.parts.get(NUMBER, Weights()).is_zero():
             raise NotProvedError("the means of both sides differ")
         kept, dropped = (_variance(form, domain) for form in (whole, rest))
         if not _vanishes_nowhere(leading(kept, limit), limit):
-            raise NotProvedError("the force is not shown to vary everywhere")
+            raise NotProvedError("its left-hand side is not shown to vary everywhere")
         if not order(dropped, limit) < order(kept, limit):
             raise too_large(order(dropped, limit), order(kept, limit), limit)
         return made(formula, domain, "bounding dropped terms", flat(groups))
 
     return rule
-
-
-def _only_force(formula: sympy.Eq) -> sympy.Expr:
-    """The one contact force that an equation is about.
-
-    Raises:
-        NotProvedError: there is none, or more than one.
-    """
-    forces = by_name(set().union(*(side.atoms(*FORCES) for side in formula.args)))
-    if len(forces) != 1:
-        raise NotProvedError("it is not about one contact force")
-    return forces[0]
 
 
 def drop_terms(dropping: Theorem, *exact: Theorem) -> Rule:
@@ -120,12 +104,9 @@ def drop_terms(dropping: Theorem, *exact: Theorem) -> Rule:
         if limit.orders != 1 or dropping.domain.loading != domain.loading:
             raise NotProvedError("what is dropped is so of other packings, or for one order alone")
         left, right = dropping.formula.args
-        force = _only_force(dropping.formula)
-        if not isinstance(formula.lhs, sy.Variance) or right.has(force):
-            raise NotProvedError("it is not the variance of what something was dropped from")
-        (whole,) = formula.lhs.args
-        beside = (whole - left, left - left.coeff(force) * force)
-        if not all(sympy.expand(expression).is_Rational for expression in beside):
+        whole = formula.lhs.args[0] if isinstance(formula.lhs, sy.Variance) else sympy.nan
+        read(equation(whole, whole), _late(domain))  # it has a value
+        if not sympy.expand(whole - left).is_Rational:
             raise NotProvedError("it is not the variance of what something was dropped from")
         if not _late(domain).lies_in(dropping.domain):
             raise NotProvedError("what is dropped is so elsewhere")

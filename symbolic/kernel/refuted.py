@@ -54,12 +54,15 @@ def other_order(
     return (NotProvedError if right.holds(sy.H_M) else FalseStatementError)(words)
 
 
-def other_ratio(ratio: RationalFunction, power: int, limit: Limit) -> FalseStatementError:
-    """How left over right, to a power that frees it of roots, goes otherwise than the sign says."""
+def other_ratio(ratio: RationalFunction, power: int, limit: Limit) -> NotProvedError:
+    """How left over right, to a power that frees it of roots, goes otherwise than the sign says.
+
+    With H_M in it, it may go as the sign says nevertheless.
+    """
     which = f", to the power {power}," if power > 1 else ""
     goes = "goes to {}, not to 1" if limit.relation == "=" else "varies as {}, and not with φ alone"
     words = f"as {limit.words}, left over right{which} {goes.format(shown(ratio))}"
-    return FalseStatementError(words)
+    return (NotProvedError if ratio.holds(sy.H_M) else FalseStatementError)(words)
 
 
 def too_large(dropped: int, kept: int, limit: Limit) -> FalseStatementError:

@@ -79,7 +79,9 @@ class MomentReader(Reader):
         """
         moments = tuple(filter(_is_of_a_moment, groups))
         for own in (theorem.domain for theorem in flat(moments)):
-            if own.limit or not (domain.shares_packings_of(own) and _has_same_indices(domain, own)):
+            images = ((each.straight.image.get(s) for each in (domain, own)) for s in own.indices)
+            alike = all(first == second for first, second in images)
+            if own.limit or not (domain.shares_packings_of(own) and alike):
                 raise NotProvedError("a moment is known of other packings, or of other beads")
         # the place of the load is not fixed: what the radii determine is known for every place
         fixed = frozenset[sympy.Symbol]().union(*(theorem.fixed for theorem in flat(groups)))
@@ -148,12 +150,6 @@ def _is_of_a_moment(group: Group) -> bool:
         return False
     left, right = group.formula.args
     return isinstance(left, sy.Moment) and not right.has(sy.Moment)
-
-
-def _has_same_indices(domain: Domain, other: Domain) -> bool:
-    """Whether the indices of another domain are straightened in the same way in one."""
-    first, second = domain.straight.image, other.straight.image
-    return all(first.get(symbol) == second.get(symbol) for symbol in other.indices)
 
 
 @lru_cache(maxsize=256)

@@ -518,6 +518,19 @@ attack("a bead in column 0 of a layer M that may be odd",
              Domain.of(Eq(j, 0), indices=(M,), beads=[(ZERO, M)])),
        "not shown to be even", proof(REWRITE, (sy.Braces(ZERO, Integer(1), M, j), 1), HIGH))
 
+table(
+    REWRITE, BEADS.also(indices=(M,)),
+    ("a sum up to M, or to no number",
+     (Sum(1, (m, 1, Mul(M, over_itself(j - 1), evaluate=False))), M), "not affine",
+     (Sum(1, (m, 1, M)), M)),
+    ("a sum up to M + log z − log z",
+     (Sum(1, (m, 1, sympy.Add(M, sympy.log(z), -sympy.log(z), evaluate=False))), M), "not affine",
+     (Sum(1, (m, 1, M)), M)),
+    ("the place of a radius",
+     (sy.DeltaR(Mul(i, over_itself(j - 1), evaluate=False), j), HERE), "not affine",
+     (sy.DeltaR(i + 0, j), HERE)),
+)
+
 # what is known for one value of an index
 
 p = sy.p
@@ -843,9 +856,10 @@ table(
     ("a place across", (LEFT, RIGHT + i * HERE), "place across the packing matters", DROPPED),
     ("another mean", (LEFT, RIGHT + 1), "means of both sides differ", DROPPED),
     ("two forces", (LEFT, RIGHT + sy.ForcePlus(i + 2, j)), "not about one contact force", DROPPED),
-    ("nothing about a force", (LEFT - LEFT + FORCE, FORCE), "not shown to vary", (LEFT, RIGHT)),
     ("a force that a sum takes off", (LEFT + FORCE * M - Sum(FORCE, (m, 1, M)), 5 * RIGHT),
-     "in others as well", (LEFT, RIGHT)),
+     "goes as M³, and has", DROPPED),
+    ("a force that its value takes off",
+     ((M + 1) * LEFT - M * (eq11.PRINTED.rhs - 1), 5 * RIGHT), "goes as M³, and has", DROPPED),
 )
 KEPT = limits.drop_terms(
     eq12.DERIVATION.theorem,
@@ -858,6 +872,8 @@ table(
      "left over right", (Variance(LEFT), OF_FORCE)),
     ("the variance of another quantity", (Variance(2 * LEFT), OF_FORCE),
      "something was dropped from", (Variance(LEFT + 1), OF_FORCE)),
+    ("the variance of what has no value", (Variance(LEFT + over_itself(2 * j - M)), OF_FORCE),
+     "may be zero", (Variance(LEFT + 1), OF_FORCE)),
     ("the variance of two forces", (Variance(LEFT + sy.ForcePlus(0, 0)), OF_FORCE),
      "something was dropped from", (Variance(LEFT + 1), OF_FORCE)),
 )

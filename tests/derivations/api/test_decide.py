@@ -151,7 +151,7 @@ NEVER_PROVED = [
 def test_what_depends_on_an_index_unseen_is_not_summed_over_it():
     """A moment depends on σ, φ, r and M; cases may depend on an index over which is averaged."""
     form = fd.variance(sy.ForcePlus(sy.i, sy.j))
-    for symbol in (sy.sigma, sy.phi, sy.r, sy.M, sy.k):
+    for symbol in (sy.sigma, sy.phi, sy.r, sy.M, sy.j):
         ruling = form.decide(sympy.Sum(form.statistic / 2, (symbol, 1, 2)))
         assert ruling.verdict is Verdict.NOT_A_STATEMENT, symbol
     assert form.decide(sympy.Sum(form.statistic / 2, (sympy.Symbol("a"), 1, 2))).verdict.is_proved
@@ -159,6 +159,64 @@ def test_what_depends_on_an_index_unseen_is_not_summed_over_it():
     ruling = fd.mean(sy.ForcePlus(sy.i, sy.j)).decide(sy.MeanOver(cases, 2, sy.i))
     assert ruling.verdict is Verdict.UNDECIDED
     assert "cases depend on i, which is summed or averaged over" in ruling.note
+
+
+def test_symbols_that_units_or_divisors_cancel_are_no_names_of_the_quantity():
+    force, (a, b) = sy.ForcePlus(sy.i, sy.j), sympy.symbols("a b")
+    for observable, load in (
+        (force / sy.n_y, "surface"), (force * (sy.M - sy.j), "bulk"), (force * sy.m_g, "bulk"),
+        (force / ((1 - a) * (1 - b)), "surface"), (sy.ForceMinus(sy.i, sy.j), fd.leaning(sy.t)),
+    ):  # fmt: skip
+        form = fd.mean(observable, load=load)
+        assert form.decide(form.expr).verdict.is_proved
+        assert form.decide(2 * form.expr).verdict is Verdict.REFUTED
+    circle = equal(sy.n_x**2 + sy.n_y**2, 1)
+    assert fd.variance(force / sy.n_y).decide(circle).verdict.is_proved
+
+
+def test_moments_of_others_are_not_read_where_quantities_have_units():
+    form, other = fd.variance(sy.ForcePlus(sy.i, sy.j)), sy.Variance(sy.ForcePlus(sy.i + 2, sy.j))
+    for candidate in (other, equal(form.quantity, 4 * sy.n_y**2 / sy.f_load**2 * other)):
+        ruling = form.decide(candidate)
+        assert ruling.verdict is Verdict.UNDECIDED
+        assert "forces over their ordered values: give the closed forms" in ruling.note
+
+
+def test_what_has_no_value_stays_without_one():
+    form, a, j = fd.mean(sy.ForcePlus(sy.i, sy.j)), sympy.Symbol("a"), sy.j
+    cancels = sympy.Mul(sympy.Sum(1, (a, 1, 1)), j - 1, 1 / (j - 1), evaluate=False)
+    assert form.decide(cancels).verdict is Verdict.NOT_A_STATEMENT
+    nested = sympy.Piecewise((sympy.Piecewise((1, j >= 3)), j >= 1), (1, True))
+    assert form.decide(nested).verdict is Verdict.NOT_A_STATEMENT
+    leaning = fd.variance(sy.ForcePlus(sy.i, sy.j), load=fd.leaning(sy.t))
+    factors = sy.L_minus, 1 / sy.L_minus, j - 1, 1 / (j - 1), leaning.expr
+    product = sympy.Mul(*factors, evaluate=False)
+    assert leaning.decide(product).verdict is Verdict.NOT_A_STATEMENT
+    assert leaning.decide(equal(sy.L_minus, sy.t * sy.L_plus)).verdict.is_proved
+    first, second = sympy.symbols("A B", commutative=False)
+    nothing = first * second - second * first
+    assert fd.equation(11).decide(fd.equation(11).rhs + nothing).verdict is Verdict.NOT_A_STATEMENT
+
+
+def test_several_functions_in_pieces_are_read_together():
+    plus, minus = sy.ForcePlus(sy.i, sy.j), sy.ForceMinus(sy.i, sy.j)
+    form, both = fd.variance(plus - minus), fd.covariance(plus, minus).expr
+    each = fd.variance(plus).expr + fd.variance(minus).expr
+    assert form.decide(each - 2 * both).verdict is Verdict.PROVED
+    assert form.decide(each - 3 * both).verdict is Verdict.REFUTED
+
+
+def test_sums_go_over_indices_that_are_free():
+    eq = fd.equation(12)
+    for index in (sy.k, sy.q, sympy.Symbol("a")):
+        assert eq.decide(eq.rhs.xreplace({sy.m: index})).verdict.is_proved
+
+
+def test_a_limit_that_may_be_one_is_not_refuted():
+    eq = fd.equation(15)
+    for line in eq.expr:
+        candidate = equal(line.lhs, line.rhs * (1 + sy.H_M) / sy.H_M)
+        assert eq.decide(candidate).verdict is Verdict.UNDECIDED
 
 
 @pytest.mark.parametrize("number", [3, 13, 15, *late([12])])

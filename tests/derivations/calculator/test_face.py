@@ -90,6 +90,10 @@ def test_leading_orders_that_depend_on_other_indices_are_refused():
     assert second.leading(1, sympy.Eq(k, i)) == first.leading(1)
     with pytest.raises(fd.ForceDiffusionError, match="phi - 1 is not affine in the indices"):
         second.leading(1, phi > 0)
+    third = fd.covariance(f_plus(i, j), f_plus(i + 2 * p, j))
+    for form, relation in ((first, j >= M - 3), (first, j <= 3), (third, p >= j)):
+        with pytest.raises(fd.ForceDiffusionError, match="at fixed z = j/M"):
+            form.leading(1, relation)
 
 
 def test_six_constants_and_no_more():
