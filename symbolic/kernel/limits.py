@@ -14,7 +14,7 @@ from .. import sets
 from .. import symbols as sy
 from ..algebra.exact import FIELD, SITE, NotProvedError, Polynomial, RationalFunction
 from ..forms import FORCES, NUMBER, RADII, Form
-from ..notation import by_name
+from ..notation import OfExpressions, by_name
 from ..printing.text import text
 from ..second_order import covariance
 from ..sets import EVERYTHING
@@ -65,22 +65,26 @@ def asymptotic(*groups: Group) -> Rule:
 
 
 def negligible(*groups: Group) -> Rule:
-    """What a statement about one force drops varies less, by an order, than its left-hand side.
+    """What a statement about one force drops varies less, by an order, than that force.
 
-    Theorems are put in at finite size. Both sides have one mean.
+    Its left-hand side is a multiple of the force, but for what does not vary: otherwise it would be
+    open what to compare with. Theorems are put in at finite size. Both sides have one mean.
     """
 
     def rule(formula: sympy.Eq, domain: Domain) -> Theorem:
         limit = limit_of(formula, domain, "≈")
-        if len(set().union(*(side.atoms(*FORCES) for side in formula.args))) != 1:
-            raise NotProvedError("it is not about one contact force")
+        forces = set().union(*(side.atoms(*FORCES) for side in formula.args))
+        left = sympy.expand(formula.lhs)
+        beside = sympy.expand(left - sum(left.coeff(force) * force for force in forces))
+        if len(forces) != 1 or beside.has(OfExpressions) or not left.has(*forces):
+            raise NotProvedError("one contact force does not stand alone on its left")
         apart = sympy.Add(formula.lhs, -formula.rhs, evaluate=False)
         whole, rest = (_in_radii(each, groups, domain) for each in (formula.lhs, apart))
         if not rest.parts.get(NUMBER, Weights()).is_zero():
             raise NotProvedError("the means of both sides differ")
         kept, dropped = (_variance(form, domain) for form in (whole, rest))
         if not _vanishes_nowhere(leading(kept, limit), limit):
-            raise NotProvedError("its left-hand side is not shown to vary everywhere")
+            raise NotProvedError("the force is not shown to vary everywhere")
         if not order(dropped, limit) < order(kept, limit):
             raise too_large(order(dropped, limit), order(kept, limit), limit)
         return made(formula, domain, "bounding dropped terms", flat(groups))
@@ -104,7 +108,9 @@ def drop_terms(dropping: Theorem, *exact: Theorem) -> Rule:
         if limit.orders != 1 or dropping.domain.loading != domain.loading:
             raise NotProvedError("what is dropped is so of other packings, or for one order alone")
         left, right = dropping.formula.args
-        whole = formula.lhs.args[0] if isinstance(formula.lhs, sy.Variance) else sympy.nan
+        if not isinstance(formula.lhs, sy.Variance):
+            raise NotProvedError("it is not the variance of what something was dropped from")
+        (whole,) = formula.lhs.args
         read(equation(whole, whole), _late(domain))  # it has a value
         if not sympy.expand(whole - left).is_Rational:
             raise NotProvedError("it is not the variance of what something was dropped from")

@@ -855,11 +855,11 @@ table(
     ("a large radius", (LEFT, RIGHT + M**2 * HERE), "goes as M⁴, and has", DROPPED),
     ("a place across", (LEFT, RIGHT + i * HERE), "place across the packing matters", DROPPED),
     ("another mean", (LEFT, RIGHT + 1), "means of both sides differ", DROPPED),
-    ("two forces", (LEFT, RIGHT + sy.ForcePlus(i + 2, j)), "not about one contact force", DROPPED),
+    ("two forces", (LEFT, RIGHT + sy.ForcePlus(i + 2, j)), "does not stand alone", DROPPED),
     ("a force that a sum takes off", (LEFT + FORCE * M - Sum(FORCE, (m, 1, M)), 5 * RIGHT),
-     "goes as M³, and has", DROPPED),
+     "does not stand alone", DROPPED),
     ("a force that its value takes off",
-     ((M + 1) * LEFT - M * (eq11.PRINTED.rhs - 1), 5 * RIGHT), "goes as M³, and has", DROPPED),
+     ((M + 1) * LEFT - M * (eq11.PRINTED.rhs - 1), 5 * RIGHT), "does not stand alone", DROPPED),
 )
 KEPT = limits.drop_terms(
     eq12.DERIVATION.theorem,

@@ -77,6 +77,7 @@ FAULTS = {
     "fractions of even layers are tensile": ("kernel.averages", "tensile", " or not beads <= {(sy.i, sy.j)}", ""),
     "forces without a value are tensile": ("kernel.averages", "tensile", "read(there, ", "(there, "),
     "forces are numbers": ("kernel.limits", "drop_terms", "is_Rational", "is_number"),
+    "forces in sums are not seen": ("kernel.limits", "negligible", "beside.has(OfExpressions) or ", ""),
     "an order too many": ("kernel.limits", "asymptotic", "high - limit.orders", "high"),
     "leading orders that vanish": ("kernel.limits", "_vanishes_nowhere", "value.holds(sy.H_M) or value.is_zero()", "True: return True\n    if value.is_zero()"),
     "orders that are not uniform": ("kernel.limits", "_uniform", "grows and sum(", "False and sum("),
