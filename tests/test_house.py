@@ -18,13 +18,13 @@ import pytest
 ROOT = Path(__file__).parents[1]
 FLOORS, ARROWS = 8, 68
 LIMITS = {
-    "symbolic": 4_291,
+    "symbolic": 4_296,
     "derivations": 7_100,
     "numeric": 8_844,
     "force_diffusion": 76,
     "benchmarks": 833,
     ".ci": 500,
-    "tests": 12_978,
+    "tests": 12_979,
 }
 """Lines of code, at most."""
 LAYOUT = {tokenize.COMMENT, tokenize.NL, tokenize.INDENT, tokenize.DEDENT, tokenize.ENDMARKER}
