@@ -207,13 +207,15 @@ def alternatives_of(formula: sympy.Basic) -> Iterator[tuple[sympy.Basic, Relatio
         raise NotExactError(f"cases depend on {text(bound[0])}, which is summed or averaged over")
     if all(condition == sympy.false for _, condition in cases.args):
         raise NotAStatementError("it has no value anywhere")
+    nowhere = in_place(formula, {cases: sympy.nan})
     for value, condition in cases.args:
-        inside, nowhere = (in_place(formula, {cases: each}) for each in (value, sympy.nan))
+        inside = tuple(alternatives_of(in_place(formula, {cases: value})))
         for part in by_name(sympy.Or.make_args(sympy.to_dnf(condition))):
             relations = tuple(by_name({*sympy.And.make_args(part)} - {sympy.true}))
-            for alternative, further in alternatives_of(inside):
+            for alternative, further in inside:
                 yield alternative, (*relations, *further)
-            yield nowhere, relations
+            if inside[0][1]:  # relations, beside which it may have no value
+                yield nowhere, relations
 
 
 def parts_of(candidate: sympy.Eq, function: PiecewiseFunction) -> list[tuple[sympy.Eq, sets.Set]]:

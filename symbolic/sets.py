@@ -66,6 +66,7 @@ def row(form: sympy.Expr) -> Row:
     return factors, constant
 
 
+@_remembered
 def check_written(form: sympy.Expr) -> None:
     """Refuse a form that holds a divisor or a function, even if that cancels.
 

@@ -455,6 +455,7 @@ class ClosedForm:
                     factors.append(base)
             return equation(self.statistic, times(*factors))
         quotient = sympy.Mul(self.statistic, 1 / self.divisor, evaluate=False)
-        for label in labels:  # the quantity may be this symbol less 1
-            return in_place(formula, {label: sympy.Add(quotient, label - self.quantity)})
-        return in_place(formula, {self.quantity: quotient})
+        if not labels:
+            return in_place(formula, {self.quantity: quotient})
+        (label,) = labels  # the quantity may be this symbol less 1
+        return in_place(formula, {label: sympy.Add(quotient, label - self.quantity)})

@@ -10,11 +10,9 @@ from force_diffusion.symbolic.trees import equation
 from force_diffusion.symbolic.kernel import axioms
 from force_diffusion.symbolic.kernel.averages import power_law, tensile
 from force_diffusion.symbolic.kernel.domain import Domain, Limit, at_fixed_height
-from force_diffusion.symbolic.kernel.limits import (
-    asymptotic, drop_terms, negligible)
+from force_diffusion.symbolic.kernel.limits import asymptotic, drop_terms, negligible
 from force_diffusion.symbolic.kernel.rules import (
-    Rule, along, differentiate, follows, inducted, mirror, order, rewrite, same,
-    solve)
+    Rule, along, differentiate, follows, inducted, mirror, order, rewrite, same, solve)
 from force_diffusion.symbolic.kernel.statistics import moment
 from force_diffusion.symbolic.kernel.theorem import Groups, Theorem, instance, isolated, read
 from force_diffusion.symbolic.mechanics import lattice
